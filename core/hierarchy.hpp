@@ -1,0 +1,63 @@
+#pragma once
+
+#include "core/bounds.hpp"
+#include "core/shape_table.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace raylane::core {
+
+/// What a node's slot refers to: nothing, another node, or a block of shapes of one kind.
+class Child {
+  public:
+    static constexpr std::uint32_t max_index = (1U << 27) - 1;
+
+    constexpr Child() = default;
+    static constexpr Child node(std::uint32_t index) { return Child(index); }
+    static constexpr Child block(Kind kind, std::uint32_t index) {
+        return Child(leaf_bit | static_cast<std::uint32_t>(kind) << 27 | index);
+    }
+
+    constexpr bool empty() const { return bits_ == none; }
+    constexpr bool is_block() const { return (bits_ & leaf_bit) != 0; }
+    constexpr Kind kind() const { return static_cast<Kind>(bits_ >> 27 & 0xF); }
+    constexpr std::uint32_t index() const { return bits_ & max_index; }
+
+  private:
+    static constexpr std::uint32_t leaf_bit = 1U << 31;
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
+    constexpr explicit Child(std::uint32_t bits) : bits_(bits) {}
+
+    std::uint32_t bits_ = none;
+};
+
+/// Up to 16 children with their bounds, structure of arrays: axis a of slot i is lower[a][i]. The bounds are
+/// closed and contain all of the child's shapes. Filled slots come first; an empty one has lower > upper.
+struct alignas(64) WideNode {
+    float lower[3][block_size];
+    float upper[3][block_size];
+    Child children[block_size];
+
+    WideNode();
+    Bounds bounds(int slot) const;
+    void set(int slot, const Bounds& bounds, Child child);
+};
+
+/// Bounding volume hierarchy over the bounded shapes of a scene. Its leaves are the blocks of the scene's tables.
+/// Planes are not in it.
+struct Hierarchy {
+    std::vector<WideNode> nodes; ///< the root first; empty if there are no bounded shapes
+    Bounds bounds;               ///< of everything in it
+
+    std::size_t bytes() const { return nodes.capacity() * sizeof(WideNode); }
+};
+
+/// Builds the hierarchy by the binned surface-area heuristic (Wald 2007), whose cost counts blocks of 16 rather
+/// than shapes, and collapses the binary tree into wide nodes by dynamic programming (Ylitie, Karras and Laine
+/// 2017). Rearranges the tables so that each leaf is one block. The result depends on the shapes alone.
+///
+/// Bounds are padded by `padding` on each side: what a traversal in float may be off by.
+Hierarchy build_hierarchy(Tables& shapes, float padding);
+
+} // namespace raylane::core

@@ -1,0 +1,93 @@
+#include "scenes/errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+
+namespace raylane::scenes {
+
+namespace {
+
+std::string joined(std::string_view file, std::string_view place, std::string_view message) {
+    std::string text = printable(file, 4096);
+    if (!place.empty()) text.append(": ").append(place);
+    return text.append(": ").append(message);
+}
+
+/// The length of the well-formed UTF-8 sequence at the start of `text`, or 0.
+std::size_t utf8_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const auto continues = [&](std::size_t count) {
+        if (text.size() <= count) return false;
+        for (std::size_t i = 1; i <= count; ++i)
+            if ((byte(i) & 0xC0) != 0x80) return false;
+        return true;
+    };
+    if (byte(0) < 0x80) return 1;
+    if (byte(0) >= 0xC2 && byte(0) < 0xE0 && continues(1)) return 2;
+    if (byte(0) >= 0xE0 && byte(0) < 0xF0 && continues(2)) {
+        const unsigned code = (byte(0) & 0x0FU) << 12 | (byte(1) & 0x3FU) << 6 | (byte(2) & 0x3FU);
+        return code >= 0x800 && (code < 0xD800 || code > 0xDFFF) ? 3 : 0;
+    }
+    if (byte(0) >= 0xF0 && byte(0) < 0xF5 && continues(3)) {
+        const unsigned code = (byte(0) & 0x07U) << 18 | (byte(1) & 0x3FU) << 12;
+        return code >= 0x10000 && code <= 0x10FFFF ? 4 : 0;
+    }
+    return 0;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+} // namespace
+
+BadInput::BadInput(std::string_view file, std::string_view place, std::string_view message)
+    : std::runtime_error(joined(file, place, message)) {}
+
+SystemRefused::SystemRefused(std::string_view file, std::string_view action, int error_number)
+    : std::runtime_error(
+          joined(file, "", "cannot " + std::string(action) + ": " + std::strerror(error_number))) {}
+
+std::string printable(std::string_view text, std::size_t most) {
+    static constexpr std::array<char, 17> hex = {"0123456789ABCDEF"};
+    std::string out;
+    for (std::size_t characters = 0; !text.empty(); ++characters) {
+        if (characters == most) return out + "...";
+        const std::size_t length = utf8_length(text);
+        const auto first = static_cast<unsigned char>(text[0]);
+        if (length == 0 || first < 0x20 || first == 0x7F) {
+            out.append("\\x").push_back(hex[first >> 4]);
+            out.push_back(hex[first & 15]);
+            text.remove_prefix(1);
+        } else {
+            out.append(text.substr(0, length));
+            text.remove_prefix(length);
+        }
+    }
+    return out;
+}
+
+std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates) {
+    const std::string_view start = unknown.substr(0, 64); // a key may be as long as its file
+    const auto nearest = std::min_element(
+        candidates.begin(), candidates.end(),
+        [&](auto a, auto b) { return edit_distance(start, a) < edit_distance(start, b); });
+    if (nearest == candidates.end()) return "";
+    if (edit_distance(start, *nearest) > 1 + std::max(start.size(), nearest->size()) / 3) return "";
+    return ", did you mean \"" + std::string(*nearest) + "\"?";
+}
+
+} // namespace raylane::scenes

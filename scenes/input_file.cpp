@@ -1,0 +1,78 @@
+#include "scenes/input_file.hpp"
+
+#include "scenes/errors.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace raylane::scenes {
+
+namespace {
+constexpr std::size_t head_size = 64 << 10;
+}
+
+InputFile::InputFile(const std::filesystem::path& path)
+    : name_(path.string()), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0) {
+        if (errno == ENOENT || errno == ENOTDIR) throw BadInput(name_, "", "no such file");
+        throw SystemRefused(name_, "open", errno);
+    }
+    struct stat status {};
+    const int stated = ::fstat(descriptor_, &status);
+    if (stated != 0 || S_ISDIR(status.st_mode)) {
+        const int error_number = errno;
+        ::close(descriptor_);
+        if (stated != 0) throw SystemRefused(name_, "read", error_number);
+        throw BadInput(name_, "", "must be a file, got a directory");
+    }
+    if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
+}
+
+InputFile::~InputFile() { ::close(descriptor_); }
+
+std::string_view InputFile::head() {
+    if (head_.empty()) {
+        head_.resize(head_size);
+        std::size_t filled = 0;
+        while (filled < head_size) {
+            const std::size_t count = read_some(std::span(head_).subspan(filled));
+            if (count == 0) break;
+            filled += count;
+        }
+        head_.resize(filled);
+    }
+    return std::string_view(head_).substr(head_used_);
+}
+
+std::size_t InputFile::read(std::span<char> buffer) {
+    if (head_used_ == head_.size()) return read_some(buffer);
+    const std::size_t count = std::min(buffer.size(), head_.size() - head_used_);
+    std::memcpy(buffer.data(), head_.data() + head_used_, count);
+    head_used_ += count;
+    return count;
+}
+
+std::string InputFile::read_all() {
+    std::string text;
+    text.resize(size_ + 1); // one more, so that the end shows without growing
+    std::size_t filled = 0;
+    while (const std::size_t count = read(std::span(text).subspan(filled))) {
+        filled += count;
+        if (filled == text.size()) text.resize(2 * text.size() + head_size);
+    }
+    text.resize(filled);
+    return text;
+}
+
+std::size_t InputFile::read_some(std::span<char> buffer) {
+    while (true) {
+        const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
+        if (count >= 0) return static_cast<std::size_t>(count);
+        if (errno != EINTR) throw SystemRefused(name_, "read", errno);
+    }
+}
+
+} // namespace raylane::scenes

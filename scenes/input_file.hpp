@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace raylane::scenes {
+
+/// A file, or anything else that can be read from start to end.
+class InputFile {
+  public:
+    /// Throws BadInput if there is no such file or it is a directory, SystemRefused if it cannot be opened.
+    explicit InputFile(const std::filesystem::path& path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    /// As the user wrote it, for messages.
+    const std::string& name() const { return name_; }
+    /// Bytes in all, or 0 where that is unknown (a pipe).
+    std::uint64_t size() const { return size_; }
+
+    /// The first bytes, at most 64 KiB, without consuming them.
+    std::string_view head();
+    /// Fills `buffer` as far as the file goes; returns how many bytes, 0 at the end. Throws SystemRefused.
+    std::size_t read(std::span<char> buffer);
+    /// Everything that is left. Throws SystemRefused.
+    std::string read_all();
+
+  private:
+    std::size_t read_some(std::span<char> buffer);
+
+    std::string name_;
+    int descriptor_;
+    std::uint64_t size_ = 0;
+    std::string head_; // read ahead
+    std::size_t head_used_ = 0;
+};
+
+} // namespace raylane::scenes

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/scene.hpp"
+#include "scenes/input_file.hpp"
+
+namespace raylane::scenes {
+
+/// Reads a scene in raylane's own format, whose schema is scenes/raylane-scene.schema.json.
+/// Throws BadInput, whose place is a JSON pointer, or line and column where the text is not JSON.
+core::Scene read_json(InputFile& file);
+
+} // namespace raylane::scenes

@@ -1,0 +1,26 @@
+#include "scenes/errors.hpp"
+
+#include "tests/catch.hpp"
+
+using namespace raylane::scenes;
+
+TEST_CASE("what a message quotes fits on one line") {
+    CHECK(printable("plain") == "plain");
+    CHECK(printable("a\nb\x7F\x01") == "a\\x0Ab\\x7F\\x01");
+    CHECK(printable("gr\xC3\xBC\xC3\x9F") == "gr\xC3\xBC\xC3\x9F");
+    CHECK(printable("\xC3(\xFF\xE0\x80\x80") == "\\xC3(\\xFF\\xE0\\x80\\x80");
+    CHECK(printable(std::string(200, 'a')) == std::string(40, 'a') + "...");
+}
+
+TEST_CASE("an unknown word brings the nearest known one") {
+    CHECK(suggestion("raduis", {"center", "radius"}) == ", did you mean \"radius\"?");
+    CHECK(suggestion("colour", {"color", "center"}) == ", did you mean \"color\"?");
+    CHECK(suggestion("zzz", {"color", "center"}).empty());
+    CHECK(suggestion("anything", {}).empty());
+}
+
+TEST_CASE("errors read as file, place, message") {
+    CHECK(std::string(BadInput("a.json", "/objects/3/radius", "must be positive, got -1").what()) ==
+          "a.json: /objects/3/radius: must be positive, got -1");
+    CHECK(std::string(BadInput("a.json", "", "no such file").what()) == "a.json: no such file");
+}
