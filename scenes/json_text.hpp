@@ -1,0 +1,101 @@
+#pragma once
+
+#include "scenes/input_file.hpp"
+
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// The characters of a JSON text as its parser gets to see them: each comment and each run of white space as one
+/// space. Remembers where the latest tokens began, for messages.
+///
+/// The parser collects what it reads until it knows what it has, and quotes all of it in its errors. So what
+/// can be long without meaning anything stays here, and what means something has a longest length: a file of
+/// any size costs no more memory than what it says.
+class JsonText {
+  public:
+    static constexpr std::size_t longest_string = 1 << 16; ///< bytes between the quotes
+    static constexpr std::size_t longest_word = 1 << 10;   ///< bytes of a number or a literal
+
+    struct Token {
+        std::size_t index = 0; ///< of its first character, among those that the parser gets
+        std::size_t line = 1;
+        std::size_t column = 1; ///< in characters, not bytes
+        std::string start;      ///< as much of its text as a message may show; empty at the end of the file
+    };
+
+    explicit JsonText(InputFile& file);
+
+    bool at_end() const { return current_ < 0; }
+    char current() const { return static_cast<char>(current_); }
+    /// Throws BadInput where no JSON text can go on.
+    void advance();
+
+    /// The token that contains the character with this index: one of the latest three that advance() reached.
+    Token token_at(std::size_t index);
+    /// Where the file ends, once it does.
+    Token end() const { return {index_, line_, column_, ""}; }
+    /// Throws BadInput whose place is the token's line and column.
+    [[noreturn]] void fail(const Token& token, std::string_view message) const;
+
+  private:
+    enum class State { between, word, string };
+
+    int peek();
+    int take();
+    int next();
+    int next_of_string();
+    bool skip_blank();
+    void skip_comment(const Token& start);
+    void begin_token(State state, int first);
+    void grow_token(int character, std::size_t longest, std::string_view what);
+    Token& latest() { return tokens_[token_count_ % tokens_.size()]; }
+
+    InputFile& file_;
+    std::vector<char> buffer_;
+    std::size_t used_ = 0;
+    std::size_t line_ = 1;
+    std::size_t column_ = 1;
+
+    State state_ = State::between;
+    bool escaped_ = false; // in a string, behind a backslash
+    int current_ = 0;
+    std::size_t index_ = 0; // of current_
+    // The parser asks for a token with at most one character read ahead, and this class is one further.
+    std::array<Token, 3> tokens_;
+    std::size_t token_count_ = 0;
+    std::size_t token_length_ = 0;
+};
+
+/// Makes a JsonText a range of characters. The end is the one without a text.
+class JsonTextIterator {
+  public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = char;
+
+    JsonTextIterator() = default;
+    explicit JsonTextIterator(JsonText& text) : text_(&text) {}
+
+    char operator*() const { return text_->current(); }
+    JsonTextIterator& operator++() {
+        text_->advance();
+        return *this;
+    }
+    void operator++(int) { text_->advance(); }
+    bool operator==(const JsonTextIterator& other) const { return ended() == other.ended(); }
+
+  private:
+    bool ended() const { return text_ == nullptr || text_->at_end(); }
+
+    JsonText* text_ = nullptr;
+};
+
+} // namespace raylane::scenes

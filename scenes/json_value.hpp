@@ -1,0 +1,137 @@
+#pragma once
+
+#include "core/material.hpp"
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace raylane::scenes {
+
+enum class JsonType : std::uint8_t { null, boolean, number, string, array, object };
+
+/// "an object", "a number", ...
+std::string_view name_of(JsonType type);
+
+class JsonValue;
+
+/// One value of a file with all that is in it, in the order of the file. Its nodes lie in one vector, and their
+/// texts in one string: a scene may have to hold millions of these.
+class JsonDocument {
+  public:
+    /// Empties it for a value at `pointer` (a JSON pointer, printable) in `file`, which must outlive it.
+    void begin(std::string_view file, std::string pointer);
+
+    /// Adds a value behind the others in the innermost open array or object. `key` counts in an object alone.
+    /// `text`: a string's content, or as what a message quotes a number. `number` may be infinite.
+    void add(JsonType type, std::string_view key, std::string_view text = {}, float number = 0.0F);
+    /// Closes the array or object that was added last and is still open.
+    void close();
+
+    bool empty() const { return nodes_.empty(); }
+    /// How many arrays and objects are open.
+    std::size_t depth() const { return open_.size(); }
+    std::size_t values() const { return nodes_.size(); }
+    std::size_t text_bytes() const { return text_.size(); }
+
+    JsonValue root() const;
+    /// The innermost array or object that is open; there must be one.
+    JsonValue innermost() const;
+    JsonValue latest() const;
+
+  private:
+    friend class JsonValue;
+
+    struct Text {
+        std::uint32_t first, size;
+    };
+    struct Node {
+        JsonType type;
+        std::uint32_t parent;
+        std::uint32_t end; // one past the last node inside: where the next sibling is
+        Text key, text;
+        float number;
+    };
+
+    Text keep(std::string_view text);
+    std::string_view get(Text text) const {
+        return std::string_view(text_).substr(text.first, text.size);
+    }
+
+    std::string_view file_;
+    std::string pointer_;
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> open_;
+    std::string text_;
+};
+
+/// A value inside a document, which must outlive it. What is asked of it and is not so throws BadInput with the
+/// file and the value's JSON pointer.
+class JsonValue {
+  public:
+    JsonValue(const JsonDocument& document, std::uint32_t node) : document_(&document), node_(node) {}
+
+    JsonType type() const { return node().type; }
+    std::string_view key() const { return document_->get(node().key); }
+    std::string_view file() const { return document_->file_; }
+    std::string pointer() const;
+    /// The value if it is a short text, or else what it is: `-1`, `"red"`, `an array`.
+    std::string quoted() const;
+
+    [[noreturn]] void fail(std::string_view message) const;
+    /// "must be `expected`, got ..."
+    [[noreturn]] void fail_expecting(std::string_view expected) const;
+
+    /// For objects: refuses every key but these.
+    void allow_only(std::initializer_list<std::string_view> keys) const;
+    std::optional<JsonValue> find(std::string_view key) const;
+    JsonValue at(std::string_view key) const;
+
+    /// For arrays: the elements, of which there must be `count`; `elements` is what they should be ("numbers").
+    std::vector<JsonValue> array(std::size_t count, std::string_view elements) const;
+
+    float number() const;
+    /// A whole number in the range of int, however written.
+    int integer() const;
+    bool boolean() const;
+    std::string_view string() const;
+    core::Vec3f vector() const;
+    /// [r, g, b], linear, or "#rrggbb", sRGB.
+    core::Color color() const;
+
+    template <class Value>
+    using Choices = std::initializer_list<std::pair<std::string_view, Value>>;
+
+    /// What belongs to this string.
+    template <class Value>
+    Value choice(Choices<Value> choices) const {
+        const std::string_view text = string();
+        std::vector<std::string_view> names;
+        for (const auto& [name, value] : choices) {
+            if (name == text) return value;
+            names.push_back(name);
+        }
+        fail_choice(names);
+    }
+
+  private:
+    const JsonDocument::Node& node() const { return document_->nodes_[node_]; }
+    void require(JsonType type) const;
+    std::vector<JsonValue> children() const;
+    [[noreturn]] void fail_choice(const std::vector<std::string_view>& names) const;
+
+    const JsonDocument* document_;
+    std::uint32_t node_;
+};
+
+/// A reference token of a JSON pointer (RFC 6901), with its slash, fit for a message.
+std::string pointer_token(std::string_view key);
+
+/// `unknown key "raduis", did you mean "radius"?`, or with all known keys if none is near.
+std::string unknown_key(std::string_view key, const std::vector<std::string_view>& known);
+
+} // namespace raylane::scenes
