@@ -19,14 +19,14 @@ struct Bounds {
     }
 
     bool contains(const Vec3f& p) const {
-        return lower.x <= p.x && p.x <= upper.x && lower.y <= p.y && p.y <= upper.y && lower.z <= p.z &&
-               p.z <= upper.z;
+        return lower.x <= p.x && p.x <= upper.x && lower.y <= p.y && p.y <= upper.y &&
+               lower.z <= p.z && p.z <= upper.z;
     }
 
-    /// Half of the surface area; 0 if empty.
-    float half_area() const {
-        const Vec3f size = upper - lower;
-        if (!(size.x >= 0.0F && size.y >= 0.0F && size.z >= 0.0F)) return 0.0F;
+    /// Half of the surface area; 0 if empty. In double, where it cannot overflow.
+    double half_area() const {
+        const Vec3d size = convert<double>(upper) - convert<double>(lower);
+        if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0)) return 0.0;
         return size.x * size.y + size.y * size.z + size.z * size.x;
     }
 };

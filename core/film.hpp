@@ -11,7 +11,8 @@ namespace raylane::core {
 class Film {
   public:
     Film(int width, int height)
-        : width_(width), height_(height), pixels_(static_cast<std::size_t>(width) * height, Color(0.0F)) {}
+        : width_(width), height_(height),
+          pixels_(static_cast<std::size_t>(width) * height, Color(0.0F)) {}
 
     int width() const { return width_; }
     int height() const { return height_; }

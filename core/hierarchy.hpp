@@ -32,8 +32,9 @@ class Child {
     std::uint32_t bits_ = none;
 };
 
-/// Up to 16 children with their bounds, structure of arrays: axis a of slot i is lower[a][i]. The bounds are
-/// closed and contain all of the child's shapes. Filled slots come first; an empty one has lower > upper.
+/// Up to 16 children with their bounds, structure of arrays: axis a of slot i is lower[a][i]. The
+/// bounds are closed and contain all of the child's shapes. Filled slots come first; an empty one
+/// has lower > upper.
 struct alignas(64) WideNode {
     float lower[3][block_size];
     float upper[3][block_size];
@@ -44,8 +45,8 @@ struct alignas(64) WideNode {
     void set(int slot, const Bounds& bounds, Child child);
 };
 
-/// Bounding volume hierarchy over the bounded shapes of a scene. Its leaves are the blocks of the scene's tables.
-/// Planes are not in it.
+/// Bounding volume hierarchy over the bounded shapes of a scene. Its leaves are the blocks of the
+/// scene's tables. Planes are not in it.
 struct Hierarchy {
     std::vector<WideNode> nodes; ///< the root first; empty if there are no bounded shapes
     Bounds bounds;               ///< of everything in it
@@ -53,9 +54,10 @@ struct Hierarchy {
     std::size_t bytes() const { return nodes.capacity() * sizeof(WideNode); }
 };
 
-/// Builds the hierarchy by the binned surface-area heuristic (Wald 2007), whose cost counts blocks of 16 rather
-/// than shapes, and collapses the binary tree into wide nodes by dynamic programming (Ylitie, Karras and Laine
-/// 2017). Rearranges the tables so that each leaf is one block. The result depends on the shapes alone.
+/// Builds the hierarchy by the binned surface-area heuristic (Wald 2007), whose cost counts blocks
+/// of 16 rather than shapes, and collapses the binary tree into wide nodes by dynamic programming
+/// (Ylitie, Karras and Laine 2017). Rearranges the tables so that each leaf is one block. The
+/// result depends on the shapes alone.
 ///
 /// Bounds are padded by `padding` on each side: what a traversal in float may be off by.
 Hierarchy build_hierarchy(Tables& shapes, float padding);

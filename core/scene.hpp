@@ -59,8 +59,8 @@ class Scene {
     Settings settings_;
 };
 
-/// Collects a scene, in any order, and checks each value as it comes. All functions throw InvalidValue, whose
-/// field is relative to what was passed in, and leave the builder as it was.
+/// Collects a scene, in any order, and checks each value as it comes. All functions throw
+/// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was.
 class SceneBuilder {
   public:
     Camera camera;          ///< checked by build(), field "camera/..."
@@ -72,12 +72,13 @@ class SceneBuilder {
     MaterialIndex add_material(const Material& material);
     void add_light(const Light& light);
 
-    /// The id of the new shape: 0, 1, 2, ... `material` must be an index that add_material returned.
+    /// The id of the new shape: 0, 1, 2, ... `material` must be an index that add_material
+    /// returned.
     template <class Shape>
     ShapeId add(const Shape& shape, MaterialIndex material);
 
-    /// Triangles that tile one flat polygon. A ray that leaves one of them can hit none of the others, however
-    /// close to a common edge it starts. Returns the first id; the others follow.
+    /// Triangles that tile one flat polygon. A ray that leaves one of them can hit none of the
+    /// others, however close to a common edge it starts. Returns the first id; the others follow.
     template <class AnyTriangle>
     ShapeId add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material);
 
@@ -87,8 +88,8 @@ class SceneBuilder {
 
     std::size_t shape_count() const { return scene_.material_of_.size(); }
 
-    /// Checks what concerns the scene as a whole, builds the hierarchy, and hands the scene over. Fields are
-    /// those above, and "lights", "lights/0/position", ...
+    /// Checks what concerns the scene as a whole, builds the hierarchy, and hands the scene over.
+    /// Fields are those above, and "lights", "lights/0/position", ...
     Scene build() &&;
 
   private:

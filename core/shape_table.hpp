@@ -12,8 +12,8 @@ namespace raylane::core {
 /// Shapes to a block: as many as the widest packet has lanes.
 inline constexpr int block_size = 16;
 
-/// 16 shapes of one kind, structure of arrays: value k of lane i is values[k][i]. An empty lane holds NaN and
-/// no_shape.
+/// 16 shapes of one kind, structure of arrays: value k of lane i is values[k][i]. An empty lane
+/// holds NaN and no_shape.
 template <class Shape>
 struct alignas(64) Block {
     float values[float_count<Shape>][block_size];
@@ -21,19 +21,23 @@ struct alignas(64) Block {
 
     Block() {
         for (auto& row : values)
-            for (float& value : row) value = std::numeric_limits<float>::quiet_NaN();
-        for (ShapeId& id : ids) id = no_shape;
+            for (float& value : row)
+                value = std::numeric_limits<float>::quiet_NaN();
+        for (ShapeId& id : ids)
+            id = no_shape;
     }
 
     Shape get(int lane) const {
         Floats<Shape> floats;
-        for (int k = 0; k < float_count<Shape>; ++k) floats[k] = values[k][lane];
+        for (int k = 0; k < float_count<Shape>; ++k)
+            floats[k] = values[k][lane];
         return shape_of<Shape>(floats);
     }
 
     void set(int lane, const Shape& shape, ShapeId id) {
         const Floats<Shape> floats = floats_of(shape);
-        for (int k = 0; k < float_count<Shape>; ++k) values[k][lane] = floats[k];
+        for (int k = 0; k < float_count<Shape>; ++k)
+            values[k][lane] = floats[k];
         ids[lane] = id;
     }
 };
@@ -44,8 +48,8 @@ struct Slot {
     std::uint8_t lane;
 };
 
-/// All shapes of one kind. In a finished scene each block is a leaf of the hierarchy, so blocks may be partly
-/// empty.
+/// All shapes of one kind. In a finished scene each block is a leaf of the hierarchy, so blocks may
+/// be partly empty.
 template <class Shape>
 class Table {
   public:
@@ -73,26 +77,38 @@ class Table {
 };
 
 /// One table per kind, in the order of `Kind`.
-using Tables = std::tuple<Table<Sphere>, Table<Plane>, Table<Disc>, Table<Triangle>, Table<SmoothTriangle>,
-                          Table<Box>, Table<OpenCylinder>, Table<CappedCylinder>, Table<OpenCone>,
-                          Table<CappedCone>, Table<Quadric>>;
+using Tables =
+    std::tuple<Table<Sphere>, Table<Plane>, Table<Disc>, Table<Triangle>, Table<SmoothTriangle>,
+               Table<Box>, Table<OpenCylinder>, Table<CappedCylinder>, Table<OpenCone>,
+               Table<CappedCone>, Table<Quadric>>;
 static_assert(std::tuple_size_v<Tables> == kind_count);
 
 /// Calls `visit(table)` with the table of `kind`.
 template <class TablesRef, class Visit>
 decltype(auto) with_table(TablesRef&& tables, Kind kind, Visit&& visit) {
     switch (kind) {
-    case Kind::sphere: return visit(std::get<Table<Sphere>>(tables));
-    case Kind::plane: return visit(std::get<Table<Plane>>(tables));
-    case Kind::disc: return visit(std::get<Table<Disc>>(tables));
-    case Kind::triangle: return visit(std::get<Table<Triangle>>(tables));
-    case Kind::smooth_triangle: return visit(std::get<Table<SmoothTriangle>>(tables));
-    case Kind::box: return visit(std::get<Table<Box>>(tables));
-    case Kind::open_cylinder: return visit(std::get<Table<OpenCylinder>>(tables));
-    case Kind::capped_cylinder: return visit(std::get<Table<CappedCylinder>>(tables));
-    case Kind::open_cone: return visit(std::get<Table<OpenCone>>(tables));
-    case Kind::capped_cone: return visit(std::get<Table<CappedCone>>(tables));
-    case Kind::quadric: break;
+    case Kind::sphere:
+        return visit(std::get<Table<Sphere>>(tables));
+    case Kind::plane:
+        return visit(std::get<Table<Plane>>(tables));
+    case Kind::disc:
+        return visit(std::get<Table<Disc>>(tables));
+    case Kind::triangle:
+        return visit(std::get<Table<Triangle>>(tables));
+    case Kind::smooth_triangle:
+        return visit(std::get<Table<SmoothTriangle>>(tables));
+    case Kind::box:
+        return visit(std::get<Table<Box>>(tables));
+    case Kind::open_cylinder:
+        return visit(std::get<Table<OpenCylinder>>(tables));
+    case Kind::capped_cylinder:
+        return visit(std::get<Table<CappedCylinder>>(tables));
+    case Kind::open_cone:
+        return visit(std::get<Table<OpenCone>>(tables));
+    case Kind::capped_cone:
+        return visit(std::get<Table<CappedCone>>(tables));
+    case Kind::quadric:
+        break;
     }
     return visit(std::get<Table<Quadric>>(tables));
 }

@@ -8,13 +8,14 @@
 #include <limits>
 #include <string_view>
 
-/// The shapes. Each *is* its floats: the surface meant is the one that real arithmetic gives for exactly these
-/// values. Nothing is normalised, transformed or rounded on the way in.
+/// The shapes. Each *is* its floats: the surface meant is the one that real arithmetic gives for
+/// exactly these values. Nothing is normalised, transformed or rounded on the way in.
 ///
 /// Lengths are in the scene's unit. Normals and axes may have any length but zero.
-/// A solid (sphere, box, capped cylinder, capped cone) is closed: its surface belongs to it, a line that only
-/// touches it hits it. A surface (the others) ends at its rim, and the rim belongs to it. A line inside a flat
-/// surface's own plane, or along an open cylinder's or cone's own surface, does not hit it.
+/// A solid (sphere, box, capped cylinder, capped cone) is closed: its surface belongs to it, a line
+/// that only touches it hits it. A surface (the others) ends at its rim, and the rim belongs to it.
+/// A line inside a flat surface's own plane, or along an open cylinder's or cone's own surface,
+/// does not hit it.
 namespace raylane::core {
 
 struct Sphere {
@@ -39,7 +40,8 @@ struct Triangle {
     Vec3f a, b, c;
 };
 
-/// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat triangle's.
+/// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat
+/// triangle's.
 struct SmoothTriangle {
     Vec3f a, b, c;
     Vec3f normal_a, normal_b, normal_c;
@@ -63,7 +65,8 @@ struct Cylinder {
 using OpenCylinder = Cylinder<Ends::open>;
 using CappedCylinder = Cylinder<Ends::capped>;
 
-/// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1]. Capped: solid.
+/// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1].
+/// Capped: solid.
 template <Ends ends>
 struct Cone {
     Vec3f base;
@@ -75,7 +78,8 @@ using OpenCone = Cone<Ends::open>;
 using CappedCone = Cone<Ends::capped>;
 
 /// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper, where
-///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z pz) + one,
+///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z
+///   pz) + one,
 /// that is (p, 1) M (p, 1)^T for the symmetric 4x4 matrix M. Its outside is where Q > 0.
 struct Quadric {
     Vec3f center;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Three-component vectors. GLM holds the components; the products are ours, because the order of the
-/// operations and every fused multiply-add in them is part of what raylane promises.
+/// Three-component vectors. GLM holds the components; the products are ours, because the order of
+/// the operations and every fused multiply-add in them is part of what raylane promises.
 ///
 /// GLM's x/r/s unions need trivial types, and the oracle's numbers are not: the build defines
 /// GLM_FORCE_XYZW_ONLY for every target.
@@ -18,8 +18,12 @@ using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
 /// a * b + c, rounded once for the built-in types (IEEE 754 fusedMultiplyAdd).
-inline float fma(float a, float b, float c) { return std::fma(a, b, c); }
-inline double fma(double a, double b, double c) { return std::fma(a, b, c); }
+inline float fma(float a, float b, float c) {
+    return std::fma(a, b, c);
+}
+inline double fma(double a, double b, double c) {
+    return std::fma(a, b, c);
+}
 template <class Real>
 Real fma(const Real& a, const Real& b, const Real& c) {
     return a * b + c;
@@ -36,8 +40,8 @@ Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
     return fma(a.x, b.x, fma(a.y, b.y, Real(a.z * b.z)));
 }
 
-/// The products are rounded before they are subtracted, so that cross(a, b) is -cross(b, a) to the bit:
-/// two triangles that share an edge then agree on which side of it a ray passes.
+/// The products are rounded before they are subtracted, so that cross(a, b) is -cross(b, a) to the
+/// bit: two triangles that share an edge then agree on which side of it a ray passes.
 template <class Real>
 Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
     return {Real(Real(a.y * b.z) - Real(a.z * b.y)), Real(Real(a.z * b.x) - Real(a.x * b.z)),

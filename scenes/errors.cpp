@@ -82,9 +82,10 @@ std::string printable(std::string_view text, std::size_t most) {
 
 std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates) {
     const std::string_view start = unknown.substr(0, 64); // a key may be as long as its file
-    const auto nearest = std::min_element(
-        candidates.begin(), candidates.end(),
-        [&](auto a, auto b) { return edit_distance(start, a) < edit_distance(start, b); });
+    const auto nearest =
+        std::min_element(candidates.begin(), candidates.end(), [&](auto a, auto b) {
+            return edit_distance(start, a) < edit_distance(start, b);
+        });
     if (nearest == candidates.end()) return "";
     if (edit_distance(start, *nearest) > 1 + std::max(start.size(), nearest->size()) / 3) return "";
     return ", did you mean \"" + std::string(*nearest) + "\"?";

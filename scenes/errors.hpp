@@ -5,7 +5,8 @@
 #include <string_view>
 #include <vector>
 
-/// The errors that the tool reports. Their text is one line without control characters, and begins with the file.
+/// The errors that the tool reports. Their text is one line without control characters, and begins
+/// with the file.
 namespace raylane::scenes {
 
 /// What was asked cannot be meant: a malformed scene, wrong usage. Exit code 2.
@@ -24,11 +25,12 @@ class SystemRefused : public std::runtime_error {
     SystemRefused(std::string_view file, std::string_view action, int error_number);
 };
 
-/// `text` fit for one line of a message: control characters and bytes that are not UTF-8 as \xNN, cut after
-/// `most` characters with "..." behind.
+/// `text` fit for one line of a message: control characters and bytes that are not UTF-8 as \xNN,
+/// cut after `most` characters with "..." behind.
 std::string printable(std::string_view text, std::size_t most = 40);
 
-/// ", did you mean "near"?" with the candidate nearest to `unknown` by edit distance, or "" if none is near.
+/// ", did you mean "near"?" with the candidate nearest to `unknown` by edit distance, or "" if none
+/// is near.
 std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates);
 
 } // namespace raylane::scenes

@@ -31,7 +31,9 @@ InputFile::InputFile(const std::filesystem::path& path)
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
-InputFile::~InputFile() { ::close(descriptor_); }
+InputFile::~InputFile() {
+    ::close(descriptor_);
+}
 
 std::string_view InputFile::head() {
     if (head_.empty()) {

@@ -12,7 +12,8 @@ namespace raylane::scenes {
 /// A file, or anything else that can be read from start to end.
 class InputFile {
   public:
-    /// Throws BadInput if there is no such file or it is a directory, SystemRefused if it cannot be opened.
+    /// Throws BadInput if there is no such file or it is a directory, SystemRefused if it cannot be
+    /// opened.
     explicit InputFile(const std::filesystem::path& path);
     ~InputFile();
     InputFile(const InputFile&) = delete;
@@ -25,7 +26,8 @@ class InputFile {
 
     /// The first bytes, at most 64 KiB, without consuming them.
     std::string_view head();
-    /// Fills `buffer` as far as the file goes; returns how many bytes, 0 at the end. Throws SystemRefused.
+    /// Fills `buffer` as far as the file goes; returns how many bytes, 0 at the end. Throws
+    /// SystemRefused.
     std::size_t read(std::span<char> buffer);
     /// Everything that is left. Throws SystemRefused.
     std::string read_all();

@@ -1,5 +1,4 @@
 #include "scenes/errors.hpp"
-
 #include "tests/catch.hpp"
 
 using namespace raylane::scenes;

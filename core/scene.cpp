@@ -1,0 +1,155 @@
+#include "core/scene.hpp"
+
+#include "core/surface.hpp"
+#include "core/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace raylane::core {
+
+namespace {
+
+template <class Value>
+void validate_in(const std::string& place, const Value& value) {
+    try {
+        validate(value);
+    } catch (const InvalidValue& invalid) {
+        throw InvalidValue(place + "/" + invalid.field, invalid.expectation);
+    }
+}
+
+/// What a traversal in float may be off by: six roundings of the largest coordinate that takes
+/// part.
+float traversal_padding(const Tables& shapes, const Camera& camera) {
+    float extent = 0.0F;
+    const auto include = [&](const Vec3f& p) {
+        for (int axis = 0; axis < 3; ++axis)
+            extent = std::max(extent, std::abs(p[axis]));
+    };
+    include(camera.from);
+    for_each_table(shapes, [&]<class Shape>(const Table<Shape>& table) {
+        if constexpr (kind_of<Shape> != Kind::plane)
+            for (const Block<Shape>& block : table.blocks())
+                for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
+                    const Bounds bounds = bounds_of(block.get(lane));
+                    include(bounds.lower);
+                    include(bounds.upper);
+                }
+    });
+    return 6.0F * 0x1p-24F * extent;
+}
+
+} // namespace
+
+IdRange Scene::coplanar_with(ShapeId id) const {
+    const auto after =
+        std::upper_bound(polygons_.begin(), polygons_.end(), id,
+                         [](ShapeId value, const IdRange& range) { return value < range.first; });
+    if (after != polygons_.begin() && std::prev(after)->contains(id)) return *std::prev(after);
+    return {id, id};
+}
+
+std::size_t Scene::bytes() const {
+    std::size_t bytes = hierarchy_.bytes() + material_of_.capacity() * sizeof(MaterialIndex) +
+                        polygons_.capacity() * sizeof(IdRange) +
+                        materials_.capacity() * sizeof(Material);
+    for_each_table(shapes_, [&](const auto& table) { bytes += table.bytes(); });
+    return bytes;
+}
+
+void SceneBuilder::check_material_index(MaterialIndex material) const {
+    if (material >= scene_.materials_.size())
+        throw InvalidValue("material",
+                           "must be the index of a material, got " + std::to_string(material));
+}
+
+MaterialIndex SceneBuilder::add_material(const Material& material) {
+    validate(material);
+    scene_.materials_.push_back(material);
+    return static_cast<MaterialIndex>(scene_.materials_.size() - 1);
+}
+
+void SceneBuilder::add_light(const Light& light) {
+    validate(light);
+    scene_.lights_.push_back(light);
+}
+
+template <class Shape>
+ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {
+    validate(shape);
+    check_material_index(material);
+    if (shape_count() >= no_shape)
+        throw InvalidValue("", "must be one of at most 4294967295 shapes");
+    const auto id = static_cast<ShapeId>(shape_count());
+    std::get<Table<Shape>>(scene_.shapes_).add(shape, id);
+    scene_.material_of_.push_back(material);
+    return id;
+}
+
+template <class AnyTriangle>
+ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material) {
+    if (triangles.empty()) throw InvalidValue("", "must have at least one triangle, got none");
+    for (const AnyTriangle& triangle : triangles)
+        validate(triangle);
+    const ShapeId first = add(triangles.front(), material);
+    for (const AnyTriangle& triangle : triangles.subspan(1))
+        add(triangle, material);
+    const auto last = static_cast<ShapeId>(shape_count() - 1);
+    if (last != first) scene_.polygons_.push_back({first, last});
+    return first;
+}
+
+template <class Shape>
+void SceneBuilder::reserve(std::size_t count) {
+    auto& table = std::get<Table<Shape>>(scene_.shapes_);
+    table.reserve(table.size() + count);
+    scene_.material_of_.reserve(shape_count() + count);
+}
+
+Scene SceneBuilder::build() && {
+    validate_in("settings", settings);
+    validate_in("camera", camera);
+    validate_in("fog", fog);
+    validate_color("background", background);
+    if (scene_.lights_.empty() && shape_count() > 0)
+        throw InvalidValue("lights",
+                           "must have at least one light where there are objects, got none");
+
+    scene_.hierarchy_ = build_hierarchy(scene_.shapes_, traversal_padding(scene_.shapes_, camera));
+    for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
+        const Light& light = scene_.lights_[i];
+        if (light.kind != LightKind::point) continue;
+        const ShapeId id = surface_through(scene_, light.position);
+        if (id != no_shape)
+            throw InvalidValue("lights/" + std::to_string(i) + "/position",
+                               "must not be on a surface, got a point of shape " +
+                                   std::to_string(id));
+    }
+    scene_.camera_ = camera;
+    scene_.background_ = background;
+    scene_.fog_ = fog;
+    scene_.settings_ = settings;
+    return std::move(scene_);
+}
+
+#define RAYLANE_INSTANTIATE(Shape)                                                                 \
+    template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);                               \
+    template void SceneBuilder::reserve<Shape>(std::size_t);
+RAYLANE_INSTANTIATE(Sphere)
+RAYLANE_INSTANTIATE(Plane)
+RAYLANE_INSTANTIATE(Disc)
+RAYLANE_INSTANTIATE(Triangle)
+RAYLANE_INSTANTIATE(SmoothTriangle)
+RAYLANE_INSTANTIATE(Box)
+RAYLANE_INSTANTIATE(OpenCylinder)
+RAYLANE_INSTANTIATE(CappedCylinder)
+RAYLANE_INSTANTIATE(OpenCone)
+RAYLANE_INSTANTIATE(CappedCone)
+RAYLANE_INSTANTIATE(Quadric)
+#undef RAYLANE_INSTANTIATE
+template ShapeId SceneBuilder::add_polygon(std::span<const Triangle>, MaterialIndex);
+template ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle>, MaterialIndex);
+
+} // namespace raylane::core

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "core/judge.hpp"
+#include "core/ray.hpp"
+#include "core/solvers/box.hpp"
+#include "core/solvers/cone.hpp"
+#include "core/solvers/cylinder.hpp"
+#include "core/solvers/flat.hpp"
+#include "core/solvers/quadric.hpp"
+#include "core/solvers/sphere.hpp"
+
+#include <cstdint>
+
+/// A ray against one shape, with a stated accuracy.
+namespace raylane::core {
+
+/// float: the solver's formulas as they are. What the vector kernels reproduce to the bit; its
+/// decisions and its t are as good as the formulas (see each solver).
+template <class Shape>
+Crossings<float> solve(const Shape& shape, const Ray<float>& ray, const Start& start,
+                       std::uint64_t&) {
+    Judge<float> judge;
+    return crossings(shape, ray, start, judge);
+}
+
+namespace detail {
+
+template <class T, class Shape>
+Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, const Start& start,
+                                Judge<Bounded<T>>& judge) {
+    using Real = Bounded<T>;
+    const Ray<Real> wide{convert<Real>(ray.origin), convert<Real>(ray.direction)};
+    Crossings<double> result;
+    for (const Crossing<Real>& crossing : crossings(shape, wide, start, judge)) {
+        const int side = start.on_surface ? 1 : judge.sign(crossing.t);
+        if (side > 0) judge.result(crossing.t);
+        result.add(
+            {side == 0 ? 0.0 : static_cast<double>(crossing.t), crossing.face, crossing.entering});
+    }
+    return result;
+}
+
+} // namespace detail
+
+/// double: decisions as real arithmetic takes them, and t within 2^-27 of itself. In double with
+/// error bounds first; where these leave a doubt, once more in double-double, which `widened`
+/// counts.
+template <class Shape>
+Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start& start,
+                        std::uint64_t& widened) {
+    Judge<Bounded<double>> judge;
+    const Crossings<double> result = detail::solve_bounded<double>(shape, ray, start, judge);
+    if (!judge.doubt()) [[likely]]
+        return result;
+    ++widened;
+    Judge<Bounded<DoubleDouble>> wide_judge;
+    return detail::solve_bounded<DoubleDouble>(shape, ray, start, wide_judge);
+}
+
+} // namespace raylane::core

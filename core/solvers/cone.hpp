@@ -1,0 +1,86 @@
+#pragma once
+
+#include "core/solvers/axial.hpp"
+#include "core/solvers/convex.hpp"
+#include "core/solvers/quadratic.hpp"
+
+namespace raylane::core {
+
+/// |across(t)|^2 = width(t)^2, where the width runs from base_radius to top_radius along the axis:
+///   F(t) = |across|^2 - width^2 = A t^2 + 2 B t + C,  width(t) = W + t M.
+/// The equation also describes the mirror nappe beyond the apex, but there width < 0, and between
+/// the ends width >= 0: what is clipped to the ends needs no test of its own.
+template <class Real, Ends ends>
+Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    if (start.on_surface && !start.inward) return {};
+
+    const AxialRay<Real> axial(cone.base, cone.axis, ray);
+    const Real base_radius(cone.base_radius);
+    const Real slope = (Real(cone.top_radius) - base_radius) / axial.axis_squared;
+    const Real W = fma(slope, axial.height_origin, base_radius);
+    const Real M = slope * axial.height_direction;
+    const Real across_squared = squared_length(axial.across_direction);
+    const Real A = fma(Real(-M), M, across_squared);
+    const Real B = fma(Real(-M), W, dot(axial.across_origin, axial.across_direction));
+
+    // The infinite double cone.
+    Crossings<Real> roots;
+    int curvature = judge.sign(A);
+    if (start.on_surface && start.face == body) {
+        // t = 0 is one root, -2 B / A the other. Going inward F falls at 0, so it rises again only
+        // if A > 0.
+        if (curvature > 0) roots.add({not_behind(Real(-(B + B) / A)), body, false});
+    } else {
+        const Real C = fma(Real(-W), W, squared_length(axial.across_origin));
+        roots = solve_quadratic(A, B, C, fma(M, M, across_squared), judge, [&](const Real& tau) {
+            const Real width = fma(tau, M, W);
+            return fma(Real(-width), width,
+                       squared_length(fma(tau, axial.across_direction, axial.across_origin)));
+        });
+        // Beside the cone, or on the axis side of it for good: then only the caps can be met.
+        const bool no_roots = roots.begin() == roots.end();
+        if (no_roots && (curvature > 0 || judge.positive(C))) return {};
+    }
+    if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, judge);
+
+    // The solid is convex: clip to the nappe that lies between the ends.
+    Span<Real> span(judge);
+    for (const Crossing<Real>& root : roots) {
+        const bool wanted = !start.on_surface || !root.entering;
+        if (curvature >= 0) {
+            if (wanted)
+                root.entering ? span.clip_front(root.t, root.face)
+                              : span.clip_back(root.t, root.face);
+        } else {
+            // One crossing on each nappe, inside before the first and behind the second. The width
+            // grows with t if M > 0, so the nappe with width >= 0 is then the second.
+            const bool on_nappe = root.entering == (judge.sign(M) > 0);
+            if (on_nappe && wanted)
+                root.entering ? span.clip_front(root.t, root.face)
+                              : span.clip_back(root.t, root.face);
+        }
+    }
+    clip_caps(span, axial, start, judge);
+    return start.on_surface ? span.exit() : span.crossings();
+}
+
+/// Half the gradient of F: across - width slope axis. It vanishes at the apex; the axis, outwards,
+/// stands in.
+template <class Real, Ends ends>
+Vec3<Real> outward_normal(const Cone<ends>& cone, const Vec3<Real>& point, Face face) {
+    const Vec3<Real> axis = convert<Real>(cone.axis);
+    if (face == base_cap) return -normalized(axis);
+    if (face == top_cap) return normalized(axis);
+    const Vec3<Real> across = offset_from_axis(cone.base, cone.axis, point);
+    const Real narrowing = Real(cone.base_radius) - Real(cone.top_radius);
+    // On the surface width = |across|: with it the direction is right even where the point is a
+    // little off.
+    const Real width = length(across);
+    const Vec3<Real> gradient = fma(Real(width * narrowing / squared_length(axis)), axis, across);
+    if (!(squared_length(gradient) > Real(0)))
+        return normalized(narrowing > Real(0) ? axis : -axis);
+    return normalized(gradient);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "core/solvers/axial.hpp"
+#include "core/solvers/convex.hpp"
+
+namespace raylane::core {
+
+/// |across(t)| = radius, solved like a sphere at the foot of the perpendicular from the axis.
+template <class Real, Ends ends>
+Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    using std::sqrt;
+    if (start.on_surface && !start.inward) return {};
+
+    const AxialRay<Real> axial(cylinder.base, cylinder.axis, ray);
+    const Real radius(cylinder.radius);
+    const Real speed_squared = squared_length(axial.across_direction);
+    const bool parallel = judge.sign(speed_squared) == 0;
+    const Real tau = parallel
+                         ? Real(0)
+                         : Real(-dot(axial.across_origin, axial.across_direction) / speed_squared);
+
+    Span<Real> span(judge);
+    const bool from_body = start.on_surface && start.face == body;
+    if (from_body && !parallel) span.clip_back(not_behind(Real(tau + tau)), body);
+    if (!from_body) {
+        const Vec3<Real> foot = fma(tau, axial.across_direction, axial.across_origin);
+        const Real discriminant = fma(radius, radius, Real(-squared_length(foot)));
+        if (judge.negative(discriminant)) return {};
+        if (!parallel) {
+            const Real half_chord = sqrt(discriminant / speed_squared);
+            if (!start.on_surface) span.clip_front(tau - half_chord, body);
+            span.clip_back(tau + half_chord, body);
+        }
+    }
+
+    if constexpr (ends == Ends::open)
+        return keep_between_ends(start.on_surface ? span.exit() : span.crossings(), axial, judge);
+    clip_caps(span, axial, start, judge);
+    return start.on_surface ? span.exit() : span.crossings();
+}
+
+template <class Real, Ends ends>
+Vec3<Real> outward_normal(const Cylinder<ends>& cylinder, const Vec3<Real>& point, Face face) {
+    const Vec3<Real> axis = normalized(convert<Real>(cylinder.axis));
+    if (face == base_cap) return -axis;
+    if (face == top_cap) return axis;
+    return normalized(offset_from_axis(cylinder.base, cylinder.axis, point));
+}
+
+} // namespace raylane::core

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "core/judge.hpp"
+#include "core/ray.hpp"
+
+namespace raylane::core {
+
+/// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside.
+///
+/// `at_vertex(tau)` evaluates F at the parabola's vertex tau = -B / A from the geometry (Haines,
+/// Guenther and Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing
+/// Gems, ch. 7): B^2 - A C cancels where the origin is far away, F(tau) does not. Where the leading
+/// term (nearly) vanishes, it is the other way round. `scale` is what A would be without
+/// cancellation.
+template <class Real, class AtVertex>
+Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, const Real& scale,
+                                Judge<Real>& judge, const AtVertex& at_vertex) {
+    using std::sqrt;
+    const auto crossing = [](const Real& t, bool entering) {
+        return Crossing<Real>{t, body, entering};
+    };
+
+    // The leading term vanishes: a straight line, which has one root.
+    const int curvature = judge.sign(A);
+    if (curvature == 0) {
+        const int slope = judge.sign(B);
+        if (slope == 0) return {};
+        return crossing(-C / (B + B), slope < 0);
+    }
+
+    // The discriminant B^2 - A C.
+    const bool near_linear = std::abs(static_cast<double>(A)) < 0x1p-4 * static_cast<double>(scale);
+    const Real discriminant =
+        near_linear ? fma(B, B, Real(-(A * C))) : Real(-(A * at_vertex(Real(-B / A))));
+    if (judge.negative(discriminant)) return {};
+    const Real root = sqrt(discriminant);
+
+    // q does not cancel; the second root comes from the product of both, C / A.
+    const bool falling = static_cast<double>(B) < 0.0;
+    const Real q = falling ? Real(root - B) : Real(-root - B);
+    if (static_cast<double>(q) == 0.0)
+        return {crossing(Real(0), curvature > 0), crossing(Real(0), curvature < 0)};
+    // F' at q / A has the sign of `root` if falling; at C / q the opposite.
+    const Crossing<Real> by_A = crossing(q / A, !falling);
+    const Crossing<Real> by_C = crossing(C / q, falling);
+    // In order: for A > 0 the ray enters first, for A < 0 it leaves first.
+    return by_A.entering == (curvature > 0) ? Crossings<Real>(by_A, by_C)
+                                            : Crossings<Real>(by_C, by_A);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/judge.hpp"
+#include "core/ray.hpp"
+
+namespace raylane::core {
+
+/// |origin + t direction - center|^2 = radius^2, solved at the foot of the perpendicular from the
+/// centre. Source: Haines, Guenther and Akenine-Moeller, Ray Tracing Gems, ch. 7.
+template <class Real>
+Crossings<Real> crossings(const Sphere& sphere, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    using std::sqrt;
+    if (start.on_surface && !start.inward) return {};
+
+    const Vec3<Real> from_center = ray.origin - convert<Real>(sphere.center);
+    const Real dd = squared_length(ray.direction);
+    const Real tau = -dot(from_center, ray.direction) / dd;
+    if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
+
+    const Vec3<Real> foot = fma(tau, ray.direction, from_center);
+    const Real radius(sphere.radius);
+    const Real discriminant = fma(radius, radius, Real(-squared_length(foot)));
+    if (judge.negative(discriminant)) return {};
+    const Real half_chord = sqrt(discriminant / dd);
+    return {{tau - half_chord, body, true}, {tau + half_chord, body, false}};
+}
+
+template <class Real>
+Vec3<Real> outward_normal(const Sphere& sphere, const Vec3<Real>& point, Face) {
+    return normalized(point - convert<Real>(sphere.center));
+}
+
+} // namespace raylane::core
