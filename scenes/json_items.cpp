@@ -20,11 +20,12 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t deepest = 16;
-constexpr std::size_t most_values = 4096;       // in one item
-constexpr std::size_t most_text = std::size_t{1} << 20; // bytes of keys, strings and numbers in one item
+constexpr std::size_t most_values = 4096; // in one item
+constexpr std::size_t most_text = std::size_t{1}
+                                  << 20; // bytes of keys, strings and numbers in one item
 
-/// The float nearest to a decimal number, infinite if there is none. `rounded` is the nearest double: going by way
-/// of it would round twice.
+/// The float nearest to a decimal number, infinite if there is none. `rounded` is the nearest
+/// double: going by way of it would round twice.
 float nearest_float(std::string_view text, double rounded) {
     float number = 0.0F;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -33,30 +34,33 @@ float nearest_float(std::string_view text, double rounded) {
     return std::copysign(limit, static_cast<float>(rounded));
 }
 
-/// "must be ..." for what the parser says it expected or, failing that, what it finds wrong with the token.
+/// "must be ..." for what the parser says is wrong inside of a token or, failing that, what it
+/// expected there.
 std::string expectation_in(std::string_view error) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> phrases = {{
+    static constexpr std::string_view before = " - ", behind = "; last read: ";
+    const std::size_t first = error.find(before), last = error.find(behind);
+    if (first < last && last != std::string_view::npos) {
+        const auto reason = error.substr(first + before.size(), last - first - before.size());
+        if (reason != "invalid literal") return "must be JSON (" + printable(reason, 100) + ")";
+    }
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> phrases = {{
         {"; expected ']'", "',' or ']'"},
         {"; expected '}'", "',' or '}'"},
         {"; expected ':'", "':'"},
         {"; expected string literal", "a key in double quotes"},
         {"; expected end of input", "the end of the file"},
-        {"; expected '['", "a value"},
     }};
     for (const auto& [expected, phrase] : phrases)
-        if (error.rfind(expected) != std::string_view::npos) return "must be " + std::string(phrase);
-    static constexpr std::string_view before = " - ", behind = "; last read: ";
-    const std::size_t first = error.find(before), last = error.find(behind);
-    if (first == std::string_view::npos || last == std::string_view::npos) return "must be JSON";
-    const std::string_view reason = error.substr(first + before.size(), last - first - before.size());
-    if (reason == "invalid literal") return "must be a value";
-    return "must be JSON (" + printable(reason, 100) + ")";
+        if (error.rfind(expected) != std::string_view::npos)
+            return "must be " + std::string(phrase);
+    return "must be a value";
 }
 
 /// Receives the parser's events.
 class ItemParser {
   public:
-    ItemParser(std::string_view file, JsonText& text, std::span<const RootKey> keys, const TakeItem& take)
+    ItemParser(std::string_view file, JsonText& text, std::span<const RootKey> keys,
+               const TakeItem& take)
         : file_(file), text_(text), keys_(keys), seen_(keys.size()), take_(take) {}
 
     /// Throws for required keys that did not come.
@@ -111,7 +115,8 @@ class ItemParser {
 
     bool in_root_ = false;
     const RootKey* root_key_ = nullptr; // the latest
-    bool in_collection_ = false;        // inside of its value, which is a list of items or an object of them
+    bool in_collection_ =
+        false; // inside of its value, which is a list of items or an object of them
     std::size_t item_count_ = 0;
     std::string name_; // of the latest item in an object of them
     std::string key_;  // the latest in an item
@@ -141,7 +146,8 @@ bool ItemParser::key(const std::string& key) {
 
 void ItemParser::root_key(std::string_view key) {
     std::vector<std::string_view> names;
-    for (const RootKey& known : keys_) names.push_back(known.name);
+    for (const RootKey& known : keys_)
+        names.push_back(known.name);
     const std::size_t index =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), key) - names.begin());
     if (index == names.size()) fail("", unknown_key(key, names));
@@ -186,18 +192,23 @@ void ItemParser::add(JsonType type, std::string_view text, float number) {
     if (const auto expected = expected_type(); starts && expected && *expected != type)
         item_.root().fail_expecting(name_of(*expected));
     if (item_.depth() > deepest)
-        fail(item_.root().pointer(), "must not be nested more than " + std::to_string(deepest) + " deep");
+        fail(item_.root().pointer(),
+             "must not be nested more than " + std::to_string(deepest) + " deep");
     if (item_.values() > most_values || item_.text_bytes() > most_text)
         fail(item_.root().pointer(), "must not hold more than " + std::to_string(most_values) +
-                                         " values or " + std::to_string(most_text) + " bytes of text");
+                                         " values or " + std::to_string(most_text) +
+                                         " bytes of text");
 }
 
 std::optional<JsonType> ItemParser::expected_type() const {
     if (!in_root_ || in_collection_) return JsonType::object;
     switch (root_key_->holds) {
-    case Holds::item_list: return JsonType::array;
-    case Holds::named_items: return JsonType::object;
-    case Holds::one_item: break;
+    case Holds::item_list:
+        return JsonType::array;
+    case Holds::named_items:
+        return JsonType::object;
+    case Holds::one_item:
+        break;
     }
     return std::nullopt;
 }
@@ -209,7 +220,8 @@ std::string ItemParser::next_pointer() const {
     return pointer + (is_named() ? pointer_token(name_) : '/' + std::to_string(item_count_));
 }
 
-bool ItemParser::parse_error(std::size_t read, const std::string& token, const json::exception& error) {
+bool ItemParser::parse_error(std::size_t read, const std::string& token,
+                             const json::exception& error) {
     static constexpr int out_of_range = 406;
     if (error.id == out_of_range) {
         add(JsonType::number, token, std::numeric_limits<float>::infinity());
@@ -217,7 +229,7 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token, const j
     }
     const JsonText::Token end = text_.end();
     const bool at_end = text_.at_end() && read > end.index;
-    if (at_end && end.index == 0) text_.fail(end, "must be a scene, got an empty file");
+    if (!text_.has_tokens()) text_.fail(end, "must be a scene, got an empty file");
     const JsonText::Token found = at_end ? end : text_.token_at(read - 1);
     const std::string got = at_end                    ? "the end of the file"
                             : found.start.size() == 1 ? "'" + found.start + "'"

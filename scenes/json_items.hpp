@@ -23,12 +23,15 @@ struct RootKey {
     bool required = false;
 };
 
-/// Takes an item; `name` is its key if it is one of named items. The document is used again for the next one.
-using TakeItem = std::function<void(const RootKey& key, std::string_view name, const JsonDocument& item)>;
+/// Takes an item; `name` is its key if it is one of named items. The document is used again for the
+/// next one.
+using TakeItem =
+    std::function<void(const RootKey& key, std::string_view name, const JsonDocument& item)>;
 
-/// Reads a JSON text with comments, whose outermost value is an object, and hands over its items, one by one and
-/// in the order of the file, so that a long list is never held in memory. Throws BadInput for what is not JSON,
-/// for unknown, missing and repeated keys, and for items too deep or too large to belong to a scene.
+/// Reads a JSON text with comments, whose outermost value is an object, and hands over its items,
+/// one by one and in the order of the file, so that a long list is never held in memory. Throws
+/// BadInput for what is not JSON, for unknown, missing and repeated keys, and for items too deep or
+/// too large to belong to a scene.
 void read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take);
 
 } // namespace raylane::scenes

@@ -8,18 +8,21 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr int end_of_file = -1;
 constexpr std::size_t buffer_size = 64 << 10;
 constexpr std::size_t longest_quote = 40; // characters of a token that a message shows
 constexpr std::size_t kept_of_token = 4 * (longest_quote + 1);
 
-bool is_space(int c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_space(int c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
 
 bool is_structural(int c) {
     return c == '{' || c == '}' || c == '[' || c == ']' || c == ':' || c == ',';
 }
 
-bool ends_word(int c) { return c <= 0x20 || is_structural(c) || c == '"' || c == '/'; }
+bool ends_word(int c) {
+    return c <= 0x20 || is_structural(c) || c == '"' || c == '/';
+}
 
 } // namespace
 
@@ -42,7 +45,8 @@ JsonText::Token JsonText::token_at(std::size_t index) {
     while (state_ == State::word && latest().start.size() < kept_of_token && !ends_word(peek()))
         latest().start += static_cast<char>(take());
     const Token* found = &latest();
-    for (std::size_t back = 1; back < tokens_.size() && found->index > index && back < token_count_; ++back)
+    for (std::size_t back = 1; back < tokens_.size() && found->index > index && back < token_count_;
+         ++back)
         found = &tokens_[(token_count_ - back) % tokens_.size()];
     Token token = *found;
     token.start = printable(token.start, longest_quote);
@@ -50,19 +54,16 @@ JsonText::Token JsonText::token_at(std::size_t index) {
 }
 
 void JsonText::fail(const Token& token, std::string_view message) const {
-    throw BadInput(file_.name(),
-                   "line " + std::to_string(token.line) + ", column " + std::to_string(token.column),
-                   message);
+    throw BadInput(
+        file_.name(),
+        "line " + std::to_string(token.line) + ", column " + std::to_string(token.column), message);
 }
 
-int JsonText::peek() {
-    if (used_ == buffer_.size()) {
-        buffer_.resize(buffer_size);
-        buffer_.resize(file_.read(buffer_));
-        used_ = 0;
-        if (buffer_.empty()) return end_of_file;
-    }
-    return static_cast<unsigned char>(buffer_[used_]);
+bool JsonText::fill() {
+    buffer_.resize(buffer_size);
+    buffer_.resize(file_.read(buffer_));
+    used_ = 0;
+    return !buffer_.empty();
 }
 
 int JsonText::take() {
@@ -91,7 +92,8 @@ int JsonText::next() {
     } else if (c == '"') {
         begin_token(State::string, c);
     } else if (c < 0x20) {
-        fail({index_, line_, column_, ""}, "must be JSON, got the byte " + printable(std::string(1, static_cast<char>(c))));
+        fail({index_, line_, column_, ""},
+             "must be JSON, got the byte " + printable(std::string(1, static_cast<char>(c))));
     } else if (state_ == State::between) {
         begin_token(State::word, c);
     } else {
@@ -103,9 +105,10 @@ int JsonText::next() {
 int JsonText::next_of_string() {
     const int c = peek();
     if (c == end_of_file || c == '\n' || c == '\r')
-        fail(token_at(index_), "must be a string that ends on its line, got " + token_at(index_).start);
-    grow_token(c, longest_string + 1, "a string");
+        fail(token_at(index_),
+             "must be a string that ends on its line, got " + token_at(index_).start);
     if (c == '"' && !escaped_) state_ = State::between;
+    grow_token(c, longest_string, "a string");
     escaped_ = c == '\\' && !escaped_;
     return take();
 }
@@ -123,7 +126,8 @@ bool JsonText::skip_blank() {
 void JsonText::skip_comment(const Token& start) {
     const int kind = take();
     if (kind == '/') {
-        while (peek() != end_of_file && peek() != '\n') take();
+        while (peek() != end_of_file && peek() != '\n')
+            take();
     } else if (kind == '*') {
         int before = 0;
         for (int c = take(); !(before == '*' && c == '/'); c = take()) {
@@ -138,7 +142,7 @@ void JsonText::skip_comment(const Token& start) {
 void JsonText::begin_token(State state, int first) {
     state_ = state;
     ++token_count_;
-    token_length_ = 0;
+    token_length_ = 1;
     latest() = {index_, line_, column_, std::string(1, static_cast<char>(first))};
 }
 

@@ -11,32 +11,36 @@
 
 namespace raylane::scenes {
 
-/// The characters of a JSON text as its parser gets to see them: each comment and each run of white space as one
-/// space. Remembers where the latest tokens began, for messages.
+/// The characters of a JSON text as its parser gets to see them: each comment and each run of white
+/// space as one space. Remembers where the latest tokens began, for messages.
 ///
-/// The parser collects what it reads until it knows what it has, and quotes all of it in its errors. So what
-/// can be long without meaning anything stays here, and what means something has a longest length: a file of
-/// any size costs no more memory than what it says.
+/// The parser collects what it reads until it knows what it has, and quotes all of it in its
+/// errors. So what can be long without meaning anything stays here, and what means something has a
+/// longest length: a file of any size costs no more memory than what it says.
 class JsonText {
   public:
-    static constexpr std::size_t longest_string = 1 << 16; ///< bytes between the quotes
+    static constexpr std::size_t longest_string = 1 << 16; ///< bytes, with its quotes
     static constexpr std::size_t longest_word = 1 << 10;   ///< bytes of a number or a literal
 
     struct Token {
         std::size_t index = 0; ///< of its first character, among those that the parser gets
         std::size_t line = 1;
         std::size_t column = 1; ///< in characters, not bytes
-        std::string start;      ///< as much of its text as a message may show; empty at the end of the file
+        std::string
+            start; ///< as much of its text as a message may show; empty at the end of the file
     };
 
     explicit JsonText(InputFile& file);
 
+    /// Whether anything but white space and comments has come so far.
+    bool has_tokens() const { return token_count_ > 0; }
     bool at_end() const { return current_ < 0; }
     char current() const { return static_cast<char>(current_); }
     /// Throws BadInput where no JSON text can go on.
     void advance();
 
-    /// The token that contains the character with this index: one of the latest three that advance() reached.
+    /// The token that contains the character with this index: one of the latest three that
+    /// advance() reached.
     Token token_at(std::size_t index);
     /// Where the file ends, once it does.
     Token end() const { return {index_, line_, column_, ""}; }
@@ -46,7 +50,13 @@ class JsonText {
   private:
     enum class State { between, word, string };
 
-    int peek();
+    static constexpr int end_of_file = -1;
+
+    bool fill();
+    int peek() {
+        if (used_ == buffer_.size() && !fill()) return end_of_file;
+        return static_cast<unsigned char>(buffer_[used_]);
+    }
     int take();
     int next();
     int next_of_string();
@@ -66,7 +76,8 @@ class JsonText {
     bool escaped_ = false; // in a string, behind a backslash
     int current_ = 0;
     std::size_t index_ = 0; // of current_
-    // The parser asks for a token with at most one character read ahead, and this class is one further.
+    // The parser asks for a token with at most one character read ahead, and this class is one
+    // further.
     std::array<Token, 3> tokens_;
     std::size_t token_count_ = 0;
     std::size_t token_length_ = 0;

@@ -1,7 +1,5 @@
 #include "scenes/json_value.hpp"
 
-#include "scenes/errors.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -17,7 +15,9 @@ float linear_of_srgb(int code) {
     return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
-std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }
+std::string in_quotes(std::string_view text) {
+    return '"' + printable(text) + '"';
+}
 
 /// `"a", "b" or "c"`
 std::string alternatives(const std::vector<std::string_view>& names) {
@@ -33,12 +33,18 @@ std::string alternatives(const std::vector<std::string_view>& names) {
 
 std::string_view name_of(JsonType type) {
     switch (type) {
-    case JsonType::null: return "null";
-    case JsonType::boolean: return "true or false";
-    case JsonType::number: return "a number";
-    case JsonType::string: return "a string";
-    case JsonType::array: return "an array";
-    case JsonType::object: break;
+    case JsonType::null:
+        return "null";
+    case JsonType::boolean:
+        return "true or false";
+    case JsonType::number:
+        return "a number";
+    case JsonType::string:
+        return "a string";
+    case JsonType::array:
+        return "an array";
+    case JsonType::object:
+        break;
     }
     return "an object";
 }
@@ -46,16 +52,20 @@ std::string_view name_of(JsonType type) {
 std::string pointer_token(std::string_view key) {
     std::string token = "/";
     for (const char c : printable(key)) {
-        if (c == '~') token += "~0";
-        else if (c == '/') token += "~1";
-        else token += c;
+        if (c == '~')
+            token += "~0";
+        else if (c == '/')
+            token += "~1";
+        else
+            token += c;
     }
     return token;
 }
 
 std::string unknown_key(std::string_view key, const std::vector<std::string_view>& known) {
     const std::string near = suggestion(key, known);
-    return "unknown key " + in_quotes(key) + (near.empty() ? ", must be " + alternatives(known) : near);
+    return "unknown key " + in_quotes(key) +
+           (near.empty() ? ", must be " + alternatives(known) : near);
 }
 
 void JsonDocument::begin(std::string_view file, std::string pointer) {
@@ -70,8 +80,10 @@ void JsonDocument::add(JsonType type, std::string_view key, std::string_view tex
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     const std::uint32_t parent = open_.empty() ? 0 : open_.back();
     const bool named = !open_.empty() && nodes_[parent].type == JsonType::object;
-    nodes_.push_back({type, parent, index + 1, keep(named ? key : ""), keep(text), number});
-    if (type == JsonType::array || type == JsonType::object) open_.push_back(index);
+    const bool opens = type == JsonType::array || type == JsonType::object;
+    nodes_.push_back(
+        {type, parent, opens ? 0 : index + 1, keep(named ? key : ""), keep(text), number});
+    if (opens) open_.push_back(index);
 }
 
 void JsonDocument::close() {
@@ -80,20 +92,25 @@ void JsonDocument::close() {
 }
 
 JsonDocument::Text JsonDocument::keep(std::string_view text) {
-    const Text kept{static_cast<std::uint32_t>(text_.size()), static_cast<std::uint32_t>(text.size())};
+    const Text kept{static_cast<std::uint32_t>(text_.size()),
+                    static_cast<std::uint32_t>(text.size())};
     text_.append(text);
     return kept;
 }
 
-JsonValue JsonDocument::root() const { return {*this, 0}; }
-JsonValue JsonDocument::innermost() const { return {*this, open_.back()}; }
+JsonValue JsonDocument::root() const {
+    return {*this, 0};
+}
+JsonValue JsonDocument::innermost() const {
+    return {*this, open_.back()};
+}
 JsonValue JsonDocument::latest() const {
     return {*this, static_cast<std::uint32_t>(nodes_.size() - 1)};
 }
 
 std::vector<JsonValue> JsonValue::children() const {
     std::vector<JsonValue> values;
-    for (std::uint32_t i = node_ + 1; i < node().end; i = document_->nodes_[i].end)
+    for (std::uint32_t i = node_ + 1; i < document_->end_of(node_); i = document_->end_of(i))
         values.emplace_back(*document_, i);
     return values;
 }
@@ -103,24 +120,33 @@ std::string JsonValue::pointer() const {
     const JsonValue parent(*document_, node().parent);
     if (parent.type() == JsonType::object) return parent.pointer() + pointer_token(key());
     std::size_t index = 0;
-    for (std::uint32_t i = node().parent + 1; i < node_; i = document_->nodes_[i].end) ++index;
+    for (std::uint32_t i = node().parent + 1; i < node_; i = document_->end_of(i))
+        ++index;
     return parent.pointer() + '/' + std::to_string(index);
 }
 
 std::string JsonValue::quoted() const {
     const std::string_view text = document_->get(node().text);
     switch (type()) {
-    case JsonType::null: return "null";
-    case JsonType::boolean: return boolean() ? "true" : "false";
-    case JsonType::number: return printable(text);
-    case JsonType::string: return in_quotes(text);
-    case JsonType::array: return "an array";
-    case JsonType::object: break;
+    case JsonType::null:
+        return "null";
+    case JsonType::boolean:
+        return boolean() ? "true" : "false";
+    case JsonType::number:
+        return printable(text);
+    case JsonType::string:
+        return in_quotes(text);
+    case JsonType::array:
+        return "an array";
+    case JsonType::object:
+        break;
     }
     return "an object";
 }
 
-void JsonValue::fail(std::string_view message) const { throw BadInput(file(), pointer(), message); }
+void JsonValue::fail(std::string_view message) const {
+    throw BadInput(file(), pointer(), message);
+}
 
 void JsonValue::fail_expecting(std::string_view expected) const {
     fail("must be " + std::string(expected) + ", got " + quoted());
@@ -144,7 +170,7 @@ void JsonValue::allow_only(std::initializer_list<std::string_view> keys) const {
 
 std::optional<JsonValue> JsonValue::find(std::string_view wanted) const {
     require(JsonType::object);
-    for (std::uint32_t i = node_ + 1; i < node().end; i = document_->nodes_[i].end)
+    for (std::uint32_t i = node_ + 1; i < document_->end_of(node_); i = document_->end_of(i))
         if (document_->get(document_->nodes_[i].key) == wanted) return JsonValue(*document_, i);
     return std::nullopt;
 }
@@ -155,11 +181,18 @@ JsonValue JsonValue::at(std::string_view wanted) const {
     return *value;
 }
 
+void JsonValue::exclude(std::string_view one, std::string_view other) const {
+    if (find(one) && find(other))
+        fail("must not have both " + in_quotes(one) + " and " + in_quotes(other));
+}
+
 std::vector<JsonValue> JsonValue::array(std::size_t count, std::string_view elements) const {
-    const std::string expected = "an array of " + std::to_string(count) + ' ' + std::string(elements);
+    const std::string expected =
+        "an array of " + std::to_string(count) + ' ' + std::string(elements);
     if (type() != JsonType::array) fail_expecting(expected);
     std::vector<JsonValue> values = children();
-    if (values.size() != count) fail("must be " + expected + ", got " + std::to_string(values.size()));
+    if (values.size() != count)
+        fail("must be " + expected + ", got " + std::to_string(values.size()));
     return values;
 }
 
@@ -175,7 +208,8 @@ int JsonValue::integer() const {
     if (type() == JsonType::number) std::from_chars(text.data(), text.data() + text.size(), value);
     if (std::trunc(value) != value) fail_expecting("a whole number");
     if (std::abs(value) > std::numeric_limits<int>::max())
-        fail_expecting("a whole number of at most " + std::to_string(std::numeric_limits<int>::max()));
+        fail_expecting("a whole number of at most " +
+                       std::to_string(std::numeric_limits<int>::max()));
     return static_cast<int>(value);
 }
 
@@ -202,7 +236,8 @@ core::Color JsonValue::color() const {
     if (text.size() != 7 || text[0] != '#' ||
         std::from_chars(text.data() + 1, end, code, 16).ptr != end)
         fail_expecting("[red, green, blue] or \"#rrggbb\"");
-    return {linear_of_srgb(code >> 16 & 0xFF), linear_of_srgb(code >> 8 & 0xFF), linear_of_srgb(code & 0xFF)};
+    return {linear_of_srgb(code >> 16 & 0xFF), linear_of_srgb(code >> 8 & 0xFF),
+            linear_of_srgb(code & 0xFF)};
 }
 
 } // namespace raylane::scenes

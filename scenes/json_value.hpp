@@ -1,6 +1,8 @@
 #pragma once
 
+#include "core/invalid_value.hpp"
 #include "core/material.hpp"
+#include "scenes/errors.hpp"
 
 #include <cstdint>
 #include <initializer_list>
@@ -19,15 +21,17 @@ std::string_view name_of(JsonType type);
 
 class JsonValue;
 
-/// One value of a file with all that is in it, in the order of the file. Its nodes lie in one vector, and their
-/// texts in one string: a scene may have to hold millions of these.
+/// One value of a file with all that is in it, in the order of the file. Its nodes lie in one
+/// vector, and their texts in one string: a scene may have to hold millions of these.
 class JsonDocument {
   public:
-    /// Empties it for a value at `pointer` (a JSON pointer, printable) in `file`, which must outlive it.
+    /// Empties it for a value at `pointer` (a JSON pointer, printable) in `file`, which must
+    /// outlive it.
     void begin(std::string_view file, std::string pointer);
 
-    /// Adds a value behind the others in the innermost open array or object. `key` counts in an object alone.
-    /// `text`: a string's content, or as what a message quotes a number. `number` may be infinite.
+    /// Adds a value behind the others in the innermost open array or object. `key` counts in an
+    /// object alone. `text`: a string's content, or as what a message quotes a number. `number` may
+    /// be infinite.
     void add(JsonType type, std::string_view key, std::string_view text = {}, float number = 0.0F);
     /// Closes the array or object that was added last and is still open.
     void close();
@@ -52,12 +56,15 @@ class JsonDocument {
     struct Node {
         JsonType type;
         std::uint32_t parent;
-        std::uint32_t end; // one past the last node inside: where the next sibling is
+        std::uint32_t end; // one past the last node inside: where the next sibling is; 0 while open
         Text key, text;
         float number;
     };
 
     Text keep(std::string_view text);
+    std::uint32_t end_of(std::uint32_t node) const {
+        return nodes_[node].end != 0 ? nodes_[node].end : static_cast<std::uint32_t>(nodes_.size());
+    }
     std::string_view get(Text text) const {
         return std::string_view(text_).substr(text.first, text.size);
     }
@@ -69,11 +76,12 @@ class JsonDocument {
     std::string text_;
 };
 
-/// A value inside a document, which must outlive it. What is asked of it and is not so throws BadInput with the
-/// file and the value's JSON pointer.
+/// A value inside a document, which must outlive it. What is asked of it and is not so throws
+/// BadInput with the file and the value's JSON pointer.
 class JsonValue {
   public:
-    JsonValue(const JsonDocument& document, std::uint32_t node) : document_(&document), node_(node) {}
+    JsonValue(const JsonDocument& document, std::uint32_t node)
+        : document_(&document), node_(node) {}
 
     JsonType type() const { return node().type; }
     std::string_view key() const { return document_->get(node().key); }
@@ -91,7 +99,11 @@ class JsonValue {
     std::optional<JsonValue> find(std::string_view key) const;
     JsonValue at(std::string_view key) const;
 
-    /// For arrays: the elements, of which there must be `count`; `elements` is what they should be ("numbers").
+    /// Refuses both at once.
+    void exclude(std::string_view key, std::string_view other) const;
+
+    /// For arrays: the elements, of which there must be `count`; `elements` is what they should be
+    /// ("numbers").
     std::vector<JsonValue> array(std::size_t count, std::string_view elements) const;
 
     float number() const;
@@ -127,6 +139,18 @@ class JsonValue {
     const JsonDocument* document_;
     std::uint32_t node_;
 };
+
+/// Runs `action`, and gives what core::InvalidValue it throws the place of `value`.
+template <class Action>
+auto checked(const JsonValue& value, Action action) {
+    try {
+        return action();
+    } catch (const core::InvalidValue& invalid) {
+        throw BadInput(value.file(),
+                       value.pointer() + (invalid.field.empty() ? "" : "/") + invalid.field,
+                       invalid.expectation);
+    }
+}
 
 /// A reference token of a JSON pointer (RFC 6901), with its slash, fit for a message.
 std::string pointer_token(std::string_view key);

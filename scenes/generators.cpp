@@ -1,0 +1,164 @@
+#include "scenes/generators.hpp"
+
+#include "core/validate.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+
+namespace raylane::scenes {
+
+namespace {
+
+using core::InvalidValue;
+using core::Vec3d;
+using core::Vec3f;
+using Vec3i = core::Vec3<int>;
+
+void require_count(const char* field, int value, int least, int most) {
+    if (value < least || value > most)
+        throw InvalidValue(field, "must be from " + std::to_string(least) + " to " +
+                                      std::to_string(most) + ", got " + std::to_string(value));
+}
+
+void require_positive(const char* field, float value) {
+    if (value > 0.0F) return;
+    char text[32];
+    throw InvalidValue(field,
+                       "must be positive, got " +
+                           std::string(text, std::to_chars(text, text + sizeof text, value).ptr));
+}
+
+/// Makes room for exactly as many, but not for a few where there are many: a long row of small
+/// generators would copy everything each time.
+template <class Shape>
+void reserve(core::SceneBuilder& builder, std::size_t count) {
+    if (count >= builder.shape_count() / 2) builder.reserve<Shape>(count);
+}
+
+/// The centres of nine spheres around one, as unit vectors in a frame whose z axis is the tip. They
+/// are the nine upper ones of the twelve that touch a sphere in the cubic close packing: the six of
+/// its own layer lie 60 degrees apart around the waist, and the three of the next layer in every
+/// other gap between those, at cos(polar angle) = sqrt(2/3). The databases begin at 45 degrees from
+/// the x axis.
+std::array<Vec3d, 9> nine_directions() {
+    static constexpr double degree = std::numbers::pi / 180.0;
+    std::array<Vec3d, 9> directions;
+    for (int i = 0; i < 3; ++i) {
+        const double azimuth = (45.0 + 120.0 * i) * degree;
+        directions[i] = {std::cos(azimuth) / std::sqrt(3.0), std::sin(azimuth) / std::sqrt(3.0),
+                         std::sqrt(2.0 / 3.0)};
+    }
+    for (int i = 0; i < 6; ++i) {
+        const double azimuth = (15.0 + 60.0 * i) * degree;
+        directions[3 + i] = {std::cos(azimuth), std::sin(azimuth), 0.0};
+    }
+    return directions;
+}
+
+/// Columns of a rotation.
+struct Frame {
+    Vec3d x, y, z;
+
+    Vec3d operator*(const Vec3d& v) const { return v.x * x + v.y * y + v.z * z; }
+};
+
+/// The smallest rotation that takes the z axis to the unit vector `z`; for the opposite, where
+/// every half turn is the smallest, the one about the y axis.
+Frame frame_along(const Vec3d& z) {
+    const double sin_squared = z.x * z.x + z.y * z.y;
+    // Directions straight down come with rounding errors, from which no axis can be told.
+    if (z.z < 0.0 && sin_squared < 1e-20)
+        return {{-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, -1.0}};
+    // 1 + cos, without cancellation
+    const double k = z.z >= 0.0 ? 1.0 + z.z : sin_squared / (1.0 - z.z);
+    const double xy = -z.x * z.y / k;
+    return {{1.0 - z.x * z.x / k, xy, -z.x}, {xy, 1.0 - z.y * z.y / k, -z.y}, z};
+}
+
+class FlakeBuilder {
+  public:
+    FlakeBuilder(core::SceneBuilder& builder, const Sphereflake& flake,
+                 core::MaterialIndex material)
+        : builder_(builder), material_(material),
+          world_(frame_along(core::normalized(core::convert<double>(flake.up)))) {}
+
+    /// `tip` is a unit vector in the flake's own frame, whose z axis is its "up".
+    void grow(const Vec3d& center, double radius, const Vec3d& tip, int depth) {
+        builder_.add(core::Sphere{core::convert<float>(center), static_cast<float>(radius)},
+                     material_);
+        if (depth == 0) return;
+        const Frame frame = frame_along(tip);
+        const double child_radius = radius / 3.0;
+        for (const Vec3d& direction : directions_) {
+            const Vec3d child_tip = frame * direction;
+            grow(center + (radius + child_radius) * (world_ * child_tip), child_radius, child_tip,
+                 depth - 1);
+        }
+    }
+
+  private:
+    core::SceneBuilder& builder_;
+    core::MaterialIndex material_;
+    Frame world_;
+    std::array<Vec3d, 9> directions_ = nine_directions();
+};
+
+} // namespace
+
+void add(core::SceneBuilder& builder, const Sphereflake& flake, core::MaterialIndex material) {
+    require_count("depth", flake.depth, 0, Sphereflake::most_depth);
+    if (flake.up == Vec3f(0.0F))
+        throw InvalidValue("up", "must not be the zero vector, got [0, 0, 0]");
+    std::size_t count = 0;
+    for (int level = 0; level <= flake.depth; ++level)
+        count = 9 * count + 1;
+    reserve<core::Sphere>(builder, count);
+    FlakeBuilder(builder, flake, material)
+        .grow(core::convert<double>(flake.center), static_cast<double>(flake.radius),
+              {0.0, 0.0, 1.0}, flake.depth);
+}
+
+void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialIndex material,
+         core::MaterialIndex strut_material) {
+    const int n = lattice.n;
+    require_count("n", n, 1, Lattice::most_nodes);
+    require_positive("spacing", lattice.spacing);
+    require_positive("sphere_radius", lattice.sphere_radius);
+    require_positive("strut_radius", lattice.strut_radius);
+    const auto node = [&](int x, int y, int z) {
+        return core::convert<float>(lattice.corner +
+                                    static_cast<double>(lattice.spacing) * Vec3d(x, y, z));
+    };
+    for (const Vec3f& corner : {node(0, 0, 0), node(n - 1, n - 1, n - 1)})
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(std::abs(corner[axis]) <= core::coordinate_limit))
+                throw InvalidValue("", "must have all nodes between -1e30 and 1e30");
+
+    const auto for_each_node = [&](const Vec3i& end, const auto& visit) {
+        for (int z = 0; z < end.z; ++z)
+            for (int y = 0; y < end.y; ++y)
+                for (int x = 0; x < end.x; ++x)
+                    visit(node(x, y, z));
+    };
+    const std::size_t count = static_cast<std::size_t>(n);
+    reserve<core::Sphere>(builder, count * count * count);
+    for_each_node(Vec3i(n), [&](const Vec3f& center) {
+        builder.add(core::Sphere{center, lattice.sphere_radius}, material);
+    });
+    reserve<core::OpenCylinder>(builder, 3 * count * count * (count - 1));
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3i end(n);
+        end[axis] = n - 1;
+        Vec3f strut(0.0F);
+        strut[axis] = lattice.spacing;
+        for_each_node(end, [&](const Vec3f& base) {
+            builder.add(core::OpenCylinder{base, strut, lattice.strut_radius}, strut_material);
+        });
+    }
+}
+
+} // namespace raylane::scenes

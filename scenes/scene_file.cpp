@@ -1,0 +1,38 @@
+#include "scenes/scene_file.hpp"
+
+#include "scenes/input_file.hpp"
+#include "scenes/json_reader.hpp"
+#include "scenes/nff_reader.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// JSON begins with '{' or a comment, and no line of NFF does with either.
+bool looks_like_json(std::string_view head) {
+    static constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
+    const std::size_t first = head.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && (head[first] == '{' || head[first] == '/');
+}
+
+bool is_json(const std::filesystem::path& path, InputFile& file) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    if (ending == ".json") return true;
+    return ending != ".nff" && looks_like_json(file.head());
+}
+
+} // namespace
+
+core::Scene load_scene(const std::filesystem::path& path) {
+    InputFile file(path);
+    return is_json(path, file) ? read_json(file) : read_nff(file);
+}
+
+} // namespace raylane::scenes
