@@ -34,13 +34,20 @@ float nearest_float(std::string_view text, double rounded) {
     return std::copysign(limit, static_cast<float>(rounded));
 }
 
+// How the parser words its errors: "... - REASON; last read: '...'" where it could not even make a
+// token of what it read, and "; expected ..." behind that.
+constexpr std::string_view before_reason = " - ", behind_reason = "; last read: ";
+
+bool is_within_token(std::string_view error) {
+    return error.find(behind_reason) != std::string_view::npos;
+}
+
 /// "must be ..." for what the parser says is wrong inside of a token or, failing that, what it
 /// expected there.
 std::string expectation_in(std::string_view error) {
-    static constexpr std::string_view before = " - ", behind = "; last read: ";
-    const std::size_t first = error.find(before), last = error.find(behind);
-    if (first < last && last != std::string_view::npos) {
-        const auto reason = error.substr(first + before.size(), last - first - before.size());
+    if (is_within_token(error) && error.find(before_reason) < error.find(behind_reason)) {
+        const std::size_t first = error.find(before_reason) + before_reason.size();
+        const std::string_view reason = error.substr(first, error.find(behind_reason) - first);
         if (reason != "invalid literal") return "must be JSON (" + printable(reason, 100) + ")";
     }
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> phrases = {{
@@ -227,14 +234,19 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
         add(JsonType::number, token, std::numeric_limits<float>::infinity());
         static_cast<void>(item_.latest().number()); // throws
     }
-    const JsonText::Token end = text_.end();
-    const bool at_end = text_.at_end() && read > end.index;
-    if (!text_.has_tokens()) text_.fail(end, "must be a scene, got an empty file");
-    const JsonText::Token found = at_end ? end : text_.token_at(read - 1);
-    const std::string got = at_end                    ? "the end of the file"
-                            : found.start.size() == 1 ? "'" + found.start + "'"
-                                                      : found.start;
-    text_.fail(found, expectation_in(error.what()) + ", got " + got);
+    if (!text_.has_tokens()) text_.fail(text_.end(), "must be a scene, got an empty file");
+    const std::string expectation = expectation_in(error.what());
+    if (text_.at_end() && read > text_.end().index)
+        text_.fail(text_.end(), expectation + ", got the end of the file");
+    JsonText::Token found = text_.token_at(read - 1);
+    const auto is_structural = [&] {
+        return std::string_view("{}[]:,").find(found.start) != std::string_view::npos;
+    };
+    // What cuts a number or a literal short is well in itself.
+    if (is_structural() && is_within_token(error.what()) && read > 1)
+        found = text_.token_at(read - 2);
+    text_.fail(found,
+               expectation + ", got " + (is_structural() ? "'" + found.start + "'" : found.start));
 }
 
 } // namespace

@@ -17,6 +17,15 @@ namespace raylane::scenes {
 
 namespace {
 
+/// What the file calls a field of core::Material: to core a plain colour is a pattern, too.
+std::string key_of_material_field(const std::string& field, core::PatternKind pattern) {
+    static constexpr std::string_view first_color = "pattern/colors/0";
+    if (pattern == core::PatternKind::solid && field.starts_with(first_color))
+        return "color" + field.substr(first_color.size());
+    if (pattern == core::PatternKind::stripes && field == "pattern/size") return "pattern/width";
+    return field;
+}
+
 /// Collects a scene from the items of its file.
 class SceneReader {
   public:
@@ -81,10 +90,7 @@ core::MaterialIndex SceneReader::add_material(const JsonValue& value) {
         try {
             return builder_.add_material(material);
         } catch (const core::InvalidValue& invalid) {
-            // A plain colour is a pattern of its own to core, but not in the file.
-            static constexpr std::string_view plain = "pattern/colors/0";
-            if (!value.find("color") || !invalid.field.starts_with(plain)) throw;
-            throw core::InvalidValue("color" + invalid.field.substr(plain.size()),
+            throw core::InvalidValue(key_of_material_field(invalid.field, material.pattern.kind),
                                      invalid.expectation);
         }
     });

@@ -1,9 +1,10 @@
 #pragma once
 
+#include "scenes/errors.hpp"
 #include "scenes/json_reader.hpp"
 #include "tests/scenes/temporary_file.hpp"
 
-#include <exception>
+#include <stdexcept>
 #include <string>
 
 /// The scene that this text is.
@@ -37,4 +38,13 @@ inline std::string with_objects(const std::string& objects) {
                "materials": {"clay": {}, "glass": {"transmission": 1}},
                "objects": [)" +
            objects + "]}";
+}
+
+/// The shape with this id.
+template <class Shape>
+Shape shape(const raylane::core::Scene& scene, raylane::core::ShapeId id) {
+    for (const auto& block : std::get<raylane::core::Table<Shape>>(scene.shapes()).blocks())
+        for (int lane = 0; lane < raylane::core::block_size; ++lane)
+            if (block.ids[lane] == id) return block.get(lane);
+    throw std::out_of_range("no such shape of this kind");
 }

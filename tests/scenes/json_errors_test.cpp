@@ -1,0 +1,300 @@
+#include "tests/catch.hpp"
+#include "tests/scenes/json_scenes.hpp"
+
+#include <filesystem>
+#include <vector>
+
+using namespace raylane;
+
+namespace {
+
+struct Case {
+    std::string text;
+    std::string complaint;
+};
+
+void check(const std::vector<Case>& cases) {
+    for (const Case& c : cases) {
+        INFO(c.text);
+        CHECK(complaint_about_text(c.text) == c.complaint);
+    }
+}
+
+const std::string camera = R"("camera": {"from": [0, 0, 50], "at": [0, 0, 0]})";
+
+/// A scene of nothing, with another key.
+std::string with(const std::string& member) {
+    return "{" + camera + R"(, "objects": [], )" + member + "}";
+}
+
+std::string with_camera(const std::string& keys) {
+    return R"({"objects": [], "camera": {)" + keys + "}}";
+}
+
+/// A clay object of this type at /objects/1.
+std::string object(const std::string& type, const std::string& keys) {
+    return with_objects(R"({"type": "sphere", "material": "clay", "center": [9, 9, 9], "radius": 1},
+        {"type": ")" + type +
+                        R"(", "material": "clay")" + (keys.empty() ? "" : ", ") + keys + "}");
+}
+
+std::string material(const std::string& keys) {
+    return with(R"("materials": {"a/b~": {)" + keys + "}}");
+}
+
+std::string pattern(const std::string& keys) {
+    return material(R"("pattern": {)" + keys + "}");
+}
+
+} // namespace
+
+TEST_CASE("complaints about the file") {
+    const TemporaryFile file("");
+    std::filesystem::path gone = file.path();
+    gone += ".gone";
+    CHECK(complaint_about(gone) == "no such file");
+    CHECK(complaint_about(std::filesystem::temp_directory_path()) ==
+          "must be a file, got a directory");
+}
+
+TEST_CASE("complaints about keys") {
+    check({
+        {"{}", R"(must have the key "camera")"},
+        {"{" + camera + "}", R"(must have the key "objects")"},
+        {with(R"("light": [])"), R"(unknown key "light", did you mean "lights"?)"},
+        {with(R"("zzzzzzzz": [])"),
+         R"(unknown key "zzzzzzzz", must be "$schema", "image", "sampling", "limits", "camera", "background", "fog", "lights", "materials" or "objects")"},
+        {with(R"("objects": [])"), "/objects: must be given only once"},
+        {with(R"("image": {"width": 1, "width": 2})"), "/image/width: must be given only once"},
+        {with(R"("materials": {"a": {}, "a": {}})"), "/materials/a: must be given only once"},
+        {object("sphere", R"("center": [0, 0, 0], "raduis": 1)"),
+         R"(/objects/1: unknown key "raduis", did you mean "radius"?)"},
+        {object("sphere", R"("center": [0, 0, 0], "normal": 1)"),
+         R"(/objects/1: unknown key "normal", must be "type", "material", "center" or "radius")"},
+        {object("sphere", R"("center": [0, 0, 0])"), R"(/objects/1: must have the key "radius")"},
+        {with_objects(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1})"),
+         R"(/objects/0: must have the key "material")"},
+        {with_objects(R"({"material": "clay"})"), R"(/objects/0: must have the key "type")"},
+        {with_camera(R"("from": [0, 0, 1])"), R"(/camera: must have the key "at")"},
+        {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "height": 1)"),
+         R"(/camera: unknown key "height", must be "type", "from", "at", "up" or "field_of_view")"},
+        {with_camera(R"("type": "orthographic", "from": [0, 0, 1], "at": [0, 0, 0])"),
+         R"(/camera: must have the key "height")"},
+        {with(R"("fog": {"type": "linear", "start": 0})"), R"(/fog: must have the key "end")"},
+        {with(R"("fog": {"type": "linear", "start": 0, "end": 1, "density": 1})"),
+         R"(/fog: unknown key "density", must be "type", "color", "start" or "end")"},
+        {with(R"("lights": [{"type": "point"}])"), R"(/lights/0: must have the key "position")"},
+        {material(R"("colour": [1, 1, 1])"),
+         R"(/materials/a~1b~0: unknown key "colour", did you mean "color"?)"},
+        {material(R"("color": [1, 1, 1], "pattern": {"type": "back-plane"})"),
+         R"(/materials/a~1b~0: must not have both "color" and "pattern")"},
+        {material(R"("reflectivity": 1, "reflection": "schlick")"),
+         R"(/materials/a~1b~0: must not have both "reflectivity" and "reflection")"},
+        {with(R"("camera\u0000\n": 1)"), R"(unknown key "camera\x00\x0A", did you mean "camera"?)"},
+    });
+}
+
+TEST_CASE("complaints about types") {
+    check({
+        {"[]", "must be an object, got an array"},
+        {"\"scene\"", "must be an object, got \"scene\""},
+        {with(R"("lights": {})"), "/lights: must be an array, got an object"},
+        {with(R"("lights": [3])"), "/lights/0: must be an object, got 3"},
+        {with(R"("materials": [])"), "/materials: must be an object, got an array"},
+        {with(R"("materials": {"a": "red"})"), "/materials/a: must be an object, got \"red\""},
+        {with(R"("fog": null)"), "/fog: must be an object, got null"},
+        {with(R"("$schema": 1)"), "/$schema: must be a string, got 1"},
+        {object("sphere", R"("center": [0, 0, 0], "radius": "1")"),
+         "/objects/1/radius: must be a number, got \"1\""},
+        {object("sphere", R"("center": [0, 0], "radius": 1)"),
+         "/objects/1/center: must be an array of 3 numbers, got 2"},
+        {object("sphere", R"("center": 0, "radius": 1)"),
+         "/objects/1/center: must be an array of 3 numbers, got 0"},
+        {object("sphere", R"("center": [0, 0, true], "radius": 1)"),
+         "/objects/1/center/2: must be a number, got true"},
+        {object("cylinder", R"("base": [0, 0, 0], "axis": [0, 0, 1], "radius": 1, "capped": 1)"),
+         "/objects/1/capped: must be true or false, got 1"},
+        {with_objects(R"({"type": 1, "material": "clay"})"),
+         "/objects/0/type: must be a string, got 1"},
+        {with_objects(R"({"type": "sphere", "material": 1, "center": [0, 0, 0], "radius": 1})"),
+         "/objects/0/material: must be the name of a material, or a material, got 1"},
+        {with(R"("image": {"width": 4.5})"), "/image/width: must be a whole number, got 4.5"},
+        {with(R"("image": {"width": "4"})"), "/image/width: must be a whole number, got \"4\""},
+        {with(R"("image": {"width": 1e12})"),
+         "/image/width: must be a whole number of at most 2147483647, got 1e12"},
+        {with(R"("background": "red")"),
+         R"(/background: must be [red, green, blue] or "#rrggbb", got "red")"},
+        {with(R"("background": "#12345g")"),
+         R"(/background: must be [red, green, blue] or "#rrggbb", got "#12345g")"},
+        {with(R"("background": "#1234567")"),
+         R"(/background: must be [red, green, blue] or "#rrggbb", got "#1234567")"},
+        {with(R"("background": 1)"),
+         R"(/background: must be [red, green, blue] or "#rrggbb", got 1)"},
+    });
+}
+
+TEST_CASE("complaints about words") {
+    check({
+        {object("spher", ""),
+         R"(/objects/1/type: must be "sphere", "plane", "disc", "triangle", "box", "cylinder", "cone", "quadric", "sphereflake" or "lattice", got "spher", did you mean "sphere"?)"},
+        {with_objects(
+             R"({"type": "sphere", "material": "caly", "center": [0, 0, 0], "radius": 1})"),
+         R"(/objects/0/material: must be the name of a material, got "caly", did you mean "clay"?)"},
+        {with_objects(
+             R"({"type": "sphere", "material": "obsidian", "center": [0, 0, 0], "radius": 1})"),
+         R"(/objects/0/material: must be the name of a material, got "obsidian")"},
+        {"{" + camera +
+             R"(, "objects": [{"type": "sphere", "material": "clay", "center": [0, 0, 0], "radius": 1}]})",
+         R"(/objects/0/material: must be the name of a material, got "clay")"},
+        {with(R"("image": {"transfer": "sRGB"})"),
+         R"(/image/transfer: must be "srgb" or "linear", got "sRGB")"},
+        {with(R"("sampling": {"pattern": "random"})"),
+         R"(/sampling/pattern: must be "regular" or "stratified", got "random")"},
+        {with_camera(R"("type": "fisheye")"),
+         R"(/camera/type: must be "perspective" or "orthographic", got "fisheye")"},
+        {with(R"("fog": {"type": "liner"})"),
+         R"(/fog/type: must be "linear-z", "linear" or "exponential", got "liner", did you mean "linear"?)"},
+        {with(R"("lights": [{"type": "sun"}])"),
+         R"(/lights/0/type: must be "point" or "directional", got "sun")"},
+        {pattern(R"("type": "chekcer")"),
+         R"(/materials/a~1b~0/pattern/type: must be "checker", "stripes", "gradient" or "back-plane", got "chekcer", did you mean "checker"?)"},
+        {pattern(R"("type": "checker", "colors": ["#000000", "#ffffff"], "size": 1, "axes": "zx")"),
+         R"(/materials/a~1b~0/pattern/axes: must be "x", "y", "z", "xy", "xz", "yz" or "xyz", got "zx", did you mean "x"?)"},
+        {material(R"("reflection": "constant")"),
+         R"(/materials/a~1b~0/reflection: must be "schlick" or "dielectric", got "constant")"},
+        {material(R"("visible": "none")"),
+         R"(/materials/a~1b~0/visible: must be "both", "outside" or "inside", got "none")"},
+    });
+}
+
+TEST_CASE("complaints about numbers") {
+    check({
+        {object("sphere", R"("center": [0, 0, 0], "radius": 1e39)"),
+         "/objects/1/radius: must be a number that fits a float (at most 3.4e38), got 1e39"},
+        {object("sphere", R"("center": [0, -1e999, 0], "radius": 1)"),
+         "/objects/1/center/1: must be a number that fits a float (at most 3.4e38), got -1e999"},
+        {object("sphere", R"("center": [0, 2e30, 0], "radius": 1)"),
+         "/objects/1/center/1: must be a number from -1e30 to 1e30, got 2e+30"},
+        {object("sphere", R"("center": [0, 0, 0], "radius": 0)"),
+         "/objects/1/radius: must be positive, got 0"},
+        {object("sphere", R"("center": [0, 0, 0], "radius": -1)"),
+         "/objects/1/radius: must be positive, got -1"},
+        {with(R"("image": {"width": 0})"), "/image/width: must be from 1 to 65535, got 0"},
+        {with(R"("image": {"height": -3})"), "/image/height: must be from 1 to 65535, got -3"},
+        {with(R"("image": {"width": 65535, "height": 65535})"),
+         "/image/width: must make at most 268435456 pixels, got 65535 x 65535"},
+        {with(R"("sampling": {"grid": 0})"), "/sampling/grid: must be from 1 to 256, got 0"},
+        {with(R"("limits": {"max_depth": -1})"),
+         "/limits/max_depth: must be from 0 to 1000, got -1"},
+        {with(R"("limits": {"min_weight": 1.5})"),
+         "/limits/min_weight: must be from 0 to 1, got 1.5"},
+        {with(R"("background": [0, -0.5, 0])"), "/background/1: must not be negative, got -0.5"},
+        {material(R"("color": [0, 0, -2])"),
+         "/materials/a~1b~0/color/2: must not be negative, got -2"},
+        {material(R"("index": 0)"), "/materials/a~1b~0/index: must be positive, got 0"},
+        {material(R"("reflectivity": 2)"),
+         "/materials/a~1b~0/reflectivity: must be from 0 to 1, got 2"},
+        {material(R"("transmission": -1)"),
+         "/materials/a~1b~0/transmission: must be from 0 to 1, got -1"},
+        {material(R"("absorption": [0, -1, 0])"),
+         "/materials/a~1b~0/absorption/1: must not be negative, got -1"},
+        {pattern(R"("type": "checker", "colors": ["#000000", [0, 0, -1]], "size": 1)"),
+         "/materials/a~1b~0/pattern/colors/1/2: must not be negative, got -1"},
+        {pattern(R"("type": "checker", "colors": ["#000000", "#ffffff"], "size": 0)"),
+         "/materials/a~1b~0/pattern/size: must be positive, got 0"},
+        {pattern(R"("type": "stripes", "colors": ["#000000", "#ffffff"], "width": 0)"),
+         "/materials/a~1b~0/pattern/width: must be positive, got 0"},
+        {pattern(R"("type": "checker", "colors": ["#000000"], "size": 1)"),
+         "/materials/a~1b~0/pattern/colors: must be an array of 2 colors, got 1"},
+        {object("sphereflake", R"("center": [0, 0, 0], "radius": 1, "depth": 9)"),
+         "/objects/1/depth: must be from 0 to 8, got 9"},
+        {object(
+             "lattice",
+             R"("corner": [0, 0, 0], "n": 0, "spacing": 1, "sphere_radius": 1, "strut_radius": 1)"),
+         "/objects/1/n: must be from 1 to 256, got 0"},
+    });
+}
+
+TEST_CASE("complaints about geometry") {
+    check({
+        {object("cylinder", R"("base": [0, 0, 0], "axis": [0, 0, 0], "radius": 1)"),
+         "/objects/1/axis: must not be the zero vector, got [0, 0, 0]"},
+        {object("cone", R"("base": [0, 0, 0], "axis": [0, 1, 0], "base_radius": 0)"),
+         "/objects/1/base_radius: must be positive where top_radius is 0, got 0"},
+        {object("plane", R"("point": [0, 0, 0], "normal": [0, 0, 0])"),
+         "/objects/1/normal: must not be the zero vector, got [0, 0, 0]"},
+        {object("triangle", R"("a": [0, 0, 0], "b": [1, 1, 1], "c": [2, 2, 2])"),
+         "/objects/1: must have three corners that are not in one line, got [0, 0, 0], [1, 1, 1], "
+         "[2, 2, 2]"},
+        {object(
+             "triangle",
+             R"("a": [0, 0, 0], "b": [1, 0, 0], "c": [0, 1, 0], "normals": [[0, 0, 1], [0, 0, 0], [0, 0, 1]])"),
+         "/objects/1/normals/1: must not be the zero vector, got [0, 0, 0]"},
+        {object("box", R"("corner": [0, 0, 0], "edges": [[1, 0, 0], [0, 1, 0], [1, 1, 0]])"),
+         "/objects/1/edges: must span a volume, got [1, 0, 0], [0, 1, 0], [1, 1, 0]"},
+        {object("box", R"("corner": [0, 0, 0], "edges": [[1, 0, 0], [0, 0, 0], [1, 1, 0]])"),
+         "/objects/1/edges/1: must not be the zero vector, got [0, 0, 0]"},
+        {object("box", R"("min": [0, 0, 0], "max": [1, 0.0, 1])"),
+         "/objects/1/max/1: must be more than min's 0, got 0.0"},
+        {object("box", R"("min": [0, 0, 0], "max": [1, 1, 1e31])"),
+         "/objects/1/max: must be a number from -1e30 to 1e30, got 1e+31"},
+        {object("box", R"("min": [0, 0, 0], "corner": [1, 1, 1])"),
+         R"(/objects/1: must not have both "corner" and "min")"},
+        {object("box", R"("max": [0, 0, 0])"), R"(/objects/1: must have the key "min")"},
+        {object("box", ""), R"(/objects/1: must have the key "corner")"},
+        {object(
+             "quadric",
+             R"("matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 2, 0, -1]], "lower": [0, 0, 0], "upper": [1, 1, 1])"),
+         "/objects/1/matrix/3/1: must be equal to matrix/1/3, for the matrix is symmetric, got 2"},
+        {object(
+             "quadric",
+             R"("matrix": [[1, 0, 0, 0], [0, 1, 0], [0, 0, 1, 0], [0, 0, 0, -1]], "lower": [0, 0, 0], "upper": [1, 1, 1])"),
+         "/objects/1/matrix/1: must be an array of 4 numbers, got 3"},
+        {object(
+             "quadric",
+             R"("matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -1]], "lower": [0, 0, 0], "upper": [1, 0, 1])"),
+         "/objects/1/upper/1: must be more than lower's 0, got 0"},
+        {object("sphereflake", R"("center": [0, 0, 0], "radius": 1, "depth": 1, "up": [0, 0, 0])"),
+         "/objects/1/up: must not be the zero vector, got [0, 0, 0]"},
+        {object("lattice", R"("n": 1, "spacing": 1, "sphere_radius": 1, "strut_radius": 1)"),
+         R"(/objects/1: must have the key "corner")"},
+        {object(
+             "lattice",
+             R"("corner": [0, 0, 0], "center": [0, 0, 0], "n": 1, "spacing": 1, "sphere_radius": 1, "strut_radius": 1)"),
+         R"(/objects/1: must not have both "corner" and "center")"},
+    });
+}
+
+TEST_CASE("complaints about cameras, fogs and lights") {
+    check({
+        {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "up": [0, 0, 2])"),
+         "/camera/up: must not be along the line of sight, got [0, 0, 2]"},
+        {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "up": [0, 0, 0])"),
+         "/camera/up: must not be the zero vector, got [0, 0, 0]"},
+        {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 1])"),
+         R"(/camera/at: must differ from "from", got [0, 0, 1])"},
+        {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "field_of_view": 0)"),
+         "/camera/field_of_view: must be between 0 and 180 degrees, both excluded, got 0"},
+        {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "field_of_view": 180)"),
+         "/camera/field_of_view: must be between 0 and 180 degrees, both excluded, got 180"},
+        {with_camera(R"("type": "orthographic", "from": [0, 0, 1], "at": [0, 0, 0], "height": 0)"),
+         "/camera/height: must be positive, got 0"},
+        {with(R"("fog": {"type": "linear-z", "start": 1, "end": 1})"),
+         "/fog/end: must differ from start, got 1"},
+        {with(R"("fog": {"type": "linear", "start": 2, "end": 1})"),
+         "/fog/end: must be more than start's 2, got 1"},
+        {with(R"("fog": {"type": "exponential", "density": 0})"),
+         "/fog/density: must be positive, got 0"},
+        {with(R"("lights": [{"type": "directional", "direction": [0, 0, 0]}])"),
+         "/lights/0/direction: must not be the zero vector, got [0, 0, 0]"},
+        {with(
+             R"("lights": [{"type": "point", "position": [0, 0, 0]}, {"type": "point", "position": [0, 0, 0], "color": [0, -1, 0]}])"),
+         "/lights/1/color/1: must not be negative, got -1"},
+        {with_objects(
+             R"({"type": "sphere", "material": "clay", "center": [30, 30, 31], "radius": 1})"),
+         "/lights/0/position: must not be on a surface, got a point of shape 0"},
+        {"{" + camera +
+             R"(, "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})",
+         "/lights: must have at least one light where there are objects, got none"},
+    });
+}
