@@ -19,10 +19,10 @@ namespace {
 
 using nlohmann::json;
 
+// Of one item:
 constexpr std::size_t deepest = 16;
-constexpr std::size_t most_values = 4096; // in one item
-constexpr std::size_t most_text = std::size_t{1}
-                                  << 20; // bytes of keys, strings and numbers in one item
+constexpr std::size_t most_values = 4096;
+constexpr std::size_t most_text = 1 << 20; // bytes of keys, strings and numbers
 
 /// The float nearest to a decimal number, infinite if there is none. `rounded` is the nearest
 /// double: going by way of it would round twice.
@@ -122,8 +122,7 @@ class ItemParser {
 
     bool in_root_ = false;
     const RootKey* root_key_ = nullptr; // the latest
-    bool in_collection_ =
-        false; // inside of its value, which is a list of items or an object of them
+    bool in_collection_ = false;        // inside of its value, a list or an object of items
     std::size_t item_count_ = 0;
     std::string name_; // of the latest item in an object of them
     std::string key_;  // the latest in an item
