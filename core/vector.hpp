@@ -18,26 +18,26 @@ using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
 /// a * b + c, rounded once for the built-in types (IEEE 754 fusedMultiplyAdd).
-inline float fma(float a, float b, float c) {
+inline float mul_add(float a, float b, float c) {
     return std::fma(a, b, c);
 }
-inline double fma(double a, double b, double c) {
+inline double mul_add(double a, double b, double c) {
     return std::fma(a, b, c);
 }
 template <class Real>
-Real fma(const Real& a, const Real& b, const Real& c) {
+Real mul_add(const Real& a, const Real& b, const Real& c) {
     return a * b + c;
 }
 
 /// s * a + b, component by component.
 template <class Real>
-Vec3<Real> fma(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) {
-    return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};
+Vec3<Real> mul_add(const Real& s, const Vec3<Real>& a, const Vec3<Real>& b) {
+    return {mul_add(s, a.x, b.x), mul_add(s, a.y, b.y), mul_add(s, a.z, b.z)};
 }
 
 template <class Real>
 Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
-    return fma(a.x, b.x, fma(a.y, b.y, Real(a.z * b.z)));
+    return mul_add(a.x, b.x, mul_add(a.y, b.y, Real(a.z * b.z)));
 }
 
 /// The products are rounded before they are subtracted, so that cross(a, b) is -cross(b, a) to the
@@ -67,7 +67,7 @@ Vec3<Real> normalized(const Vec3<Real>& a) {
 /// The mirror image of `incident` (pointing at the surface) in the plane across the unit `normal`.
 template <class Real>
 Vec3<Real> reflected(const Vec3<Real>& incident, const Vec3<Real>& normal) {
-    return fma(Real(Real(-2) * dot(incident, normal)), normal, incident);
+    return mul_add(Real(Real(-2) * dot(incident, normal)), normal, incident);
 }
 
 /// The same vector in another real type.

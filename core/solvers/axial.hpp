@@ -24,13 +24,13 @@ struct AxialRay {
         axis_squared = squared_length(a);
         height_origin = dot(from_base, a);
         height_direction = dot(ray.direction, a);
-        across_origin = fma(Real(-(height_origin / axis_squared)), a, from_base);
-        across_direction = fma(Real(-(height_direction / axis_squared)), a, ray.direction);
+        across_origin = mul_add(Real(-(height_origin / axis_squared)), a, from_base);
+        across_direction = mul_add(Real(-(height_direction / axis_squared)), a, ray.direction);
     }
 
     /// Whether the crossing lies between the ends, the rims included.
     bool between_ends(const Real& t, Judge<Real>& judge) const {
-        const Real height = fma(t, height_direction, height_origin);
+        const Real height = mul_add(t, height_direction, height_origin);
         return !judge.negative(height) && !judge.less(axis_squared, height);
     }
 };
@@ -67,7 +67,7 @@ template <class Real>
 Vec3<Real> offset_from_axis(const Vec3f& base, const Vec3f& axis, const Vec3<Real>& point) {
     const Vec3<Real> a = convert<Real>(axis);
     const Vec3<Real> from_base = point - convert<Real>(base);
-    return fma(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
+    return mul_add(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
 }
 
 } // namespace raylane::core

@@ -18,11 +18,11 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
     const AxialRay<Real> axial(cone.base, cone.axis, ray);
     const Real base_radius(cone.base_radius);
     const Real slope = (Real(cone.top_radius) - base_radius) / axial.axis_squared;
-    const Real W = fma(slope, axial.height_origin, base_radius);
+    const Real W = mul_add(slope, axial.height_origin, base_radius);
     const Real M = slope * axial.height_direction;
     const Real across_squared = squared_length(axial.across_direction);
-    const Real A = fma(Real(-M), M, across_squared);
-    const Real B = fma(Real(-M), W, dot(axial.across_origin, axial.across_direction));
+    const Real A = mul_add(Real(-M), M, across_squared);
+    const Real B = mul_add(Real(-M), W, dot(axial.across_origin, axial.across_direction));
 
     // The infinite double cone.
     Crossings<Real> roots;
@@ -32,12 +32,14 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
         // if A > 0.
         if (curvature > 0) roots.add({not_behind(Real(-(B + B) / A)), body, false});
     } else {
-        const Real C = fma(Real(-W), W, squared_length(axial.across_origin));
-        roots = solve_quadratic(A, B, C, fma(M, M, across_squared), judge, [&](const Real& tau) {
-            const Real width = fma(tau, M, W);
-            return fma(Real(-width), width,
-                       squared_length(fma(tau, axial.across_direction, axial.across_origin)));
-        });
+        const Real C = mul_add(Real(-W), W, squared_length(axial.across_origin));
+        roots =
+            solve_quadratic(A, B, C, mul_add(M, M, across_squared), judge, [&](const Real& tau) {
+                const Real width = mul_add(tau, M, W);
+                return mul_add(
+                    Real(-width), width,
+                    squared_length(mul_add(tau, axial.across_direction, axial.across_origin)));
+            });
         // Beside the cone, or on the axis side of it for good: then only the caps can be met.
         const bool no_roots = roots.begin() == roots.end();
         if (no_roots && (curvature > 0 || judge.positive(C))) return {};
@@ -77,7 +79,8 @@ Vec3<Real> outward_normal(const Cone<ends>& cone, const Vec3<Real>& point, Face 
     // On the surface width = |across|: with it the direction is right even where the point is a
     // little off.
     const Real width = length(across);
-    const Vec3<Real> gradient = fma(Real(width * narrowing / squared_length(axis)), axis, across);
+    const Vec3<Real> gradient =
+        mul_add(Real(width * narrowing / squared_length(axis)), axis, across);
     if (!(squared_length(gradient) > Real(0)))
         return normalized(narrowing > Real(0) ? axis : -axis);
     return normalized(gradient);

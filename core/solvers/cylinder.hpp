@@ -24,8 +24,8 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
     const bool from_body = start.on_surface && start.face == body;
     if (from_body && !parallel) span.clip_back(not_behind(Real(tau + tau)), body);
     if (!from_body) {
-        const Vec3<Real> foot = fma(tau, axial.across_direction, axial.across_origin);
-        const Real discriminant = fma(radius, radius, Real(-squared_length(foot)));
+        const Vec3<Real> foot = mul_add(tau, axial.across_direction, axial.across_origin);
+        const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
         if (judge.negative(discriminant)) return {};
         if (!parallel) {
             const Real half_chord = sqrt(discriminant / speed_squared);

@@ -40,7 +40,7 @@ Crossings<Real> crossings(const Disc& disc, const Ray<Real>& ray, const Start& s
     const Vec3<Real> to_center = convert<Real>(disc.center) - ray.origin;
     const auto crossing = cross_plane(to_center, convert<Real>(disc.normal), ray.direction, judge);
     if (!crossing) return {};
-    const Vec3<Real> from_center = fma(crossing->t, ray.direction, Vec3<Real>(-to_center));
+    const Vec3<Real> from_center = mul_add(crossing->t, ray.direction, Vec3<Real>(-to_center));
     const Real radius(disc.radius);
     if (judge.less(Real(radius * radius), squared_length(from_center))) return {};
     return *crossing;

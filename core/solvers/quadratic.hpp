@@ -31,7 +31,7 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     // The discriminant B^2 - A C.
     const bool near_linear = std::abs(static_cast<double>(A)) < 0x1p-4 * static_cast<double>(scale);
     const Real discriminant =
-        near_linear ? fma(B, B, Real(-(A * C))) : Real(-(A * at_vertex(Real(-B / A))));
+        near_linear ? mul_add(B, B, Real(-(A * C))) : Real(-(A * at_vertex(Real(-B / A))));
     if (judge.negative(discriminant)) return {};
     const Real root = sqrt(discriminant);
 

@@ -56,13 +56,13 @@ Crossings<Real> crossings(const Quadric& quadric, const Ray<Real>& ray, const St
         const Real scale = squared_length(ray.direction) * quadric_scale<Real>(quadric);
         roots = solve_quadratic(
             A, B, quadric_value(quadric, from_center), scale, judge, [&](const Real& tau) {
-                return quadric_value(quadric, Vec3<Real>(fma(tau, ray.direction, from_center)));
+                return quadric_value(quadric, Vec3<Real>(mul_add(tau, ray.direction, from_center)));
             });
     }
 
     Crossings<Real> kept;
     for (const Crossing<Real>& root : roots) {
-        const Vec3<Real> p = fma(root.t, ray.direction, from_center);
+        const Vec3<Real> p = mul_add(root.t, ray.direction, from_center);
         bool inside = true;
         for (int axis = 0; axis < 3; ++axis)
             inside = inside && !judge.less(p[axis], Real(quadric.lower[axis])) &&

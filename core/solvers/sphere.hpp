@@ -18,9 +18,9 @@ Crossings<Real> crossings(const Sphere& sphere, const Ray<Real>& ray, const Star
     const Real tau = -dot(from_center, ray.direction) / dd;
     if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
 
-    const Vec3<Real> foot = fma(tau, ray.direction, from_center);
+    const Vec3<Real> foot = mul_add(tau, ray.direction, from_center);
     const Real radius(sphere.radius);
-    const Real discriminant = fma(radius, radius, Real(-squared_length(foot)));
+    const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
     if (judge.negative(discriminant)) return {};
     const Real half_chord = sqrt(discriminant / dd);
     return {{tau - half_chord, body, true}, {tau + half_chord, body, false}};

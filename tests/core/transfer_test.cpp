@@ -17,7 +17,7 @@ TEST_CASE("transfer to 8 bits clamps and rounds to the nearest code") {
 }
 
 TEST_CASE("the sRGB curve passes through its known points") {
-    CHECK(encode(0.214041F, Transfer::srgb) == 128); // IEC 61966-2-1: code 0.5
-    CHECK(encode(0.0031308F, Transfer::srgb) == 10); // where the straight part ends: 0.04045
-    CHECK(encode(0.18F, Transfer::srgb) == 118);     // photographers' middle grey
+    CHECK(encode(0.2158605F, Transfer::srgb) == 128); // half of the codes
+    CHECK(encode(0.0031308F, Transfer::srgb) == 10);  // where the straight part ends: 0.04045
+    CHECK(encode(0.18F, Transfer::srgb) == 118);      // photographers' middle grey
 }

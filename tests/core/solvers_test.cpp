@@ -1,0 +1,137 @@
+#include "core/solve.hpp"
+#include "tests/catch.hpp"
+#include "tests/oracle.hpp"
+#include "tests/ray_sets.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <map>
+
+using namespace raylane;
+using namespace raylane::core;
+using ray_sets::Random;
+using ray_sets::Set;
+
+namespace {
+
+/// Steps between two floats on the line of floats.
+std::int64_t ulps_between(float a, float b) {
+    const auto rank = [](float f) {
+        std::int32_t bits = 0;
+        std::memcpy(&bits, &f, sizeof bits);
+        return bits < 0 ? std::int64_t{std::numeric_limits<std::int32_t>::min()} - bits
+                        : std::int64_t{bits};
+    };
+    return std::abs(rank(a) - rank(b));
+}
+
+template <class Real>
+const Crossing<Real>* first_ahead(const Crossings<Real>& crossings) {
+    for (const Crossing<Real>& crossing : crossings)
+        if (crossing.t > Real(0)) return &crossing;
+    return nullptr;
+}
+
+template <class Real>
+Ray<Real> widened(const Ray<float>& ray) {
+    return {convert<Real>(ray.origin), convert<Real>(ray.direction)};
+}
+
+struct Tally {
+    int rays = 0, hits = 0, wrong = 0;
+    std::int64_t worst_ulps = 0;
+    std::uint64_t widened = 0;
+};
+
+/// What the double solver says of the first crossing ahead, against the oracle.
+template <class Shape>
+void compare(const Shape& shape, const Ray<float>& ray, Tally& tally) {
+    const auto truth = oracle::first_hit(shape, ray);
+    const Crossings<double> all = solve(shape, widened<double>(ray), Start{}, tally.widened);
+    const Crossing<double>* found = first_ahead(all);
+
+    ++tally.rays;
+    tally.hits += truth.has_value() ? 1 : 0;
+    const bool wrong =
+        truth.has_value() != (found != nullptr) || (truth && truth->entering != found->entering);
+    if (truth && found) {
+        const std::int64_t ulps =
+            ulps_between(static_cast<float>(found->t), truth->t.template convert_to<float>());
+        tally.worst_ulps = std::max(tally.worst_ulps, ulps);
+    }
+    if (wrong && tally.wrong++ < 3) {
+        UNSCOPED_INFO("origin " << ray.origin.x << ' ' << ray.origin.y << ' ' << ray.origin.z
+                                << " direction " << ray.direction.x << ' ' << ray.direction.y << ' '
+                                << ray.direction.z << (truth ? " misses " : " hits ")
+                                << name_of(kind_of<Shape>));
+    }
+}
+
+// Sanitizers slow the oracle down ten times and look for other things.
+#ifdef RAYLANE_FEW_RAYS
+constexpr int rays_per_set = 1'500;
+#else
+constexpr int rays_per_set = 15'000;
+#endif
+constexpr int rays_per_shape = 10;
+
+} // namespace
+
+TEMPLATE_TEST_CASE("the double reference decides as the oracle does", "", Sphere, Plane, Disc,
+                   Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,
+                   CappedCone, Quadric) {
+    using Shape = TestType;
+    Random random(20260000 + static_cast<int>(kind_of<Shape>));
+    for (const Set set : ray_sets::all_sets) {
+        Tally tally;
+        for (int i = 0; i < rays_per_set / rays_per_shape; ++i) {
+            const Shape shape = ray_sets::Target<Shape>::make(random, set == Set::lattice);
+            for (int j = 0; j < rays_per_shape; ++j)
+                compare(shape, ray_sets::make_ray(shape, set, random), tally);
+        }
+        INFO(name_of(kind_of<Shape>)
+             << ", " << ray_sets::set_names[static_cast<int>(set)] << ": " << tally.rays
+             << " rays, " << tally.hits << " hits, " << tally.widened << " widened");
+        CHECK(tally.wrong == 0);
+        CHECK(tally.worst_ulps <= 1);
+        CHECK(tally.hits > tally.rays / 100); // or the set shows nothing
+    }
+}
+
+TEMPLATE_TEST_CASE("the same formulas in the oracle's numbers agree with the oracle", "", Sphere,
+                   Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder,
+                   OpenCone, CappedCone, Quadric) {
+    using Shape = TestType;
+    using oracle::Number;
+    Random random(20260100 + static_cast<int>(kind_of<Shape>));
+    int compared = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const Shape shape = ray_sets::Target<Shape>::make(random, false);
+        const Ray<float> ray = ray_sets::make_ray(shape, Set::random, random);
+        Judge<Number> judge;
+        const Crossings<Number> all = crossings(shape, widened<Number>(ray), Start{}, judge);
+        const Crossing<Number>* found = first_ahead(all);
+        const auto truth = oracle::first_hit(shape, ray);
+        REQUIRE(truth.has_value() == (found != nullptr));
+        if (!truth) continue;
+        ++compared;
+        CHECK(abs(found->t - truth->t) <= truth->t * Number("1e-70"));
+    }
+    CHECK(compared > 30);
+}
+
+// Why the double reference looks at its own error: without, simple coordinates already mislead it.
+TEMPLATE_TEST_CASE("double without error bounds decides wrongly", "", Sphere, CappedCylinder,
+                   CappedCone) {
+    using Shape = TestType;
+    Random random(20260200 + static_cast<int>(kind_of<Shape>));
+    int wrong = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const Shape shape = ray_sets::Target<Shape>::make(random, true);
+        const Ray<float> ray = ray_sets::make_ray(shape, Set::lattice, random);
+        Judge<double> judge;
+        const Crossings<double> all = crossings(shape, widened<double>(ray), Start{}, judge);
+        wrong += oracle::first_hit(shape, ray).has_value() != (first_ahead(all) != nullptr) ? 1 : 0;
+    }
+    CHECK(wrong > 0);
+}
