@@ -23,6 +23,9 @@ using core::Visible;
 /// More is taken for a mistake in the count.
 constexpr int most_vertices = 10'000'000;
 
+/// So many bytes of a file tell how many shapes to expect of the rest.
+constexpr std::uint64_t sample_size = 1 << 20;
+
 class Reader {
   public:
     explicit Reader(InputFile& file) : file_(file), fields_(file) {}
@@ -44,6 +47,18 @@ class Reader {
     void read_cone();
     void read_polygon(bool with_normals);
 
+    template <class Shape>
+    void add(const Shape& shape, core::MaterialIndex material) {
+        builder_.add(shape, material);
+        ++counts_[static_cast<std::size_t>(core::kind_of<Shape>)];
+    }
+    template <class Triangle>
+    void add_polygon(const std::vector<Triangle>& triangles) {
+        builder_.add_polygon<Triangle>(triangles, material(Visible::both));
+        counts_[static_cast<std::size_t>(core::kind_of<Triangle>)] += triangles.size();
+    }
+    void reserve_rest();
+
     void require_no_objects() const;
     void begin_objects();
     void add_lights();
@@ -59,6 +74,9 @@ class Reader {
     NffFill fill_;
     std::optional<core::MaterialIndex> both_sides_, inside_; // fill_'s materials
 
+    std::array<std::size_t, core::kind_count> counts_{}; // shapes so far
+    bool reserved_ = false;
+
     std::vector<Vec3f> vertices_;
     std::vector<Vec3f> normals_;
     Triangulator triangulator_;
@@ -73,6 +91,7 @@ core::Scene Reader::read() {
         } catch (const InvalidValue& invalid) {
             fields_.fail(fields_.line(), fields_.entity() + ": " + invalid.what());
         }
+        if (!reserved_ && fields_.bytes_passed() >= sample_size) reserve_rest();
     }
     return build();
 }
@@ -135,7 +154,7 @@ void Reader::read_sphere() {
     core::Sphere sphere{fields_.vector("center"), fields_.number("radius")};
     const Visible visible = sphere.radius < 0.0F ? Visible::inside : Visible::both;
     sphere.radius = std::abs(sphere.radius);
-    builder_.add(sphere, material(visible));
+    add(sphere, material(visible));
 }
 
 void Reader::read_cone() {
@@ -153,10 +172,9 @@ void Reader::read_cone() {
     const core::MaterialIndex index = material(inside ? Visible::inside : Visible::both);
     // The text has the smaller radius at the apex. Nothing depends on that.
     if (base_radius == apex_radius)
-        builder_.add(core::OpenCylinder{base, apex - base, std::abs(base_radius)}, index);
+        add(core::OpenCylinder{base, apex - base, std::abs(base_radius)}, index);
     else
-        builder_.add(
-            core::OpenCone{base, apex - base, std::abs(base_radius), std::abs(apex_radius)}, index);
+        add(core::OpenCone{base, apex - base, std::abs(base_radius), std::abs(apex_radius)}, index);
 }
 
 /// The front is where the vertices run counter-clockwise, by the area of the whole polygon. The
@@ -189,13 +207,34 @@ void Reader::read_polygon(bool with_normals) {
         smooth_triangles_.clear();
         for (const auto& [a, b, c] : corners)
             smooth_triangles_.push_back({v[a], v[b], v[c], n[a], n[b], n[c]});
-        builder_.add_polygon<core::SmoothTriangle>(smooth_triangles_, material(Visible::both));
+        add_polygon(smooth_triangles_);
     } else {
         triangles_.clear();
         for (const auto& [a, b, c] : corners)
             triangles_.push_back({v[a], v[b], v[c]});
-        builder_.add_polygon<core::Triangle>(triangles_, material(Visible::both));
+        add_polygon(triangles_);
     }
+}
+
+/// Makes room for as many shapes as there will be if the file goes on as it began, so that no table
+/// is copied as it grows.
+void Reader::reserve_rest() {
+    reserved_ = true;
+    const std::uint64_t passed = fields_.bytes_passed();
+    if (file_.size() <= passed) return;
+    constexpr double margin = 17.0 / 16.0;
+    const double rest =
+        margin * static_cast<double>(file_.size() - passed) / static_cast<double>(passed);
+    const auto reserve = [&]<class Shape>(std::in_place_type_t<Shape>) {
+        const auto count =
+            static_cast<double>(counts_[static_cast<std::size_t>(core::kind_of<Shape>)]);
+        builder_.reserve<Shape>(static_cast<std::size_t>(rest * count));
+    };
+    reserve(std::in_place_type<core::Sphere>);
+    reserve(std::in_place_type<core::OpenCylinder>);
+    reserve(std::in_place_type<core::OpenCone>);
+    reserve(std::in_place_type<core::Triangle>);
+    reserve(std::in_place_type<core::SmoothTriangle>);
 }
 
 void Reader::require_no_objects() const {
