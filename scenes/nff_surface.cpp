@@ -25,6 +25,7 @@ void validate(const NffFill& fill) {
     // The Standard Procedural Databases have an index of 0 on what lets nothing through.
     require(fill.index > 0.0F || (fill.index == 0.0F && fill.t == 0.0F), "index of refraction",
             "must be positive", fill.index);
+    core::validate(material_of(fill, 1.0F, core::Visible::both)); // finds what is too large
 }
 
 float nff_intensity(std::size_t lights) {

@@ -333,7 +333,7 @@ TEST_CASE("orientation is never wrong") {
     CHECK(wrong == 0);
     // Differences that no double holds.
     const double tiny = 0x1p-140;
-    CHECK(scenes::orientation({-1e30F, 0}, {1e30F, 0}, {0, tiny}) == 1);
+    CHECK(scenes::orientation({-0x1p100, 0}, {0x1p100, 0}, {0, tiny}) == 1);
     CHECK(scenes::orientation({1, 1}, {0x1p100, 0x1p100}, {tiny, tiny}) == 0);
     CHECK(scenes::orientation({1, 1}, {0x1p100, 0x1p100}, {tiny, 0}) == -1);
     CHECK(scenes::orientation({1, 1}, {0x1p100, 0x1p100}, {0, tiny}) == 1);
