@@ -1,0 +1,118 @@
+#include "scenes/atomic_file.hpp"
+
+#include "scenes/errors.hpp"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <random>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace raylane::scenes {
+
+namespace {
+
+constexpr std::size_t buffer_size = 64 << 10;
+constexpr unsigned permission_bits = 07777;
+
+/// Where a chain of symbolic links ends, there or not.
+std::filesystem::path followed(std::filesystem::path path) {
+    constexpr int longest_chain = 40; // as in Linux, which then says ELOOP
+    std::error_code no_link;
+    for (int i = 0; i < longest_chain; ++i) {
+        const std::filesystem::path next = std::filesystem::read_symlink(path, no_link);
+        if (no_link) break;
+        path = path.parent_path() / next;
+    }
+    return path;
+}
+
+std::string random_suffix() {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz0123456789";
+    std::random_device random;
+    std::string suffix;
+    for (int i = 0; i < 6; ++i)
+        suffix += letters[random() % letters.size()];
+    return suffix;
+}
+
+} // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& path)
+    : name_(path.string()), target_(followed(path)) {
+    buffer_.reserve(buffer_size);
+    struct stat status {};
+    const bool exists = ::stat(path.c_str(), &status) == 0;
+    if (!exists && errno != ENOENT) refuse(errno);
+    if (exists && S_ISDIR(status.st_mode)) refuse(EISDIR);
+    if (exists && !S_ISREG(status.st_mode)) {
+        descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+        if (descriptor_ < 0) refuse(errno);
+        return;
+    }
+    if (!exists) {
+        open_temporary(0666);
+        return;
+    }
+    // Renaming would replace a file that its owner protected.
+    if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) refuse(errno);
+    const unsigned mode = status.st_mode & permission_bits;
+    open_temporary(mode);
+    // Gives back what the umask took. A file system without permissions may refuse; so be it.
+    static_cast<void>(::fchmod(descriptor_, mode));
+}
+
+AtomicFile::~AtomicFile() {
+    if (descriptor_ < 0) return;
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    ::close(descriptor_);
+}
+
+void AtomicFile::write(std::span<const char> bytes) {
+    while (!bytes.empty()) {
+        const auto part = bytes.first(std::min(bytes.size(), buffer_size - buffer_.size()));
+        buffer_.insert(buffer_.end(), part.begin(), part.end());
+        if (buffer_.size() == buffer_size) flush();
+        bytes = bytes.subspan(part.size());
+    }
+}
+
+void AtomicFile::commit() {
+    flush();
+    // Some file systems say only now that there is no room.
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed == 0 && temporary_.empty()) return;
+    if (closed == 0 && ::rename(temporary_.c_str(), target_.c_str()) == 0) return;
+    const int error_number = errno;
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    refuse(error_number);
+}
+
+void AtomicFile::open_temporary(unsigned mode) {
+    // A name of the greatest length has no room for more.
+    constexpr std::size_t longest_part = 200;
+    std::string name = ".";
+    name.append(target_.filename().string(), 0, longest_part).append(".");
+    const std::string start = target_.parent_path() / name;
+    do {
+        temporary_ = start + random_suffix();
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    } while (descriptor_ < 0 && errno == EEXIST);
+    if (descriptor_ < 0) refuse(errno);
+}
+
+void AtomicFile::flush() {
+    for (std::size_t done = 0; done < buffer_.size();) {
+        const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+        if (count < 0 && errno != EINTR) refuse(errno);
+        if (count > 0) done += static_cast<std::size_t>(count);
+    }
+    buffer_.clear();
+}
+
+void AtomicFile::refuse(int error_number) const {
+    throw SystemRefused(name_, "write", error_number);
+}
+
+} // namespace raylane::scenes

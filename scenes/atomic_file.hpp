@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// A file that appears whole or not at all: written to a temporary beside it, which takes its name
+/// when all went well. What is no regular file (a pipe, a device) is written directly.
+///
+/// All that can be known is checked at construction, so before the work whose result is to be
+/// written. Functions throw SystemRefused; the temporary is gone when the object is.
+class AtomicFile {
+  public:
+    /// A symbolic link is followed: what it leads to is replaced, and keeps its permissions.
+    explicit AtomicFile(const std::filesystem::path& path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    /// As the user wrote it, for messages.
+    const std::string& name() const { return name_; }
+    void write(std::span<const char> bytes);
+    /// Once, at the end.
+    void commit();
+
+    /// What a signal handler has to unlink; "" if there is no temporary. Points to the same
+    /// characters as long as the object lives.
+    const char* temporary_path() const { return temporary_.c_str(); }
+
+  private:
+    void open_temporary(unsigned mode);
+    void flush();
+    [[noreturn]] void refuse(int error_number) const;
+
+    std::string name_;
+    std::filesystem::path target_;
+    std::string temporary_;
+    int descriptor_ = -1;
+    std::vector<char> buffer_;
+};
+
+} // namespace raylane::scenes

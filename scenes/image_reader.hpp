@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// A picture as a file holds it.
+struct Image {
+    int width = 0;
+    int height = 0;
+    /// Whether the components are linear floats (HDR, PFM), or codes divided by the largest code
+    /// (PNG).
+    bool linear_float = false;
+    std::vector<float> rgb; ///< width * height * 3, rows from the top down
+    std::string name;       ///< of its file, for messages
+};
+
+/// Reads a PNG, HDR or PFM picture; the content tells which. Grey becomes RGB, transparency is left
+/// out. Throws BadInput for anything else and for what is malformed or absurdly large, and
+/// SystemRefused.
+Image read_image(const std::filesystem::path& path);
+
+} // namespace raylane::scenes

@@ -1,0 +1,92 @@
+#include "scenes/number.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// from_chars knows no '+'.
+std::string_view without_plus(std::string_view word) {
+    const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+    return word.substr(plus ? 1 : 0);
+}
+
+/// Whether a decimal number that from_chars calls out of range is so because it is too small: it
+/// does not say.
+bool underflows(std::string_view number) {
+    const std::size_t e = number.find_first_of("eE");
+    const std::string_view mantissa = number.substr(0, e);
+    const std::size_t first = mantissa.find_first_of("123456789");
+    const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+    long long exponent = 0; // of the leading digit
+    if (e != std::string_view::npos) {
+        const std::string_view text = without_plus(number.substr(e + 1));
+        if (std::from_chars(text.data(), text.data() + text.size(), exponent).ec != std::errc())
+            return text[0] == '-';
+    }
+    const auto leading = static_cast<long long>(point) - static_cast<long long>(first);
+    return leading + exponent < 0;
+}
+
+/// The value of a decimal number such as most files hold: without exponent, digits below 2^24, at
+/// most ten of them behind the point. Digits and power of ten then are floats, and their quotient
+/// is rounded once, so it is what from_chars gives; in a third of the time.
+std::optional<float> short_decimal(std::string_view number) {
+    constexpr std::array<float, 11> powers = {1e0F, 1e1F, 1e2F, 1e3F, 1e4F, 1e5F,
+                                              1e6F, 1e7F, 1e8F, 1e9F, 1e10F};
+    constexpr std::size_t longest = 18; // its digits fit into 64 bits
+    if (number.size() > longest) return std::nullopt;
+    const bool negative = number.starts_with('-');
+    std::uint64_t digits = 0;
+    std::size_t count = 0;
+    std::size_t behind_point = 0;
+    bool point = false;
+    for (const char c : number.substr(negative ? 1 : 0)) {
+        if (c >= '0' && c <= '9') {
+            digits = 10 * digits + static_cast<std::uint64_t>(c - '0');
+            ++count;
+            behind_point += point ? 1 : 0;
+        } else if (c == '.' && !point) {
+            point = true;
+        } else {
+            return std::nullopt;
+        }
+    }
+    if (count == 0 || digits > 1 << 24 || behind_point >= powers.size()) return std::nullopt;
+    const float value = static_cast<float>(digits) / powers[behind_point];
+    return negative ? -value : value;
+}
+
+} // namespace
+
+std::optional<float> to_float(std::string_view word) {
+    const std::string_view number = without_plus(word);
+    if (const std::optional<float> value = short_decimal(number)) return value;
+    const char* const end = number.data() + number.size();
+    float value = 0.0F;
+    const auto [stop, error] = std::from_chars(number.data(), end, value);
+    if (stop != end) return std::nullopt;
+    if (error == std::errc::result_out_of_range && underflows(number))
+        return number[0] == '-' ? -0.0F : 0.0F;
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<int> to_int(std::string_view word) {
+    const std::string_view number = without_plus(word);
+    const char* const end = number.data() + number.size();
+    int value = 0;
+    const auto [stop, error] = std::from_chars(number.data(), end, value);
+    if (stop != end || error != std::errc()) return std::nullopt;
+    return value;
+}
+
+std::string to_text(float value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+} // namespace raylane::scenes

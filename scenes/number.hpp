@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// Numbers as files spell them, in any locale.
+namespace raylane::scenes {
+
+/// The float nearest to the decimal number that `word` is; a sign in front may be '+'. Nothing if
+/// it is no number, not a number by name, infinite, or too large for a float. One too small for a
+/// float is 0.
+std::optional<float> to_float(std::string_view word);
+
+/// The whole number that `word` is. Nothing if it is none or does not fit.
+std::optional<int> to_int(std::string_view word);
+
+/// The shortest decimal number that is nearest to `value` among floats.
+std::string to_text(float value);
+
+} // namespace raylane::scenes

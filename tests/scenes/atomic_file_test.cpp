@@ -1,0 +1,237 @@
+#include "scenes/errors.hpp"
+#include "scenes/image_reader.hpp"
+#include "scenes/image_writer.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <csignal>
+#include <fcntl.h>
+#include <functional>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace raylane;
+using tests::content_of;
+using tests::TemporaryDirectory;
+
+namespace {
+
+void write(const std::filesystem::path& path, int size = 4) {
+    scenes::OutputFile file(path);
+    file.commit(core::Film(size, size), core::Transfer::srgb);
+}
+
+/// The message of a refusal to write, without the directory.
+std::string refusal_of(const std::filesystem::path& path, int size = 4) {
+    try {
+        write(path, size);
+    } catch (const scenes::SystemRefused& error) {
+        return std::string(error.what()).substr(path.parent_path().string().size() + 1);
+    }
+    return "no error";
+}
+
+unsigned mode_of(const std::filesystem::path& path) {
+    struct stat status {};
+    REQUIRE(::stat(path.c_str(), &status) == 0);
+    return status.st_mode & 07777;
+}
+
+bool is_picture(const std::filesystem::path& path) {
+    return scenes::read_image(path).width == 4;
+}
+
+/// Whether `test` is true in a process of its own, whose limits and user it may change.
+bool holds_in_child(const std::function<bool()>& test) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        bool holds = false;
+        try {
+            holds = test();
+        } catch (...) {
+        }
+        ::_exit(holds ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+/// Root may write everywhere; anybody else will do.
+void become_nobody() {
+    constexpr unsigned nobody = 65534;
+    if (::geteuid() != 0) return;
+    if (::setgid(nobody) != 0 || ::setuid(nobody) != 0) throw std::runtime_error("setuid");
+}
+
+} // namespace
+
+TEST_CASE("a picture's format follows its file's ending") {
+    const TemporaryDirectory directory;
+    const auto error_of = [&](const char* name) -> std::string {
+        try {
+            scenes::OutputFile file(directory.path() / name);
+        } catch (const scenes::BadInput& error) {
+            return std::string(error.what()).substr(directory.path().string().size() + 1);
+        }
+        return "no error";
+    };
+    CHECK(error_of("a.jpg") == "a.jpg: must end in .png, .hdr or .pfm, got \".jpg\"");
+    CHECK(error_of("png") == "png: must end in .png, .hdr or .pfm, got no ending");
+    for (const char* name : {"a.png", "a.hdr", "a.pfm", "a.b.PFM"})
+        CHECK(error_of(name) == "no error");
+    CHECK(directory.file_count() == 0);
+}
+
+TEST_CASE("an output file appears whole or not at all") {
+    const TemporaryDirectory directory;
+    const auto path = directory.write("out.png", "old");
+    {
+        const scenes::OutputFile file(path);
+        CHECK(content_of(path) == "old");
+        const std::filesystem::path temporary = file.temporary_path();
+        CHECK(std::filesystem::exists(temporary));
+        CHECK(temporary.parent_path() == directory.path());
+        CHECK(temporary.filename().string().starts_with(".out.png."));
+    }
+    CHECK(content_of(path) == "old");
+    CHECK(directory.file_count() == 1);
+    write(path);
+    CHECK(is_picture(path));
+    CHECK(directory.file_count() == 1);
+    // The longest name that there may be.
+    const auto longest = directory.path() / (std::string(251, 'a') + ".png");
+    write(longest);
+    CHECK(is_picture(longest));
+}
+
+TEST_CASE("what cannot be written is refused before there is a picture") {
+    const TemporaryDirectory directory;
+    directory.write("file", "");
+    std::filesystem::create_directory(directory.path() / "directory.png");
+    std::filesystem::create_symlink("loop.png", directory.path() / "loop.png");
+    const auto refusal = [&](const std::string& name) -> std::string {
+        try {
+            const scenes::OutputFile file(directory.path() / name);
+        } catch (const scenes::SystemRefused& error) {
+            return std::string(error.what()).substr(directory.path().string().size() + 1);
+        }
+        return "no error";
+    };
+    CHECK(refusal("none/out.png") == "none/out.png: cannot write: No such file or directory");
+    CHECK(refusal("file/out.png") == "file/out.png: cannot write: Not a directory");
+    CHECK(refusal("directory.png") == "directory.png: cannot write: Is a directory");
+    CHECK(refusal("loop.png") == "loop.png: cannot write: Too many levels of symbolic links");
+    CHECK(refusal(std::string(252, 'a') + ".png").ends_with("cannot write: File name too long"));
+    CHECK(directory.file_count() == 3);
+}
+
+TEST_CASE("a directory or file that may not be written is refused") {
+    const TemporaryDirectory directory;
+    const auto file = directory.write("protected.png", "old");
+    std::filesystem::permissions(file, std::filesystem::perms(0444));
+    std::filesystem::permissions(directory.path(), std::filesystem::perms(0777));
+    CHECK(holds_in_child([&] {
+        become_nobody();
+        return refusal_of(file) == "protected.png: cannot write: Permission denied";
+    }));
+    std::filesystem::permissions(directory.path(), std::filesystem::perms(0555));
+    CHECK(holds_in_child([&] {
+        become_nobody();
+        return refusal_of(directory.path() / "out.png") ==
+               "out.png: cannot write: Permission denied";
+    }));
+    std::filesystem::permissions(directory.path(), std::filesystem::perms(0755));
+    CHECK(content_of(file) == "old");
+    CHECK(directory.file_count() == 1);
+}
+
+TEST_CASE("a symbolic link stays one, and its target is replaced") {
+    const TemporaryDirectory directory;
+    std::filesystem::create_directory(directory.path() / "far");
+    const auto target = directory.write("far/target.png", "old");
+    const auto link = directory.path() / "link.png";
+    std::filesystem::create_symlink("far/second.png", link);
+    std::filesystem::create_symlink("target.png", directory.path() / "far/second.png");
+    write(link);
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(std::filesystem::is_symlink(directory.path() / "far/second.png"));
+    CHECK(is_picture(target));
+    // One that leads to nothing yet.
+    const auto dangling = directory.path() / "dangling.png";
+    std::filesystem::create_symlink(directory.path() / "far/new.png", dangling);
+    write(dangling);
+    CHECK(std::filesystem::is_symlink(dangling));
+    CHECK(is_picture(directory.path() / "far/new.png"));
+}
+
+TEST_CASE("permissions are the target's, or those that the umask gives") {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "out.png";
+    CHECK(holds_in_child([&] {
+        ::umask(027);
+        write(path);
+        return true;
+    }));
+    CHECK(mode_of(path) == 0640);
+    for (const unsigned mode : {0600U, 0666U, 0755U}) {
+        std::filesystem::permissions(path, std::filesystem::perms(mode));
+        write(path);
+        CHECK(mode_of(path) == mode);
+    }
+}
+
+TEST_CASE("a full disk is an error and leaves nothing behind") {
+    const TemporaryDirectory directory;
+    for (const char* name : {"full.png", "full.hdr", "full.pfm"}) {
+        const auto full = directory.path() / name;
+        std::filesystem::create_symlink("/dev/full", full);
+        CHECK(refusal_of(full) == std::string(name) + ": cannot write: No space left on device");
+        CHECK(std::filesystem::is_symlink(full));
+    }
+    CHECK(directory.file_count() == 3);
+    // Limits that are met at the start, in the middle, and in the last block.
+    for (const rlim_t limit : {10, 100000, 1080000})
+        CHECK(holds_in_child([&] {
+            const rlimit file_size{limit, limit};
+            ::setrlimit(RLIMIT_FSIZE, &file_size);
+            std::signal(SIGXFSZ, SIG_IGN);
+            return refusal_of(directory.path() / "out.pfm", 300) ==
+                   "out.pfm: cannot write: File too large";
+        }));
+    CHECK(directory.file_count() == 3);
+}
+
+TEST_CASE("what is no regular file is written directly") {
+    const TemporaryDirectory directory;
+    const auto null = directory.path() / "null.pfm";
+    std::filesystem::create_symlink("/dev/null", null);
+    write(null);
+    CHECK(std::filesystem::is_symlink(null));
+
+    const auto pipe = directory.path() / "pipe.pfm";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    REQUIRE(reader >= 0);
+    {
+        scenes::OutputFile file(pipe);
+        CHECK(std::string(file.temporary_path()).empty());
+        file.commit(core::Film(1, 1), core::Transfer::srgb);
+    }
+    char text[64];
+    CHECK(::read(reader, text, sizeof text) == 24);
+    CHECK(std::string_view(text, 12) == "PF\n1 1\n-1.0\n");
+
+    // Somebody who stops reading.
+    const auto previous = std::signal(SIGPIPE, SIG_IGN);
+    {
+        scenes::OutputFile file(pipe);
+        ::close(reader);
+        CHECK_THROWS_WITH(file.commit(core::Film(1, 1), core::Transfer::srgb),
+                          pipe.string() + ": cannot write: Broken pipe");
+    }
+    std::signal(SIGPIPE, previous);
+    CHECK(directory.file_count() == 2);
+}

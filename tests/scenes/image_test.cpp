@@ -1,0 +1,226 @@
+#include "core/transfer.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/image_reader.hpp"
+#include "scenes/image_writer.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace raylane;
+using core::Transfer;
+using scenes::Image;
+using tests::content_of;
+using tests::TemporaryDirectory;
+
+namespace {
+
+/// Values from 0 to 1, smooth enough for runs and rough enough for none.
+core::Film film_of(int width, int height) {
+    core::Film film(width, height);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> noise(0.0F, 1.0F);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            film.at(x, y) = {static_cast<float>(x) / static_cast<float>(width),
+                             x < width / 2 ? 0.25F : noise(random), y % 2 == 0 ? 0.0F : 1.0F};
+    return film;
+}
+
+void write(const std::filesystem::path& path, const core::Film& film, Transfer transfer) {
+    scenes::OutputFile file(path);
+    file.commit(film, transfer);
+}
+
+std::string error_of_reading(const std::filesystem::path& path) {
+    try {
+        scenes::read_image(path);
+    } catch (const scenes::BadInput& error) {
+        return std::string(error.what()).substr(path.parent_path().string().size() + 1);
+    }
+    return "no error";
+}
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](float x, float y) {
+        return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+    });
+}
+
+template <std::size_t size>
+std::string bytes(const char (&literal)[size]) {
+    return {literal, size - 1};
+}
+
+/// 2 x 1 pixels of 16 bits: (0, 65535, 257), (1, 2, 32768).
+const std::string sixteen_bit_png = bytes(
+    "\x89PNG\r\n\x1A\n\x00\x00\x00\x0DIHDR\x00\x00\x00\x02\x00\x00\x00\x01\x10\x02\x00\x00\x00"
+    "\x2B\xD0\x34\x9E\x00\x00\x00\x15IDAT\x78\xDA\x63\x60\x60\xF8\xFF\x9F\x91\x91\x81\x91\x81"
+    "\xA9\x81\x01\x00\x14\x14\x02\x84\x49\xA7\x06\x6A\x00\x00\x00\x00IEND\xAE\x42\x60\x82");
+
+/// 2 x 1 pixels of grey and opacity: (0, 255), (51, 128).
+const std::string grey_png = bytes(
+    "\x89PNG\r\n\x1A\n\x00\x00\x00\x0DIHDR\x00\x00\x00\x02\x00\x00\x00\x01\x08\x04\x00\x00\x00"
+    "\x5E\x2B\xB7\x01\x00\x00\x00\x0DIDAT\x78\xDA\x63\x60\xF8\x6F\xDC\x00\x00\x03\xE8\x01\xB3"
+    "\xBA\xEB\x8F\xF2\x00\x00\x00\x00IEND\xAE\x42\x60\x82");
+
+} // namespace
+
+TEST_CASE("a PNG holds the transfer curve's codes") {
+    const TemporaryDirectory directory;
+    const core::Film film = film_of(37, 21);
+    for (const Transfer transfer : {Transfer::srgb, Transfer::linear}) {
+        const auto path = directory.path() / "out.png";
+        write(path, film, transfer);
+        const Image image = scenes::read_image(path);
+        CHECK(image.width == 37);
+        CHECK(image.height == 21);
+        CHECK_FALSE(image.linear_float);
+        CHECK(image.name == path.string());
+        std::vector<float> codes;
+        for (const core::Color& pixel : film.pixels())
+            for (int channel = 0; channel < 3; ++channel)
+                codes.push_back(static_cast<float>(core::encode(pixel[channel], transfer)) /
+                                255.0F);
+        CHECK(same_bits(image.rgb, codes));
+    }
+    CHECK(directory.file_count() == 1);
+}
+
+TEST_CASE("a film's PNG is the same every time") {
+    const TemporaryDirectory directory;
+    write(directory.path() / "a.png", film_of(200, 100), Transfer::srgb);
+    write(directory.path() / "b.PNG", film_of(200, 100), Transfer::srgb);
+    CHECK(content_of(directory.path() / "a.png") == content_of(directory.path() / "b.PNG"));
+}
+
+TEST_CASE("an HDR picture is right to a part in 128 of each pixel's largest component") {
+    const TemporaryDirectory directory;
+    for (const int width : {1, 7, 8, 300}) { // run lengths from 8 on
+        core::Film film = film_of(width, 5);
+        film.at(0, 0) = {1e-40F, 0.0F, 0.0F};
+        film.at(0, 1) = {1000.0F, 1.0F, 3e-5F};
+        film.at(0, 2) = {0.99999994F, 3.3e38F, 1.0F};
+        film.at(0, 3) = {std::nanf(""), -1.0F, 2.0F};
+        film.at(0, 4) = {std::numeric_limits<float>::infinity(), 0.0F, 0.0F};
+        const auto path = directory.path() / "out.hdr";
+        write(path, film, Transfer::srgb);
+        const Image image = scenes::read_image(path);
+        REQUIRE(image.rgb.size() == film.pixels().size() * 3);
+        CHECK(image.linear_float);
+
+        const float largest = 0x1.FFFFFEp126F; // what the format can hold
+        film.at(0, 2).y = largest;
+        film.at(0, 3) = {0.0F, 0.0F, 2.0F};
+        film.at(0, 4).x = largest;
+        bool close = true;
+        for (std::size_t i = 0; i < film.pixels().size(); ++i) {
+            const core::Color& pixel = film.pixels()[i];
+            const float most = std::max({pixel.x, pixel.y, pixel.z, 1e-32F});
+            for (int channel = 0; channel < 3; ++channel)
+                close =
+                    close && std::abs(pixel[channel] - image.rgb[3 * i + channel]) <= most / 128;
+        }
+        CHECK(close);
+    }
+}
+
+TEST_CASE("a PFM holds the film's own floats") {
+    const TemporaryDirectory directory;
+    core::Film film = film_of(9, 4);
+    film.at(0, 0) = {-1.5F, 1e-45F, -0.0F};
+    film.at(1, 0) = {std::nanf(""), std::numeric_limits<float>::infinity(), 3.4028235e38F};
+    const auto path = directory.path() / "out.pfm";
+    write(path, film, Transfer::srgb);
+    const Image image = scenes::read_image(path);
+    std::vector<float> floats;
+    for (const core::Color& pixel : film.pixels())
+        floats.insert(floats.end(), {pixel.x, pixel.y, pixel.z});
+    CHECK(same_bits(image.rgb, floats));
+
+    core::Film column(1, 2);
+    column.at(0, 0) = {1.0F, 0.0F, 0.0F};
+    column.at(0, 1) = {-2.0F, 0.0F, 0.0F};
+    write(path, column, Transfer::srgb);
+    CHECK(content_of(path) ==
+          bytes("PF\n1 2\n-1.0\n\x00\x00\x00\xC0\x00\x00\x00\x00\x00\x00\x00\x00"
+                "\x00\x00\x80\x3F\x00\x00\x00\x00\x00\x00\x00\x00"));
+}
+
+TEST_CASE("pictures of other programs are read") {
+    const TemporaryDirectory directory;
+    const Image sixteen = scenes::read_image(directory.write("a.png", sixteen_bit_png));
+    CHECK(same_bits(sixteen.rgb,
+                    {0.0F, 1.0F, 257 / 65535.0F, 1 / 65535.0F, 2 / 65535.0F, 32768 / 65535.0F}));
+    // The content tells the format, not the ending.
+    const Image grey = scenes::read_image(directory.write("b.hdr", grey_png));
+    CHECK(same_bits(grey.rgb, {0.0F, 0.0F, 0.0F, 0.2F, 0.2F, 0.2F}));
+
+    const std::string big_endian = bytes("Pf\n2 1\n1\n\x3F\x80\x00\x00\xC0\x00\x00\x00");
+    const Image map = scenes::read_image(directory.write("c.pfm", big_endian));
+    CHECK(map.linear_float);
+    CHECK(same_bits(map.rgb, {1.0F, 1.0F, 1.0F, -2.0F, -2.0F, -2.0F}));
+
+    const std::string flat = bytes("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n"
+                                   "\x80\x40\x00\x81\xFF\x00\x00\x00");
+    const Image radiance = scenes::read_image(directory.write("d.hdr", flat));
+    CHECK(same_bits(radiance.rgb, {1.0F, 0.5F, 0.0F, 0.0F, 0.0F, 0.0F}));
+}
+
+TEST_CASE("what is no picture is bad input") {
+    const TemporaryDirectory directory;
+    const auto error_of = [&](const std::string& content) {
+        return error_of_reading(directory.write("a.png", content));
+    };
+    const std::string damaged = "a.png: must be a PNG, HDR or PFM picture, got a damaged ";
+    CHECK(error_of("") == "a.png: must be a PNG, HDR or PFM picture, got something else");
+    CHECK(error_of("GIF89a") == "a.png: must be a PNG, HDR or PFM picture, got something else");
+    CHECK(error_of("\x89PNG\r\n\x1A\n") == damaged + "PNG");
+    CHECK(error_of("PFM\n1 1\n-1\nabcdabcdabcd") == damaged + "PFM");
+    CHECK(error_of("PF\n1 one\n-1\nabcdabcdabcd") == damaged + "PFM");
+    CHECK(error_of("PF\n1 1\n0\nabcdabcdabcd") == damaged + "PFM");
+    CHECK(error_of("#?RADIANCE\n\n-Y 1 +X 1\nabcd") == damaged + "HDR");
+    CHECK(error_of("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+X 1 -Y 1\nabcd") == damaged + "HDR");
+    // stb_image reads runs of no bytes for ever.
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n";
+    CHECK(error_of(header + bytes("\x02\x02\x00\x08\x00\x00\x00\x00")) == damaged + "HDR");
+    CHECK(error_of(header + bytes("\x02\x02\x00\x08\x89\x00")) == damaged + "HDR");
+
+    const std::string absurd = "a.png: must be a picture of 1 to 65535 pixels a side and at most "
+                               "268435456 in all, got ";
+    CHECK(error_of("PF\n0 5\n-1\n") == absurd + "0 x 5");
+    CHECK(error_of("PF\n100000 1\n-1\n") == absurd + "100000 x 1");
+    CHECK(error_of("PF\n60000 60000\n-1\n") == absurd + "60000 x 60000");
+    CHECK(error_of("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X -8\n") == absurd + "-8 x 1");
+    std::string huge = sixteen_bit_png;
+    huge.replace(16, 4, "\xFF\xFF\xFF\xFF");
+    CHECK(error_of(huge) == absurd + "4294967295 x 1");
+
+    CHECK(error_of_reading(directory.path() / "none.png") == "none.png: no such file");
+}
+
+TEST_CASE("a picture cut short is bad input, a damaged one at worst another picture") {
+    const TemporaryDirectory directory;
+    std::mt19937 random(6);
+    for (const char* name : {"a.png", "a.hdr", "a.pfm"}) {
+        const auto path = directory.path() / name;
+        write(path, film_of(19, 7), Transfer::srgb);
+        const std::string whole = content_of(path);
+        const std::size_t checksum = path.extension() == ".png" ? 4 : 0; // not looked at
+        int accepted = 0;
+        for (std::size_t length = 0; length < whole.size() - checksum; ++length) {
+            directory.write(name, whole.substr(0, length));
+            if (error_of_reading(path) == "no error") ++accepted;
+        }
+        CHECK(accepted == 0);
+        for (int i = 0; i < 300; ++i) {
+            std::string damaged = whole;
+            damaged[random() % damaged.size()] = static_cast<char>(random());
+            directory.write(name, damaged);
+            error_of_reading(path);
+        }
+    }
+}

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "scenes/errors.hpp"
+#include "scenes/nff_reader.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+/// NFF texts, and what becomes of them.
+namespace raylane::tests {
+
+inline const std::string view = "v\n"
+                                "from 0 0 8\n"
+                                "at 0 0 0\n"
+                                "up 0 1 0\n"
+                                "angle 45\n"
+                                "hither 1\n"
+                                "resolution 512 256\n";
+inline const std::string view_and_light = view + "l 4 3 20\n"; // 8 lines
+
+inline core::Scene scene_of(std::string_view text) {
+    const TemporaryDirectory directory;
+    scenes::InputFile file(directory.write("scene.nff", text));
+    return scenes::read_nff(file);
+}
+
+/// The message without the file's directory.
+inline std::string error_of(std::string_view text) {
+    const TemporaryDirectory directory;
+    scenes::InputFile file(directory.write("scene.nff", text));
+    try {
+        scenes::read_nff(file);
+    } catch (const scenes::BadInput& error) {
+        return std::string(error.what()).substr(directory.path().string().size() + 1);
+    }
+    return "no error";
+}
+
+} // namespace raylane::tests
