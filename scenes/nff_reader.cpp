@@ -117,6 +117,10 @@ void Reader::read_view() {
     builder_.camera = view.camera;
     builder_.settings.width = view.width;
     builder_.settings.height = view.height;
+    // The databases' conventions: no transfer curve, and a tree of rays of depth 5 with the eye's.
+    builder_.settings.transfer = core::Transfer::linear;
+    builder_.settings.max_depth = 4;
+    builder_.settings.min_weight = 0.0F;
     core::validate(builder_.settings);
     has_view_ = true;
 }

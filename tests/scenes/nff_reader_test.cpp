@@ -34,6 +34,9 @@ TEST_CASE("an NFF view becomes the camera") {
     CHECK(scene.camera().up == core::Vec3f(0, 1, 0));
     CHECK(scene.settings().width == 512);
     CHECK(scene.settings().height == 256);
+    CHECK(scene.settings().transfer == core::Transfer::linear);
+    CHECK(scene.settings().max_depth == 4);
+    CHECK(scene.settings().min_weight == 0.0F);
     // The angle is between the centres of 256 rows, 255 rows apart.
     const double half_angle = 22.5 * std::numbers::pi / 180.0;
     const double half_view = std::atan(std::tan(half_angle) * 256.0 / 255.0);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/material.hpp"
+
+#include <array>
+#include <limits>
+
+namespace raylane::core {
+
+/// The transmissive materials that a ray is inside of, the last entered on top. That one decides
+/// index and absorption. Four deep: of a fifth the outermost is forgotten, and counts as empty
+/// space.
+class Media {
+  public:
+    static constexpr int depth = 4;
+    static constexpr MaterialIndex none = std::numeric_limits<MaterialIndex>::max();
+
+    MaterialIndex top() const { return stack_[0]; }
+    bool empty() const { return stack_[0] == none; }
+
+    void enter(MaterialIndex material) {
+        for (int i = depth - 1; i > 0; --i)
+            stack_[i] = stack_[i - 1];
+        stack_[0] = material;
+    }
+
+    /// Takes out the innermost entry of this material, if there is one.
+    void leave(MaterialIndex material) {
+        int i = 0;
+        while (i < depth && stack_[i] != material)
+            ++i;
+        if (i == depth) return;
+        for (; i + 1 < depth; ++i)
+            stack_[i] = stack_[i + 1];
+        stack_[depth - 1] = none;
+    }
+
+  private:
+    std::array<MaterialIndex, depth> stack_ = {none, none, none, none};
+};
+
+} // namespace raylane::core

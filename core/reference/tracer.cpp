@@ -1,0 +1,312 @@
+#include "core/reference/tracer.hpp"
+
+#include "core/fog.hpp"
+#include "core/optics.hpp"
+#include "core/pattern.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::core {
+
+namespace {
+
+template <class Real>
+Vec3<Real> mix(const Vec3<Real>& a, const Vec3<Real>& b, Real fraction) {
+    return mul_add(fraction, b, Vec3<Real>((Real(1) - fraction) * a));
+}
+
+template <class Real>
+Real largest(const Vec3<Real>& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+template <class Real>
+constexpr Real infinity = std::numeric_limits<Real>::infinity();
+
+} // namespace
+
+template <class Real>
+ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& settings, Search search)
+    : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
+      searcher_(scene, search),
+      any_transmits_(std::any_of(scene.materials().begin(), scene.materials().end(),
+                                 [](const Material& material) { return material.transmits(); })) {}
+
+template <class Real>
+void ReferenceTracer<Real>::render(const Region& region, Film& film) {
+    for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x)
+            film.at(x, y) = pixel(x, y);
+}
+
+template <class Real>
+Color ReferenceTracer<Real>::pixel(int x, int y) {
+    const int samples = settings_.grid * settings_.grid;
+    Vector sum(0);
+    for (int sample = 0; sample < samples; ++sample)
+        sum += trace(camera_rays_.ray(x, y, sample));
+    return convert<float>(Vector(sum / Real(samples)));
+}
+
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::trace(const Ray<Real>& ray) {
+    ++searcher_.counters.primary;
+    return color_along({ray, Departure{}, Media{}, Vector(1), 0});
+}
+
+/// The nearest visible surface, behind whatever fills the space in between.
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::color_along(const Path& path) {
+    const Hit<Real> hit =
+        searcher_.nearest(path.ray, path.departure, infinity<Real>,
+                          [&](const Hit<Real>& candidate) { return is_visible(candidate); });
+    if (!hit.any()) return color_at_infinity(path);
+
+    const Surface surface = surface_at(path, hit);
+    const MaterialIndex medium = medium_before(hit, path.media);
+    Path shaded = path;
+    if (medium != Media::none) {
+        const Vector share = absorbed(medium, hit.t);
+        shaded.throughput *= share;
+        return share * shade(shaded, surface);
+    }
+    const Real fog = fog_fraction(scene_.fog(), hit.t, surface.point.z);
+    shaded.throughput *= Real(1) - fog;
+    return mix(shade(shaded, surface), convert<Real>(scene_.fog().color), fog);
+}
+
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::color_at_infinity(const Path& path) const {
+    const Vector background = convert<Real>(scene_.background());
+    if (!path.media.empty()) return absorbed(path.media.top(), infinity<Real>) * background;
+    const Real fog = fog_fraction_at_infinity(scene_.fog(), path.ray.origin, path.ray.direction);
+    return mix(background, convert<Real>(scene_.fog().color), fog);
+}
+
+template <class Real>
+typename ReferenceTracer<Real>::Surface
+ReferenceTracer<Real>::surface_at(const Path& path, const Hit<Real>& hit) const {
+    const Vector point = mul_add(hit.t, path.ray.direction, path.ray.origin);
+    Vector flat = flat_normal_at(hit, point);
+    Vector normal = flat;
+    if (hit.kind == Kind::smooth_triangle) {
+        const auto& table = std::get<Table<SmoothTriangle>>(scene_.shapes());
+        normal = shading_normal(table.get(hit.slot), point);
+        if (dot(normal, flat) < Real(0)) normal = -normal;
+    }
+    if (!hit.entering) {
+        flat = -flat;
+        normal = -normal;
+    }
+    return {hit, scene_.material_of(hit.shape), point, flat, normal};
+}
+
+/// The formula at `Material`.
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface) {
+    const Material& material = surface.material;
+    Vector color = lit(path, surface);
+    if (!material.reflects() && !material.transmits()) return color;
+
+    const auto [before, behind] = indices_at(surface.hit, path.media);
+    Refraction<Real> refraction = refract(path.ray.direction, surface.normal, before, behind);
+    // A shading normal may bend the ray to the wrong side of the surface.
+    if (!refraction.total && dot(refraction.transmitted, surface.flat_normal) >= Real(0))
+        refraction = refract(path.ray.direction, surface.flat_normal, before, behind);
+
+    const Real reflected_share = material.transmits() || material.reflection != Reflection::constant
+                                     ? reflectance(material, refraction, before, behind)
+                                     : Real(material.reflectivity);
+    const Real transmitted_share = (Real(1) - reflected_share) * Real(material.transmission);
+    color += reflected_color(path, surface, reflected_share);
+    if (transmitted_share > Real(0))
+        color += transmitted_color(path, surface, transmitted_share, refraction.transmitted);
+    return color;
+}
+
+/// Ambient light, and each light that is on this side of the surface.
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) {
+    const Material& material = surface.material;
+    const Vector own = color_at(material.pattern, surface.point);
+    Vector color = Real(material.ambient) * own;
+    if (material.diffuse == 0.0F && material.specular == 0.0F) return color;
+
+    for (const Light& light : scene_.lights()) {
+        Vector to_light = -convert<Real>(light.direction);
+        if (light.kind == LightKind::point)
+            to_light = convert<Real>(light.position) - surface.point;
+        Real distance = length(to_light);
+        to_light /= distance;
+        if (light.kind == LightKind::directional) distance = infinity<Real>;
+        if (dot(surface.flat_normal, to_light) <= Real(0)) continue;
+
+        const Vector halfway = to_light - path.ray.direction;
+        const Real cos_light = std::max(dot(surface.normal, to_light), Real(0));
+        Vector share = Real(material.diffuse) * cos_light * own;
+        if (material.specular > 0.0F && squared_length(halfway) > Real(0)) {
+            const Real cos_halfway = std::max(dot(surface.normal, normalized(halfway)), Real(0));
+            share += Real(material.specular) * std::pow(cos_halfway, Real(material.exponent));
+        }
+        if (share == Vector(0)) continue;
+        color += light_let_through(path, surface, to_light, distance) * convert<Real>(light.color) *
+                 share;
+    }
+    return color;
+}
+
+/// R (colour reflected)
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::reflected_color(const Path& path, const Surface& surface,
+                                                  Real reflectance) {
+    const Vector throughput = reflectance * path.throughput;
+    if (path.depth >= settings_.max_depth || !is_worth(throughput)) return Vector(0);
+
+    Vector direction = reflected(path.ray.direction, surface.normal);
+    if (dot(direction, surface.flat_normal) <= Real(0))
+        direction = reflected(path.ray.direction, surface.flat_normal);
+
+    ++searcher_.counters.reflected;
+    const Departure departure = surface.departure(scene_.coplanar_with(surface.hit.shape),
+                                                  /*inward=*/!surface.hit.entering);
+    return reflectance * color_along({{surface.point, normalized(direction)},
+                                      departure,
+                                      path.media,
+                                      throughput,
+                                      path.depth + 1});
+}
+
+/// (1 - R) transmission (colour transmitted)
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::transmitted_color(const Path& path, const Surface& surface,
+                                                    Real weight, const Vector& direction) {
+    const Vector throughput = weight * path.throughput;
+    if (path.depth >= settings_.max_depth || !is_worth(throughput)) return Vector(0);
+
+    ++searcher_.counters.refracted;
+    const Departure departure = surface.departure(scene_.coplanar_with(surface.hit.shape),
+                                                  /*inward=*/surface.hit.entering);
+    return weight * color_along({{surface.point, normalized(direction)},
+                                 departure,
+                                 media_behind(surface.hit, path.media),
+                                 throughput,
+                                 path.depth + 1});
+}
+
+/// What of a light reaches a surface: nothing through an opaque one; through transmissive ones, on
+/// a straight line, what they transmit and do not absorb.
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::light_let_through(const Path& path, const Surface& surface,
+                                                    const Vector& to_light, Real distance) {
+    ++searcher_.counters.shadow;
+    const Ray<Real> ray{surface.point, to_light};
+    const Departure departure = surface.departure(scene_.coplanar_with(surface.hit.shape),
+                                                  /*inward=*/!surface.hit.entering);
+    const bool blocked = searcher_.any(ray, departure, distance, [&](const Hit<Real>& candidate) {
+        return !scene_.material_of(candidate.shape).transmits() && is_visible(candidate);
+    });
+    if (blocked) return Vector(0);
+    if (!any_transmits_) return Vector(1);
+
+    Vector share(1);
+    Media media = path.media;
+    Hit<Real> last;
+    last.t = 0;
+    for (;;) {
+        const Hit<Real> hit =
+            searcher_.nearest(ray, departure, distance, [&](const Hit<Real>& candidate) {
+                return (!last.any() || last.before(candidate)) && is_visible(candidate);
+            });
+        if (!hit.any()) return share * absorbed(media.top(), distance - last.t);
+        share *= absorbed(medium_before(hit, media), hit.t - last.t);
+        share *= let_through(hit, ray, media);
+        if (share == Vector(0)) return share;
+        media = media_behind(hit, media);
+        last = hit;
+    }
+}
+
+/// The share that one surface lets through. The line is not bent, so its angle is taken for the
+/// one on the rarer side: a light is never shut out by total reflection in a body that it has to
+/// enter first.
+template <class Real>
+Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
+                                        const Media& media) const {
+    const Vector point = mul_add(hit.t, ray.direction, ray.origin);
+    const Vector outward = flat_normal_at(hit, point);
+    const auto [before, behind] = indices_at(hit, media);
+    const Real rarer = std::min(before, behind), denser = std::max(before, behind);
+    const Material& material = scene_.material_of(hit.shape);
+    const Refraction<Real> refraction =
+        refract(ray.direction, hit.entering ? outward : Vector(-outward), rarer, denser);
+    return (Real(1) - reflectance(material, refraction, rarer, denser)) *
+           Real(material.transmission);
+}
+
+template <class Real>
+bool ReferenceTracer<Real>::is_worth(const Vector& throughput) const {
+    const Real most = largest(throughput);
+    return most > Real(0) && most >= Real(settings_.min_weight);
+}
+
+template <class Real>
+bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
+    const Visible visible = scene_.material_of(hit.shape).visible;
+    return visible == Visible::both || (visible == Visible::outside) == hit.entering;
+}
+
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::flat_normal_at(const Hit<Real>& hit, const Vector& point) const {
+    return with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
+        return outward_normal(table.get(hit.slot), point, hit.face);
+    });
+}
+
+/// A surface that transmits nothing has its own index behind it, from whichever side it is seen.
+template <class Real>
+typename ReferenceTracer<Real>::Indices
+ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, const Media& media) const {
+    const auto index_of = [&](MaterialIndex medium) {
+        return medium == Media::none ? Real(1) : Real(scene_.materials()[medium].index);
+    };
+    const Real before = index_of(medium_before(hit, media));
+    const Material& material = scene_.material_of(hit.shape);
+    if (hit.entering || !material.transmits()) return {before, Real(material.index)};
+    return {before, index_of(media_behind(hit, media).top())};
+}
+
+template <class Real>
+Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media) const {
+    const MaterialIndex material = scene_.material_index_of(hit.shape);
+    if (hit.entering)
+        media.enter(material);
+    else
+        media.leave(material);
+    return media;
+}
+
+/// A ray that leaves a body which it never entered has been inside from its start.
+template <class Real>
+MaterialIndex ReferenceTracer<Real>::medium_before(const Hit<Real>& hit, const Media& media) const {
+    const bool from_inside =
+        media.empty() && !hit.entering && scene_.material_of(hit.shape).transmits();
+    return from_inside ? scene_.material_index_of(hit.shape) : media.top();
+}
+
+/// Beer and Lambert's law.
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::absorbed(MaterialIndex medium, Real distance) const {
+    Vector share(1);
+    if (medium == Media::none) return share;
+    const Vec3f& absorption = scene_.materials()[medium].absorption;
+    for (int channel = 0; channel < 3; ++channel)
+        if (absorption[channel] > 0.0F)
+            share[channel] = std::exp(-Real(absorption[channel]) * distance);
+    return share;
+}
+
+template class ReferenceTracer<float>;
+template class ReferenceTracer<double>;
+
+} // namespace raylane::core

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "core/camera_rays.hpp"
+#include "core/film.hpp"
+#include "core/media.hpp"
+#include "core/reference/search.hpp"
+#include "core/region.hpp"
+
+namespace raylane::core {
+
+/// The scalar reference: what a picture of a scene is, written to be read. `Real` is float or
+/// double. In double every decision of which surface a ray hits is the one that real arithmetic
+/// takes. To be used by one thread; what it makes of a pixel depends on scene and settings alone.
+template <class Real>
+class ReferenceTracer {
+  public:
+    ReferenceTracer(const Scene& scene, const Settings& settings,
+                    Search search = Search::hierarchy);
+
+    void render(const Region& region, Film& film);
+
+    /// The mean of a pixel's samples, added in their order. Linear RGB.
+    Color pixel(int x, int y);
+
+    /// The linear RGB colour seen along a ray that starts in empty space; its direction is a unit
+    /// vector.
+    Vec3<Real> trace(const Ray<Real>& ray);
+
+    /// What all calls so far have done.
+    const Counters& counters() const { return searcher_.counters; }
+
+  private:
+    using Vector = Vec3<Real>;
+
+    /// A ray underway.
+    struct Path {
+        Ray<Real> ray;
+        Departure departure;
+        Media media;       ///< what it is inside of
+        Vector throughput; ///< what of its colour reaches the pixel
+        int depth;         ///< reflections and refractions so far
+    };
+
+    /// The surface that a path has hit, seen from the side that it came from.
+    struct Surface {
+        Hit<Real> hit;
+        const Material& material;
+        Vector point;
+        Vector flat_normal; ///< unit, perpendicular to the surface
+        Vector normal;      ///< unit, to shade with: differs for smooth triangles
+
+        Departure departure(IdRange shapes, bool inward) const {
+            return {shapes, {true, hit.face, inward}};
+        }
+    };
+
+    /// The indices of refraction before and behind a surface.
+    struct Indices {
+        Real before;
+        Real behind;
+    };
+
+    Vector color_along(const Path& path);
+    Vector color_at_infinity(const Path& path) const;
+    Surface surface_at(const Path& path, const Hit<Real>& hit) const;
+    Vector shade(const Path& path, const Surface& surface);
+    Vector lit(const Path& path, const Surface& surface);
+    Vector reflected_color(const Path& path, const Surface& surface, Real reflectance);
+    Vector transmitted_color(const Path& path, const Surface& surface, Real weight,
+                             const Vector& direction);
+    Vector light_let_through(const Path& path, const Surface& surface, const Vector& to_light,
+                             Real distance);
+    Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Media& media) const;
+
+    bool is_worth(const Vector& throughput) const;
+    bool is_visible(const Hit<Real>& hit) const;
+    Vector flat_normal_at(const Hit<Real>& hit, const Vector& point) const;
+    Indices indices_at(const Hit<Real>& hit, const Media& media) const;
+    Media media_behind(const Hit<Real>& hit, Media media) const;
+    MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
+    Vector absorbed(MaterialIndex medium, Real distance) const;
+
+    const Scene& scene_;
+    Settings settings_;
+    CameraRays<Real> camera_rays_;
+    Searcher<Real> searcher_;
+    bool any_transmits_;
+};
+
+extern template class ReferenceTracer<float>;
+extern template class ReferenceTracer<double>;
+
+} // namespace raylane::core

@@ -1,0 +1,47 @@
+#include "simd/render.hpp"
+
+#include "core/reference/tracer.hpp"
+#include "core/validate.hpp"
+#include "simd/tiles.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+
+namespace raylane::simd {
+
+namespace {
+
+template <class Real>
+Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
+                           const RenderOptions& options) {
+    using Tracer = core::ReferenceTracer<Real>;
+    Rendering rendering{core::Film(settings.width, settings.height), {}};
+    tbb::enumerable_thread_specific<Tracer> tracers([&] { return Tracer(scene, settings); });
+    for_each_tile(settings.width, settings.height, options.threads,
+                  [&](const core::Region& region) {
+                      Tracer& tracer = tracers.local();
+                      const std::uint64_t rays_before = tracer.counters().rays();
+                      tracer.render(region, rendering.film);
+                      if (options.progress == nullptr) return;
+                      options.progress->rays += tracer.counters().rays() - rays_before;
+                      options.progress->pixels += region.pixels();
+                  });
+    for (const Tracer& tracer : tracers)
+        rendering.counters += tracer.counters();
+    return rendering;
+}
+
+} // namespace
+
+Rendering render(const core::Scene& scene, const core::Settings& settings,
+                 const RenderOptions& options) {
+    core::validate(settings);
+    switch (options.precision) {
+    case Precision::single_precision:
+        return render_reference<float>(scene, settings, options);
+    case Precision::double_precision:
+        break;
+    }
+    return render_reference<double>(scene, settings, options);
+}
+
+} // namespace raylane::simd

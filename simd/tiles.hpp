@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/region.hpp"
+
+#include <functional>
+
+namespace raylane::simd {
+
+/// Pixels on the side of a tile, the unit of work.
+inline constexpr int tile_size = 16;
+
+/// Calls visit(region) once for each tile of a picture, on `threads` threads (0: one for each that
+/// the machine has). An exception ends the loop and comes out of it.
+void for_each_tile(int width, int height, int threads,
+                   const std::function<void(const core::Region&)>& visit);
+
+} // namespace raylane::simd
