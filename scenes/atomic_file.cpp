@@ -68,6 +68,15 @@ AtomicFile::~AtomicFile() {
     ::close(descriptor_);
 }
 
+void AtomicFile::reserve(std::int64_t bytes) {
+    if (temporary_.empty()) return;
+    int result;
+    do {
+        result = ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, bytes);
+    } while (result != 0 && errno == EINTR);
+    if (result != 0 && (errno == ENOSPC || errno == EFBIG || errno == EDQUOT)) refuse(errno);
+}
+
 void AtomicFile::write(std::span<const char> bytes) {
     while (!bytes.empty()) {
         const auto part = bytes.first(std::min(bytes.size(), buffer_size - buffer_.size()));

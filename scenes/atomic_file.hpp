@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -22,6 +23,8 @@ class AtomicFile {
 
     /// As the user wrote it, for messages.
     const std::string& name() const { return name_; }
+    /// Claims room on the disk, where the file system can tell.
+    void reserve(std::int64_t bytes);
     void write(std::span<const char> bytes);
     /// Once, at the end.
     void commit();

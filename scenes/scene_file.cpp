@@ -1,8 +1,8 @@
 #include "scenes/scene_file.hpp"
 
 #include "scenes/input_file.hpp"
-#include "scenes/json_reader.hpp"
-#include "scenes/nff_reader.hpp"
+#include "scenes/json/reader.hpp"
+#include "scenes/nff/reader.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,11 +1,16 @@
 #include "simd/tiles.hpp"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 
 namespace raylane::simd {
+
+int default_threads() {
+    return tbb::info::default_concurrency();
+}
 
 void for_each_tile(int width, int height, int threads,
                    const std::function<void(const core::Region&)>& visit) {

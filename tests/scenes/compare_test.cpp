@@ -1,5 +1,5 @@
-#include "scenes/compare.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/image/compare.hpp"
 #include "tests/catch.hpp"
 
 #include <cmath>

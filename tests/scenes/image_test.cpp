@@ -1,7 +1,7 @@
 #include "core/transfer.hpp"
 #include "scenes/errors.hpp"
-#include "scenes/image_reader.hpp"
-#include "scenes/image_writer.hpp"
+#include "scenes/image/reader.hpp"
+#include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 

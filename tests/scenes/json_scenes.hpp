@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/errors.hpp"
-#include "scenes/json_reader.hpp"
+#include "scenes/json/reader.hpp"
 #include "tests/scenes/temporary_file.hpp"
 
 #include <stdexcept>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/errors.hpp"
-#include "scenes/nff_reader.hpp"
+#include "scenes/nff/reader.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 /// NFF texts, and what becomes of them.

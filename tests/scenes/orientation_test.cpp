@@ -1,4 +1,4 @@
-#include "scenes/orientation.hpp"
+#include "scenes/nff/orientation.hpp"
 #include "tests/catch.hpp"
 
 #include <random>

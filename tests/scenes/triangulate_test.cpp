@@ -1,4 +1,4 @@
-#include "scenes/triangulate.hpp"
+#include "scenes/nff/triangulate.hpp"
 #include "tests/catch.hpp"
 
 #include <algorithm>

@@ -1,0 +1,126 @@
+#include "scenes/image/writer.hpp"
+
+#include "core/transfer.hpp"
+#include "scenes/errors.hpp"
+
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <exception>
+
+namespace raylane::scenes {
+
+namespace {
+
+static_assert(sizeof(core::Color) == 3 * sizeof(float), "a film is rows of RGB floats");
+
+/// Takes what stb_image_write writes. No exception may pass through it: it would not free its
+/// memory.
+struct Sink {
+    AtomicFile& file;
+    std::exception_ptr failure;
+
+    static void write(void* context, void* data, int size) {
+        Sink& sink = *static_cast<Sink*>(context);
+        if (sink.failure) return;
+        try {
+            sink.file.write({static_cast<const char*>(data), static_cast<std::size_t>(size)});
+        } catch (...) {
+            sink.failure = std::current_exception();
+        }
+    }
+
+    /// `encoded`: what the writing function returned; 0 if it had no memory.
+    void finish(int encoded) const {
+        if (failure) std::rethrow_exception(failure);
+        if (encoded == 0) throw SystemRefused(file.name(), "write", ENOMEM);
+    }
+};
+
+/// What a shared exponent can hold; its largest power of two is 2^127.
+float radiance_component(float value) {
+    constexpr float largest = 0x1.FFFFFEp126F;
+    return std::isnan(value) ? 0.0F : std::clamp(value, 0.0F, largest);
+}
+
+} // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& path) : format_(format_of(path)), file_(path) {}
+
+OutputFile::Format OutputFile::format_of(const std::filesystem::path& path) {
+    std::string ending = path.extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (ending == ".png") return Format::png;
+    if (ending == ".hdr") return Format::hdr;
+    if (ending == ".pfm") return Format::pfm;
+    throw BadInput(path.string(), "",
+                   "must end in .png, .hdr or .pfm, got " +
+                       (ending.empty() ? "no ending" : '"' + printable(ending) + '"'));
+}
+
+void OutputFile::reserve(int width, int height) {
+    // The others are compressed: any room may do.
+    const std::int64_t components = std::int64_t{3} * width * height;
+    file_.reserve(format_ == Format::pfm ? components * static_cast<int>(sizeof(float)) : 1);
+}
+
+void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
+    switch (format_) {
+    case Format::png:
+        write_png(film, transfer);
+        break;
+    case Format::hdr:
+        write_hdr(film);
+        break;
+    case Format::pfm:
+        write_pfm(film);
+        break;
+    }
+    file_.commit();
+}
+
+void OutputFile::write_png(const core::Film& film, core::Transfer transfer) {
+    std::vector<std::uint8_t> codes;
+    codes.reserve(3 * film.pixels().size());
+    for (const core::Color& pixel : film.pixels())
+        for (int channel = 0; channel < 3; ++channel)
+            codes.push_back(core::encode(pixel[channel], transfer));
+    Sink sink{file_, nullptr};
+    sink.finish(stbi_write_png_to_func(&Sink::write, &sink, film.width(), film.height(), 3,
+                                       codes.data(), 3 * film.width()));
+}
+
+void OutputFile::write_hdr(const core::Film& film) {
+    std::vector<float> components;
+    components.reserve(3 * film.pixels().size());
+    for (const core::Color& pixel : film.pixels())
+        for (int channel = 0; channel < 3; ++channel)
+            components.push_back(radiance_component(pixel[channel]));
+    Sink sink{file_, nullptr};
+    sink.finish(stbi_write_hdr_to_func(&Sink::write, &sink, film.width(), film.height(), 3,
+                                       components.data()));
+}
+
+/// The format is Paul Debevec's: rows from the bottom up, a negative scale for little-endian.
+void OutputFile::write_pfm(const core::Film& film) {
+    const std::string header =
+        "PF\n" + std::to_string(film.width()) + " " + std::to_string(film.height()) + "\n-1.0\n";
+    file_.write(header);
+    std::vector<char> row;
+    for (int y = film.height() - 1; y >= 0; --y) {
+        row.clear();
+        for (int x = 0; x < film.width(); ++x)
+            for (int channel = 0; channel < 3; ++channel) {
+                const auto bits = std::bit_cast<std::uint32_t>(film.at(x, y)[channel]);
+                for (int shift = 0; shift < 32; shift += 8)
+                    row.push_back(static_cast<char>(bits >> shift & 0xFF));
+            }
+        file_.write(row);
+    }
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,101 @@
+#include "scenes/json/material.hpp"
+
+#include <algorithm>
+
+namespace raylane::scenes {
+
+namespace {
+
+using core::Pattern;
+using core::PatternKind;
+
+void read_colors(const JsonValue& value, Pattern& pattern) {
+    const std::vector<JsonValue> colors = value.at("colors").array(2, "colors");
+    pattern.colors = {colors[0].color(), colors[1].color()};
+}
+
+Pattern read_checker(const JsonValue& value) {
+    value.allow_only({"type", "colors", "size", "axes"});
+    Pattern pattern{.kind = PatternKind::checker};
+    read_colors(value, pattern);
+    pattern.size = value.at("size").number();
+    if (const auto axes = value.find("axes")) {
+        static constexpr std::uint8_t x = 1, y = 2, z = 4;
+        pattern.axes = axes->choice<std::uint8_t>({{"x", x},
+                                                   {"y", y},
+                                                   {"z", z},
+                                                   {"xy", x | y},
+                                                   {"xz", x | z},
+                                                   {"yz", y | z},
+                                                   {"xyz", x | y | z}});
+    }
+    return pattern;
+}
+
+Pattern read_stripes(const JsonValue& value) {
+    value.allow_only({"type", "colors", "width", "direction"});
+    Pattern pattern{.kind = PatternKind::stripes};
+    read_colors(value, pattern);
+    pattern.size = value.at("width").number();
+    if (const auto direction = value.find("direction")) pattern.direction = direction->vector();
+    return pattern;
+}
+
+Pattern read_gradient(const JsonValue& value) {
+    value.allow_only({"type", "colors", "from", "to"});
+    Pattern pattern{.kind = PatternKind::gradient};
+    read_colors(value, pattern);
+    pattern.from = value.at("from").vector();
+    pattern.to = value.at("to").vector();
+    return pattern;
+}
+
+Pattern read_back_plane(const JsonValue& value) {
+    value.allow_only({"type"});
+    return {.kind = PatternKind::back_plane};
+}
+
+Pattern read_pattern(const JsonValue& value) {
+    using Read = Pattern (*)(const JsonValue&);
+    const Read read = value.at("type").choice<Read>({{"checker", read_checker},
+                                                     {"stripes", read_stripes},
+                                                     {"gradient", read_gradient},
+                                                     {"back-plane", read_back_plane}});
+    return read(value);
+}
+
+} // namespace
+
+core::Material read_material(const JsonValue& value) {
+    value.allow_only({"color", "pattern", "ambient", "diffuse", "specular", "exponent",
+                      "reflectivity", "reflection", "transmission", "index", "absorption",
+                      "visible"});
+    value.exclude("color", "pattern");
+    value.exclude("reflectivity", "reflection");
+
+    core::Material material;
+    if (const auto color = value.find("color")) material.pattern.colors[0] = color->color();
+    if (const auto pattern = value.find("pattern")) material.pattern = read_pattern(*pattern);
+    const std::initializer_list<std::pair<std::string_view, float*>> numbers = {
+        {"ambient", &material.ambient},
+        {"diffuse", &material.diffuse},
+        {"specular", &material.specular},
+        {"exponent", &material.exponent},
+        {"reflectivity", &material.reflectivity},
+        {"transmission", &material.transmission},
+        {"index", &material.index}};
+    for (const auto& [key, number] : numbers)
+        if (const auto found = value.find(key)) *number = found->number();
+    if (const auto reflection = value.find("reflection"))
+        material.reflection = reflection->choice<core::Reflection>(
+            {{"schlick", core::Reflection::schlick}, {"dielectric", core::Reflection::dielectric}});
+    if (const auto absorption = value.find("absorption"))
+        material.absorption = absorption->vector();
+    if (const auto visible = value.find("visible"))
+        material.visible = visible->choice<core::Visible>({{"both", core::Visible::both},
+                                                           {"outside", core::Visible::outside},
+                                                           {"inside", core::Visible::inside}});
+    return material;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,211 @@
+#include "scenes/json/object.hpp"
+
+#include "scenes/generators.hpp"
+
+namespace raylane::scenes {
+
+namespace {
+
+using core::Ends;
+
+/// Reads and adds one object.
+class ObjectReader {
+  public:
+    ObjectReader(const JsonValue& object, core::SceneBuilder& builder,
+                 const MaterialOf& material_of)
+        : object_(object), builder_(builder), material_of_(material_of) {}
+
+    void sphere() {
+        object_.allow_only({"type", "material", "center", "radius"});
+        add(core::Sphere{vector("center"), number("radius")});
+    }
+
+    void plane() {
+        object_.allow_only({"type", "material", "point", "normal"});
+        add(core::Plane{vector("point"), vector("normal")});
+    }
+
+    void disc() {
+        object_.allow_only({"type", "material", "center", "normal", "radius"});
+        add(core::Disc{vector("center"), vector("normal"), number("radius")});
+    }
+
+    void triangle() {
+        object_.allow_only({"type", "material", "a", "b", "c", "normals"});
+        const core::Triangle flat{vector("a"), vector("b"), vector("c")};
+        if (!object_.find("normals")) {
+            add(flat);
+            return;
+        }
+        const std::vector<JsonValue> normals = object_.at("normals").array(3, "vectors");
+        add(core::SmoothTriangle{flat.a, flat.b, flat.c, normals[0].vector(), normals[1].vector(),
+                                 normals[2].vector()});
+    }
+
+    void box();
+
+    void cylinder() {
+        object_.allow_only({"type", "material", "base", "axis", "radius", "capped"});
+        if (capped())
+            add(cylinder_with<Ends::capped>());
+        else
+            add(cylinder_with<Ends::open>());
+    }
+
+    void cone() {
+        object_.allow_only(
+            {"type", "material", "base", "axis", "base_radius", "top_radius", "capped"});
+        if (capped())
+            add(cone_with<Ends::capped>());
+        else
+            add(cone_with<Ends::open>());
+    }
+
+    void quadric();
+
+    void sphereflake() {
+        object_.allow_only({"type", "material", "center", "radius", "depth", "up"});
+        Sphereflake flake{
+            .center = vector("center"), .radius = number("radius"), .depth = integer("depth")};
+        if (const auto up = object_.find("up")) flake.up = up->vector();
+        const core::MaterialIndex own = material();
+        checked(object_, [&] { scenes::add(builder_, flake, own); });
+    }
+
+    void lattice();
+
+  private:
+    core::Vec3f vector(std::string_view key) const { return object_.at(key).vector(); }
+    float number(std::string_view key) const { return object_.at(key).number(); }
+    int integer(std::string_view key) const { return object_.at(key).integer(); }
+    bool capped() const {
+        const auto value = object_.find("capped");
+        return !value || value->boolean();
+    }
+    core::MaterialIndex material() const { return material_of_(object_.at("material")); }
+
+    template <class Shape>
+    void add(const Shape& shape) {
+        const core::MaterialIndex own = material();
+        checked(object_, [&] { builder_.add(shape, own); });
+    }
+
+    template <Ends ends>
+    core::Cylinder<ends> cylinder_with() const {
+        return {vector("base"), vector("axis"), number("radius")};
+    }
+
+    template <Ends ends>
+    core::Cone<ends> cone_with() const {
+        const auto top_radius = object_.find("top_radius");
+        return {vector("base"), vector("axis"), number("base_radius"),
+                top_radius ? top_radius->number() : 0.0F};
+    }
+
+    const JsonValue& object_;
+    core::SceneBuilder& builder_;
+    const MaterialOf& material_of_;
+};
+
+void ObjectReader::box() {
+    object_.allow_only({"type", "material", "corner", "edges", "min", "max"});
+    if (!object_.find("min") && !object_.find("max")) {
+        const core::Vec3f corner = vector("corner");
+        const std::vector<JsonValue> edges = object_.at("edges").array(3, "vectors");
+        add(core::Box{corner, edges[0].vector(), edges[1].vector(), edges[2].vector()});
+        return;
+    }
+    for (const std::string_view key : {"corner", "edges"})
+        for (const std::string_view other : {"min", "max"})
+            object_.exclude(key, other);
+    const core::Vec3f lower = vector("min"), upper = vector("max");
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(lower[axis] < upper[axis]))
+            object_.at("max").array(3, "numbers")[axis].fail_expecting(
+                "more than min's " + object_.at("min").array(3, "numbers")[axis].quoted());
+    const core::Vec3f size = upper - lower;
+    const core::MaterialIndex own = material();
+    checked(object_, [&] {
+        try {
+            builder_.add(
+                core::Box{lower, {size.x, 0.0F, 0.0F}, {0.0F, size.y, 0.0F}, {0.0F, 0.0F, size.z}},
+                own);
+        } catch (const core::InvalidValue& invalid) {
+            const bool corner = invalid.field.starts_with("corner");
+            throw core::InvalidValue(corner ? "min" : "max", invalid.expectation);
+        }
+    });
+}
+
+void ObjectReader::quadric() {
+    object_.allow_only({"type", "material", "center", "matrix", "lower", "upper"});
+    float matrix[4][4];
+    const std::vector<JsonValue> rows = object_.at("matrix").array(4, "rows");
+    for (int row = 0; row < 4; ++row) {
+        const std::vector<JsonValue> values = rows[row].array(4, "numbers");
+        for (int column = 0; column < 4; ++column) {
+            matrix[row][column] = values[column].number();
+            if (column < row && matrix[row][column] != matrix[column][row])
+                values[column].fail_expecting("equal to matrix/" + std::to_string(column) + "/" +
+                                              std::to_string(row) +
+                                              ", for the matrix is symmetric");
+        }
+    }
+    core::Quadric quadric{};
+    if (const auto center = object_.find("center")) quadric.center = center->vector();
+    quadric.xx = matrix[0][0];
+    quadric.yy = matrix[1][1];
+    quadric.zz = matrix[2][2];
+    quadric.xy = matrix[0][1];
+    quadric.xz = matrix[0][2];
+    quadric.yz = matrix[1][2];
+    quadric.x = matrix[0][3];
+    quadric.y = matrix[1][3];
+    quadric.z = matrix[2][3];
+    quadric.one = matrix[3][3];
+    quadric.lower = vector("lower");
+    quadric.upper = vector("upper");
+    add(quadric);
+}
+
+void ObjectReader::lattice() {
+    object_.allow_only({"type", "material", "strut_material", "corner", "center", "n", "spacing",
+                        "sphere_radius", "strut_radius"});
+    object_.exclude("corner", "center");
+    Lattice lattice{.corner = core::Vec3d(0.0),
+                    .n = integer("n"),
+                    .spacing = number("spacing"),
+                    .sphere_radius = number("sphere_radius"),
+                    .strut_radius = number("strut_radius")};
+    if (const auto center = object_.find("center"))
+        lattice.corner =
+            core::convert<double>(center->vector()) -
+            core::Vec3d(0.5 * (lattice.n - 1.0) * static_cast<double>(lattice.spacing));
+    else
+        lattice.corner = core::convert<double>(vector("corner"));
+    const auto struts = object_.find("strut_material");
+    const core::MaterialIndex own = material();
+    const core::MaterialIndex strut_material = struts ? material_of_(*struts) : own;
+    checked(object_, [&] { scenes::add(builder_, lattice, own, strut_material); });
+}
+
+} // namespace
+
+void add_object(const JsonValue& object, core::SceneBuilder& builder,
+                const MaterialOf& material_of) {
+    using Read = void (ObjectReader::*)();
+    const Read read = object.at("type").choice<Read>({{"sphere", &ObjectReader::sphere},
+                                                      {"plane", &ObjectReader::plane},
+                                                      {"disc", &ObjectReader::disc},
+                                                      {"triangle", &ObjectReader::triangle},
+                                                      {"box", &ObjectReader::box},
+                                                      {"cylinder", &ObjectReader::cylinder},
+                                                      {"cone", &ObjectReader::cone},
+                                                      {"quadric", &ObjectReader::quadric},
+                                                      {"sphereflake", &ObjectReader::sphereflake},
+                                                      {"lattice", &ObjectReader::lattice}});
+    ObjectReader reader(object, builder, material_of);
+    (reader.*read)();
+}
+
+} // namespace raylane::scenes

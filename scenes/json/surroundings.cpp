@@ -1,0 +1,83 @@
+#include "scenes/json/surroundings.hpp"
+
+namespace raylane::scenes {
+
+using core::FogKind;
+using core::LightKind;
+using core::Projection;
+
+void read_image(const JsonValue& value, core::Settings& settings) {
+    value.allow_only({"width", "height", "transfer"});
+    if (const auto width = value.find("width")) settings.width = width->integer();
+    if (const auto height = value.find("height")) settings.height = height->integer();
+    if (const auto transfer = value.find("transfer"))
+        settings.transfer = transfer->choice<core::Transfer>(
+            {{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}});
+}
+
+void read_sampling(const JsonValue& value, core::Settings& settings) {
+    value.allow_only({"grid", "pattern"});
+    if (const auto grid = value.find("grid")) settings.grid = grid->integer();
+    if (const auto pattern = value.find("pattern"))
+        settings.samples =
+            pattern->choice<core::SamplePattern>({{"regular", core::SamplePattern::regular},
+                                                  {"stratified", core::SamplePattern::stratified}});
+}
+
+void read_limits(const JsonValue& value, core::Settings& settings) {
+    value.allow_only({"max_depth", "min_weight"});
+    if (const auto depth = value.find("max_depth")) settings.max_depth = depth->integer();
+    if (const auto weight = value.find("min_weight")) settings.min_weight = weight->number();
+}
+
+core::Camera read_camera(const JsonValue& value) {
+    core::Camera camera;
+    if (const auto type = value.find("type"))
+        camera.projection = type->choice<Projection>(
+            {{"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}});
+    if (camera.projection == Projection::perspective) {
+        value.allow_only({"type", "from", "at", "up", "field_of_view"});
+        if (const auto angle = value.find("field_of_view")) camera.field_of_view = angle->number();
+    } else {
+        value.allow_only({"type", "from", "at", "up", "height"});
+        camera.height = value.at("height").number();
+    }
+    camera.from = value.at("from").vector();
+    camera.at = value.at("at").vector();
+    if (const auto up = value.find("up")) camera.up = up->vector();
+    return camera;
+}
+
+core::Fog read_fog(const JsonValue& value) {
+    core::Fog fog;
+    fog.kind = value.at("type").choice<FogKind>({{"linear-z", FogKind::linear_z},
+                                                 {"linear", FogKind::linear},
+                                                 {"exponential", FogKind::exponential}});
+    if (fog.kind == FogKind::exponential) {
+        value.allow_only({"type", "color", "density"});
+        fog.density = value.at("density").number();
+    } else {
+        value.allow_only({"type", "color", "start", "end"});
+        fog.start = value.at("start").number();
+        fog.end = value.at("end").number();
+    }
+    if (const auto color = value.find("color")) fog.color = color->color();
+    return fog;
+}
+
+core::Light read_light(const JsonValue& value) {
+    core::Light light;
+    light.kind = value.at("type").choice<LightKind>(
+        {{"point", LightKind::point}, {"directional", LightKind::directional}});
+    if (light.kind == LightKind::point) {
+        value.allow_only({"type", "position", "color"});
+        light.position = value.at("position").vector();
+    } else {
+        value.allow_only({"type", "direction", "color"});
+        light.direction = value.at("direction").vector();
+    }
+    if (const auto color = value.find("color")) light.color = color->color();
+    return light;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,243 @@
+#include "scenes/json/value.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// The linear component for an 8-bit sRGB code (IEC 61966-2-1).
+float linear_of_srgb(int code) {
+    const double c = code / 255.0;
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+}
+
+std::string in_quotes(std::string_view text) {
+    return '"' + printable(text) + '"';
+}
+
+/// `"a", "b" or "c"`
+std::string alternatives(const std::vector<std::string_view>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += i + 1 < names.size() ? ", " : " or ";
+        text += in_quotes(names[i]);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string_view name_of(JsonType type) {
+    switch (type) {
+    case JsonType::null:
+        return "null";
+    case JsonType::boolean:
+        return "true or false";
+    case JsonType::number:
+        return "a number";
+    case JsonType::string:
+        return "a string";
+    case JsonType::array:
+        return "an array";
+    case JsonType::object:
+        break;
+    }
+    return "an object";
+}
+
+std::string pointer_token(std::string_view key) {
+    std::string token = "/";
+    for (const char c : printable(key)) {
+        if (c == '~')
+            token += "~0";
+        else if (c == '/')
+            token += "~1";
+        else
+            token += c;
+    }
+    return token;
+}
+
+std::string unknown_key(std::string_view key, const std::vector<std::string_view>& known) {
+    const std::string near = suggestion(key, known);
+    return "unknown key " + in_quotes(key) +
+           (near.empty() ? ", must be " + alternatives(known) : near);
+}
+
+void JsonDocument::begin(std::string_view file, std::string pointer) {
+    file_ = file;
+    pointer_ = std::move(pointer);
+    nodes_.clear();
+    open_.clear();
+    text_.clear();
+}
+
+void JsonDocument::add(JsonType type, std::string_view key, std::string_view text, float number) {
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    const std::uint32_t parent = open_.empty() ? 0 : open_.back();
+    const bool named = !open_.empty() && nodes_[parent].type == JsonType::object;
+    const bool opens = type == JsonType::array || type == JsonType::object;
+    nodes_.push_back(
+        {type, parent, opens ? 0 : index + 1, keep(named ? key : ""), keep(text), number});
+    if (opens) open_.push_back(index);
+}
+
+void JsonDocument::close() {
+    nodes_[open_.back()].end = static_cast<std::uint32_t>(nodes_.size());
+    open_.pop_back();
+}
+
+JsonDocument::Text JsonDocument::keep(std::string_view text) {
+    const Text kept{static_cast<std::uint32_t>(text_.size()),
+                    static_cast<std::uint32_t>(text.size())};
+    text_.append(text);
+    return kept;
+}
+
+JsonValue JsonDocument::root() const {
+    return {*this, 0};
+}
+JsonValue JsonDocument::innermost() const {
+    return {*this, open_.back()};
+}
+JsonValue JsonDocument::latest() const {
+    return {*this, static_cast<std::uint32_t>(nodes_.size() - 1)};
+}
+
+std::vector<JsonValue> JsonValue::children() const {
+    std::vector<JsonValue> values;
+    for (std::uint32_t i = node_ + 1; i < document_->end_of(node_); i = document_->end_of(i))
+        values.emplace_back(*document_, i);
+    return values;
+}
+
+std::string JsonValue::pointer() const {
+    if (node_ == 0) return document_->pointer_;
+    const JsonValue parent(*document_, node().parent);
+    if (parent.type() == JsonType::object) return parent.pointer() + pointer_token(key());
+    std::size_t index = 0;
+    for (std::uint32_t i = node().parent + 1; i < node_; i = document_->end_of(i))
+        ++index;
+    return parent.pointer() + '/' + std::to_string(index);
+}
+
+std::string JsonValue::quoted() const {
+    const std::string_view text = document_->get(node().text);
+    switch (type()) {
+    case JsonType::null:
+        return "null";
+    case JsonType::boolean:
+        return boolean() ? "true" : "false";
+    case JsonType::number:
+        return printable(text);
+    case JsonType::string:
+        return in_quotes(text);
+    case JsonType::array:
+        return "an array";
+    case JsonType::object:
+        break;
+    }
+    return "an object";
+}
+
+void JsonValue::fail(std::string_view message) const {
+    throw BadInput(file(), pointer(), message);
+}
+
+void JsonValue::fail_expecting(std::string_view expected) const {
+    fail("must be " + std::string(expected) + ", got " + quoted());
+}
+
+void JsonValue::fail_choice(const std::vector<std::string_view>& names) const {
+    fail("must be " + alternatives(names) + ", got " + quoted() + suggestion(string(), names));
+}
+
+void JsonValue::require(JsonType wanted) const {
+    if (type() != wanted) fail_expecting(name_of(wanted));
+}
+
+void JsonValue::allow_only(std::initializer_list<std::string_view> keys) const {
+    require(JsonType::object);
+    for (const JsonValue& child : children()) {
+        if (std::find(keys.begin(), keys.end(), child.key()) == keys.end())
+            fail(unknown_key(child.key(), keys));
+    }
+}
+
+std::optional<JsonValue> JsonValue::find(std::string_view wanted) const {
+    require(JsonType::object);
+    for (std::uint32_t i = node_ + 1; i < document_->end_of(node_); i = document_->end_of(i))
+        if (document_->get(document_->nodes_[i].key) == wanted) return JsonValue(*document_, i);
+    return std::nullopt;
+}
+
+JsonValue JsonValue::at(std::string_view wanted) const {
+    const std::optional<JsonValue> value = find(wanted);
+    if (!value) fail("must have the key " + in_quotes(wanted));
+    return *value;
+}
+
+void JsonValue::exclude(std::string_view one, std::string_view other) const {
+    if (find(one) && find(other))
+        fail("must not have both " + in_quotes(one) + " and " + in_quotes(other));
+}
+
+std::vector<JsonValue> JsonValue::array(std::size_t count, std::string_view elements) const {
+    const std::string expected =
+        "an array of " + std::to_string(count) + ' ' + std::string(elements);
+    if (type() != JsonType::array) fail_expecting(expected);
+    std::vector<JsonValue> values = children();
+    if (values.size() != count)
+        fail("must be " + expected + ", got " + std::to_string(values.size()));
+    return values;
+}
+
+float JsonValue::number() const {
+    require(JsonType::number);
+    if (std::isinf(node().number)) fail_expecting("a number that fits a float (at most 3.4e38)");
+    return node().number;
+}
+
+int JsonValue::integer() const {
+    const std::string_view text = document_->get(node().text);
+    double value = 0.5;
+    if (type() == JsonType::number) std::from_chars(text.data(), text.data() + text.size(), value);
+    if (std::trunc(value) != value) fail_expecting("a whole number");
+    if (std::abs(value) > std::numeric_limits<int>::max())
+        fail_expecting("a whole number of at most " +
+                       std::to_string(std::numeric_limits<int>::max()));
+    return static_cast<int>(value);
+}
+
+bool JsonValue::boolean() const {
+    require(JsonType::boolean);
+    return node().number != 0.0F;
+}
+
+std::string_view JsonValue::string() const {
+    require(JsonType::string);
+    return document_->get(node().text);
+}
+
+core::Vec3f JsonValue::vector() const {
+    const std::vector<JsonValue> values = array(3, "numbers");
+    return {values[0].number(), values[1].number(), values[2].number()};
+}
+
+core::Color JsonValue::color() const {
+    if (type() == JsonType::array) return vector();
+    const std::string_view text = type() == JsonType::string ? string() : "";
+    std::uint32_t code = 0;
+    const char* const end = text.data() + text.size();
+    if (text.size() != 7 || text[0] != '#' ||
+        std::from_chars(text.data() + 1, end, code, 16).ptr != end)
+        fail_expecting("[red, green, blue] or \"#rrggbb\"");
+    return {linear_of_srgb(code >> 16 & 0xFF), linear_of_srgb(code >> 8 & 0xFF),
+            linear_of_srgb(code & 0xFF)};
+}
+
+} // namespace raylane::scenes

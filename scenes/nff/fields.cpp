@@ -1,0 +1,69 @@
+#include "scenes/nff/fields.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/number.hpp"
+
+namespace raylane::scenes {
+
+bool NffFields::next_entity() {
+    if (line_ != 0 && !scanner_.at_line_end()) {
+        const std::string got = in_quotes(scanner_.word());
+        fail(scanner_.line(), "must be the end of the line, got " + got);
+    }
+    const std::string_view word = scanner_.word();
+    entity_ = word;
+    line_ = scanner_.line();
+    vertex_ = 0;
+    return !word.empty();
+}
+
+float NffFields::number(std::string_view field) {
+    const std::string_view word = scanner_.word();
+    if (const std::optional<float> value = to_float(word)) return *value;
+    refuse(field, "must be a finite number", in_quotes(word));
+}
+
+int NffFields::whole_number(std::string_view field, int least, int most) {
+    const std::string_view word = scanner_.word();
+    const std::optional<int> value = to_int(word);
+    if (value && least <= *value && *value <= most) return *value;
+    refuse(field,
+           "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+           in_quotes(word));
+}
+
+core::Vec3f NffFields::vector(std::string_view field) {
+    const float x = number(field);
+    const float y = number(field);
+    const float z = number(field);
+    return {x, y, z};
+}
+
+core::Vec3f NffFields::vector_on_line(std::string_view field) {
+    core::Vec3f vector;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (at_line_end()) refuse(field, "must be three numbers", "the end of the line");
+        vector[axis] = number(field);
+    }
+    return vector;
+}
+
+void NffFields::begin_vertex(int number, int count) {
+    vertex_ = number;
+    vertex_count_ = count;
+}
+
+void NffFields::refuse(std::string_view field, std::string_view must, std::string_view what) const {
+    std::string message = entity_;
+    if (scanner_.line() != line_) message += " of line " + std::to_string(line_);
+    if (vertex_ != 0)
+        message += ": vertex " + std::to_string(vertex_) + " of " + std::to_string(vertex_count_);
+    if (!field.empty()) message.append(": ").append(field);
+    fail(scanner_.line(), message.append(": ").append(must).append(", got ").append(what));
+}
+
+std::string in_quotes(std::string_view word) {
+    return word.empty() ? "the end of the file" : '"' + printable(word) + '"';
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,295 @@
+#include "scenes/nff/reader.hpp"
+
+#include "core/validate.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/nff/fields.hpp"
+#include "scenes/nff/surface.hpp"
+#include "scenes/nff/triangulate.hpp"
+#include "scenes/nff/view.hpp"
+#include "scenes/number.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace raylane::scenes {
+
+namespace {
+
+using core::InvalidValue;
+using core::Vec3f;
+using core::Visible;
+
+/// More is taken for a mistake in the count.
+constexpr int most_vertices = 10'000'000;
+
+/// So many bytes of a file tell how many shapes to expect of the rest.
+constexpr std::uint64_t sample_size = 1 << 20;
+
+class Reader {
+  public:
+    explicit Reader(InputFile& file) : file_(file), fields_(file) {}
+    core::Scene read();
+
+  private:
+    struct LightSource {
+        Vec3f position;
+        std::optional<core::Color> color;
+        std::uint64_t line;
+    };
+
+    void read_entity();
+    void read_view();
+    void read_background();
+    void read_light();
+    void read_fill();
+    void read_sphere();
+    void read_cone();
+    void read_polygon(bool with_normals);
+
+    template <class Shape>
+    void add(const Shape& shape, core::MaterialIndex material) {
+        builder_.add(shape, material);
+        ++counts_[static_cast<std::size_t>(core::kind_of<Shape>)];
+    }
+    template <class Triangle>
+    void add_polygon(const std::vector<Triangle>& triangles) {
+        builder_.add_polygon<Triangle>(triangles, material(Visible::both));
+        counts_[static_cast<std::size_t>(core::kind_of<Triangle>)] += triangles.size();
+    }
+    void reserve_rest();
+
+    void require_no_objects() const;
+    void begin_objects();
+    void add_lights();
+    core::MaterialIndex material(Visible visible);
+    core::Scene build();
+
+    InputFile& file_;
+    NffFields fields_;
+    core::SceneBuilder builder_;
+    bool has_view_ = false;
+    std::vector<LightSource> lights_;
+    std::optional<NffMaterials> materials_; // from the first object on
+    NffFill fill_;
+    std::optional<core::MaterialIndex> both_sides_, inside_; // fill_'s materials
+
+    std::array<std::size_t, core::kind_count> counts_{}; // shapes so far
+    bool reserved_ = false;
+
+    std::vector<Vec3f> vertices_;
+    std::vector<Vec3f> normals_;
+    Triangulator triangulator_;
+    std::vector<core::Triangle> triangles_;
+    std::vector<core::SmoothTriangle> smooth_triangles_;
+};
+
+core::Scene Reader::read() {
+    while (fields_.next_entity()) {
+        try {
+            read_entity();
+        } catch (const InvalidValue& invalid) {
+            fields_.fail(fields_.line(), fields_.entity() + ": " + invalid.what());
+        }
+        if (!reserved_ && fields_.bytes_passed() >= sample_size) reserve_rest();
+    }
+    return build();
+}
+
+void Reader::read_entity() {
+    const std::string& entity = fields_.entity();
+    if (entity == "s") return read_sphere();
+    if (entity == "c") return read_cone();
+    if (entity == "p") return read_polygon(false);
+    if (entity == "pp") return read_polygon(true);
+    if (entity == "f") return read_fill();
+    if (entity == "l") return read_light();
+    if (entity == "b") return read_background();
+    if (entity == "v") return read_view();
+    fields_.fail(fields_.line(),
+                 "must be one of v, b, l, f, s, c, p and pp, got " + in_quotes(entity));
+}
+
+/// The last of several counts: the text has one.
+void Reader::read_view() {
+    require_no_objects();
+    const NffView view = read_nff_view(fields_);
+    builder_.camera = view.camera;
+    builder_.settings.width = view.width;
+    builder_.settings.height = view.height;
+    // The databases' conventions: no transfer curve, and a tree of rays of depth 5 with the eye's.
+    builder_.settings.transfer = core::Transfer::linear;
+    builder_.settings.max_depth = 4;
+    builder_.settings.min_weight = 0.0F;
+    core::validate(builder_.settings);
+    has_view_ = true;
+}
+
+/// As with the view, the last counts; it may come anywhere.
+void Reader::read_background() {
+    builder_.background = fields_.vector("color");
+    core::validate_color("color", builder_.background);
+}
+
+/// Only the line tells whether it has a colour.
+void Reader::read_light() {
+    require_no_objects();
+    LightSource light{fields_.vector("position"), std::nullopt, fields_.line()};
+    if (!fields_.at_line_end()) light.color = fields_.vector_on_line("color");
+    core::validate(
+        core::Light{.position = light.position, .color = light.color.value_or(core::Color(1.0F))});
+    lights_.push_back(light);
+}
+
+void Reader::read_fill() {
+    fill_.color = fields_.vector("color");
+    fill_.kd = fields_.number("Kd");
+    fill_.ks = fields_.number("Ks");
+    fill_.shine = fields_.number("Shine");
+    fill_.t = fields_.number("T");
+    fill_.index = fields_.number("index of refraction");
+    validate(fill_);
+    both_sides_.reset();
+    inside_.reset();
+}
+
+void Reader::read_sphere() {
+    begin_objects();
+    core::Sphere sphere{fields_.vector("center"), fields_.number("radius")};
+    const Visible visible = sphere.radius < 0.0F ? Visible::inside : Visible::both;
+    sphere.radius = std::abs(sphere.radius);
+    add(sphere, material(visible));
+}
+
+void Reader::read_cone() {
+    begin_objects();
+    const Vec3f base = fields_.vector("base");
+    const float base_radius = fields_.number("base radius");
+    const Vec3f apex = fields_.vector("apex");
+    const float apex_radius = fields_.number("apex radius");
+    if (base == apex) throw InvalidValue("apex", "must differ from the base, got the same point");
+    if (std::min(base_radius, apex_radius) < 0.0F && std::max(base_radius, apex_radius) > 0.0F)
+        throw InvalidValue("radii", "must not be of different signs, got " + to_text(base_radius) +
+                                        " and " + to_text(apex_radius));
+
+    const bool inside = base_radius < 0.0F || apex_radius < 0.0F;
+    const core::MaterialIndex index = material(inside ? Visible::inside : Visible::both);
+    // The text has the smaller radius at the apex. Nothing depends on that.
+    if (base_radius == apex_radius)
+        add(core::OpenCylinder{base, apex - base, std::abs(base_radius)}, index);
+    else
+        add(core::OpenCone{base, apex - base, std::abs(base_radius), std::abs(apex_radius)}, index);
+}
+
+/// The front is where the vertices run counter-clockwise, by the area of the whole polygon. The
+/// text's short cut, the turn at the second vertex, is the same wherever the text allows it.
+void Reader::read_polygon(bool with_normals) {
+    begin_objects();
+    vertices_.clear();
+    normals_.clear();
+    const int count = fields_.whole_number("number of vertices", 3, most_vertices);
+    for (int i = 1; i <= count; ++i) {
+        fields_.begin_vertex(i, count);
+        vertices_.push_back(fields_.vector("position"));
+        for (int axis = 0; axis < 3; ++axis)
+            if (const float coordinate = vertices_.back()[axis];
+                std::abs(coordinate) > core::coordinate_limit)
+                fields_.refuse("position", "must be numbers from -1e30 to 1e30",
+                               to_text(coordinate));
+        if (!with_normals) continue;
+        normals_.push_back(fields_.vector("normal"));
+        if (normals_.back() == Vec3f(0.0F))
+            fields_.refuse("normal", "must not be the zero vector", "0 0 0");
+    }
+    const std::span<const Triangulator::Corners> corners = triangulator_.triangulate(vertices_);
+    if (corners.empty())
+        throw InvalidValue("", "must have an area, got " + std::to_string(count) +
+                                   " vertices without one");
+    const auto& v = vertices_;
+    const auto& n = normals_;
+    if (with_normals) {
+        smooth_triangles_.clear();
+        for (const auto& [a, b, c] : corners)
+            smooth_triangles_.push_back({v[a], v[b], v[c], n[a], n[b], n[c]});
+        add_polygon(smooth_triangles_);
+    } else {
+        triangles_.clear();
+        for (const auto& [a, b, c] : corners)
+            triangles_.push_back({v[a], v[b], v[c]});
+        add_polygon(triangles_);
+    }
+}
+
+/// Makes room for as many shapes as there will be if the file goes on as it began, so that no table
+/// is copied as it grows.
+void Reader::reserve_rest() {
+    reserved_ = true;
+    const std::uint64_t passed = fields_.bytes_passed();
+    if (file_.size() <= passed) return;
+    constexpr double margin = 17.0 / 16.0;
+    const double rest =
+        margin * static_cast<double>(file_.size() - passed) / static_cast<double>(passed);
+    const auto reserve = [&]<class Shape>(std::in_place_type_t<Shape>) {
+        const auto count =
+            static_cast<double>(counts_[static_cast<std::size_t>(core::kind_of<Shape>)]);
+        builder_.reserve<Shape>(static_cast<std::size_t>(rest * count));
+    };
+    reserve(std::in_place_type<core::Sphere>);
+    reserve(std::in_place_type<core::OpenCylinder>);
+    reserve(std::in_place_type<core::OpenCone>);
+    reserve(std::in_place_type<core::Triangle>);
+    reserve(std::in_place_type<core::SmoothTriangle>);
+}
+
+void Reader::require_no_objects() const {
+    if (materials_) throw InvalidValue("", "must come before the objects, got it after them");
+}
+
+/// Views and lights "must be defined before any objects", and a material's ambient light depends on
+/// the number of lights.
+void Reader::begin_objects() {
+    if (materials_) return;
+    if (!has_view_) throw InvalidValue("", "must come after the v entity, got it before");
+    add_lights();
+    materials_.emplace(builder_, nff_intensity(lights_.size()));
+}
+
+void Reader::add_lights() {
+    const core::Color usual(nff_intensity(lights_.size()));
+    for (const LightSource& light : lights_)
+        builder_.add_light({.position = light.position, .color = light.color.value_or(usual)});
+}
+
+/// "Objects are normally considered one sided": that is leave to cull what no picture of the
+/// databases shows, and the Readme takes it back for the teapot. So only a negative radius, which
+/// asks for one side, hides the other.
+core::MaterialIndex Reader::material(Visible visible) {
+    std::optional<core::MaterialIndex>& index = visible == Visible::inside ? inside_ : both_sides_;
+    if (!index) index = materials_->index_of(fill_, visible);
+    return *index;
+}
+
+core::Scene Reader::build() {
+    if (!has_view_) throw BadInput(file_.name(), "", "must have a v entity, got none");
+    if (!materials_) add_lights();
+    try {
+        return std::move(builder_).build();
+    } catch (const InvalidValue& invalid) {
+        constexpr std::string_view lights = "lights/";
+        std::size_t light = 0;
+        const char* const end = invalid.field.data() + invalid.field.size();
+        if (!invalid.field.starts_with(lights)) throw BadInput(file_.name(), "", invalid.what());
+        const char* const rest =
+            std::from_chars(invalid.field.data() + lights.size(), end, light).ptr;
+        const std::string field(std::min(rest + 1, end), end);
+        fields_.fail(lights_.at(light).line, "l: " + field + ": " + invalid.expectation);
+    }
+}
+
+} // namespace
+
+core::Scene read_nff(InputFile& file) {
+    return Reader(file).read();
+}
+
+} // namespace raylane::scenes

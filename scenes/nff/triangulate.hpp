@@ -1,0 +1,73 @@
+#pragma once
+
+#include "core/vector.hpp"
+#include "scenes/nff/point_grid.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// Cuts flat polygons into triangles by clipping ears (Meisters 1975), on the projection along the
+/// axis nearest to the normal. Polygons may be concave; they may repeat vertices, have them on
+/// edges, and touch themselves, as one with holes does that is drawn in one line with bridges.
+/// Every side test is exact, so the triangles tile the projected polygon exactly.
+///
+/// A polygon that crosses itself has no such tiling; it gets some triangles, always the same.
+///
+/// Time is linear where few of the corners are reflex or the vertices near an ear are few, and
+/// never more than quadratic. An object of this class serves any number of polygons and keeps its
+/// memory.
+class Triangulator {
+  public:
+    /// Indices of vertices, counter-clockwise where the polygon is.
+    using Corners = std::array<std::uint32_t, 3>;
+
+    /// The triangles, until the next call. None if the polygon has no area.
+    std::span<const Corners> triangulate(std::span<const core::Vec3f> polygon);
+
+  private:
+    enum class Ear { clear, touched, blocked };
+    struct Vertex {
+        PlanePoint point;
+        std::uint32_t previous;
+        std::uint32_t next;
+        std::uint32_t version; // counts how often its neighbours changed
+        bool removed;
+        bool convex;
+        bool in_grid;
+    };
+    /// A vertex that may be an ear, if its neighbours are still those that it had.
+    struct Candidate {
+        std::uint32_t vertex;
+        std::uint32_t version;
+    };
+    /// First in, first out: so that ears are cut all around the polygon rather than in a fan.
+    struct Queue {
+        std::vector<Candidate> items;
+        std::size_t head = 0;
+    };
+
+    bool project(std::span<const core::Vec3f> polygon);
+    void clip_ears();
+    void remove(std::uint32_t v);
+    void settle();
+    Ear ear_at(std::uint32_t v) const;
+    std::optional<std::uint32_t> take(Queue& queue) const;
+    int turn_at(std::uint32_t v) const;
+    bool is_spike(std::uint32_t v) const;
+
+    std::vector<Vertex> vertices_;
+    std::size_t left_ = 0;   // vertices not removed
+    std::size_t reflex_ = 0; // of these, not convex
+    PointGrid grid_;         // the vertices that were reflex at some time
+    std::vector<std::uint32_t> changed_;
+    Queue candidates_;
+    Queue touched_;
+    std::vector<Corners> triangles_;
+};
+
+} // namespace raylane::scenes

@@ -1,0 +1,79 @@
+#include "scenes/nff/view.hpp"
+
+#include "core/validate.hpp"
+#include "scenes/number.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// `angle` is "from the center of top pixel row to bottom pixel row", the camera's field of view
+/// from edge to edge, both in degrees.
+float field_of_view(float angle, int rows) {
+    if (rows == 1) return angle;
+    constexpr double radians = std::numbers::pi / 180.0;
+    const double half = std::tan(static_cast<double>(angle) / 2.0 * radians) * rows / (rows - 1);
+    return static_cast<float>(2.0 * std::atan(half) / radians);
+}
+
+constexpr std::array<std::string_view, 6> names = {"from",  "at",     "up",
+                                                   "angle", "hither", "resolution"};
+enum Part : std::size_t { from, at, up, angle, hither, resolution };
+
+/// The name of a part that is not yet seen.
+Part next_part(NffFields& fields, const std::array<bool, names.size()>& seen) {
+    const std::string_view word = fields.word();
+    const auto part =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin());
+    if (part < names.size() && !seen[part]) return static_cast<Part>(part);
+    std::string missing;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (!seen[i]) missing.append(missing.empty() ? "" : ", ").append(names[i]);
+    fields.refuse("", "must go on with each of " + missing, in_quotes(word));
+}
+
+} // namespace
+
+NffView read_nff_view(NffFields& fields) {
+    NffView view;
+    float degrees = 0.0F;
+    std::array<bool, names.size()> seen{};
+    for (std::size_t count = 0; count < names.size(); ++count) {
+        const Part part = next_part(fields, seen);
+        seen[part] = true;
+        switch (part) {
+        case from:
+            view.camera.from = fields.vector("from");
+            break;
+        case at:
+            view.camera.at = fields.vector("at");
+            break;
+        case up:
+            view.camera.up = fields.vector("up");
+            break;
+        case angle:
+            degrees = fields.number("angle");
+            break;
+        // "Mostly needed for hidden surface algorithms": a ray tracer shows what is nearer, too.
+        case hither:
+            fields.number("hither");
+            break;
+        case resolution:
+            view.width = fields.whole_number("resolution", 1, core::Settings::max_size);
+            view.height = fields.whole_number("resolution", 1, core::Settings::max_size);
+        }
+    }
+    if (!(degrees > 0.0F && degrees < 180.0F))
+        throw core::InvalidValue("angle", "must be between 0 and 180 degrees, both excluded, got " +
+                                              to_text(degrees));
+    view.camera.field_of_view = field_of_view(degrees, view.height);
+    core::validate(view.camera);
+    return view;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,90 @@
+#include "scenes/image/compare.hpp"
+#include "scenes/image/writer.hpp"
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/command.hpp"
+#include "scenes/tool/interrupt.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace raylane::scenes {
+
+namespace {
+
+struct CompareArguments {
+    std::string a, b, tolerance = "0", difference;
+    bool json = false;
+};
+
+/// JSON has no infinity.
+nlohmann::ordered_json finite_or_null(double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr;
+}
+
+void print_json(const Comparison& comparison, float tolerance) {
+    const nlohmann::ordered_json json = {{"rmse", finite_or_null(comparison.rmse)},
+                                         {"psnr", finite_or_null(comparison.psnr)},
+                                         {"largest", finite_or_null(comparison.largest)},
+                                         {"x", comparison.x},
+                                         {"y", comparison.y},
+                                         {"tolerance", tolerance},
+                                         {"differing", comparison.differing},
+                                         {"pixels", comparison.pixels}};
+    std::printf("%s\n", json.dump(2).c_str());
+}
+
+void print(const Comparison& comparison, float tolerance) {
+    std::printf("RMSE       %.9g\n", comparison.rmse);
+    std::printf("PSNR       %.2f dB\n", comparison.psnr);
+    std::printf("largest    %.9g", comparison.largest);
+    if (comparison.largest > 0.0) std::printf(" at pixel %d, %d", comparison.x, comparison.y);
+    std::printf("\ndiffering  %lld of %lld pixels, by more than %.9g\n",
+                static_cast<long long>(comparison.differing),
+                static_cast<long long>(comparison.pixels), static_cast<double>(tolerance));
+}
+
+int compare(const CompareArguments& arguments) {
+    const float tolerance = number_argument("--tolerance", arguments.tolerance, 0.0F,
+                                            std::numeric_limits<float>::max());
+    const Image a = read_image(arguments.a), b = read_image(arguments.b);
+    const Comparison comparison = scenes::compare(a, b, tolerance);
+    if (!arguments.difference.empty()) {
+        OutputFile output(arguments.difference);
+        const RemovedOnInterrupt removed_on_interrupt(output.temporary_path());
+        output.commit(difference_image(a, b), core::Transfer::linear);
+    }
+    if (arguments.json)
+        print_json(comparison, tolerance);
+    else
+        print(comparison, tolerance);
+    return comparison.differing > 0 ? 1 : 0;
+}
+
+} // namespace
+
+Command add_compare_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "compare", "Say by how much two pictures differ; exit code 1 if they do");
+    auto arguments = std::make_shared<CompareArguments>();
+    command->add_option("A", arguments->a, "A picture: PNG, HDR or PFM")->required()->type_name("");
+    command->add_option("B", arguments->b, "Another")->required()->type_name("");
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "The largest difference of a component that does not count; 1 is white "
+                     "(default: 0)")
+        ->type_name("T");
+    command
+        ->add_option("--diff", arguments->difference,
+                     "Write the differences as a picture, amplified to white")
+        ->type_name("FILE");
+    command->add_flag("--json", arguments->json, "Print the figures as JSON");
+    command->footer("Example: raylane compare before.png after.png --diff difference.png");
+    return {command, [arguments] { return compare(*arguments); }};
+}
+
+} // namespace raylane::scenes

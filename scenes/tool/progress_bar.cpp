@@ -1,0 +1,72 @@
+#include "scenes/tool/progress_bar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <unistd.h>
+
+namespace raylane::scenes {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string formatted(const char* format, auto... values) {
+    char text[128];
+    std::snprintf(text, sizeof text, format, values...);
+    return text;
+}
+
+} // namespace
+
+std::string with_prefix(double value) {
+    if (value >= 1e9) return formatted("%.2f G", value / 1e9);
+    if (value >= 1e6) return formatted("%.2f M", value / 1e6);
+    if (value >= 1e3) return formatted("%.1f k", value / 1e3);
+    return formatted("%.0f ", value);
+}
+
+std::string duration_text(double seconds) {
+    if (seconds < 59.95) return formatted("%.1f s", seconds);
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    if (whole < 3600) return formatted("%lld min %02lld s", whole / 60, whole % 60);
+    return formatted("%lld h %02lld min", whole / 3600, whole / 60 % 60);
+}
+
+ProgressBar::ProgressBar(const simd::Progress& progress, std::int64_t pixels)
+    : progress_(progress), pixels_(pixels) {
+    if (::isatty(STDERR_FILENO) == 1)
+        thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+ProgressBar::~ProgressBar() {
+    if (!thread_.joinable()) return;
+    thread_.request_stop();
+    thread_.join();
+    std::fputs("\r\x1B[K", stderr);
+}
+
+void ProgressBar::run(const std::stop_token& stop) {
+    constexpr std::chrono::milliseconds pause{100};
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, stop, pause, [] { return false; }) && !stop.stop_requested())
+        draw();
+}
+
+void ProgressBar::draw() const {
+    constexpr int cells = 24;
+    const double seconds = seconds_since(start_);
+    const double done = static_cast<double>(progress_.pixels) / static_cast<double>(pixels_);
+    const int filled = static_cast<int>(done * cells);
+    const std::string bar = std::string(filled, '#') + std::string(cells - filled, '.');
+    const std::string left =
+        done > 0.0 ? duration_text(seconds * (1.0 - done) / done) + " left" : "";
+    std::fprintf(stderr, "\r[%s] %3d %%  %srays/s  %s\x1B[K", bar.c_str(),
+                 static_cast<int>(done * 100.0),
+                 with_prefix(static_cast<double>(progress_.rays) / seconds).c_str(), left.c_str());
+    std::fflush(stderr);
+}
+
+} // namespace raylane::scenes
