@@ -3,6 +3,7 @@
 #include "core/double_double.hpp"
 
 #include <cmath>
+#include <concepts>
 #include <limits>
 
 namespace raylane::core {
@@ -28,7 +29,8 @@ struct Bounded {
     double error = 0.0;
 
     Bounded() = default;
-    Bounded(double exact) : value(exact) {} // NOLINT: implicit, exact
+    template <std::floating_point Exact>
+    Bounded(Exact exact) : value(static_cast<double>(exact)) {} // NOLINT: implicit, exact
     Bounded(const T& value_, double error_) : value(value_), error(error_) {}
 
     explicit operator double() const { return static_cast<double>(value); }

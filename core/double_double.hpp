@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 
 /// About 106 bits as the unevaluated sum of two doubles, for the few questions that double cannot
 /// answer. Source: Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building
@@ -13,7 +14,8 @@ struct DoubleDouble {
     double low = 0.0; ///< at most half an ulp of `high`
 
     DoubleDouble() = default;
-    DoubleDouble(double value) : high(value) {} // NOLINT: implicit, exact
+    template <std::floating_point Exact>
+    DoubleDouble(Exact value) : high(static_cast<double>(value)) {} // NOLINT: implicit, exact
     DoubleDouble(double high_, double low_) : high(high_), low(low_) {}
 
     explicit operator double() const { return high + low; }

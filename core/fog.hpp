@@ -10,7 +10,7 @@ namespace raylane::core {
 /// The fraction of fog in [0, 1] on a segment of this length that ends at world z.
 template <class Real>
 Real fog_fraction(const Fog& fog, Real distance, Real z) {
-    const Real start(fog.start), end(fog.end);
+    const Real start = Real(fog.start), end = Real(fog.end);
     switch (fog.kind) {
     case FogKind::none:
         break;

@@ -51,7 +51,7 @@ Crossings<Real> crossings(const Box& box, const Ray<Real>& ray, const Start& sta
 template <class Real>
 Vec3<Real> outward_normal(const Box& box, const Vec3<Real>&, Face face) {
     const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
-    const bool left_handed = dot(normals[0], convert<Real>(box.edge_u)) < Real(0);
+    const bool left_handed = dot(normals[0], convert<Real>(box.edge_u)) < Real(0.0);
     const bool through_corner = face % 2 == 0;
     const Vec3<Real> normal = normalized(normals[face / 2]);
     return left_handed == through_corner ? normal : -normal;

@@ -16,7 +16,7 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
     if (start.on_surface && !start.inward) return {};
 
     const AxialRay<Real> axial(cone.base, cone.axis, ray);
-    const Real base_radius(cone.base_radius);
+    const Real base_radius = Real(cone.base_radius);
     const Real slope = (Real(cone.top_radius) - base_radius) / axial.axis_squared;
     const Real W = mul_add(slope, axial.height_origin, base_radius);
     const Real M = slope * axial.height_direction;
@@ -81,8 +81,8 @@ Vec3<Real> outward_normal(const Cone<ends>& cone, const Vec3<Real>& point, Face 
     const Real width = length(across);
     const Vec3<Real> gradient =
         mul_add(Real(width * narrowing / squared_length(axis)), axis, across);
-    if (!(squared_length(gradient) > Real(0)))
-        return normalized(narrowing > Real(0) ? axis : -axis);
+    if (!(squared_length(gradient) > Real(0.0)))
+        return normalized(narrowing > Real(0.0) ? axis : -axis);
     return normalized(gradient);
 }
 

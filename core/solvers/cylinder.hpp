@@ -13,11 +13,11 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
     if (start.on_surface && !start.inward) return {};
 
     const AxialRay<Real> axial(cylinder.base, cylinder.axis, ray);
-    const Real radius(cylinder.radius);
+    const Real radius = Real(cylinder.radius);
     const Real speed_squared = squared_length(axial.across_direction);
     const bool parallel = judge.sign(speed_squared) == 0;
     const Real tau = parallel
-                         ? Real(0)
+                         ? Real(0.0)
                          : Real(-dot(axial.across_origin, axial.across_direction) / speed_squared);
 
     Span<Real> span(judge);

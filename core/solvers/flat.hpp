@@ -41,7 +41,7 @@ Crossings<Real> crossings(const Disc& disc, const Ray<Real>& ray, const Start& s
     const auto crossing = cross_plane(to_center, convert<Real>(disc.normal), ray.direction, judge);
     if (!crossing) return {};
     const Vec3<Real> from_center = mul_add(crossing->t, ray.direction, Vec3<Real>(-to_center));
-    const Real radius(disc.radius);
+    const Real radius = Real(disc.radius);
     if (judge.less(Real(radius * radius), squared_length(from_center))) return {};
     return *crossing;
 }
@@ -121,7 +121,7 @@ Vec3<Real> shading_normal(const SmoothTriangle& triangle, const Vec3<Real>& poin
     const Vec3<Real> sum = dot(flat, cross(b, c)) * normalized(convert<Real>(triangle.normal_a)) +
                            dot(flat, cross(c, a)) * normalized(convert<Real>(triangle.normal_b)) +
                            dot(flat, cross(a, b)) * normalized(convert<Real>(triangle.normal_c));
-    return squared_length(sum) > Real(0) ? normalized(sum) : normalized(flat);
+    return squared_length(sum) > Real(0.0) ? normalized(sum) : normalized(flat);
 }
 
 } // namespace raylane::core

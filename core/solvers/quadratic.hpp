@@ -39,7 +39,7 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     const bool falling = static_cast<double>(B) < 0.0;
     const Real q = falling ? Real(root - B) : Real(-root - B);
     if (static_cast<double>(q) == 0.0)
-        return {crossing(Real(0), curvature > 0), crossing(Real(0), curvature < 0)};
+        return {crossing(Real(0.0), curvature > 0), crossing(Real(0.0), curvature < 0)};
     // F' at q / A has the sign of `root` if falling; at C / q the opposite.
     const Crossing<Real> by_A = crossing(q / A, !falling);
     const Crossing<Real> by_C = crossing(C / q, falling);

@@ -77,7 +77,7 @@ template <class Real>
 Vec3<Real> outward_normal(const Quadric& quadric, const Vec3<Real>& point, Face) {
     const Vec3<Real> gradient =
         quadric_half_gradient(quadric, Vec3<Real>(point - convert<Real>(quadric.center)));
-    if (!(squared_length(gradient) > Real(0))) return {Real(0), Real(0), Real(1)};
+    if (!(squared_length(gradient) > Real(0.0))) return {Real(0.0), Real(0.0), Real(1)};
     return normalized(gradient);
 }
 

@@ -19,7 +19,7 @@ Crossings<Real> crossings(const Sphere& sphere, const Ray<Real>& ray, const Star
     if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
 
     const Vec3<Real> foot = mul_add(tau, ray.direction, from_center);
-    const Real radius(sphere.radius);
+    const Real radius = Real(sphere.radius);
     const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
     if (judge.negative(discriminant)) return {};
     const Real half_chord = sqrt(discriminant / dd);
