@@ -135,24 +135,17 @@ class Searcher {
     static constexpr Real allowance =
         Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
-    /// Where a ray enters a slot's bounds, t >= 0; -1 if it misses them between 0 and t_most.
+    /// Where a ray enters a slot's bounds, t >= 0; -1 if it misses them between 0 and t_most. A
+    /// component of 0 makes 0 * inf only if the origin is in a plane of the bounds; either answer
+    /// is then right, as the padding keeps every shape away from there.
     static Real entry(const WideNode& node, int slot, const Ray<Real>& ray,
                       const Vec3<Real>& inverse, Real t_most) {
         Real near = 0, far = t_most;
         for (int axis = 0; axis < 3; ++axis) {
             const Real to_lower = Real(node.lower[axis][slot]) - ray.origin[axis];
             const Real to_upper = Real(node.upper[axis][slot]) - ray.origin[axis];
-            // Parallel to the planes, the origin decides: 0 * inf would be NaN.
-            if (ray.direction[axis] == Real(0)) {
-                if (to_lower > Real(0) || to_upper < Real(0)) return Real(-1);
-                continue;
-            }
-            // Nor is the inverse of a denormal number of use.
-            const bool invertible = !std::isinf(inverse[axis]);
-            const Real at_lower =
-                invertible ? to_lower * inverse[axis] : to_lower / ray.direction[axis];
-            const Real at_upper =
-                invertible ? to_upper * inverse[axis] : to_upper / ray.direction[axis];
+            const Real at_lower = to_lower * inverse[axis];
+            const Real at_upper = to_upper * inverse[axis];
             near = std::max(near, std::min(at_lower, at_upper));
             far = std::min(far, std::max(at_lower, at_upper));
         }

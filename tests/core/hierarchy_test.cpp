@@ -1,0 +1,125 @@
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+#include "tests/ray_sets.hpp"
+
+using namespace little_scene;
+using namespace raylane;
+using ray_sets::Random;
+using ray_sets::Set;
+
+namespace {
+
+struct Aimed {
+    Scene scene;
+    std::vector<Ray<double>> rays;
+};
+
+template <class Shape>
+void add_kind(Builder& builder, MaterialIndex material, int count, bool lattice, Random& random,
+              std::vector<Ray<double>>& rays) {
+    for (int i = 0; i < count; ++i) {
+        const Shape shape = ray_sets::Target<Shape>::make(random, lattice);
+        builder.add(shape, material);
+        for (const Set set : ray_sets::all_sets) {
+            if ((set == Set::lattice) != lattice) continue;
+            const Ray<float> ray = ray_sets::make_ray(shape, set, random);
+            rays.push_back({convert<double>(ray.origin), convert<double>(ray.direction)});
+        }
+    }
+}
+
+/// All kinds in one heap, with rays that are hard for some of them.
+Aimed heap(bool lattice, int of_each_kind, std::uint64_t seed) {
+    Random random(seed);
+    Builder builder;
+    std::vector<Ray<double>> rays;
+    const MaterialIndex material = builder.add_material(luminous());
+    const auto add = [&]<class Shape>(int count) {
+        add_kind<Shape>(builder, material, count, lattice, random, rays);
+    };
+    add.operator()<Sphere>(of_each_kind);
+    add.operator()<Plane>(2);
+    add.operator()<Disc>(of_each_kind);
+    add.operator()<Triangle>(of_each_kind);
+    add.operator()<SmoothTriangle>(of_each_kind);
+    add.operator()<Box>(of_each_kind);
+    add.operator()<OpenCylinder>(of_each_kind);
+    add.operator()<CappedCylinder>(of_each_kind);
+    add.operator()<OpenCone>(of_each_kind);
+    add.operator()<CappedCone>(of_each_kind);
+    add.operator()<Quadric>(of_each_kind);
+    return {builder.finish(), rays};
+}
+
+bool same(const Hit<double>& a, const Hit<double>& b) {
+    return a.t == b.t && a.shape == b.shape && a.face == b.face && a.entering == b.entering;
+}
+
+} // namespace
+
+TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
+    for (const bool lattice : {false, true})
+        for (const int of_each_kind : {1, 40, 150}) {
+            const Aimed aimed = heap(lattice, of_each_kind, 20 + of_each_kind);
+            Searcher<double> by_hierarchy(aimed.scene, Search::hierarchy);
+            Searcher<double> by_trying(aimed.scene, Search::every_shape);
+            const auto all = [](const Hit<double>&) { return true; };
+            const double infinity = std::numeric_limits<double>::infinity();
+            int hits = 0, lost = 0, blocked_otherwise = 0;
+            for (const Ray<double>& ray : aimed.rays) {
+                const Hit<double> hit = by_trying.nearest(ray, Departure{}, infinity, all);
+                hits += hit.any() ? 1 : 0;
+                if (!same(hit, by_hierarchy.nearest(ray, Departure{}, infinity, all))) ++lost;
+                // Up to the hit, nothing; just beyond it, something.
+                const double beyond = std::nextafter(hit.t, infinity);
+                if (by_hierarchy.any(ray, Departure{}, hit.t, all)) ++blocked_otherwise;
+                if (hit.any() && !by_hierarchy.any(ray, Departure{}, beyond, all))
+                    ++blocked_otherwise;
+            }
+            CAPTURE(lattice, of_each_kind);
+            CHECK(lost == 0);
+            CHECK(blocked_otherwise == 0);
+            CHECK(hits > static_cast<int>(aimed.rays.size()) / 3);
+            if (of_each_kind == 150)
+                CHECK(by_hierarchy.counters.shapes < by_trying.counters.shapes / 2);
+        }
+}
+
+TEST_CASE("of shapes hit at one distance, the first added counts") {
+    const Sphere sphere{{0, 0, 0}, 1};
+    Builder builder;
+    for (int copy = 0; copy < 40; ++copy)
+        builder.add_shape(sphere, luminous());
+    const Scene scene = builder.finish();
+    for (const Search search : {Search::hierarchy, Search::every_shape}) {
+        Searcher<double> searcher(scene, search);
+        const auto all = [](const Hit<double>&) { return true; };
+        const double infinity = std::numeric_limits<double>::infinity();
+        const Ray<double> ray{{0, 0, 5}, {0, 0, -1}};
+        CHECK(searcher.nearest(ray, Departure{}, infinity, all).shape == 0);
+        const auto but_the_first = [](const Hit<double>& hit) { return hit.shape > 0; };
+        CHECK(searcher.nearest(ray, Departure{}, infinity, but_the_first).shape == 1);
+    }
+}
+
+TEST_CASE("a ray that starts in a node's plane and runs along it loses nothing") {
+    // Zero and denormal components: 0 * inf, or the inverse of a denormal, must not decide.
+    Builder builder;
+    for (int i = 0; i < 100; ++i)
+        builder.add_shape(Box{{static_cast<float>(2 * i), 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                          luminous());
+    const Scene scene = builder.finish();
+    Searcher<double> by_hierarchy(scene, Search::hierarchy);
+    Searcher<double> by_trying(scene, Search::every_shape);
+    const auto all = [](const Hit<double>&) { return true; };
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const double y : {0.0, 1.0, 0.5})
+        for (const double dy : {0.0, -0.0, 1e-45, -1e-45, 4e-324, -4e-324})
+            for (const double dx : {1.0, -1.0}) {
+                const Ray<double> ray{{dx > 0 ? -1.0 : 300.0, y, 0.5}, {dx, dy, 0.0}};
+                const Hit<double> hit = by_hierarchy.nearest(ray, Departure{}, infinity, all);
+                CAPTURE(y, dy, dx);
+                CHECK(same(hit, by_trying.nearest(ray, Departure{}, infinity, all)));
+                if (dy == 0.0) CHECK(hit.shape == (dx > 0 ? 0U : 99U));
+            }
+}

@@ -1,0 +1,200 @@
+#include "core/optics.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+
+#include <cmath>
+
+using namespace little_scene;
+
+namespace {
+
+constexpr double exactly = 1e-13;
+
+template <class Real>
+Refraction<Real> refract_at(Real sine, Real n1, Real n2) {
+    const Vec3<Real> incident{sine, Real(0), -std::sqrt(Real(1) - sine * sine)};
+    return refract(incident, Vec3<Real>{0, 0, 1}, n1, n2);
+}
+
+template <class Real>
+Real reflectance_at(Reflection reflection, Real sine, Real n1, Real n2) {
+    Material material = glass(1.5F, reflection);
+    return reflectance(material, refract_at(sine, n1, n2), n1, n2);
+}
+
+} // namespace
+
+TEST_CASE("a mirror sphere reflects to where the textbook says") {
+    Builder builder;
+    builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror());
+    builder.add_shape(Plane{{10, 0, 0}, {-1, 0, 0}}, ruler({0, 0, 20}));
+    const Scene scene = builder.finish();
+
+    for (const double x : {0.1, 0.3, 0.5, 0.7}) {
+        // From (x, 0, z) with normal (x, 0, z), (0, 0, -1) goes to (2 x z, 0, 2 z^2 - 1).
+        const double z = std::sqrt(1.0 - x * x);
+        const double t = (10.0 - x) / (2.0 * x * z);
+        const double reached = z + t * (2.0 * z * z - 1.0);
+        CHECK(gray_along(scene, {x, 0, 5}, {0, 0, -1}) ==
+              Approx(std::clamp(reached / 20.0, 0.0, 1.0)).epsilon(exactly));
+    }
+}
+
+TEST_CASE("a slab shifts a ray by the textbook's amount and leaves its direction") {
+    const double n = 1.5, thickness = 2.0;
+    for (const double degrees : {0.0, 10.0, 45.0, 80.0}) {
+        const double sine = std::sin(degrees * 3.14159265358979323846 / 180.0);
+        const double cosine = std::sqrt(1.0 - sine * sine);
+        const double sine_inside = sine / n;
+        const double tangent = sine / cosine;
+        const double tangent_inside = sine_inside / std::sqrt(1.0 - sine_inside * sine_inside);
+
+        const auto reached_at = [&](float depth) {
+            Builder builder;
+            builder.add_shape(Box{{-1000, -1000, -2}, {2000, 0, 0}, {0, 2000, 0}, {0, 0, 2}},
+                              glass(1.5F));
+            builder.add_shape(Plane{{0, 0, -depth}, {0, 0, 1}}, ruler({200, 0, 0}));
+            return 200.0 * gray_along(builder.finish(), {0, 0, 1}, {sine, 0, -cosine});
+        };
+        const double straight = 11.0 * tangent;
+        const double shift = thickness * (tangent - tangent_inside);
+        CHECK(reached_at(10.0F) == Approx(straight - shift).epsilon(exactly).margin(exactly));
+        CHECK(reached_at(20.0F) - reached_at(10.0F) ==
+              Approx(10.0 * tangent).epsilon(exactly).margin(exactly));
+    }
+}
+
+TEMPLATE_TEST_CASE("reflection is total from just behind the critical angle on", "", float,
+                   double) {
+    using Real = TestType;
+    // From index 2 to 1 the critical sine is 1/2, exactly.
+    const Real critical(0.5);
+    const auto at = refract_at<Real>(critical, 2, 1);
+    CHECK_FALSE(at.total);
+    CHECK(at.cos_transmitted == Real(0));
+    CHECK(at.transmitted == Vec3<Real>(1, 0, 0));
+    CHECK(refract_at<Real>(std::nextafter(critical, Real(1)), 2, 1).total);
+    const auto before = refract_at<Real>(std::nextafter(critical, Real(0)), 2, 1);
+    CHECK_FALSE(before.total);
+    CHECK(before.cos_transmitted > Real(0));
+
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric}) {
+        CHECK(reflectance_at<Real>(reflection, critical, 2, 1) == Real(1));
+        CHECK(reflectance_at<Real>(reflection, Real(0.75), 2, 1) == Real(1));
+        CHECK(reflectance_at<Real>(reflection, std::nextafter(critical, Real(0)), 2, 1) < Real(1));
+    }
+}
+
+TEST_CASE("what is reflected totally is not lost") {
+    // Inside of water, below its surface y = 0: a floor that shines, and a dark sky.
+    Builder builder;
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, glass(1.5F, Reflection::dielectric));
+    builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, luminous({0.25F, 0.5F, 0.75F}));
+    const Scene scene = builder.finish();
+    const Vec3d beyond{1, 0.5, 0}, within{0.1, 1, 0};
+    CHECK(color_along<double>(scene, {0, -0.5, 0}, beyond) == Vec3d(0.25, 0.5, 0.75));
+    const Vec3d seen = color_along<double>(scene, {0, -0.5, 0}, within);
+    CHECK(seen.x == Approx(0.25 * 0.04).epsilon(0.01));
+}
+
+TEMPLATE_TEST_CASE("what is reflected and what is transmitted is all there is, to the bit", "",
+                   float, double) {
+    using Real = TestType;
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
+        for (const Real n1 : {Real(1), Real(1.33), Real(1.5), Real(2.4)})
+            for (const Real n2 : {Real(1), Real(1.33), Real(1.5), Real(2.4)})
+                for (int i = 0; i <= 1000; ++i) {
+                    const Real r = reflectance_at<Real>(reflection, Real(i) / Real(1000), n1, n2);
+                    const bool is_share = r >= Real(0) && r <= Real(1);
+                    if (!is_share || r + (Real(1) - r) != Real(1)) {
+                        CAPTURE(n1, n2, i, r);
+                        FAIL("not a share");
+                    }
+                }
+}
+
+TEST_CASE("glass in an evenly bright room cannot be seen") {
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric}) {
+        Builder builder;
+        builder.background = Color(1.0F);
+        builder.settings.max_depth = 400;
+        builder.settings.min_weight = 1e-9F;
+        builder.add_shape(Sphere{{0, 0, 0}, 1}, glass(1.5F, reflection));
+        const Scene scene = builder.finish();
+        for (const double x : {0.0, 0.5, 0.9, 0.99, 0.9999})
+            CHECK(gray_along(scene, {x, 0, 5}, {0, 0, -1}) == Approx(1.0).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("reflectance at normal incidence, and at Brewster's angle") {
+    CHECK(reflectance_at(Reflection::schlick, 0.0, 1.0, 1.5) == Approx(0.04));
+    CHECK(reflectance_at(Reflection::dielectric, 0.0, 1.0, 1.5) == Approx(0.04));
+    CHECK(reflectance_at(Reflection::dielectric, 0.5, 1.5, 1.5) == 0.0);
+    // tan = n: nothing of one polarisation, ((1 - n^2) / (1 + n^2))^2 of the other.
+    const double n = 1.5, sine = n / std::sqrt(1.0 + n * n);
+    const double perpendicular = (1.0 - n * n) / (1.0 + n * n);
+    CHECK(reflectance_at(Reflection::dielectric, sine, 1.0, n) ==
+          Approx(perpendicular * perpendicular / 2.0));
+}
+
+TEST_CASE("both sides of a surface reflect alike along one path") {
+    // Schlick's cosine is that of the larger angle, so that this holds for it as well.
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
+        for (int i = 0; i < 100; ++i) {
+            const double outside = i / 100.0;
+            CHECK(reflectance_at(reflection, outside / 1.5, 1.5, 1.0) ==
+                  Approx(reflectance_at(reflection, outside, 1.0, 1.5)).epsilon(1e-9));
+        }
+}
+
+TEST_CASE("absorption follows the length of the way inside") {
+    const Vec3f absorption{0.125F, 0.5F, 1.0F};
+    Material tinted = glass(1.0F);
+    tinted.absorption = absorption;
+    const auto expect = [&](const Scene& scene, const Vec3d& origin, double length) {
+        const Vec3d color = color_along<double>(scene, origin, {0, 0, -1});
+        for (int channel = 0; channel < 3; ++channel)
+            CHECK(color[channel] ==
+                  Approx(std::exp(-static_cast<double>(absorption[channel]) * length))
+                      .epsilon(exactly));
+    };
+    Builder builder;
+    builder.background = Color(1.0F);
+    builder.add_shape(Box{{-1, -1, -3}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, tinted);
+    builder.add_shape(Sphere{{10, 0, 0}, 3}, tinted);
+    const Scene scene = builder.finish();
+    expect(scene, {0, 0, 5}, 2.0);
+    expect(scene, {10, 0, 5}, 6.0);
+    expect(scene, {10, 0, 0}, 3.0); // the camera is inside
+}
+
+TEST_CASE("a ray knows the index of what surrounds it") {
+    // Equal indices bend nothing: a sphere of water in a box of water.
+    Builder builder;
+    builder.add_shape(Box{{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, glass(1.25F));
+    builder.add_shape(Plane{{0, 0, -5}, {0, 0, 1}}, ruler({10, 0, 0}));
+    const Vec3d origin{1, 0, 5}, direction{0.05, 0, -1};
+    Builder with_sphere = builder;
+    with_sphere.add_shape(Sphere{{1, 0, 0}, 1}, glass(1.25F));
+    CHECK(gray_along(with_sphere.finish(), origin, direction) ==
+          Approx(gray_along(builder.finish(), origin, direction)).epsilon(exactly));
+}
+
+TEST_CASE("media nest, and are left in any order") {
+    Media media;
+    CHECK(media.empty());
+    media.enter(7);
+    media.enter(3);
+    CHECK(media.top() == 3);
+    media.leave(7);
+    CHECK(media.top() == 3);
+    media.leave(5); // never entered
+    CHECK(media.top() == 3);
+    media.leave(3);
+    CHECK(media.empty());
+    for (MaterialIndex material = 0; material < 5; ++material)
+        media.enter(material);
+    for (MaterialIndex material = 4; material > 0; --material)
+        media.leave(material);
+    CHECK(media.empty()); // the first was forgotten
+}

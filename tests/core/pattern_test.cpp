@@ -1,0 +1,69 @@
+#include "core/pattern.hpp"
+#include "tests/catch.hpp"
+
+using namespace raylane::core;
+
+namespace {
+
+Pattern two_colors(PatternKind kind) {
+    Pattern pattern;
+    pattern.kind = kind;
+    pattern.colors = {Color(0.0F), Color(1.0F)};
+    return pattern;
+}
+
+double at(const Pattern& pattern, const Vec3d& point) {
+    return color_at(pattern, point).x;
+}
+
+} // namespace
+
+TEST_CASE("a checker changes from cell to cell along its axes") {
+    Pattern floor = two_colors(PatternKind::checker); // x and z
+    floor.size = 2.0F;
+    CHECK(at(floor, {1, 0, 1}) == 0.0);
+    CHECK(at(floor, {3, 0, 1}) == 1.0);
+    CHECK(at(floor, {3, 0, 3}) == 0.0);
+    CHECK(at(floor, {-1, 0, 1}) == 1.0);
+    CHECK(at(floor, {-1, 0, -1}) == 0.0);
+    CHECK(at(floor, {1, 3, 1}) == 0.0);     // y does not count
+    CHECK(at(floor, {1, -1e-300, 1}) == 0); // so a floor's rounding cannot either
+    CHECK(at(floor, {2, 0, 1}) == 1.0);
+    CHECK(at(floor, {1e300, 0, 1}) == 0.0);
+    floor.axes = 7;
+    CHECK(at(floor, {1, 3, 1}) == 1.0);
+}
+
+TEST_CASE("stripes run across their direction") {
+    Pattern stripes = two_colors(PatternKind::stripes);
+    stripes.size = 0.5F;
+    stripes.direction = {0, 0, 3};
+    CHECK(at(stripes, {9, 9, 0.25}) == 0.0);
+    CHECK(at(stripes, {9, 9, 0.75}) == 1.0);
+    CHECK(at(stripes, {9, 9, -0.25}) == 1.0);
+}
+
+TEST_CASE("a gradient is constant beyond its ends") {
+    Pattern gradient = two_colors(PatternKind::gradient);
+    gradient.from = {0, 1, 0};
+    gradient.to = {0, 5, 0};
+    CHECK(at(gradient, {7, 0, 7}) == 0.0);
+    CHECK(at(gradient, {7, 1, 7}) == 0.0);
+    CHECK(at(gradient, {7, 2, 7}) == 0.25);
+    CHECK(at(gradient, {7, 5, 7}) == 1.0);
+    CHECK(at(gradient, {7, 6, 7}) == 1.0);
+}
+
+TEST_CASE("the back plane is a sun before bands, line by line as its source has it") {
+    Pattern plane;
+    plane.kind = PatternKind::back_plane;
+    const auto color = [&](double x, double y) { return color_at(plane, Vec3d(x, y, -42)); };
+    CHECK(color(3, 4) == Vec3d(1, 0.2, 0));
+    CHECK(color(3, -4) == Vec3d(0.7, 0.2, 0));
+    CHECK(color(12, 2.4) == Vec3d(1, 0.2, 0)); // 144 + 5.76 < 150
+    // 144 + 6.25 >= 150
+    CHECK(color(12, 2.5) == Vec3d(std::abs(std::cos(12.0)), std::abs(std::sin(std::sqrt(2.5))),
+                                  std::abs(std::cos(std::sqrt(2.5)))));
+    CHECK(color(12, -2.5) == Vec3d(0, 0, std::abs(std::cos(2.5))));
+    CHECK(color(3, 0) == Vec3d(std::abs(std::cos(3.0)), 0, 1)); // on the horizon: neither half
+}

@@ -1,0 +1,238 @@
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+
+#include <cmath>
+
+using namespace little_scene;
+
+namespace {
+
+constexpr double exactly = 1e-13;
+
+Light point_light(const Vec3f& position) {
+    Light light;
+    light.position = position;
+    return light;
+}
+
+/// Reflects half of the light that falls on it at a right angle, and no ambient light.
+Material matte() {
+    Material material = luminous();
+    material.ambient = 0.0F;
+    material.diffuse = 0.5F;
+    return material;
+}
+
+/// A matte floor seen from (0, 5, 0), lit from (0, 10, 0), with a shape in between.
+template <class Shape>
+Vec3d floor_below(const Shape& shape, const Material& material, float light_height = 10.0F) {
+    Builder builder;
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte());
+    builder.add_shape(shape, material);
+    const Scene scene = builder.finish(point_light({0, light_height, 0}));
+    return color_along<double>(scene, {0.5, 0.5, 0}, {-0.5, -0.5, 0});
+}
+
+} // namespace
+
+TEST_CASE("diffuse light falls with the cosine, and not with the distance") {
+    Builder builder;
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte());
+    const Scene scene = builder.finish(point_light({3, 4, 0}));
+    CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) == Approx(0.5 * 0.8).epsilon(exactly));
+    CHECK(gray_along(scene, {3, 1, 0}, {0, -1, 0}) == Approx(0.5).epsilon(exactly));
+    // From below, the light is behind the surface.
+    CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == 0.0);
+}
+
+TEST_CASE("a highlight is Blinn's") {
+    Material shiny = black();
+    shiny.specular = 0.5F;
+    shiny.exponent = 8.0F;
+    Builder builder;
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, shiny);
+    const Scene scene = builder.finish(point_light({3, 4, 0}));
+    // Straight from above, halfway to (0.6, 0.8, 0): cos^2 of half the angle is (1 + 0.8) / 2.
+    CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) ==
+          Approx(0.5 * std::pow(0.9, 4.0)).epsilon(exactly));
+}
+
+TEST_CASE("lights add up, and directional ones have no place") {
+    Builder builder;
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte());
+    builder.add_light(point_light({0, 1, 0}));
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {-3, -4, 0};
+    sun.color = {0.25F, 0.5F, 0.75F};
+    const Scene scene = builder.finish(sun);
+    const Vec3d color = color_along<double>(scene, {0, 1, 0}, {0, -1, 0});
+    CHECK(color.x == Approx(0.5 * (1.0 + 0.25 * 0.8)).epsilon(exactly));
+    CHECK(color.z == Approx(0.5 * (1.0 + 0.75 * 0.8)).epsilon(exactly));
+}
+
+TEST_CASE("what is opaque and before the light makes a shadow") {
+    const Sphere sphere{{0, 5, 0}, 1};
+    CHECK(floor_below(sphere, black()).x == 0.0);
+    CHECK(floor_below(sphere, black(), 3.0F).x == Approx(0.5).epsilon(exactly));
+    CHECK(floor_below(Sphere{{5, 5, 0}, 1}, black()).x == Approx(0.5).epsilon(exactly));
+    CHECK(floor_below(Disc{{0, 5, 0}, {0, 1, 0}, 1}, black()).x == 0.0);
+    CHECK(floor_below(Disc{{0, 5, 0}, {0, -1, 0}, 1}, black()).x == 0.0);
+}
+
+TEST_CASE("what a transmissive body lets through, its shadow lets through") {
+    const Box slab{{-1, 4, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    CHECK(floor_below(slab, glass(1.5F)).x == Approx(0.5).epsilon(exactly));
+
+    Material dim = glass(1.5F);
+    dim.transmission = 0.5F;
+    CHECK(floor_below(slab, dim).x == Approx(0.5 * 0.25).epsilon(exactly));
+
+    Material tinted = glass(1.0F);
+    tinted.absorption = {0.125F, 0.5F, 0.0F};
+    const Vec3d color = floor_below(slab, tinted);
+    CHECK(color.x == Approx(0.5 * std::exp(-0.25)).epsilon(exactly));
+    CHECK(color.y == Approx(0.5 * std::exp(-1.0)).epsilon(exactly));
+    CHECK(color.z == Approx(0.5).epsilon(exactly));
+
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
+        CHECK(floor_below(slab, glass(1.5F, reflection)).x == Approx(0.5 * 0.96 * 0.96));
+    // The light is inside.
+    CHECK(floor_below(slab, tinted, 5.0F).y == Approx(0.5 * std::exp(-0.5)).epsilon(exactly));
+}
+
+TEST_CASE("a one-sided surface is not there for rays to its other side") {
+    Material outside_only = luminous();
+    outside_only.visible = Visible::outside;
+    Material inside_only = luminous();
+    inside_only.visible = Visible::inside;
+    const auto seen = [](const Material& material, const Vec3d& origin) {
+        Builder builder;
+        builder.add_shape(Sphere{{0, 0, 0}, 1}, material);
+        return gray_along(builder.finish(), origin, {0, 0, -1});
+    };
+    CHECK(seen(outside_only, {0, 0, 5}) == 1.0);
+    CHECK(seen(outside_only, {0, 0, 0}) == 0.0);
+    CHECK(seen(inside_only, {0, 0, 5}) == 1.0); // the far wall
+    CHECK(seen(inside_only, {0, 0, 0}) == 1.0);
+
+    const Disc disc{{0, 5, 0}, {0, 1, 0}, 1};
+    outside_only.ambient = inside_only.ambient = 0.0F;
+    CHECK(floor_below(disc, outside_only).x == Approx(0.5).epsilon(exactly));
+    CHECK(floor_below(disc, inside_only).x == 0.0);
+}
+
+TEST_CASE("paths end at the depth limit, or where their weight is small") {
+    const auto between_mirrors = [](int max_depth, float min_weight) {
+        Material half = mirror(0.5F);
+        half.ambient = 1.0F;
+        half.pattern.colors[0] = Color(1.0F);
+        Builder builder;
+        builder.settings.max_depth = max_depth;
+        builder.settings.min_weight = min_weight;
+        builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, half);
+        builder.add_shape(Plane{{0, 0, 1}, {0, 0, -1}}, half);
+        return gray_along(builder.finish(), {0, 0, 0.5}, {0.25, 0.5, -1});
+    };
+    CHECK(between_mirrors(0, 0.0F) == 1.0);
+    CHECK(between_mirrors(1, 0.0F) == 1.5);
+    CHECK(between_mirrors(5, 0.0F) == 1.96875);
+    CHECK(between_mirrors(100, 0.125F) == 1.875); // the weight 1/8 still counts
+    CHECK(between_mirrors(100, 0.126F) == 1.75);
+}
+
+TEST_CASE("fog is absent at its first plane and complete at its second") {
+    const auto seen = [](float z, FogKind kind, double from_z) {
+        Builder builder;
+        builder.fog = {kind, {0.0F, 0.0F, 1.0F}, 4.0F, 8.0F, 0.25F};
+        builder.background = {0.0F, 1.0F, 0.0F};
+        builder.add_shape(Disc{{0, 0, z}, {0, 0, 1}, 1}, luminous({1.0F, 0.0F, 0.0F}));
+        return color_along<double>(builder.finish(), {0, 0, from_z}, {0, 0, -1});
+    };
+    const auto mixed = [](double f) { return Vec3d(1.0 - f, 0.0, f); };
+    // By world z, wherever the ray comes from.
+    CHECK(seen(4.0F, FogKind::linear_z, 20.0) == mixed(0.0));
+    CHECK(seen(3.0F, FogKind::linear_z, 20.0) == mixed(0.0));
+    CHECK(seen(5.0F, FogKind::linear_z, 20.0) == mixed(0.25));
+    CHECK(seen(8.0F, FogKind::linear_z, 9.0) == mixed(1.0));
+    CHECK(seen(9.0F, FogKind::linear_z, 20.0) == mixed(1.0));
+    // By distance.
+    CHECK(seen(0.0F, FogKind::linear, 3.0) == mixed(0.0));
+    CHECK(seen(0.0F, FogKind::linear, 4.0) == mixed(0.0));
+    CHECK(seen(0.0F, FogKind::linear, 6.0) == mixed(0.5));
+    CHECK(seen(0.0F, FogKind::linear, 8.0) == mixed(1.0));
+    CHECK(seen(0.0F, FogKind::exponential, 4.0).z == Approx(1.0 - std::exp(-1.0)));
+    // Of what is infinitely far.
+    const auto missed = [&](FogKind kind, float start, float end) {
+        Builder builder;
+        builder.fog = {kind, {0.0F, 0.0F, 1.0F}, start, end, 0.25F};
+        builder.background = {0.0F, 1.0F, 0.0F};
+        return color_along<double>(builder.finish(), {0, 0, 0}, {0, 0, -1});
+    };
+    CHECK(missed(FogKind::linear_z, 4.0F, 8.0F) == Vec3d(0, 1, 0));
+    CHECK(missed(FogKind::linear_z, -4.0F, -8.0F) == Vec3d(0, 0, 1));
+    CHECK(missed(FogKind::linear, 4.0F, 8.0F) == Vec3d(0, 0, 1));
+    CHECK(missed(FogKind::exponential, 4.0F, 8.0F) == Vec3d(0, 0, 1));
+    CHECK(missed(FogKind::none, 4.0F, 8.0F) == Vec3d(0, 1, 0));
+}
+
+TEST_CASE("fog lies on reflected rays too, segment by segment") {
+    Builder builder;
+    builder.fog = {FogKind::linear, {0.0F, 0.0F, 1.0F}, 0.0F, 8.0F, 0.0F};
+    builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, mirror());
+    builder.add_shape(Plane{{0, 0, 4}, {0, 0, -1}}, luminous({1.0F, 0.0F, 0.0F}));
+    // 2 to the mirror: a quarter; 4 back: half of the rest.
+    CHECK(color_along<double>(builder.finish(), {0, 0, 2}, {0, 0, -1}) ==
+          Vec3d(0.75 * 0.5, 0.0, 0.75 * 0.5 + 0.25));
+}
+
+TEMPLATE_TEST_CASE("nothing that leaves a surface meets it again", "", float, double) {
+    using Real = TestType;
+    // One mirror that shines a little, alone: any self-hit would add to its own colour. Far from
+    // the origin and small, where an epsilon fails (mitsuba3 #1236, #219).
+    Material shine = mirror();
+    shine.ambient = 1.0F;
+    shine.pattern.colors[0] = Color(1.0F);
+    for (const float scale : {1e-3F, 1.0F, 1e4F})
+        for (const float offset : {0.0F, 1e3F}) {
+            const Vec3f center = Vec3f(offset * scale);
+            Builder builder;
+            builder.add_shape(Sphere{center, scale}, shine);
+            const Scene scene = builder.finish();
+            ReferenceTracer<Real> tracer(scene, scene.settings());
+            int hits = 0;
+            for (int i = 0; i < 400; ++i) {
+                const Real x = Real(scale) * (Real(i) / Real(200) - Real(1));
+                const Vec3<Real> origin =
+                    convert<Real>(center) + Vec3<Real>(x, 0, Real(9) * Real(scale));
+                const Vec3<Real> color = tracer.trace({origin, {0, 0, -1}});
+                hits += color.x > Real(0) ? 1 : 0;
+                REQUIRE((color.x == Real(0) || color.x == Real(1)));
+            }
+            CHECK(hits > 390);
+        }
+}
+
+TEST_CASE("a thin shell neither leaks nor darkens") {
+    // mitsuba3 #1871: spheres of radius 1 and 1 + 4e-5, where a ray epsilon skips the gap.
+    const auto seen = [](bool with_shell, double x) {
+        Builder builder;
+        builder.add_shape(Sphere{{0, 0, 0}, 1}, matte());
+        if (with_shell) builder.add_shape(Sphere{{0, 0, 0}, 1.00004F}, glass(1.0F));
+        return gray_along(builder.finish(point_light({3, 4, 12})), {x, 0, 5}, {0, 0, -1});
+    };
+    for (int i = 0; i < 100; ++i)
+        CHECK(seen(true, 0.00999 * i) == Approx(seen(false, 0.00999 * i)).epsilon(1e-9));
+}
+
+TEST_CASE("smooth triangles shade by their corners' normals, from both sides") {
+    const SmoothTriangle triangle{{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1},
+                                  {0, 1, 1},   {0, 1, 1},  {0, 1, 1}};
+    Builder builder;
+    builder.add_shape(triangle, matte());
+    builder.add_light(point_light({0, -10, 0}));
+    const Scene scene = builder.finish(point_light({0, 10, 0}));
+    const double slanted = 0.5 * std::sqrt(0.5);
+    CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) == Approx(slanted).epsilon(exactly));
+    CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == Approx(slanted).epsilon(exactly));
+}
