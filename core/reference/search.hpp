@@ -1,42 +1,16 @@
 #pragma once
 
 #include "core/counters.hpp"
+#include "core/reference/departure.hpp"
 #include "core/scene.hpp"
 #include "core/solve.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <tuple>
+#include <cmath>
 #include <vector>
 
 /// Finding what a ray hits: one shape after the other, by way of the hierarchy or all of them.
 namespace raylane::core {
-
-/// What a secondary ray knows of the surface that it leaves.
-struct Departure {
-    IdRange shapes{no_shape, no_shape}; ///< itself and what lies in one plane with it
-    Start start;
-
-    Start from(ShapeId id) const { return shapes.contains(id) ? start : Start{}; }
-};
-
-template <class Real>
-struct Hit {
-    Real t = std::numeric_limits<Real>::infinity();
-    ShapeId shape = no_shape;
-    int order = 0; ///< among the crossings of this shape
-    Face face = body;
-    bool entering = false;
-    Kind kind = Kind::sphere;
-    Slot slot{};
-
-    bool any() const { return shape != no_shape; }
-
-    /// The crossings along one ray in a total order: by t, then by shape.
-    bool before(const Hit& other) const {
-        return std::tie(t, shape, order) < std::tie(other.t, other.shape, other.order);
-    }
-};
 
 enum class Search : std::uint8_t { hierarchy, every_shape };
 
@@ -46,42 +20,92 @@ class Searcher {
   public:
     Searcher(const Scene& scene, Search search) : scene_(scene), search_(search) {}
 
-    /// The first crossing with t < t_most that `counts(hit)`. At equal t the lower shape id wins.
+    /// The first crossing that `counts(hit)`. Its t is infinite if there is none.
     template <class Counts>
-    Hit<Real> nearest(const Ray<Real>& ray, const Departure& departure, Real t_most,
-                      const Counts& counts) {
+    Encounter<Real> nearest(const Ray<Real>& ray, const Departure<Real>& departure,
+                            const Counts& counts) {
+        Hit<Real> first;
+        for (const Contact<Real>& contact : departure)
+            if (contact.is_crossed() && contact_hit(contact).before(first) &&
+                counts(contact_hit(contact)))
+                first = contact_hit(contact);
+        if (first.any()) return {first, departure};
+
         Hit<Real> best;
-        best.t = t_most;
+        coinciding_.clear();
         for_each_candidate(
             ray, [&] { return best.t; },
             [&](Kind kind, std::uint32_t block) {
                 cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
-                    if (hit.t < t_most && hit.before(best) && counts(hit)) best = hit;
+                    if (!hit.before(best) && !hit.coincides(best)) return;
+                    if (!counts(hit)) return;
+                    coinciding_.push_back(hit);
+                    if (hit.before(best)) best = hit;
                 });
                 return true;
             });
-        if (!best.any()) best.t = std::numeric_limits<Real>::infinity();
-        return best;
+        return best.any() ? encounter(ray, best) : Encounter<Real>{};
     }
 
-    /// Whether there is a crossing with t < t_most that `counts(hit)`.
-    template <class Counts>
-    bool any(const Ray<Real>& ray, const Departure& departure, Real t_most, const Counts& counts) {
-        bool found = false;
+    /// Calls visit(hit) for the crossings with t < t_most, in no order, until it returns false.
+    template <class Visit>
+    void each(const Ray<Real>& ray, const Departure<Real>& departure, Real t_most,
+              const Visit& visit) {
+        bool more = true;
+        for (const Contact<Real>& contact : departure)
+            if (more && contact.is_crossed()) more = visit(contact_hit(contact));
+        if (!more) return;
         for_each_candidate(
             ray, [&] { return t_most; },
             [&](Kind kind, std::uint32_t block) {
                 cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
-                    found = found || (hit.t < t_most && counts(hit));
+                    if (more && hit.t < t_most) more = visit(hit);
                 });
-                return !found;
+                return more;
             });
-        return found;
+    }
+
+    /// The unit normal on the outside (the front).
+    Vec3<Real> outward_normal_at(const Hit<Real>& hit, const Vec3<Real>& point) const {
+        return with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
+            return outward_normal(table.get(hit.slot), point, hit.face);
+        });
     }
 
     Counters counters;
 
   private:
+    static Hit<Real> contact_hit(const Contact<Real>& contact) {
+        Hit<Real> hit = contact.hit;
+        hit.t = 0;
+        hit.error = 0.0;
+        hit.at_start = true;
+        hit.entering = contact.goes_inside;
+        return hit;
+    }
+
+    /// What is entered comes before what is left where they coincide: they touch, there is no gap
+    /// between them.
+    Encounter<Real> encounter(const Ray<Real>& ray, const Hit<Real>& best) {
+        Encounter<Real> result;
+        std::erase_if(coinciding_, [&](const Hit<Real>& hit) { return !hit.coincides(best); });
+        const auto is_first = [](const Hit<Real>& a, const Hit<Real>& b) {
+            return a.entering != b.entering ? a.entering : a.shape < b.shape;
+        };
+        result.hit = *std::min_element(coinciding_.begin(), coinciding_.end(), is_first);
+
+        const Vec3<Real> point = mul_add(best.t, ray.direction, ray.origin);
+        const auto add = [&](const Hit<Real>& hit) {
+            if (result.contacts.find(hit.shape) != nullptr) return;
+            result.contacts.add({hit, scene_.coplanar_with(hit.shape),
+                                 outward_normal_at(hit, point), !hit.entering, hit.entering});
+        };
+        add(result.hit);
+        for (const Hit<Real>& hit : coinciding_)
+            add(hit);
+        return result;
+    }
+
     struct Pending {
         Real t;
         Child child;
@@ -155,28 +179,27 @@ class Searcher {
     /// Calls visit(hit) for each crossing ahead of the ray with one block's shapes.
     template <class Visit>
     void cross_block(Kind kind, std::uint32_t index, const Ray<Real>& ray,
-                     const Departure& departure, const Visit& visit) {
+                     const Departure<Real>& departure, const Visit& visit) {
         with_table(scene_.shapes(), kind, [&](const auto& table) {
             const auto& block = table.blocks()[index];
             for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
                 const ShapeId id = block.ids[lane];
-                const Start start = departure.from(id);
+                const Start start = departure.start_on(id);
                 ++counters.shapes;
-                int order = 0;
                 for (const Crossing<Real>& crossing :
-                     solve(block.get(lane), ray, start, counters.widened)) {
+                     solve(block.get(lane), ray, start, counters.widened))
                     if (crossing.t > Real(0) || (start.on_surface && crossing.t == Real(0)))
-                        visit(Hit<Real>{crossing.t, id, order, crossing.face, crossing.entering,
-                                        kind, Slot{index, static_cast<std::uint8_t>(lane)}});
-                    ++order;
-                }
+                        visit(Hit<Real>{crossing.t, crossing.error, false, id, crossing.face,
+                                        crossing.entering, kind,
+                                        Slot{index, static_cast<std::uint8_t>(lane)}});
             }
         });
     }
 
     const Scene& scene_;
     Search search_;
-    std::vector<Pending> pending_; // nearest last
+    std::vector<Pending> pending_;      // nearest last
+    std::vector<Hit<Real>> coinciding_; // with the best so far
 };
 
 } // namespace raylane::core

@@ -29,9 +29,7 @@ constexpr Real infinity = std::numeric_limits<Real>::infinity();
 template <class Real>
 ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& settings, Search search)
     : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
-      searcher_(scene, search),
-      any_transmits_(std::any_of(scene.materials().begin(), scene.materials().end(),
-                                 [](const Material& material) { return material.transmits(); })) {}
+      searcher_(scene, search) {}
 
 template <class Real>
 void ReferenceTracer<Real>::render(const Region& region, Film& film) {
@@ -52,18 +50,19 @@ Color ReferenceTracer<Real>::pixel(int x, int y) {
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::trace(const Ray<Real>& ray) {
     ++searcher_.counters.primary;
-    return color_along({ray, Departure{}, Media{}, Vector(1), 0});
+    return color_along({ray, Departure<Real>{}, Media{}, Vector(1), 0});
 }
 
 /// The nearest visible surface, behind whatever fills the space in between.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::color_along(const Path& path) {
-    const Hit<Real> hit =
-        searcher_.nearest(path.ray, path.departure, infinity<Real>,
+    const Encounter<Real> encounter =
+        searcher_.nearest(path.ray, path.departure,
                           [&](const Hit<Real>& candidate) { return is_visible(candidate); });
+    const Hit<Real>& hit = encounter.hit;
     if (!hit.any()) return color_at_infinity(path);
 
-    const Surface surface = surface_at(path, hit);
+    const Surface surface = surface_at(path, encounter);
     const MaterialIndex medium = medium_before(hit, path.media);
     Path shaded = path;
     if (medium != Media::none) {
@@ -86,9 +85,10 @@ Vec3<Real> ReferenceTracer<Real>::color_at_infinity(const Path& path) const {
 
 template <class Real>
 typename ReferenceTracer<Real>::Surface
-ReferenceTracer<Real>::surface_at(const Path& path, const Hit<Real>& hit) const {
+ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encounter) const {
+    const Hit<Real>& hit = encounter.hit;
     const Vector point = mul_add(hit.t, path.ray.direction, path.ray.origin);
-    Vector flat = flat_normal_at(hit, point);
+    Vector flat = searcher_.outward_normal_at(hit, point);
     Vector normal = flat;
     if (hit.kind == Kind::smooth_triangle) {
         const auto& table = std::get<Table<SmoothTriangle>>(scene_.shapes());
@@ -99,7 +99,7 @@ ReferenceTracer<Real>::surface_at(const Path& path, const Hit<Real>& hit) const 
         flat = -flat;
         normal = -normal;
     }
-    return {hit, scene_.material_of(hit.shape), point, flat, normal};
+    return {hit, encounter.contacts, scene_.material_of(hit.shape), point, flat, normal};
 }
 
 /// The formula at `Material`.
@@ -168,10 +168,8 @@ Vec3<Real> ReferenceTracer<Real>::reflected_color(const Path& path, const Surfac
         direction = reflected(path.ray.direction, surface.flat_normal);
 
     ++searcher_.counters.reflected;
-    const Departure departure = surface.departure(scene_.coplanar_with(surface.hit.shape),
-                                                  /*inward=*/!surface.hit.entering);
     return reflectance * color_along({{surface.point, normalized(direction)},
-                                      departure,
+                                      surface.departure(/*through=*/false, direction),
                                       path.media,
                                       throughput,
                                       path.depth + 1});
@@ -185,10 +183,8 @@ Vec3<Real> ReferenceTracer<Real>::transmitted_color(const Path& path, const Surf
     if (path.depth >= settings_.max_depth || !is_worth(throughput)) return Vector(0);
 
     ++searcher_.counters.refracted;
-    const Departure departure = surface.departure(scene_.coplanar_with(surface.hit.shape),
-                                                  /*inward=*/surface.hit.entering);
     return weight * color_along({{surface.point, normalized(direction)},
-                                 departure,
+                                 surface.departure(/*through=*/true, direction),
                                  media_behind(surface.hit, path.media),
                                  throughput,
                                  path.depth + 1});
@@ -201,30 +197,46 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Path& path, const Surf
                                                     const Vector& to_light, Real distance) {
     ++searcher_.counters.shadow;
     const Ray<Real> ray{surface.point, to_light};
-    const Departure departure = surface.departure(scene_.coplanar_with(surface.hit.shape),
-                                                  /*inward=*/!surface.hit.entering);
-    const bool blocked = searcher_.any(ray, departure, distance, [&](const Hit<Real>& candidate) {
-        return !scene_.material_of(candidate.shape).transmits() && is_visible(candidate);
-    });
-    if (blocked) return Vector(0);
-    if (!any_transmits_) return Vector(1);
+    if (!find_crossings(ray, surface.departure(/*through=*/false, to_light), distance))
+        return Vector(0);
 
     Vector share(1);
     Media media = path.media;
-    Hit<Real> last;
-    last.t = 0;
-    for (;;) {
-        const Hit<Real> hit =
-            searcher_.nearest(ray, departure, distance, [&](const Hit<Real>& candidate) {
-                return (!last.any() || last.before(candidate)) && is_visible(candidate);
-            });
-        if (!hit.any()) return share * absorbed(media.top(), distance - last.t);
-        share *= absorbed(medium_before(hit, media), hit.t - last.t);
+    Real reached = 0;
+    for (const Hit<Real>& hit : crossings_) {
+        share *= absorbed(medium_before(hit, media), hit.t - reached);
         share *= let_through(hit, ray, media);
-        if (share == Vector(0)) return share;
         media = media_behind(hit, media);
-        last = hit;
+        reached = hit.t;
     }
+    return share * absorbed(media.top(), distance - reached);
+}
+
+/// The transmissive surfaces on a shadow ray, in their order; false if there is an opaque one.
+template <class Real>
+bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure<Real>& departure,
+                                           Real distance) {
+    bool is_open = true;
+    crossings_.clear();
+    searcher_.each(ray, departure, distance, [&](const Hit<Real>& hit) {
+        if (!is_visible(hit)) return true;
+        is_open = scene_.material_of(hit.shape).transmits();
+        if (is_open) crossings_.push_back(hit);
+        return is_open;
+    });
+    if (!is_open) return false;
+
+    std::sort(crossings_.begin(), crossings_.end(),
+              [](const Hit<Real>& a, const Hit<Real>& b) { return a.before(b); });
+    // Where they coincide, what is entered comes before what is left.
+    for (auto first = crossings_.begin(); first != crossings_.end();) {
+        const auto end = std::find_if(first, crossings_.end(), [&](const Hit<Real>& hit) {
+            return !hit.coincides(*first) || hit.at_start != first->at_start;
+        });
+        std::stable_partition(first, end, [](const Hit<Real>& hit) { return hit.entering; });
+        first = end;
+    }
+    return true;
 }
 
 /// The share that one surface lets through. The line is not bent, so its angle is taken for the
@@ -234,7 +246,7 @@ template <class Real>
 Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
                                         const Media& media) const {
     const Vector point = mul_add(hit.t, ray.direction, ray.origin);
-    const Vector outward = flat_normal_at(hit, point);
+    const Vector outward = searcher_.outward_normal_at(hit, point);
     const auto [before, behind] = indices_at(hit, media);
     const Real rarer = std::min(before, behind), denser = std::max(before, behind);
     const Material& material = scene_.material_of(hit.shape);
@@ -254,13 +266,6 @@ template <class Real>
 bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
     const Visible visible = scene_.material_of(hit.shape).visible;
     return visible == Visible::both || (visible == Visible::outside) == hit.entering;
-}
-
-template <class Real>
-Vec3<Real> ReferenceTracer<Real>::flat_normal_at(const Hit<Real>& hit, const Vector& point) const {
-    return with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-        return outward_normal(table.get(hit.slot), point, hit.face);
-    });
 }
 
 /// A surface that transmits nothing has its own index behind it, from whichever side it is seen.

@@ -35,7 +35,7 @@ class ReferenceTracer {
     /// A ray underway.
     struct Path {
         Ray<Real> ray;
-        Departure departure;
+        Departure<Real> departure;
         Media media;       ///< what it is inside of
         Vector throughput; ///< what of its colour reaches the pixel
         int depth;         ///< reflections and refractions so far
@@ -44,13 +44,15 @@ class ReferenceTracer {
     /// The surface that a path has hit, seen from the side that it came from.
     struct Surface {
         Hit<Real> hit;
+        Departure<Real> contacts;
         const Material& material;
         Vector point;
         Vector flat_normal; ///< unit, perpendicular to the surface
         Vector normal;      ///< unit, to shade with: differs for smooth triangles
 
-        Departure departure(IdRange shapes, bool inward) const {
-            return {shapes, {true, hit.face, inward}};
+        /// For a ray from here.
+        Departure<Real> departure(bool through, const Vector& direction) const {
+            return contacts.turned(hit, through, direction);
         }
     };
 
@@ -62,7 +64,7 @@ class ReferenceTracer {
 
     Vector color_along(const Path& path);
     Vector color_at_infinity(const Path& path) const;
-    Surface surface_at(const Path& path, const Hit<Real>& hit) const;
+    Surface surface_at(const Path& path, const Encounter<Real>& encounter) const;
     Vector shade(const Path& path, const Surface& surface);
     Vector lit(const Path& path, const Surface& surface);
     Vector reflected_color(const Path& path, const Surface& surface, Real reflectance);
@@ -70,11 +72,11 @@ class ReferenceTracer {
                              const Vector& direction);
     Vector light_let_through(const Path& path, const Surface& surface, const Vector& to_light,
                              Real distance);
+    bool find_crossings(const Ray<Real>& ray, const Departure<Real>& departure, Real distance);
     Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Media& media) const;
 
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
-    Vector flat_normal_at(const Hit<Real>& hit, const Vector& point) const;
     Indices indices_at(const Hit<Real>& hit, const Media& media) const;
     Media media_behind(const Hit<Real>& hit, Media media) const;
     MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
@@ -84,7 +86,7 @@ class ReferenceTracer {
     Settings settings_;
     CameraRays<Real> camera_rays_;
     Searcher<Real> searcher_;
-    bool any_transmits_;
+    std::vector<Hit<Real>> crossings_; // of a shadow ray
 };
 
 extern template class ReferenceTracer<float>;
