@@ -36,7 +36,8 @@ enum class Reflection : std::uint8_t {
     dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
 };
 
-/// From which side a surface can be seen. Rays pass the other side as if nothing were there.
+/// From which side a surface can be seen. Rays pass the other side as if nothing were there. A
+/// shadow ray looks from a surface to the light.
 enum class Visible : std::uint8_t { both, outside, inside };
 
 /// The colour seen along a ray that hits this material, with light l of colour L_l, unit vectors n

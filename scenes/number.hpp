@@ -18,4 +18,7 @@ std::optional<int> to_int(std::string_view word);
 /// The shortest decimal number that is nearest to `value` among floats.
 std::string to_text(float value);
 
+/// The number that to_text(value) spells, for writers that spell doubles.
+double to_decimal(float value);
+
 } // namespace raylane::scenes

@@ -32,7 +32,7 @@ void print_json(const Comparison& comparison, float tolerance) {
                                          {"largest", finite_or_null(comparison.largest)},
                                          {"x", comparison.x},
                                          {"y", comparison.y},
-                                         {"tolerance", tolerance},
+                                         {"tolerance", to_decimal(tolerance)},
                                          {"differing", comparison.differing},
                                          {"pixels", comparison.pixels}};
     std::printf("%s\n", json.dump(2).c_str());

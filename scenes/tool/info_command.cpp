@@ -1,5 +1,6 @@
 #include "core/features.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/number.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/tool/command.hpp"
 
@@ -65,7 +66,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"height", settings.height},
             {"samples_per_pixel", settings.grid * settings.grid},
             {"max_depth", settings.max_depth},
-            {"min_weight", settings.min_weight},
+            {"min_weight", to_decimal(settings.min_weight)},
             {"transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear"},
             {"hierarchy_nodes", scene.hierarchy().nodes.size()},
             {"needed", names_where(features, true)},

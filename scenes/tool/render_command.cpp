@@ -120,7 +120,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"height", settings.height},
             {"samples_per_pixel", settings.grid * settings.grid},
             {"max_depth", settings.max_depth},
-            {"min_weight", settings.min_weight},
+            {"min_weight", to_decimal(settings.min_weight)},
             {"shapes", scene.shape_count()},
             {"scene_bytes", scene.bytes()},
             {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},

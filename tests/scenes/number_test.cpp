@@ -68,4 +68,6 @@ TEST_CASE("a float's text is the shortest that means it") {
     CHECK(to_text(0.1F) == "0.1");
     CHECK(to_text(-2.0F) == "-2");
     CHECK(to_text(1e30F) == "1e+30");
+    CHECK(to_decimal(0.1F) == 0.1);
+    CHECK(to_decimal(-1e30F) == -1e30);
 }
