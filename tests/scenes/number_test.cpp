@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+using raylane::scenes::to_decimal;
 using raylane::scenes::to_float;
 using raylane::scenes::to_int;
 using raylane::scenes::to_text;
