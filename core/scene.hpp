@@ -93,7 +93,11 @@ class SceneBuilder {
     Scene build() &&;
 
   private:
-    void check_material_index(MaterialIndex material) const;
+    void require_material(MaterialIndex material) const;
+    void require_room(std::size_t count) const;
+    /// What add does with a shape that is valid.
+    template <class Shape>
+    ShapeId append(const Shape& shape, MaterialIndex material);
 
     Scene scene_;
 };
