@@ -43,6 +43,15 @@ float traversal_padding(const Tables& shapes, const Camera& camera) {
 
 } // namespace
 
+std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id) {
+    std::size_t rank = id;
+    for (const IdRange& group : groups) {
+        if (id < group.first) break;
+        rank -= std::min(id, group.last) - group.first;
+    }
+    return rank;
+}
+
 IdRange Scene::coplanar_with(ShapeId id) const {
     const auto after =
         std::upper_bound(polygons_.begin(), polygons_.end(), id,
@@ -119,7 +128,7 @@ void SceneBuilder::reserve(std::size_t count) {
     scene_.material_of_.reserve(shape_count() + count);
 }
 
-Scene SceneBuilder::build() && {
+Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     validate_in("settings", settings);
     validate_in("camera", camera);
     validate_in("fog", fog);
@@ -133,10 +142,11 @@ Scene SceneBuilder::build() && {
         const Light& light = scene_.lights_[i];
         if (light.kind != LightKind::point) continue;
         const ShapeId id = surface_through(scene_, light.position);
-        if (id != no_shape)
-            throw InvalidValue("lights/" + std::to_string(i) + "/position",
-                               "must not be on a surface, got a point of shape " +
-                                   std::to_string(id));
+        if (id == no_shape) continue;
+        std::string name = name_of_shape ? name_of_shape(id) : "";
+        if (name.empty()) name = "shape " + std::to_string(id);
+        throw InvalidValue("lights/" + std::to_string(i) + "/position",
+                           "must not be on a surface, got a point of " + name);
     }
     scene_.camera_ = camera;
     scene_.background_ = background;
