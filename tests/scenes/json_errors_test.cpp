@@ -5,6 +5,7 @@
 #include <vector>
 
 using namespace raylane;
+using namespace raylane::tests;
 
 namespace {
 

@@ -44,6 +44,19 @@ class TemporaryDirectory {
     std::filesystem::path path_;
 };
 
+/// A file of a test's own.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(std::string_view content, const std::string& ending = ".json")
+        : path_(directory_.write("scene" + ending, content)) {}
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    TemporaryDirectory directory_;
+    std::filesystem::path path_;
+};
+
 inline std::string content_of(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
