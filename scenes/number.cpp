@@ -89,4 +89,11 @@ std::string to_text(float value) {
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
+double as_printed(float value) {
+    const std::string text = to_text(value);
+    double number = static_cast<double>(value);
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
 } // namespace raylane::scenes

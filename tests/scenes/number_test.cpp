@@ -7,6 +7,7 @@
 
 using raylane::scenes::to_float;
 using raylane::scenes::to_int;
+using raylane::scenes::as_printed;
 using raylane::scenes::to_text;
 
 TEST_CASE("a decimal number is the nearest float") {
@@ -68,4 +69,8 @@ TEST_CASE("a float's text is the shortest that means it") {
     CHECK(to_text(0.1F) == "0.1");
     CHECK(to_text(-2.0F) == "-2");
     CHECK(to_text(1e30F) == "1e+30");
+    CHECK(as_printed(0.1F) == 0.1);
+    CHECK(as_printed(-0.001F) == -0.001);
+    CHECK(as_printed(3.4028235e38F) == 3.4028235e38);
+    CHECK(as_printed(0.0F) == 0.0);
 }
