@@ -43,6 +43,15 @@ float traversal_padding(const Tables& shapes, const Camera& camera) {
 
 } // namespace
 
+std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id) {
+    std::size_t rank = id;
+    for (const IdRange& group : groups) {
+        if (id < group.first) break;
+        rank -= std::min(id, group.last) - group.first;
+    }
+    return rank;
+}
+
 IdRange Scene::coplanar_with(ShapeId id) const {
     const auto after =
         std::upper_bound(polygons_.begin(), polygons_.end(), id,
@@ -59,10 +68,15 @@ std::size_t Scene::bytes() const {
     return bytes;
 }
 
-void SceneBuilder::check_material_index(MaterialIndex material) const {
+void SceneBuilder::require_material(MaterialIndex material) const {
     if (material >= scene_.materials_.size())
         throw InvalidValue("material",
                            "must be the index of a material, got " + std::to_string(material));
+}
+
+void SceneBuilder::require_room(std::size_t count) const {
+    if (count > no_shape - shape_count())
+        throw InvalidValue("", "must be one of at most 4294967295 shapes");
 }
 
 MaterialIndex SceneBuilder::add_material(const Material& material) {
@@ -77,15 +91,19 @@ void SceneBuilder::add_light(const Light& light) {
 }
 
 template <class Shape>
-ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {
-    validate(shape);
-    check_material_index(material);
-    if (shape_count() >= no_shape)
-        throw InvalidValue("", "must be one of at most 4294967295 shapes");
+ShapeId SceneBuilder::append(const Shape& shape, MaterialIndex material) {
     const auto id = static_cast<ShapeId>(shape_count());
     std::get<Table<Shape>>(scene_.shapes_).add(shape, id);
     scene_.material_of_.push_back(material);
     return id;
+}
+
+template <class Shape>
+ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {
+    validate(shape);
+    require_material(material);
+    require_room(1);
+    return append(shape, material);
 }
 
 template <class AnyTriangle>
@@ -93,9 +111,11 @@ ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, Materi
     if (triangles.empty()) throw InvalidValue("", "must have at least one triangle, got none");
     for (const AnyTriangle& triangle : triangles)
         validate(triangle);
-    const ShapeId first = add(triangles.front(), material);
+    require_material(material);
+    require_room(triangles.size());
+    const ShapeId first = append(triangles.front(), material);
     for (const AnyTriangle& triangle : triangles.subspan(1))
-        add(triangle, material);
+        append(triangle, material);
     const auto last = static_cast<ShapeId>(shape_count() - 1);
     if (last != first) scene_.polygons_.push_back({first, last});
     return first;
@@ -108,7 +128,7 @@ void SceneBuilder::reserve(std::size_t count) {
     scene_.material_of_.reserve(shape_count() + count);
 }
 
-Scene SceneBuilder::build() && {
+Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     validate_in("settings", settings);
     validate_in("camera", camera);
     validate_in("fog", fog);
@@ -122,10 +142,11 @@ Scene SceneBuilder::build() && {
         const Light& light = scene_.lights_[i];
         if (light.kind != LightKind::point) continue;
         const ShapeId id = surface_through(scene_, light.position);
-        if (id != no_shape)
-            throw InvalidValue("lights/" + std::to_string(i) + "/position",
-                               "must not be on a surface, got a point of shape " +
-                                   std::to_string(id));
+        if (id == no_shape) continue;
+        std::string name = name_of_shape ? name_of_shape(id) : "";
+        if (name.empty()) name = "shape " + std::to_string(id);
+        throw InvalidValue("lights/" + std::to_string(i) + "/position",
+                           "must not be on a surface, got a point of " + name);
     }
     scene_.camera_ = camera;
     scene_.background_ = background;

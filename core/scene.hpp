@@ -7,8 +7,10 @@
 #include "core/surroundings.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace raylane::core {
@@ -21,6 +23,12 @@ struct IdRange {
     /// Wraps below `first`, so that one comparison does.
     bool contains(ShapeId id) const { return id - first <= last - first; }
 };
+
+/// If `groups`, ascending, were one shape each, as which one would shape `id` be counted?
+std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id);
+
+/// What a message calls a shape; empty where that is unknown.
+using NameOfShape = std::function<std::string(ShapeId)>;
 
 /// A validated scene that no longer changes. Copying it is expensive, moving it is not.
 class Scene {
@@ -87,13 +95,20 @@ class SceneBuilder {
     void reserve(std::size_t count);
 
     std::size_t shape_count() const { return scene_.material_of_.size(); }
+    /// The polygons of more than one triangle, ascending.
+    std::span<const IdRange> polygons() const { return scene_.polygons_; }
 
     /// Checks what concerns the scene as a whole, builds the hierarchy, and hands the scene over.
-    /// Fields are those above, and "lights", "lights/0/position", ...
-    Scene build() &&;
+    /// Fields are those above, and "lights", "lights/0/position", ... Shapes are named by number
+    /// unless `name_of_shape` knows better.
+    Scene build(const NameOfShape& name_of_shape = nullptr) &&;
 
   private:
-    void check_material_index(MaterialIndex material) const;
+    void require_material(MaterialIndex material) const;
+    void require_room(std::size_t count) const;
+    /// What add does with a shape that is valid.
+    template <class Shape>
+    ShapeId append(const Shape& shape, MaterialIndex material);
 
     Scene scene_;
 };

@@ -2,9 +2,13 @@
 
 #include "scenes/errors.hpp"
 
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <fcntl.h>
 #include <random>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -36,7 +40,39 @@ std::string random_suffix() {
     return suffix;
 }
 
+/// The temporaries that there are. More than so many at a time are left to their owners.
+std::array<std::atomic<const char*>, 16> temporaries{};
+static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler must not wait");
+
+void replace_known(const char* old_path, const char* new_path) {
+    for (auto& slot : temporaries) {
+        const char* expected = old_path;
+        if (slot.compare_exchange_strong(expected, new_path)) return;
+    }
+}
+
+/// Keeps signals from this thread as long as it lives.
+class SignalsHeld {
+  public:
+    SignalsHeld() {
+        sigset_t all;
+        ::sigfillset(&all);
+        ::pthread_sigmask(SIG_BLOCK, &all, &before_);
+    }
+    ~SignalsHeld() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    SignalsHeld(const SignalsHeld&) = delete;
+    SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+  private:
+    sigset_t before_;
+};
+
 } // namespace
+
+void remove_temporaries() noexcept {
+    for (const auto& slot : temporaries)
+        if (const char* path = slot.load(); path != nullptr) ::unlink(path);
+}
 
 AtomicFile::AtomicFile(const std::filesystem::path& path)
     : name_(path.string()), target_(followed(path)) {
@@ -63,13 +99,16 @@ AtomicFile::AtomicFile(const std::filesystem::path& path)
 }
 
 AtomicFile::~AtomicFile() {
-    if (descriptor_ < 0) return;
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-    ::close(descriptor_);
+    discard_temporary();
+    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 void AtomicFile::reserve(std::int64_t bytes) {
     if (temporary_.empty()) return;
+    // Claiming room beyond the size does not ask for the limit of the size.
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && static_cast<rlim_t>(bytes) > limit.rlim_cur)
+        refuse(EFBIG);
     int result;
     do {
         result = ::fallocate(descriptor_, FALLOC_FL_KEEP_SIZE, 0, bytes);
@@ -91,11 +130,11 @@ void AtomicFile::commit() {
     // Some file systems say only now that there is no room.
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
-    if (closed == 0 && temporary_.empty()) return;
-    if (closed == 0 && ::rename(temporary_.c_str(), target_.c_str()) == 0) return;
-    const int error_number = errno;
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-    refuse(error_number);
+    if (closed != 0) refuse(errno);
+    if (temporary_.empty()) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(errno);
+    replace_known(temporary_.c_str(), nullptr);
+    temporary_.clear();
 }
 
 void AtomicFile::open_temporary(unsigned mode) {
@@ -104,11 +143,22 @@ void AtomicFile::open_temporary(unsigned mode) {
     std::string name = ".";
     name.append(target_.filename().string(), 0, longest_part).append(".");
     const std::string start = target_.parent_path() / name;
-    do {
+    while (true) {
         temporary_ = start + random_suffix();
+        const SignalsHeld until_known;
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    } while (descriptor_ < 0 && errno == EEXIST);
-    if (descriptor_ < 0) refuse(errno);
+        if (descriptor_ >= 0) return replace_known(nullptr, temporary_.c_str());
+        const int error_number = errno;
+        temporary_.clear(); // of somebody else, or nothing
+        if (error_number != EEXIST) refuse(error_number);
+    }
+}
+
+void AtomicFile::discard_temporary() {
+    if (temporary_.empty()) return;
+    ::unlink(temporary_.c_str());
+    replace_known(temporary_.c_str(), nullptr);
+    temporary_.clear();
 }
 
 void AtomicFile::flush() {

@@ -12,7 +12,8 @@ namespace raylane::scenes {
 /// when all went well. What is no regular file (a pipe, a device) is written directly.
 ///
 /// All that can be known is checked at construction, so before the work whose result is to be
-/// written. Functions throw SystemRefused; the temporary is gone when the object is.
+/// written. Functions throw SystemRefused; the temporary is gone when the object is, and a signal
+/// handler can remove it by remove_temporaries().
 class AtomicFile {
   public:
     /// A symbolic link is followed: what it leads to is replaced, and keeps its permissions.
@@ -29,12 +30,9 @@ class AtomicFile {
     /// Once, at the end.
     void commit();
 
-    /// What a signal handler has to unlink; "" if there is no temporary. Points to the same
-    /// characters as long as the object lives.
-    const char* temporary_path() const { return temporary_.c_str(); }
-
   private:
     void open_temporary(unsigned mode);
+    void discard_temporary();
     void flush();
     [[noreturn]] void refuse(int error_number) const;
 
@@ -44,5 +42,9 @@ class AtomicFile {
     int descriptor_ = -1;
     std::vector<char> buffer_;
 };
+
+/// Removes the temporaries of all files that this process is writing, for it is about to end. May
+/// be called by a signal handler.
+void remove_temporaries() noexcept;
 
 } // namespace raylane::scenes

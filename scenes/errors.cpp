@@ -80,7 +80,8 @@ std::string printable(std::string_view text, std::size_t most) {
     return out;
 }
 
-std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates) {
+std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates,
+                       std::string_view prefix) {
     const std::string_view start = unknown.substr(0, 64); // a key may be as long as its file
     const auto nearest =
         std::min_element(candidates.begin(), candidates.end(), [&](auto a, auto b) {
@@ -88,7 +89,16 @@ std::string suggestion(std::string_view unknown, const std::vector<std::string_v
         });
     if (nearest == candidates.end()) return "";
     if (edit_distance(start, *nearest) > 1 + std::max(start.size(), nearest->size()) / 3) return "";
-    return ", did you mean \"" + std::string(*nearest) + "\"?";
+    return ", did you mean \"" + std::string(prefix).append(*nearest) + "\"?";
+}
+
+std::string alternatives(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += i + 1 < names.size() ? ", " : " or ";
+        text += names[i];
+    }
+    return text;
 }
 
 } // namespace raylane::scenes

@@ -29,8 +29,12 @@ class SystemRefused : public std::runtime_error {
 /// cut after `most` characters with "..." behind.
 std::string printable(std::string_view text, std::size_t most = 40);
 
-/// ", did you mean "near"?" with the candidate nearest to `unknown` by edit distance, or "" if none
-/// is near.
-std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates);
+/// ", did you mean "near"?" with the candidate nearest to `unknown` by edit distance, behind
+/// `prefix`, or "" if none is near.
+std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates,
+                       std::string_view prefix = "");
+
+/// "a, b or c".
+std::string alternatives(const std::vector<std::string>& names);
 
 } // namespace raylane::scenes

@@ -69,6 +69,13 @@ std::string InputFile::read_all() {
     return text;
 }
 
+bool InputFile::rewind() {
+    if (::lseek(descriptor_, 0, SEEK_SET) != 0) return false;
+    head_.clear();
+    head_used_ = 0;
+    return true;
+}
+
 std::size_t InputFile::read_some(std::span<char> buffer) {
     while (true) {
         const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());

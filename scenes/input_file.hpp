@@ -31,6 +31,8 @@ class InputFile {
     std::size_t read(std::span<char> buffer);
     /// Everything that is left. Throws SystemRefused.
     std::string read_all();
+    /// Begins again at the start. False where that cannot be (a pipe).
+    bool rewind();
 
   private:
     std::size_t read_some(std::span<char> buffer);

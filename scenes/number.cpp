@@ -89,11 +89,11 @@ std::string to_text(float value) {
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-double to_decimal(float value) {
+double as_printed(float value) {
     const std::string text = to_text(value);
-    double decimal = 0.0;
-    std::from_chars(text.data(), text.data() + text.size(), decimal);
-    return decimal;
+    double number = static_cast<double>(value);
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
 }
 
 } // namespace raylane::scenes

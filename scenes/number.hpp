@@ -18,7 +18,7 @@ std::optional<int> to_int(std::string_view word);
 /// The shortest decimal number that is nearest to `value` among floats.
 std::string to_text(float value);
 
-/// The number that to_text(value) spells, for writers that spell doubles.
-double to_decimal(float value);
+/// That number as a double: what prints 0.001F as 0.001 rather than 0.0010000000474974513.
+double as_printed(float value);
 
 } // namespace raylane::scenes

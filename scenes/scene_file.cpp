@@ -1,5 +1,6 @@
 #include "scenes/scene_file.hpp"
 
+#include "scenes/errors.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/json/reader.hpp"
 #include "scenes/nff/reader.hpp"
@@ -19,19 +20,30 @@ bool looks_like_json(std::string_view head) {
     return first != std::string_view::npos && (head[first] == '{' || head[first] == '/');
 }
 
+bool is_binary(std::string_view head) {
+    return std::any_of(head.begin(), head.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return (byte < ' ' && (byte < '\t' || byte > '\r')) || byte == 0x7F;
+    });
+}
+
 bool is_json(const std::filesystem::path& path, InputFile& file) {
     std::string ending = path.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     });
     if (ending == ".json") return true;
-    return ending != ".nff" && looks_like_json(file.head());
+    if (ending == ".nff") return false;
+    if (is_binary(file.head()))
+        throw BadInput(file.name(), "", "must be a scene in JSON or NFF, got a binary file");
+    return looks_like_json(file.head());
 }
 
 } // namespace
 
 core::Scene load_scene(const std::filesystem::path& path) {
     InputFile file(path);
+    if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
     return is_json(path, file) ? read_json(file) : read_nff(file);
 }
 

@@ -22,9 +22,6 @@ class OutputFile {
     /// there is no new file.
     void commit(const core::Film& film, core::Transfer transfer);
 
-    /// As AtomicFile's.
-    const char* temporary_path() const { return file_.temporary_path(); }
-
   private:
     enum class Format { png, hdr, pfm };
     static Format format_of(const std::filesystem::path& path);

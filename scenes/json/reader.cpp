@@ -52,11 +52,13 @@ class SceneReader {
     core::MaterialIndex material_of(const JsonValue& value);
     void add_named_material(std::string_view name, const JsonValue& value);
     void take_object(const JsonDocument& item);
+    void add_object(const JsonDocument& item);
 
     std::string_view file_;
     core::SceneBuilder builder_;
     std::map<std::string, core::MaterialIndex, std::less<>> materials_;
-    std::deque<JsonDocument> waiting_; // objects that came before the materials
+    std::deque<JsonDocument> waiting_;     // objects that came before the materials
+    std::vector<core::IdRange> generated_; // the shapes of each object that is more than one
     MaterialOf material_of_ = [this](const JsonValue& value) { return material_of(value); };
 };
 
@@ -118,17 +120,29 @@ void SceneReader::take_object(const JsonDocument& item) {
     // Objects keep their order, which numbers the shapes: none overtakes one that waits.
     const bool known = item.root().at("material").type() != JsonType::string || !materials_.empty();
     if (known && waiting_.empty())
-        add_object(item.root(), builder_, material_of_);
+        add_object(item);
     else
         waiting_.push_back(item);
 }
 
+void SceneReader::add_object(const JsonDocument& item) {
+    const std::size_t before = builder_.shape_count();
+    scenes::add_object(item.root(), builder_, material_of_);
+    const std::size_t after = builder_.shape_count();
+    if (after - before > 1)
+        generated_.push_back(
+            {static_cast<core::ShapeId>(before), static_cast<core::ShapeId>(after - 1)});
+}
+
 core::Scene SceneReader::finish() {
     for (const JsonDocument& item : waiting_)
-        add_object(item.root(), builder_, material_of_);
+        add_object(item);
     waiting_ = {};
+    const auto object_of = [this](core::ShapeId id) {
+        return "/objects/" + std::to_string(core::rank_in_groups(generated_, id));
+    };
     try {
-        return std::move(builder_).build();
+        return std::move(builder_).build(object_of);
     } catch (const core::InvalidValue& invalid) {
         // core keeps in one place what the file groups by purpose.
         static constexpr std::array<std::pair<std::string_view, std::string_view>, 5> places = {{

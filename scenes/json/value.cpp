@@ -20,13 +20,11 @@ std::string in_quotes(std::string_view text) {
 }
 
 /// `"a", "b" or "c"`
-std::string alternatives(const std::vector<std::string_view>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        if (i > 0) text += i + 1 < names.size() ? ", " : " or ";
-        text += in_quotes(names[i]);
-    }
-    return text;
+std::string quoted_alternatives(const std::vector<std::string_view>& names) {
+    std::vector<std::string> quoted;
+    for (const std::string_view name : names)
+        quoted.push_back(in_quotes(name));
+    return alternatives(quoted);
 }
 
 } // namespace
@@ -65,7 +63,7 @@ std::string pointer_token(std::string_view key) {
 std::string unknown_key(std::string_view key, const std::vector<std::string_view>& known) {
     const std::string near = suggestion(key, known);
     return "unknown key " + in_quotes(key) +
-           (near.empty() ? ", must be " + alternatives(known) : near);
+           (near.empty() ? ", must be " + quoted_alternatives(known) : near);
 }
 
 void JsonDocument::begin(std::string_view file, std::string pointer) {
@@ -153,7 +151,8 @@ void JsonValue::fail_expecting(std::string_view expected) const {
 }
 
 void JsonValue::fail_choice(const std::vector<std::string_view>& names) const {
-    fail("must be " + alternatives(names) + ", got " + quoted() + suggestion(string(), names));
+    fail("must be " + quoted_alternatives(names) + ", got " + quoted() +
+         suggestion(string(), names));
 }
 
 void JsonValue::require(JsonType wanted) const {

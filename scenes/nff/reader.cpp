@@ -3,6 +3,7 @@
 #include "core/validate.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/nff/fields.hpp"
+#include "scenes/nff/object_name.hpp"
 #include "scenes/nff/surface.hpp"
 #include "scenes/nff/triangulate.hpp"
 #include "scenes/nff/view.hpp"
@@ -273,7 +274,9 @@ core::Scene Reader::build() {
     if (!has_view_) throw BadInput(file_.name(), "", "must have a v entity, got none");
     if (!materials_) add_lights();
     try {
-        return std::move(builder_).build();
+        return std::move(builder_).build([this](core::ShapeId id) {
+            return nff_object_name(file_, core::rank_in_groups(builder_.polygons(), id));
+        });
     } catch (const InvalidValue& invalid) {
         constexpr std::string_view lights = "lights/";
         std::size_t light = 0;

@@ -1,6 +1,9 @@
 #include "scenes/tool/arguments.hpp"
 
+#include "core/surroundings.hpp"
+
 #include <cmath>
+#include <filesystem>
 
 namespace raylane::scenes {
 
@@ -11,7 +14,28 @@ namespace {
     throw BadInput(option, "", "must be " + must + ", got \"" + printable(got) + "\"");
 }
 
+/// Whether both names lead to one file, there or not. Devices can be written twice.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code unknown;
+    if (std::filesystem::is_other(a, unknown)) return false;
+    if (std::filesystem::equivalent(a, b, unknown)) return true;
+    const auto resolved = [&](const std::filesystem::path& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, unknown), unknown);
+    };
+    return !resolved(a).empty() && resolved(a) == resolved(b);
+}
+
 } // namespace
+
+const std::string& file_argument(const std::string& option, const std::string& text) {
+    if (text.empty()) refuse(option, "the name of a file", text);
+    return text;
+}
+
+void require_other_file(const std::string& option, const std::string& file,
+                        const std::string& other_option, const std::string& other_file) {
+    if (same_file(file, other_file)) refuse(option, "another file than " + other_option, file);
+}
 
 int whole_argument(const std::string& option, const std::string& text, int least, int most) {
     const std::optional<int> value = to_int(text);
@@ -29,7 +53,8 @@ float number_argument(const std::string& option, const std::string& text, float 
     return *value;
 }
 
-std::pair<int, int> size_argument(const std::string& option, const std::string& text, int most) {
+std::pair<int, int> size_argument(const std::string& option, const std::string& text) {
+    constexpr int most = core::Settings::max_size;
     const std::size_t x = text.find_first_of("xX");
     std::optional<int> width, height;
     if (x != std::string::npos) {
@@ -40,6 +65,9 @@ std::pair<int, int> size_argument(const std::string& option, const std::string& 
         refuse(option,
                "WIDTHxHEIGHT in pixels, each from 1 to " + std::to_string(most) +
                    ", such as 640x480",
+               text);
+    if (std::int64_t{*width} * *height > core::Settings::max_pixels)
+        refuse(option, "at most " + std::to_string(core::Settings::max_pixels) + " pixels in all",
                text);
     return {*width, *height};
 }

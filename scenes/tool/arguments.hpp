@@ -12,12 +12,19 @@
 /// "--spp: must be ..., got ...".
 namespace raylane::scenes {
 
+/// The name of a file.
+const std::string& file_argument(const std::string& option, const std::string& text);
+
+/// Refuses a file to be written that is another argument's as well, by whatever name.
+void require_other_file(const std::string& option, const std::string& file,
+                        const std::string& other_option, const std::string& other_file);
+
 int whole_argument(const std::string& option, const std::string& text, int least, int most);
 
 float number_argument(const std::string& option, const std::string& text, float least, float most);
 
-/// WIDTHxHEIGHT.
-std::pair<int, int> size_argument(const std::string& option, const std::string& text, int most);
+/// WIDTHxHEIGHT of a picture.
+std::pair<int, int> size_argument(const std::string& option, const std::string& text);
 
 /// The whole root of a square number.
 int square_argument(const std::string& option, const std::string& text, int most_root);
@@ -26,16 +33,14 @@ int square_argument(const std::string& option, const std::string& text, int most
 template <class Value>
 Value choice_argument(const std::string& option, const std::string& text,
                       const std::vector<std::pair<std::string_view, Value>>& choices) {
-    std::vector<std::string_view> names;
-    std::string list;
+    std::vector<std::string> names;
     for (const auto& [name, value] : choices) {
         if (text == name) return value;
-        names.push_back(name);
-        list.append(list.empty() ? "" : " or ").append(name);
+        names.emplace_back(name);
     }
     throw BadInput(option, "",
-                   "must be " + list + ", got \"" + printable(text) + "\"" +
-                       suggestion(text, names));
+                   "must be " + alternatives(names) + ", got \"" + printable(text) + "\"" +
+                       suggestion(text, {names.begin(), names.end()}));
 }
 
 } // namespace raylane::scenes

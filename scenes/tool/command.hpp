@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <optional>
+#include <string>
 
 /// The commands of the raylane tool. Each adds itself to the command line; what is returned runs it
 /// and gives the exit code: 0 done, 1 a comparison that differs. Errors come as exceptions.
@@ -12,6 +14,17 @@ struct Command {
     CLI::App* arguments;
     std::function<int()> run;
 };
+
+/// What the command line says, for the command to judge; nothing if it does not say it.
+using Argument = std::optional<std::string>;
+
+/// Adds an option that has a value; `type` is what the help calls that.
+CLI::Option* add_option(CLI::App& command, const std::string& names, Argument& value,
+                        const std::string& help, const std::string& type);
+/// Adds an argument that must be given.
+void add_positional(CLI::App& command, const std::string& name, Argument& value,
+                    const std::string& help);
+void add_flag(CLI::App& command, const std::string& name, bool& value, const std::string& help);
 
 Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);

@@ -2,7 +2,6 @@
 #include "scenes/image/writer.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
-#include "scenes/tool/interrupt.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -17,7 +16,7 @@ namespace raylane::scenes {
 namespace {
 
 struct CompareArguments {
-    std::string a, b, tolerance = "0", difference;
+    Argument a, b, tolerance = "0", difference;
     bool json = false;
 };
 
@@ -32,7 +31,7 @@ void print_json(const Comparison& comparison, float tolerance) {
                                          {"largest", finite_or_null(comparison.largest)},
                                          {"x", comparison.x},
                                          {"y", comparison.y},
-                                         {"tolerance", to_decimal(tolerance)},
+                                         {"tolerance", as_printed(tolerance)},
                                          {"differing", comparison.differing},
                                          {"pixels", comparison.pixels}};
     std::printf("%s\n", json.dump(2).c_str());
@@ -49,15 +48,20 @@ void print(const Comparison& comparison, float tolerance) {
 }
 
 int compare(const CompareArguments& arguments) {
-    const float tolerance = number_argument("--tolerance", arguments.tolerance, 0.0F,
+    const float tolerance = number_argument("--tolerance", *arguments.tolerance, 0.0F,
                                             std::numeric_limits<float>::max());
-    const Image a = read_image(arguments.a), b = read_image(arguments.b);
-    const Comparison comparison = scenes::compare(a, b, tolerance);
-    if (!arguments.difference.empty()) {
-        OutputFile output(arguments.difference);
-        const RemovedOnInterrupt removed_on_interrupt(output.temporary_path());
-        output.commit(difference_image(a, b), core::Transfer::linear);
+    const std::string& name_of_a = file_argument("A", *arguments.a);
+    const std::string& name_of_b = file_argument("B", *arguments.b);
+    std::optional<OutputFile> output;
+    if (arguments.difference) {
+        const std::string& name = file_argument("--diff", *arguments.difference);
+        require_other_file("--diff", name, "A", name_of_a);
+        require_other_file("--diff", name, "B", name_of_b);
+        output.emplace(name);
     }
+    const Image a = read_image(name_of_a), b = read_image(name_of_b);
+    const Comparison comparison = scenes::compare(a, b, tolerance);
+    if (output) output->commit(difference_image(a, b), core::Transfer::linear);
     if (arguments.json)
         print_json(comparison, tolerance);
     else
@@ -71,18 +75,14 @@ Command add_compare_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "compare", "Say by how much two pictures differ; exit code 1 if they do");
     auto arguments = std::make_shared<CompareArguments>();
-    command->add_option("A", arguments->a, "A picture: PNG, HDR or PFM")->required()->type_name("");
-    command->add_option("B", arguments->b, "Another")->required()->type_name("");
-    command
-        ->add_option("--tolerance", arguments->tolerance,
-                     "The largest difference of a component that does not count; 1 is white "
-                     "(default: 0)")
-        ->type_name("T");
-    command
-        ->add_option("--diff", arguments->difference,
-                     "Write the differences as a picture, amplified to white")
-        ->type_name("FILE");
-    command->add_flag("--json", arguments->json, "Print the figures as JSON");
+    add_positional(*command, "A", arguments->a, "A picture: PNG, HDR or PFM");
+    add_positional(*command, "B", arguments->b, "Another");
+    add_option(*command, "--tolerance", arguments->tolerance,
+               "The largest difference of a component that does not count; 1 is white (default: 0)",
+               "T");
+    add_option(*command, "--diff", arguments->difference,
+               "Write the differences as a picture, amplified to white", "FILE");
+    add_flag(*command, "--json", arguments->json, "Print the figures as JSON");
     command->footer("Example: raylane compare before.png after.png --diff difference.png");
     return {command, [arguments] { return compare(*arguments); }};
 }

@@ -2,6 +2,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 #include "scenes/scene_file.hpp"
+#include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 
 #include <nlohmann/json.hpp>
@@ -16,7 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct InfoArguments {
-    std::string scene;
+    Argument scene;
     bool json = false;
 };
 
@@ -66,7 +67,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"height", settings.height},
             {"samples_per_pixel", settings.grid * settings.grid},
             {"max_depth", settings.max_depth},
-            {"min_weight", to_decimal(settings.min_weight)},
+            {"min_weight", as_printed(settings.min_weight)},
             {"transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear"},
             {"hierarchy_nodes", scene.hierarchy().nodes.size()},
             {"needed", names_where(features, true)},
@@ -119,7 +120,8 @@ void print(const Json& info) {
 }
 
 int info(const InfoArguments& arguments) {
-    const Json info = info_of(arguments.scene, load_scene(arguments.scene));
+    const std::string& scene = file_argument("SCENE", *arguments.scene);
+    const Json info = info_of(scene, load_scene(scene));
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else
@@ -133,10 +135,8 @@ Command add_info_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("info", "Say what a scene holds and what its picture therefore needs");
     auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("SCENE", arguments->scene, "A scene in JSON or NFF")
-        ->required()
-        ->type_name("");
-    command->add_flag("--json", arguments->json, "Print it as JSON");
+    add_positional(*command, "SCENE", arguments->scene, "A scene in JSON or NFF");
+    add_flag(*command, "--json", arguments->json, "Print it as JSON");
     command->footer("Example: raylane info scenes/birthday.json");
     return {command, [arguments] { return info(*arguments); }};
 }

@@ -1,22 +1,22 @@
 #include "scenes/tool/interrupt.hpp"
 
-#include <array>
+#include "scenes/atomic_file.hpp"
+
 #include <atomic>
 #include <csignal>
-#include <stdexcept>
 #include <unistd.h>
 
 namespace raylane::scenes {
 
 namespace {
 
-std::array<std::atomic<const char*>, 8> removed{};
-static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler must not wait");
+std::atomic<bool> ending = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
 
 /// Only calls that POSIX lists as safe in a signal handler.
 extern "C" void end_process(int signal) {
-    for (const auto& slot : removed)
-        if (const char* path = slot.load(); path != nullptr) ::unlink(path);
+    ending = true;
+    remove_temporaries();
     if (::isatty(STDERR_FILENO) == 1) {
         // The prompt shall not follow a progress bar.
         const auto written = ::write(STDERR_FILENO, "\n", 1);
@@ -47,18 +47,8 @@ void catch_signals() {
     on(SIGXFSZ, SIG_IGN);
 }
 
-RemovedOnInterrupt::RemovedOnInterrupt(const char* path) : slot_(0) {
-    if (*path == '\0') path = nullptr;
-    for (auto& slot : removed) {
-        const char* none = nullptr;
-        if (slot.compare_exchange_strong(none, path)) return;
-        ++slot_;
-    }
-    throw std::logic_error("more than 8 temporaries");
-}
-
-RemovedOnInterrupt::~RemovedOnInterrupt() {
-    removed[slot_] = nullptr;
+bool is_ending() {
+    return ending;
 }
 
 } // namespace raylane::scenes

@@ -1,11 +1,18 @@
 #include "core/invalid_value.hpp"
+#include "scenes/atomic_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/interrupt.hpp"
+#include "scenes/tool/usage.hpp"
 
 #include <array>
+#include <atomic>
+#include <cerrno>
 #include <cstdio>
+#include <exception>
 #include <new>
+#include <sstream>
+#include <unistd.h>
 
 namespace raylane::scenes {
 
@@ -13,31 +20,10 @@ namespace {
 
 enum ExitCode { done = 0, bad_input = 2, refused = 3 };
 
-int complain(const std::string& message, ExitCode code) {
-    std::fprintf(stderr, "raylane: %s\n", message.c_str());
+/// Takes no memory: that may be what there is none of.
+int complain(const char* message, ExitCode code) {
+    std::fprintf(stderr, "raylane: %s\n", message);
     return code;
-}
-
-/// What is wrong with the command line, in one line.
-std::string usage_message(const CLI::App& app, const CLI::ParseError& error) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    const CLI::App& command = chosen.empty() ? app : *chosen.front();
-    const std::string help =
-        "; see raylane " + (chosen.empty() ? "" : command.get_name() + " ") + "--help";
-    const std::vector<std::string> extras = app.remaining(/*recurse=*/true);
-    if (extras.empty()) return printable(error.what(), 200) + help;
-
-    std::string known_names;
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options())
-        for (const std::string& name : option->get_lnames())
-            names.push_back("--" + name);
-    if (chosen.empty())
-        for (const CLI::App* subcommand : app.get_subcommands({}))
-            names.push_back(subcommand->get_name());
-    const std::string& extra = extras.front();
-    return "unknown argument \"" + printable(extra) + "\"" +
-           suggestion(extra, {names.begin(), names.end()}) + help;
 }
 
 int run(int argc, const char* const* argv) {
@@ -53,13 +39,41 @@ int run(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& request) {
-        return app.exit(request);
+        std::ostringstream text;
+        const int code = app.exit(request, text, text);
+        std::fputs(text.str().c_str(), stdout);
+        return code;
     } catch (const CLI::ParseError& error) {
-        return complain(usage_message(app, error), bad_input);
+        return complain(usage_message(app, error).c_str(), bad_input);
     }
     for (const Command& command : commands)
         if (command.arguments->parsed()) return command.run();
     return bad_input;
+}
+
+/// What main and the handler below make of the exception that is being handled.
+int complain_about_exception() {
+    try {
+        throw;
+    } catch (const BadInput& error) {
+        return complain(error.what(), bad_input);
+    } catch (const core::InvalidValue& error) {
+        return complain(error.what(), bad_input);
+    } catch (const std::bad_alloc&) {
+        return complain("not enough memory", refused);
+    } catch (const std::exception& error) {
+        return complain(error.what(), refused);
+    }
+}
+
+/// oneTBB's threads start each other, and where the system refuses one its exception has nowhere to
+/// go. Several threads may fail at once.
+[[noreturn]] void end_by_terminate() {
+    static std::atomic_flag ending;
+    while (ending.test_and_set())
+        ::pause();
+    remove_temporaries();
+    ::_exit(std::current_exception() ? complain_about_exception() : refused);
 }
 
 } // namespace
@@ -69,18 +83,13 @@ int run(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
     using namespace raylane;
     scenes::catch_signals();
+    std::set_terminate(scenes::end_by_terminate);
     try {
         const int code = scenes::run(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
             throw scenes::SystemRefused("standard output", "write", errno);
         return code;
-    } catch (const scenes::BadInput& error) {
-        return scenes::complain(error.what(), scenes::bad_input);
-    } catch (const core::InvalidValue& error) {
-        return scenes::complain(error.what(), scenes::bad_input);
-    } catch (const std::bad_alloc&) {
-        return scenes::complain("not enough memory", scenes::refused);
-    } catch (const std::exception& error) {
-        return scenes::complain(error.what(), scenes::refused);
+    } catch (...) {
+        return scenes::complain_about_exception();
     }
 }

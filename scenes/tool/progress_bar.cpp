@@ -1,5 +1,7 @@
 #include "scenes/tool/progress_bar.hpp"
 
+#include "scenes/tool/interrupt.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -63,6 +65,7 @@ void ProgressBar::draw() const {
     const std::string bar = std::string(filled, '#') + std::string(cells - filled, '.');
     const std::string left =
         done > 0.0 ? duration_text(seconds * (1.0 - done) / done) + " left" : "";
+    if (is_ending()) return;
     std::fprintf(stderr, "\r[%s] %3d %%  %srays/s  %s\x1B[K", bar.c_str(),
                  static_cast<int>(done * 100.0),
                  with_prefix(static_cast<double>(progress_.rays) / seconds).c_str(), left.c_str());

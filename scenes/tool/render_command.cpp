@@ -1,10 +1,8 @@
-#include "core/validate.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
-#include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/render.hpp"
 #include "simd/tiles.hpp"
@@ -20,10 +18,9 @@ namespace raylane::scenes {
 
 namespace {
 
-/// As they are on the command line; empty if not given.
 struct RenderArguments {
-    std::string scene, output, size, samples, max_depth, min_weight, threads, transfer, stats;
-    std::string engine = "reference", real = "double";
+    Argument scene, output, size, samples, max_depth, min_weight, threads, transfer, stats;
+    Argument engine = "reference", real = "double";
 };
 
 class Stopwatch {
@@ -40,40 +37,46 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// A file for the figures, that appears whole or not at all.
-struct StatsFile {
-    explicit StatsFile(const std::string& path)
-        : file(path), removed_on_interrupt(file.temporary_path()) {}
-
-    AtomicFile file;
-    RemovedOnInterrupt removed_on_interrupt;
-};
-
 struct Times {
     double load, render, write;
 };
 
-std::filesystem::path output_path(const RenderArguments& arguments) {
-    if (!arguments.output.empty()) return arguments.output;
-    return std::filesystem::path(arguments.scene).stem().concat(".png");
+std::string default_output(const std::filesystem::path& scene) {
+    // A name that ends in a slash has no stem. It is refused when it is to be read.
+    return scene.has_stem() ? scene.stem().concat(".png").string() : "scene.png";
 }
+
+struct Files {
+    explicit Files(const RenderArguments& arguments)
+        : scene(file_argument("SCENE", *arguments.scene)),
+          output(arguments.output ? file_argument("--output", *arguments.output)
+                                  : default_output(scene)) {
+        require_other_file("--output", output, "SCENE", scene);
+        if (!arguments.stats) return;
+        stats = file_argument("--stats", *arguments.stats);
+        require_other_file("--stats", *stats, "SCENE", scene);
+        require_other_file("--stats", *stats, "--output", output);
+    }
+
+    std::string scene, output;
+    std::optional<std::string> stats;
+};
 
 /// Parsed before the scene is loaded, so that a mistake shows at once.
 struct Overrides {
     explicit Overrides(const RenderArguments& arguments) {
         using core::Settings;
-        if (!arguments.size.empty())
-            size = size_argument("--size", arguments.size, Settings::max_size);
-        if (!arguments.samples.empty())
-            grid = square_argument("--spp", arguments.samples, Settings::max_grid);
-        if (!arguments.max_depth.empty())
+        if (arguments.size) size = size_argument("--size", *arguments.size);
+        if (arguments.samples)
+            grid = square_argument("--spp", *arguments.samples, Settings::max_grid);
+        if (arguments.max_depth)
             max_depth =
-                whole_argument("--max-depth", arguments.max_depth, 0, Settings::depth_limit);
-        if (!arguments.min_weight.empty())
-            min_weight = number_argument("--min-weight", arguments.min_weight, 0.0F, 1.0F);
-        if (!arguments.transfer.empty())
+                whole_argument("--max-depth", *arguments.max_depth, 0, Settings::depth_limit);
+        if (arguments.min_weight)
+            min_weight = number_argument("--min-weight", *arguments.min_weight, 0.0F, 1.0F);
+        if (arguments.transfer)
             transfer = choice_argument<core::Transfer>(
-                "--transfer", arguments.transfer,
+                "--transfer", *arguments.transfer,
                 {{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}});
     }
 
@@ -94,33 +97,32 @@ struct Overrides {
 
 simd::RenderOptions options_of(const RenderArguments& arguments) {
     simd::RenderOptions options;
-    options.engine = choice_argument<simd::Engine>("--engine", arguments.engine,
+    options.engine = choice_argument<simd::Engine>("--engine", *arguments.engine,
                                                    {{"reference", simd::Engine::reference}});
     options.precision =
-        choice_argument<simd::Precision>("--real", arguments.real,
+        choice_argument<simd::Precision>("--real", *arguments.real,
                                          {{"float", simd::Precision::single_precision},
                                           {"double", simd::Precision::double_precision}});
-    if (!arguments.threads.empty())
-        options.threads = whole_argument("--threads", arguments.threads, 1, simd::max_threads);
+    options.threads = arguments.threads
+                          ? whole_argument("--threads", *arguments.threads, 1, simd::max_threads)
+                          : simd::default_threads();
     return options;
 }
 
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
-                                const core::Settings& settings, const core::Counters& counters,
-                                const Times& times) {
+                                const core::Settings& settings, int threads,
+                                const core::Counters& counters, const Times& times) {
     const auto count = static_cast<double>(counters.rays());
     return {{"version", RAYLANE_VERSION},
-            {"scene", printable(arguments.scene, 4096)},
-            {"engine", arguments.engine},
-            {"real", arguments.real},
-            {"threads", arguments.threads.empty()
-                            ? simd::default_threads()
-                            : whole_argument("--threads", arguments.threads, 1, simd::max_threads)},
+            {"scene", printable(*arguments.scene, 4096)},
+            {"engine", *arguments.engine},
+            {"real", *arguments.real},
+            {"threads", threads},
             {"width", settings.width},
             {"height", settings.height},
             {"samples_per_pixel", settings.grid * settings.grid},
             {"max_depth", settings.max_depth},
-            {"min_weight", to_decimal(settings.min_weight)},
+            {"min_weight", as_printed(settings.min_weight)},
             {"shapes", scene.shape_count()},
             {"scene_bytes", scene.bytes()},
             {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},
@@ -139,15 +141,14 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
 int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
     simd::RenderOptions options = options_of(arguments);
-    OutputFile output(output_path(arguments));
-    const RemovedOnInterrupt output_removed_on_interrupt(output.temporary_path());
-    std::unique_ptr<StatsFile> stats;
-    if (!arguments.stats.empty()) stats = std::make_unique<StatsFile>(arguments.stats);
+    const Files files(arguments);
+    OutputFile output(files.output);
+    std::optional<AtomicFile> stats;
+    if (files.stats) stats.emplace(*files.stats);
 
     Stopwatch stopwatch;
-    const core::Scene scene = load_scene(arguments.scene);
+    const core::Scene scene = load_scene(files.scene);
     const core::Settings settings = overrides.applied_to(scene.settings());
-    core::validate(settings);
     output.reserve(settings.width, settings.height);
     Times times{};
     times.load = stopwatch.lap();
@@ -165,14 +166,16 @@ int render(const RenderArguments& arguments) {
 
     if (stats) {
         const std::string text =
-            stats_of(arguments, scene, settings, rendering.counters, times).dump(2) + "\n";
-        stats->file.write(text);
-        stats->file.commit();
+            stats_of(arguments, scene, settings, options.threads, rendering.counters, times)
+                .dump(2) +
+            "\n";
+        stats->write(text);
+        stats->commit();
     }
     if (::isatty(STDERR_FILENO) == 1)
         std::fprintf(
             stderr, "%s: %d x %d pixels, %d samples each, in %s, %srays/s\n",
-            output_path(arguments).c_str(), settings.width, settings.height,
+            printable(files.output, 4096).c_str(), settings.width, settings.height,
             settings.grid * settings.grid, duration_text(times.render).c_str(),
             with_prefix(static_cast<double>(rendering.counters.rays()) / times.render).c_str());
     return 0;
@@ -183,13 +186,10 @@ int render(const RenderArguments& arguments) {
 Command add_render_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Draw the picture of a scene");
     auto arguments = std::make_shared<RenderArguments>();
-    const auto add = [&](const char* names, std::string& value, const char* help,
-                         const char* type) {
-        command->add_option(names, value, help)->type_name(type);
+    const auto add = [&](const char* names, Argument& value, const char* help, const char* type) {
+        add_option(*command, names, value, help, type);
     };
-    command->add_option("SCENE", arguments->scene, "A scene in JSON or NFF")
-        ->required()
-        ->type_name("");
+    add_positional(*command, "SCENE", arguments->scene, "A scene in JSON or NFF");
     add("-o,--output", arguments->output,
         "The picture: .png, .hdr or .pfm (default: the scene's name, .png)", "FILE");
     add("--size", arguments->size, "Pixels (default: as the scene says)", "WxH");

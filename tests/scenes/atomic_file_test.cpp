@@ -7,6 +7,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <functional>
+#include <memory>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -91,10 +92,10 @@ TEST_CASE("an output file appears whole or not at all") {
     {
         const scenes::OutputFile file(path);
         CHECK(content_of(path) == "old");
-        const std::filesystem::path temporary = file.temporary_path();
-        CHECK(std::filesystem::exists(temporary));
-        CHECK(temporary.parent_path() == directory.path());
-        CHECK(temporary.filename().string().starts_with(".out.png."));
+        const std::vector<std::string> names = directory.names();
+        REQUIRE(names.size() == 2);
+        CHECK(names[0].starts_with(".out.png."));
+        CHECK(names[1] == "out.png");
     }
     CHECK(content_of(path) == "old");
     CHECK(directory.file_count() == 1);
@@ -105,6 +106,33 @@ TEST_CASE("an output file appears whole or not at all") {
     const auto longest = directory.path() / (std::string(251, 'a') + ".png");
     write(longest);
     CHECK(is_picture(longest));
+}
+
+TEST_CASE("all temporaries can be removed at once") {
+    const TemporaryDirectory directory;
+    {
+        scenes::OutputFile done(directory.path() / "done.png");
+        done.commit(core::Film(4, 4), core::Transfer::srgb);
+        const scenes::AtomicFile one(directory.path() / "one"), two(directory.path() / "two");
+        const scenes::AtomicFile device("/dev/null");
+        CHECK(directory.file_count() == 3);
+        scenes::remove_temporaries();
+        CHECK(directory.names() == std::vector<std::string>{"done.png"});
+        directory.write("one", "mine");
+    }
+    scenes::remove_temporaries();
+    CHECK(directory.names() == std::vector<std::string>{"done.png", "one"});
+    // More at a time than are known to the handler, and more one after the other.
+    for (int i = 0; i < 3; ++i) {
+        std::vector<std::unique_ptr<scenes::AtomicFile>> files;
+        for (int k = 0; k < 20; ++k)
+            files.push_back(std::make_unique<scenes::AtomicFile>(directory.path() / "many"));
+    }
+    CHECK(directory.file_count() == 2);
+    const scenes::AtomicFile last(directory.path() / "last");
+    CHECK(directory.file_count() == 3);
+    scenes::remove_temporaries();
+    CHECK(directory.file_count() == 2);
 }
 
 TEST_CASE("what cannot be written is refused before there is a picture") {
@@ -192,6 +220,20 @@ TEST_CASE("a full disk is an error and leaves nothing behind") {
         CHECK(std::filesystem::is_symlink(full));
     }
     CHECK(directory.file_count() == 3);
+    // A size that is known before.
+    CHECK(holds_in_child([&] {
+        const rlimit file_size{1000, 1000};
+        ::setrlimit(RLIMIT_FSIZE, &file_size);
+        scenes::AtomicFile file(directory.path() / "out.pfm");
+        file.reserve(1000);
+        try {
+            file.reserve(1001);
+        } catch (const scenes::SystemRefused&) {
+            return true;
+        }
+        return false;
+    }));
+    CHECK(directory.file_count() == 3);
     // Limits that are met at the start, in the middle, and in the last block.
     for (const rlim_t limit : {10, 100000, 1080000})
         CHECK(holds_in_child([&] {
@@ -217,7 +259,7 @@ TEST_CASE("what is no regular file is written directly") {
     REQUIRE(reader >= 0);
     {
         scenes::OutputFile file(pipe);
-        CHECK(std::string(file.temporary_path()).empty());
+        CHECK(directory.file_count() == 2);
         file.commit(core::Film(1, 1), core::Transfer::srgb);
     }
     char text[64];

@@ -16,6 +16,15 @@ TEST_CASE("an unknown word brings the nearest known one") {
     CHECK(suggestion("colour", {"color", "center"}) == ", did you mean \"color\"?");
     CHECK(suggestion("zzz", {"color", "center"}).empty());
     CHECK(suggestion("anything", {}).empty());
+    CHECK(suggestion("sise", {"size", "spp"}, "--") == ", did you mean \"--size\"?");
+    CHECK(suggestion("zzz", {"size"}, "--").empty());
+}
+
+TEST_CASE("alternatives read as in a sentence") {
+    CHECK(alternatives({}).empty());
+    CHECK(alternatives({"a"}) == "a");
+    CHECK(alternatives({"a", "b"}) == "a or b");
+    CHECK(alternatives({"a", "b", "c"}) == "a, b or c");
 }
 
 TEST_CASE("errors read as file, place, message") {

@@ -5,6 +5,7 @@
 #include <vector>
 
 using namespace raylane;
+using namespace raylane::tests;
 
 namespace {
 
@@ -265,6 +266,31 @@ TEST_CASE("complaints about geometry") {
     });
 }
 
+TEST_CASE("a light on a surface is told by the object, however many shapes that is") {
+    const std::string ball =
+        R"({"type": "sphere", "material": "clay", "center": [0, 0, 0], "radius": 1}, )";
+    const std::string flake =
+        R"({"type": "sphereflake", "material": "clay", "center": [60, 60, 60], "radius": 1, "depth": 2}, )";
+    const std::string on_light =
+        R"({"type": "sphere", "material": "clay", "center": [30, 31, 30], "radius": 1})";
+    const std::string complaint =
+        "/lights/0/position: must not be on a surface, got a point of /objects/";
+    check({
+        {with_objects(flake + ball + flake + ball + on_light), complaint + "4"},
+        {with_objects(ball + on_light + ", " + flake + on_light), complaint + "1"},
+        // The node at [29, 30, 30] has a radius that ends at the light.
+        {with_objects(
+             flake + ball +
+             R"({"type": "lattice", "material": "clay", "corner": [28, 30, 30], "n": 2, "spacing": 1, "sphere_radius": 1, "strut_radius": 0.05})"),
+         complaint + "2"},
+        // The materials come last.
+        {R"({"objects": [)" + flake + ball + on_light +
+             R"(], "materials": {"clay": {}}, "lights": [{"type": "point", "position": [30, 30, 30]}], )" +
+             camera + "}",
+         complaint + "2"},
+    });
+}
+
 TEST_CASE("complaints about cameras, fogs and lights") {
     check({
         {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "up": [0, 0, 2])"),
@@ -292,7 +318,7 @@ TEST_CASE("complaints about cameras, fogs and lights") {
          "/lights/1/color/1: must not be negative, got -1"},
         {with_objects(
              R"({"type": "sphere", "material": "clay", "center": [30, 30, 31], "radius": 1})"),
-         "/lights/0/position: must not be on a surface, got a point of shape 0"},
+         "/lights/0/position: must not be on a surface, got a point of /objects/0"},
         {"{" + camera +
              R"(, "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})",
          "/lights: must have at least one light where there are objects, got none"},

@@ -4,6 +4,7 @@
 #include <limits>
 
 using namespace raylane;
+using namespace raylane::tests;
 using core::Color;
 using core::Vec3f;
 

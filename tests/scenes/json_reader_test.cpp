@@ -2,6 +2,7 @@
 #include "tests/scenes/json_scenes.hpp"
 
 using namespace raylane;
+using namespace raylane::tests;
 using core::Color;
 using core::Vec3f;
 

@@ -2,24 +2,26 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/json/reader.hpp"
-#include "tests/scenes/temporary_file.hpp"
+#include "tests/scenes/temporary_directory.hpp"
 
 #include <stdexcept>
 #include <string>
 
+namespace raylane::tests {
+
 /// The scene that this text is.
-inline raylane::core::Scene scene_of(const std::string& text) {
+inline core::Scene scene_of(const std::string& text) {
     const TemporaryFile written(text);
-    raylane::scenes::InputFile file(written.path());
-    return raylane::scenes::read_json(file);
+    scenes::InputFile file(written.path());
+    return scenes::read_json(file);
 }
 
 /// Why the file is no scene, without its name in front; "" if it is one.
 inline std::string complaint_about(const std::filesystem::path& path) {
     try {
-        raylane::scenes::InputFile file(path);
-        raylane::scenes::read_json(file);
-    } catch (const raylane::scenes::BadInput& error) {
+        scenes::InputFile file(path);
+        scenes::read_json(file);
+    } catch (const scenes::BadInput& error) {
         const std::string text = error.what(), name = path.string() + ": ";
         return text.starts_with(name) ? text.substr(name.size())
                                       : "without the file's name: " + text;
@@ -42,9 +44,11 @@ inline std::string with_objects(const std::string& objects) {
 
 /// The shape with this id.
 template <class Shape>
-Shape shape(const raylane::core::Scene& scene, raylane::core::ShapeId id) {
-    for (const auto& block : std::get<raylane::core::Table<Shape>>(scene.shapes()).blocks())
-        for (int lane = 0; lane < raylane::core::block_size; ++lane)
+Shape shape(const core::Scene& scene, core::ShapeId id) {
+    for (const auto& block : std::get<core::Table<Shape>>(scene.shapes()).blocks())
+        for (int lane = 0; lane < core::block_size; ++lane)
             if (block.ids[lane] == id) return block.get(lane);
     throw std::out_of_range("no such shape of this kind");
 }
+
+} // namespace raylane::tests

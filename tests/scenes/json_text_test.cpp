@@ -1,4 +1,5 @@
 #include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
 #include <algorithm>
@@ -7,21 +8,12 @@
 #include <random>
 #include <sys/resource.h>
 
+using namespace raylane::tests;
+
 namespace {
 
-#if defined(__has_feature)
-#define RAYLANE_HAS_FEATURE(feature) __has_feature(feature)
-#else
-#define RAYLANE_HAS_FEATURE(feature) 0
-#endif
-
 /// In MiB. Sanitizers keep what is freed, for a while.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) ||                               \
-    RAYLANE_HAS_FEATURE(address_sanitizer) || RAYLANE_HAS_FEATURE(thread_sanitizer)
-constexpr long little_memory = 1024;
-#else
-constexpr long little_memory = 64;
-#endif
+constexpr long little_memory = sanitized ? 1024 : 64;
 
 /// The most memory that this program ever had, in MiB.
 long peak_memory() {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-using raylane::scenes::to_decimal;
+using raylane::scenes::as_printed;
 using raylane::scenes::to_float;
 using raylane::scenes::to_int;
 using raylane::scenes::to_text;
@@ -69,6 +69,8 @@ TEST_CASE("a float's text is the shortest that means it") {
     CHECK(to_text(0.1F) == "0.1");
     CHECK(to_text(-2.0F) == "-2");
     CHECK(to_text(1e30F) == "1e+30");
-    CHECK(to_decimal(0.1F) == 0.1);
-    CHECK(to_decimal(-1e30F) == -1e30);
+    CHECK(as_printed(0.1F) == 0.1);
+    CHECK(as_printed(-0.001F) == -0.001);
+    CHECK(as_printed(3.4028235e38F) == 3.4028235e38);
+    CHECK(as_printed(0.0F) == 0.0);
 }

@@ -1,9 +1,10 @@
 #include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/temporary_file.hpp"
+#include "tests/scenes/temporary_directory.hpp"
 
 using namespace raylane::scenes;
+using raylane::tests::TemporaryFile;
 
 namespace {
 

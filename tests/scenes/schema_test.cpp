@@ -10,6 +10,8 @@
 
 // The schema's own verdicts on the same corpus are schema_test.py's.
 
+using namespace raylane::tests;
+
 namespace {
 
 using nlohmann::json;

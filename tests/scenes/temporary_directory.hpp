@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace raylane::tests {
 
@@ -36,11 +38,30 @@ class TemporaryDirectory {
         return file;
     }
 
-    std::ptrdiff_t file_count() const {
-        return std::distance(std::filesystem::directory_iterator(path_), {});
+    std::ptrdiff_t file_count() const { return std::ssize(names()); }
+    /// In alphabetical order.
+    std::vector<std::string> names() const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path_))
+            names.push_back(entry.path().filename().string());
+        std::sort(names.begin(), names.end());
+        return names;
     }
 
   private:
+    std::filesystem::path path_;
+};
+
+/// A file of a test's own.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(std::string_view content, const std::string& ending = ".json")
+        : path_(directory_.write("scene" + ending, content)) {}
+
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    TemporaryDirectory directory_;
     std::filesystem::path path_;
 };
 

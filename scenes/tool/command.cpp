@@ -1,0 +1,21 @@
+#include "scenes/tool/command.hpp"
+
+namespace raylane::scenes {
+
+CLI::Option* add_option(CLI::App& command, const std::string& names, Argument& value,
+                        const std::string& help, const std::string& type) {
+    // CLI11 itself would take an empty text for no value.
+    const auto take = [&value](const std::string& text) { value = text; };
+    return command.add_option_function<std::string>(names, take, help)->type_name(type);
+}
+
+void add_positional(CLI::App& command, const std::string& name, Argument& value,
+                    const std::string& help) {
+    add_option(command, name, value, help, "")->required();
+}
+
+void add_flag(CLI::App& command, const std::string& name, bool& value, const std::string& help) {
+    command.add_flag(name, value, help)->disable_flag_override();
+}
+
+} // namespace raylane::scenes

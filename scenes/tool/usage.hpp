@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace raylane::scenes {
+
+/// What is wrong with the command line, in one line and in words that do not depend on CLI11's
+/// version.
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error);
+
+} // namespace raylane::scenes

@@ -1,0 +1,123 @@
+#include "scenes/image/reader.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <nlohmann/json.hpp>
+
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json json_of(const Outcome& outcome) {
+    CHECK(outcome.err.empty());
+    return Json::parse(outcome.out);
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("info says what a scene holds and needs") {
+    const Workshop workshop;
+    const Outcome text = workshop.run({"info", "scene.json"});
+    CHECK(text.code == 0);
+    CHECK(text.err.empty());
+    for (const char* line : {"shapes     1: 1 sphere\n", "lights     1\n", "fog        none\n",
+                             "picture    16 x 12 pixels, ", "limits     depth 8, weight 0.001\n"})
+        CHECK(contains(text.out, line));
+
+    const Outcome outcome = workshop.run({"info", "--json", "scene.json"});
+    CHECK(outcome.code == 0);
+    const Json info = json_of(outcome);
+    CHECK(info["scene"] == "scene.json");
+    CHECK(info["shapes"] == Json{{"sphere", 1}});
+    CHECK(info["width"] == 16);
+    CHECK(info["height"] == 12);
+    CHECK(info["camera"] == "perspective");
+    CHECK(info["film_bytes"] == 16 * 12 * 3 * 4);
+    CHECK(info["min_weight"].dump() == "0.001");
+    const auto has = [&](const char* key, const char* name) {
+        return std::count(info[key].begin(), info[key].end(), name) == 1;
+    };
+    CHECK(has("needed", "reflected rays"));
+    CHECK(has("left_out", "refracted rays"));
+    CHECK(workshop.names() == std::vector<std::string>{"out", "scene.json"});
+}
+
+TEST_CASE("compare says by how much pictures differ, and whether") {
+    const Workshop workshop;
+    for (const char* name : {"a.png", "b.png", "a.hdr", "b.hdr", "a.pfm", "b.pfm"})
+        REQUIRE(workshop.render(name).code == 0);
+    for (const char* ending : {".png", ".hdr", ".pfm"}) {
+        const Outcome same =
+            workshop.run({"compare", std::string("a") + ending, std::string("b") + ending});
+        CHECK(same.code == 0);
+        CHECK(same.err.empty());
+        CHECK(contains(same.out, "differing  0 of 192 pixels"));
+    }
+    // Eight bits of mantissa are not all.
+    CHECK(workshop.run({"compare", "a.hdr", "a.pfm"}).code == 1);
+    CHECK(workshop.run({"compare", "a.hdr", "a.pfm", "--tolerance", "0.01"}).code == 0);
+
+    REQUIRE(workshop.render("a.png", {"--transfer", "linear"}).code == 0);
+    REQUIRE(workshop.render("b.png", {"--transfer", "linear", "--max-depth", "0"}).code == 0);
+    const Outcome different =
+        workshop.run({"compare", "a.png", "b.png", "--json", "--diff", "out/difference.png"});
+    CHECK(different.code == 1);
+    const Json json = json_of(different);
+    CHECK(json["pixels"] == 192);
+    CHECK(json["differing"] > 0);
+    CHECK(json["differing"] < 192);
+    CHECK(json["rmse"] > 0.0);
+    CHECK(json["psnr"] > 0.0);
+    CHECK(json["tolerance"] == 0.0);
+    const scenes::Image a = scenes::read_image(workshop.path() / "a.png"),
+                        b = scenes::read_image(workshop.path() / "b.png"),
+                        difference = scenes::read_image(workshop.output() / "difference.png");
+    REQUIRE(difference.rgb.size() == a.rgb.size());
+    float largest = 0.0F;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+        CHECK((difference.rgb[i] > 0.0F) == (a.rgb[i] != b.rgb[i]));
+        largest = std::max(largest, difference.rgb[i]);
+    }
+    CHECK(largest == 1.0F);
+
+    const std::string tolerance = json["largest"].dump();
+    CHECK(workshop.run({"compare", "a.png", "b.png", "--tolerance", "0.1"}).code == 1);
+    CHECK(workshop.run({"compare", "a.png", "b.png", "--tolerance", "1"}).code == 0);
+    CHECK(json_of(workshop.run({"compare", "a.png", "a.png", "--json"}))["psnr"].is_null());
+    CHECK(json_of(workshop.run(
+              {"compare", "a.png", "b.png", "--json", "--tolerance", "0.1"}))["tolerance"]
+              .dump() == "0.1");
+}
+
+TEST_CASE("pictures that cannot be compared are told in one line") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png").code == 0);
+    REQUIRE(workshop.render("b.png", {"--size", "4x5"}).code == 0);
+    REQUIRE(workshop.render("c.pfm").code == 0);
+    workshop.write("cut.png", content_of(workshop.path() / "a.png").substr(0, 60));
+    workshop.write("empty.png", "");
+    const std::vector<std::pair<std::string, std::string>> rows = {
+        {"b.png", "must have 16 x 12 pixels as a.png has, got 4 x 5 pixels"},
+        {"c.pfm", "must have integer codes as a.png has, got linear floats"},
+        {"none.png", "no such file"},
+        {"out", "must be a file, got a directory"},
+        {"cut.png", "must be a PNG, HDR or PFM picture, got a damaged PNG"},
+        {"empty.png", "must be a PNG, HDR or PFM picture, got something else"},
+        {"scene.json", "must be a PNG, HDR or PFM picture, got something else"},
+    };
+    for (const auto& [file, message] : rows) {
+        const Outcome outcome =
+            workshop.run({"compare", "a.png", file, "--diff", "out/difference.png"});
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err == "raylane: " + file + ": " + message + "\n");
+        CHECK(workshop.is_output_empty());
+    }
+}

@@ -1,0 +1,141 @@
+#include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <csignal>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace raylane::tests;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+/// Sanitizers look the memory over at the end.
+constexpr std::chrono::seconds soon{sanitized ? 20 : 1};
+
+const std::vector<std::string> render_for_hours =
+    joined({"render", "scene.json", "-o", "out/picture.png", "--stats", "out/stats.json"}, hours);
+
+/// Until as many temporaries as that are there.
+bool wait_for_temporaries(const Workshop& workshop, int count) {
+    const auto end = Clock::now() + std::chrono::minutes(1);
+    while (Clock::now() < end) {
+        const auto there =
+            std::distance(std::filesystem::directory_iterator(workshop.output()), {});
+        if (there == count) return true;
+        std::this_thread::sleep_for(milliseconds(1));
+    }
+    return false;
+}
+
+/// The process ends soon after the signal and leaves nothing.
+void check_end(const Workshop& workshop, Process& process, int signal) {
+    const auto start = Clock::now();
+    process.send(signal);
+    const Outcome outcome = process.wait();
+    CHECK(Clock::now() - start < soon);
+    CHECK(outcome.code == 128 + signal);
+    CHECK(outcome.exited);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.empty());
+    CHECK(workshop.is_output_empty());
+}
+
+} // namespace
+
+TEST_CASE("an interrupted rendering ends soon and leaves nothing") {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        const Workshop workshop;
+        Process process = workshop.start(render_for_hours);
+        REQUIRE(wait_for_temporaries(workshop, 2));
+        std::this_thread::sleep_for(milliseconds(100)); // amid the pixels
+        check_end(workshop, process, signal);
+    }
+}
+
+TEST_CASE("an interrupted rendering leaves the picture that was there") {
+    const Workshop workshop;
+    workshop.write("out/picture.png", "old");
+    Process process = workshop.start(render_for_hours);
+    REQUIRE(wait_for_temporaries(workshop, 3));
+    process.send(SIGINT);
+    CHECK(process.wait().code == 128 + SIGINT);
+    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
+    CHECK(content_of(workshop.output() / "picture.png") == "old");
+}
+
+TEST_CASE("reading a scene can be interrupted") {
+    const Workshop workshop;
+    const std::vector<std::string> arguments = {"render", "pipe", "-o", "out/picture.png"};
+    const std::filesystem::path pipe = workshop.path() / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    {
+        // Nobody has opened the other end.
+        Process process = workshop.start(arguments);
+        REQUIRE(wait_for_temporaries(workshop, 1));
+        check_end(workshop, process, SIGINT);
+    }
+    {
+        // Somebody has, but says no more.
+        Process process = workshop.start(arguments);
+        const int writer = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
+        CHECK(::write(writer, "v\nfrom 0", 8) == 8);
+        REQUIRE(wait_for_temporaries(workshop, 1));
+        check_end(workshop, process, SIGINT);
+        ::close(writer);
+    }
+    {
+        // A scene that takes seconds and hundreds of megabytes to build.
+        workshop.write("scene.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+            "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
+            "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
+                         "depth": 7}]})");
+        Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png"});
+        REQUIRE(wait_for_temporaries(workshop, 1));
+        std::this_thread::sleep_for(milliseconds(500));
+        check_end(workshop, process, SIGTERM);
+    }
+}
+
+TEST_CASE("waiting for a reader of the picture can be interrupted") {
+    const Workshop workshop;
+    REQUIRE(::mkfifo((workshop.path() / "pipe.png").c_str(), 0600) == 0);
+    Process process =
+        workshop.start({"render", "scene.json", "--stats", "out/stats.json", "-o", "pipe.png"});
+    std::this_thread::sleep_for(milliseconds(200));
+    check_end(workshop, process, SIGINT);
+}
+
+TEST_CASE("a signal at any moment leaves the whole picture or nothing") {
+    const Workshop workshop;
+    int interrupted = 0;
+    for (int i = 0; i < 60; ++i) {
+        Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png"});
+        std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
+        process.send(SIGINT);
+        const Outcome outcome = process.wait();
+        const bool there = std::filesystem::remove(workshop.output() / "picture.png");
+        CHECK(workshop.is_output_empty());
+        CHECK((outcome.code == 0 || outcome.code == 128 + SIGINT));
+        CHECK((there || outcome.code != 0));
+        interrupted += outcome.code == 0 ? 0 : 1;
+    }
+    CHECK(interrupted > 0);
+}
+
+TEST_CASE("signals that the caller has ignored stay so") {
+    const Workshop workshop;
+    Setup ignoring;
+    ignoring.in_child = [] { ::signal(SIGINT, SIG_IGN); };
+    Process process = workshop.start(render_for_hours, ignoring);
+    REQUIRE(wait_for_temporaries(workshop, 2));
+    process.send(SIGINT);
+    std::this_thread::sleep_for(milliseconds(200));
+    CHECK(wait_for_temporaries(workshop, 2));
+    check_end(workshop, process, SIGTERM);
+}

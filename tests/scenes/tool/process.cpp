@@ -1,0 +1,139 @@
+#include "tests/scenes/tool/process.hpp"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace raylane::tests {
+
+namespace {
+
+constexpr std::chrono::minutes patience{2};
+
+int checked(int result, const char* what) {
+    if (result < 0) throw std::system_error(errno, std::generic_category(), what);
+    return result;
+}
+
+/// Two ends: what is written to the second is read from the first.
+using Ends = std::array<int, 2>;
+
+Ends pipe_ends() {
+    Ends ends;
+    checked(::pipe2(ends.data(), O_CLOEXEC), "pipe");
+    return ends;
+}
+
+Ends terminal_ends() {
+    Ends ends;
+    ends[0] = checked(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC), "posix_openpt");
+    checked(::grantpt(ends[0]), "grantpt");
+    checked(::unlockpt(ends[0]), "unlockpt");
+    ends[1] =
+        checked(::open(::ptsname(ends[0]), O_RDWR | O_NOCTTY | O_CLOEXEC), "terminal's other end");
+    return ends;
+}
+
+/// Between the fork and the start of the program no signal may reach the handlers of this one.
+void restore_signals(const sigset_t& mask) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        ::signal(signal, SIG_DFL);
+    ::sigprocmask(SIG_SETMASK, &mask, nullptr);
+}
+
+/// Appends what there is. False at the end; a terminal that nobody writes to any more gives EIO.
+bool read_some(int descriptor, std::string& text) {
+    std::array<char, 4096> buffer;
+    const ssize_t count = ::read(descriptor, buffer.data(), buffer.size());
+    if (count > 0) text.append(buffer.data(), static_cast<std::size_t>(count));
+    return count > 0 || (count < 0 && errno == EINTR);
+}
+
+} // namespace
+
+Process::Process(const std::vector<std::string>& arguments, const Setup& setup) {
+    std::vector<std::string> words = {"raylane"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    // Opened here, because the child may become a user who does not get as far as there.
+    const int program = checked(::open(RAYLANE_TOOL, O_RDONLY | O_CLOEXEC), RAYLANE_TOOL);
+    const Ends out = pipe_ends();
+    const Ends err = setup.terminal ? terminal_ends() : pipe_ends();
+    sigset_t all, mask;
+    ::sigfillset(&all);
+    ::sigprocmask(SIG_SETMASK, &all, &mask);
+    child_ = ::fork();
+    if (child_ == 0) {
+        restore_signals(mask);
+        const int out_file =
+            setup.out.empty() ? out[1] : ::open(setup.out.c_str(), O_WRONLY | O_CLOEXEC);
+        const bool ready = ::dup2(out_file, STDOUT_FILENO) >= 0 &&
+                           ::dup2(err[1], STDERR_FILENO) >= 0 &&
+                           ::chdir(setup.directory.c_str()) == 0;
+        if (ready && setup.in_child) setup.in_child();
+        if (ready) ::fexecve(program, argv.data(), environ);
+        ::_exit(127);
+    }
+    ::sigprocmask(SIG_SETMASK, &mask, nullptr);
+    checked(child_, "fork");
+    for (const int unused : {program, out[1], err[1]})
+        ::close(unused);
+    out_ = out[0];
+    err_ = err[0];
+}
+
+Process::~Process() {
+    if (child_ > 0) {
+        ::kill(child_, SIGKILL);
+        ::waitpid(child_, nullptr, 0);
+    }
+    ::close(out_);
+    ::close(err_);
+}
+
+void Process::send(int signal) const {
+    checked(::kill(child_, signal), "kill");
+}
+
+Outcome Process::wait() {
+    collect(std::chrono::steady_clock::now() + patience);
+    int status = 0;
+    rusage usage{};
+    checked(::wait4(child_, &status, 0, &usage), "wait4");
+    child_ = -1;
+    const bool exited = WIFEXITED(status);
+    return {exited ? WEXITSTATUS(status) : 128 + WTERMSIG(status), exited, out_text_, err_text_,
+            usage.ru_maxrss / 1024};
+}
+
+void Process::collect(std::chrono::steady_clock::time_point end) {
+    using std::chrono::milliseconds;
+    std::array<pollfd, 2> sources = {pollfd{out_, POLLIN, 0}, pollfd{err_, POLLIN, 0}};
+    while (sources[0].fd >= 0 || sources[1].fd >= 0) {
+        const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());
+        const int ready = ::poll(sources.data(), sources.size(),
+                                 static_cast<int>(std::max(left, milliseconds(0)).count()));
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready <= 0) {
+            send(SIGKILL);
+            return;
+        }
+        for (pollfd& source : sources) {
+            std::string& text = source.fd == out_ ? out_text_ : err_text_;
+            if (source.revents != 0 && !read_some(source.fd, text)) source.fd = -1;
+        }
+    }
+}
+
+} // namespace raylane::tests

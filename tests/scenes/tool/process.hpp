@@ -1,0 +1,54 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace raylane::tests {
+
+/// What became of a program.
+struct Outcome {
+    int code;         ///< its exit code, or 128 + the number of the signal that killed it
+    bool exited;      ///< whether by itself
+    std::string out;  ///< what it wrote on standard output
+    std::string err;  ///< on standard error
+    long peak_memory; ///< MiB
+};
+
+/// How to start a program.
+struct Setup {
+    std::filesystem::path directory = "."; ///< where
+    bool terminal = false;                 ///< whether standard error is a terminal
+    std::string out;                       ///< a file to be standard output; "" for Outcome::out
+    std::function<void()> in_child;        ///< what to do before: limits, users, signals
+};
+
+/// The raylane tool, running.
+class Process {
+  public:
+    Process(const std::vector<std::string>& arguments, const Setup& setup);
+    /// Kills it if it still runs.
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+
+    void send(int signal) const;
+    /// Takes what it writes until it ends, and kills it where that takes minutes.
+    Outcome wait();
+
+  private:
+    void collect(std::chrono::steady_clock::time_point end);
+
+    pid_t child_ = -1;
+    int out_ = -1, err_ = -1; // where to read what it writes
+    std::string out_text_, err_text_;
+};
+
+inline Outcome run(const std::vector<std::string>& arguments, const Setup& setup) {
+    return Process(arguments, setup).wait();
+}
+
+} // namespace raylane::tests

@@ -1,0 +1,164 @@
+#include "scenes/image/reader.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <nlohmann/json.hpp>
+
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+using Options = std::vector<std::string>;
+
+/// The bytes of a picture that has to come.
+std::string bytes_of(const Workshop& workshop, const std::string& name, const Options& options) {
+    const Outcome outcome = workshop.render(name, options);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.empty());
+    return content_of(workshop.path() / name);
+}
+
+scenes::Image picture(const Workshop& workshop, const Options& options,
+                      const std::string& name = "picture.pfm") {
+    REQUIRE(workshop.render(name, options).code == 0);
+    return scenes::read_image(workshop.path() / name);
+}
+
+/// Red, green and blue.
+std::vector<float> pixel(const scenes::Image& image, int x, int y) {
+    const auto first = image.rgb.begin() + 3 * (y * image.width + x);
+    return {first, first + 3};
+}
+
+/// Half a mirror before a blue world.
+const std::string mirror = R"({
+    "image": {"width": 5, "height": 5},
+    "camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+    "background": [0, 0, 0.5],
+    "lights": [{"type": "directional", "direction": [0, 0, -1]}],
+    "objects": [{"type": "disc", "center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1,
+                 "material": {"ambient": 0, "diffuse": 0, "reflectivity": 0.5}}]
+})";
+
+} // namespace
+
+TEST_CASE("a picture does not depend on the number of threads") {
+    const Workshop workshop;
+    for (const char* name : {"picture.png", "picture.hdr", "picture.pfm"})
+        for (const char* real : {"float", "double"}) {
+            const Options options = {"--size", "100x70", "--spp", "4", "--real", real};
+            const std::string one = bytes_of(workshop, name, joined(options, {"--threads", "1"}));
+            CHECK(!one.empty());
+            CHECK(one == bytes_of(workshop, name, joined(options, {"--threads", "4"})));
+            CHECK(one == bytes_of(workshop, name, joined(options, {"--threads", "100"})));
+            CHECK(one == bytes_of(workshop, name, options));
+            CHECK(one == bytes_of(workshop, name, joined(options, {"--engine", "reference"})));
+        }
+}
+
+TEST_CASE("the size, the samples and the transfer can be overridden") {
+    const Workshop workshop;
+    CHECK(picture(workshop, {}).width == 16);
+    CHECK(picture(workshop, {}).height == 12);
+    const scenes::Image other = picture(workshop, {"--size", "7x9"});
+    CHECK(other.width == 7);
+    CHECK(other.height == 9);
+
+    const std::string one = bytes_of(workshop, "one.pfm", {}),
+                      nine = bytes_of(workshop, "nine.pfm", {"--spp", "9"});
+    CHECK(one.size() == nine.size());
+    CHECK(one != nine);
+    std::string sampled = ball;
+    sampled.insert(1, R"("sampling": {"grid": 3}, )");
+    CHECK(bytes_of(Workshop(sampled), "nine.pfm", {}) == nine);
+    CHECK(bytes_of(Workshop(sampled), "one.pfm", {"--spp", "1"}) == one);
+
+    // The background is half of blue.
+    CHECK(pixel(picture(workshop, {"--transfer", "linear"}, "p.png"), 0, 0)[2] == 128.0F / 255.0F);
+    CHECK(pixel(picture(workshop, {"--transfer", "srgb"}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
+    CHECK(pixel(picture(workshop, {}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
+    CHECK(bytes_of(workshop, "p.pfm", {"--transfer", "linear"}) == one);
+}
+
+TEST_CASE("the limits can be overridden") {
+    const Workshop workshop(mirror);
+    const auto center = [&](const Options& options) {
+        return pixel(picture(workshop, options), 2, 2);
+    };
+    const std::vector<float> black = {0.0F, 0.0F, 0.0F}, reflected = {0.0F, 0.0F, 0.25F};
+    CHECK(center({}) == reflected);
+    CHECK(center({"--max-depth", "1"}) == reflected);
+    CHECK(center({"--max-depth", "0"}) == black);
+    CHECK(center({"--min-weight", "0"}) == reflected);
+    CHECK(center({"--min-weight", "0.5"}) == reflected);
+    CHECK(center({"--min-weight", "0.75"}) == black);
+    CHECK(pixel(picture(workshop, {"--max-depth", "0"}), 0, 0)[2] == 0.5F);
+}
+
+TEST_CASE("a picture without a name has the scene's, here") {
+    const Workshop workshop;
+    std::filesystem::create_directory(workshop.path() / "far");
+    workshop.write("far/ball.v2.json", ball);
+    CHECK(workshop.run({"render", "far/ball.v2.json"}).code == 0);
+    CHECK(content_of(workshop.path() / "ball.v2.png") == bytes_of(workshop, "same.png", {}));
+    CHECK(std::distance(std::filesystem::directory_iterator(workshop.path() / "far"), {}) == 1);
+}
+
+TEST_CASE("the figures of a rendering are JSON") {
+    const Workshop workshop;
+    const auto stats = [&](const Options& options) {
+        REQUIRE(workshop.render("out/p.png", joined(options, {"--stats", "out/s.json"})).code == 0);
+        return nlohmann::ordered_json::parse(content_of(workshop.output() / "s.json"));
+    };
+    const nlohmann::ordered_json figures =
+        stats({"--size", "8x6", "--spp", "4", "--threads", "1", "--real", "float", "--max-depth",
+               "3", "--min-weight", "0.1"});
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : figures.items())
+        keys.push_back(key);
+    CHECK(keys == std::vector<std::string>{"version", "scene", "engine", "real", "threads", "width",
+                                           "height", "samples_per_pixel", "max_depth", "min_weight",
+                                           "shapes", "scene_bytes", "seconds", "rays",
+                                           "rays_per_second", "nodes_visited", "shapes_tested",
+                                           "tests_beyond_double"});
+    CHECK(figures["version"] == RAYLANE_VERSION);
+    CHECK(figures["scene"] == "scene.json");
+    CHECK(figures["engine"] == "reference");
+    CHECK(figures["real"] == "float");
+    CHECK(figures["threads"] == 1);
+    CHECK(figures["width"] == 8);
+    CHECK(figures["height"] == 6);
+    CHECK(figures["samples_per_pixel"] == 4);
+    CHECK(figures["max_depth"] == 3);
+    CHECK(figures["min_weight"].dump() == "0.1");
+    CHECK(figures["shapes"] == 1);
+    CHECK(figures["rays"]["primary"] == 8 * 6 * 4);
+    CHECK(figures["rays"]["reflected"] > 0);
+    CHECK(figures["rays"]["refracted"] == 0);
+    CHECK(figures["rays"]["total"] == figures["rays"]["primary"].get<int>() +
+                                          figures["rays"]["reflected"].get<int>() +
+                                          figures["rays"]["shadow"].get<int>());
+    for (const char* phase : {"load", "render", "write"})
+        CHECK(figures["seconds"][phase] >= 0.0);
+    CHECK(stats({"--threads", "4"})["rays"] == stats({"--threads", "1"})["rays"]);
+    CHECK(stats({"--threads", "4"})["threads"] == 4);
+
+    // A scene's name may be anything.
+    workshop.write("b\xFF\n.json", ball);
+    CHECK(
+        workshop.run({"render", "b\xFF\n.json", "-o", "out/p.png", "--stats", "out/s.json"}).code ==
+        0);
+    CHECK(nlohmann::json::parse(content_of(workshop.output() / "s.json"))["scene"] ==
+          "b\\xFF\\x0A.json");
+}
+
+TEST_CASE("a picture can be a pipe's or a device's") {
+    const Workshop workshop;
+    std::filesystem::create_symlink("/dev/stdout", workshop.path() / "stdout.pfm");
+    const Outcome outcome = workshop.run({"render", "scene.json", "-o", "stdout.pfm"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out == bytes_of(workshop, "picture.pfm", {}));
+    CHECK(std::filesystem::is_symlink(workshop.path() / "stdout.pfm"));
+}

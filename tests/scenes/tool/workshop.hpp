@@ -1,0 +1,66 @@
+#pragma once
+
+#include "tests/scenes/temporary_directory.hpp"
+#include "tests/scenes/tool/process.hpp"
+
+#include <algorithm>
+
+namespace raylane::tests {
+
+/// A red mirror ball before a blue background: 16 x 12 pixels, a moment's work.
+inline const std::string ball = R"({
+    "image": {"width": 16, "height": 12},
+    "camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+    "background": [0, 0, 0.5],
+    "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
+    "materials": {"red": {"color": [1, 0, 0], "reflectivity": 0.5}},
+    "objects": [{"type": "sphere", "material": "red", "center": [0, 0, 0], "radius": 1}]
+})";
+
+/// What makes a picture of any scene take hours.
+inline const std::vector<std::string> hours = {"--size", "4000x4000", "--spp", "65536"};
+
+inline std::vector<std::string> joined(std::vector<std::string> a,
+                                       const std::vector<std::string>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+/// A directory to run the tool in, with a scene and an empty directory for what comes out.
+class Workshop {
+  public:
+    explicit Workshop(const std::string& scene = ball) {
+        directory_.write("scene.json", scene);
+        std::filesystem::create_directory(output());
+    }
+
+    std::filesystem::path path() const { return directory_.path(); }
+    std::filesystem::path output() const { return directory_.path() / "out"; }
+    std::filesystem::path write(const std::string& name, std::string_view content) const {
+        return directory_.write(name, content);
+    }
+    std::vector<std::string> names() const { return directory_.names(); }
+    bool is_output_empty() const { return std::filesystem::is_empty(output()); }
+
+    Outcome run(const std::vector<std::string>& arguments, Setup setup = {}) const {
+        return start(arguments, std::move(setup)).wait();
+    }
+    Process start(const std::vector<std::string>& arguments, Setup setup = {}) const {
+        setup.directory = path();
+        return Process(arguments, setup);
+    }
+
+    /// Renders scene.json as `name`, with `options`.
+    Outcome render(const std::string& name, const std::vector<std::string>& options = {}) const {
+        return run(joined({"render", "scene.json", "-o", name}, options));
+    }
+
+  private:
+    TemporaryDirectory directory_;
+};
+
+inline bool is_one_line(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n');
+}
+
+} // namespace raylane::tests
