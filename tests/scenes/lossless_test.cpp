@@ -12,7 +12,8 @@ namespace {
 template <class Real>
 void check_crop(const std::filesystem::path& path, int size) {
     const core::Scene scene = scenes::load_scene(path);
-    const core::Settings& settings = scene.settings();
+    core::Settings settings = scene.settings();
+    settings.grid = 1;
     const int x = (settings.width - size) / 2, y = (settings.height - size) / 2;
     const core::Region crop{x, y, x + size, y + size};
 
