@@ -21,18 +21,6 @@ constexpr std::chrono::seconds soon{sanitized ? 20 : 1};
 const std::vector<std::string> render_for_hours =
     joined({"render", "scene.json", "-o", "out/picture.png", "--stats", "out/stats.json"}, hours);
 
-/// Until as many temporaries as that are there.
-bool wait_for_temporaries(const Workshop& workshop, int count) {
-    const auto end = Clock::now() + std::chrono::minutes(1);
-    while (Clock::now() < end) {
-        const auto there =
-            std::distance(std::filesystem::directory_iterator(workshop.output()), {});
-        if (there == count) return true;
-        std::this_thread::sleep_for(milliseconds(1));
-    }
-    return false;
-}
-
 /// The process ends soon after the signal and leaves nothing.
 void check_end(const Workshop& workshop, Process& process, int signal) {
     const auto start = Clock::now();
@@ -52,7 +40,7 @@ TEST_CASE("an interrupted rendering ends soon and leaves nothing") {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         const Workshop workshop;
         Process process = workshop.start(render_for_hours);
-        REQUIRE(wait_for_temporaries(workshop, 2));
+        REQUIRE(workshop.wait_for_files(2));
         std::this_thread::sleep_for(milliseconds(100)); // amid the pixels
         check_end(workshop, process, signal);
     }
@@ -62,7 +50,7 @@ TEST_CASE("an interrupted rendering leaves the picture that was there") {
     const Workshop workshop;
     workshop.write("out/picture.png", "old");
     Process process = workshop.start(render_for_hours);
-    REQUIRE(wait_for_temporaries(workshop, 3));
+    REQUIRE(workshop.wait_for_files(3));
     process.send(SIGINT);
     CHECK(process.wait().code == 128 + SIGINT);
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
@@ -77,7 +65,7 @@ TEST_CASE("reading a scene can be interrupted") {
     {
         // Nobody has opened the other end.
         Process process = workshop.start(arguments);
-        REQUIRE(wait_for_temporaries(workshop, 1));
+        REQUIRE(workshop.wait_for_files(1));
         check_end(workshop, process, SIGINT);
     }
     {
@@ -85,7 +73,7 @@ TEST_CASE("reading a scene can be interrupted") {
         Process process = workshop.start(arguments);
         const int writer = ::open(pipe.c_str(), O_WRONLY | O_CLOEXEC);
         CHECK(::write(writer, "v\nfrom 0", 8) == 8);
-        REQUIRE(wait_for_temporaries(workshop, 1));
+        REQUIRE(workshop.wait_for_files(1));
         check_end(workshop, process, SIGINT);
         ::close(writer);
     }
@@ -96,7 +84,7 @@ TEST_CASE("reading a scene can be interrupted") {
             "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
                          "depth": 7}]})");
         Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png"});
-        REQUIRE(wait_for_temporaries(workshop, 1));
+        REQUIRE(workshop.wait_for_files(1));
         std::this_thread::sleep_for(milliseconds(500));
         check_end(workshop, process, SIGTERM);
     }
@@ -133,9 +121,9 @@ TEST_CASE("signals that the caller has ignored stay so") {
     Setup ignoring;
     ignoring.in_child = [] { ::signal(SIGINT, SIG_IGN); };
     Process process = workshop.start(render_for_hours, ignoring);
-    REQUIRE(wait_for_temporaries(workshop, 2));
+    REQUIRE(workshop.wait_for_files(2));
     process.send(SIGINT);
     std::this_thread::sleep_for(milliseconds(200));
-    CHECK(wait_for_temporaries(workshop, 2));
+    CHECK(workshop.wait_for_files(2));
     check_end(workshop, process, SIGTERM);
 }

@@ -2,7 +2,6 @@
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <csignal>
-#include <regex>
 #include <thread>
 
 using namespace raylane::tests;
@@ -13,6 +12,22 @@ Setup on_terminal() {
     Setup setup;
     setup.terminal = true;
     return setup;
+}
+
+/// What does not depend on the machine: N for each number and for each bar of # and dots, no more
+/// than one space at a time, and rays without their prefix.
+std::string form_of(const std::string& text) {
+    std::string form;
+    for (const char c : text) {
+        const bool counted = (c >= '0' && c <= '9') || c == '.' || c == '#';
+        const char shown = counted ? 'N' : c;
+        const bool repeated = (counted || c == ' ') && form.ends_with(shown);
+        if (!repeated) form += shown;
+    }
+    for (const char* prefixed : {"krays/s", "Mrays/s", "Grays/s"})
+        for (std::size_t i = form.find(prefixed); i != std::string::npos; i = form.find(prefixed))
+            form.erase(i, 1);
+    return form;
 }
 
 } // namespace
@@ -39,17 +54,12 @@ TEST_CASE("a rendering shows its progress on a terminal, and at the end a summar
         if (outcome.err.find("left") != std::string::npos) break;
     }
     CHECK(outcome.out.empty());
-    const std::regex bar(
-        R"(\r\[#*\.+\] +\d\d? %  \d+(\.\d+)? [kMG]?rays/s  \d+\.\d s left\x1B\[K)");
-    CHECK(std::regex_search(outcome.err, bar));
+    CHECK(form_of(outcome.err).find("\r[N] N % N rays/s N s left\x1B[K") != std::string::npos);
     // The bar is wiped away before the summary.
     const std::size_t wiped = outcome.err.rfind("\r\x1B[K");
     REQUIRE(wiped != std::string::npos);
-    const std::regex summary(
-        R"(out/picture\.png: 64 x 64 pixels, \d+ samples each, in \d+\.\d s, \d+\.\d+ [kMG]rays/s\r\n)");
-    const std::string end = outcome.err.substr(wiped + 4);
-    CAPTURE(end);
-    CHECK(std::regex_match(end, summary));
+    const std::string end = form_of(outcome.err.substr(wiped + 4));
+    CHECK(end == "out/pictureNpng: N x N pixels, N samples each, in N s, N rays/s\r\n");
 }
 
 TEST_CASE("an error is one line on a terminal, too") {
@@ -67,8 +77,7 @@ TEST_CASE("the prompt stands on a line of its own after an interruption") {
     const Workshop workshop;
     Process process = workshop.start(
         joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
-    while (workshop.is_output_empty())
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    REQUIRE(workshop.wait_for_files(1));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     process.send(SIGINT);
     const Outcome outcome = process.wait();

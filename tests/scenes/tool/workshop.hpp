@@ -4,6 +4,7 @@
 #include "tests/scenes/tool/process.hpp"
 
 #include <algorithm>
+#include <thread>
 
 namespace raylane::tests {
 
@@ -41,6 +42,16 @@ class Workshop {
     }
     std::vector<std::string> names() const { return directory_.names(); }
     bool is_output_empty() const { return std::filesystem::is_empty(output()); }
+    /// Until as many files as that have come out, temporaries included. False if that takes a
+    /// minute.
+    bool wait_for_files(int count) const {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (std::distance(std::filesystem::directory_iterator(output()), {}) != count) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return true;
+    }
 
     Outcome run(const std::vector<std::string>& arguments, Setup setup = {}) const {
         return start(arguments, std::move(setup)).wait();
