@@ -79,6 +79,14 @@ std::vector<Plan> plan_collapse(const std::vector<BinaryNode>& tree) {
     return plans;
 }
 
+/// The blocks of each kind's table.
+template <class AnyTables>
+struct BlocksOf;
+template <class... Shapes>
+struct BlocksOf<std::tuple<Table<Shapes>...>> {
+    using type = std::tuple<std::vector<Block<Shapes>>...>;
+};
+
 /// Turns the planned tree into wide nodes, and each of its leaves into a block.
 struct Emitter {
     const Tables& source;
@@ -86,12 +94,7 @@ struct Emitter {
     const std::vector<BinaryNode>& tree;
     const std::vector<Plan>& plans;
     std::vector<WideNode> nodes;
-    std::tuple<std::vector<Block<Sphere>>, std::vector<Block<Plane>>, std::vector<Block<Disc>>,
-               std::vector<Block<Triangle>>, std::vector<Block<SmoothTriangle>>,
-               std::vector<Block<Box>>, std::vector<Block<OpenCylinder>>,
-               std::vector<Block<CappedCylinder>>, std::vector<Block<OpenCone>>,
-               std::vector<Block<CappedCone>>, std::vector<Block<Quadric>>>
-        blocks;
+    BlocksOf<Tables>::type blocks;
 
     Child emit_block(const BinaryNode& leaf) {
         const Kind kind = items[leaf.first].kind;

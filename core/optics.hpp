@@ -26,8 +26,9 @@ Refraction<Real> refract(const Vec3<Real>& incident, const Vec3<Real>& normal, R
     const Real cos_incident = std::clamp(-dot(incident, normal), Real(0), Real(1));
     const Vec3<Real> along = (n1 / n2) * mul_add(cos_incident, normal, incident);
     const Real sin_squared = squared_length(along);
-    if (sin_squared > Real(1)) return {true, cos_incident, Real(0), {}};
-    const Real cos_transmitted = std::sqrt(Real(1) - sin_squared);
+    // Into a denser medium nothing is total, whatever the rounding.
+    if (sin_squared > Real(1) && n1 > n2) return {true, cos_incident, Real(0), {}};
+    const Real cos_transmitted = std::sqrt(std::max(Real(0), Real(1) - sin_squared));
     return {false, cos_incident, cos_transmitted, mul_add(-cos_transmitted, normal, along)};
 }
 
@@ -46,7 +47,6 @@ Real schlick(Real cos_incident, Real cos_transmitted, Real n1, Real n2) {
 /// Fresnel's equations: the mean of both polarisations.
 template <class Real>
 Real dielectric(Real cos_incident, Real cos_transmitted, Real n1, Real n2) {
-    if (n1 == n2) return Real(0);
     const Real perpendicular =
         (n1 * cos_incident - n2 * cos_transmitted) / (n1 * cos_incident + n2 * cos_transmitted);
     const Real parallel =
@@ -59,15 +59,12 @@ Real dielectric(Real cos_incident, Real cos_transmitted, Real n1, Real n2) {
 template <class Real>
 Real reflectance(const Material& material, const Refraction<Real>& refraction, Real n1, Real n2) {
     if (refraction.total) return Real(1);
-    switch (material.reflection) {
-    case Reflection::constant:
-        break;
-    case Reflection::schlick:
-        return schlick(refraction.cos_incident, refraction.cos_transmitted, n1, n2);
-    case Reflection::dielectric:
-        return dielectric(refraction.cos_incident, refraction.cos_transmitted, n1, n2);
-    }
-    return Real(material.reflectivity);
+    if (material.reflection == Reflection::constant) return Real(material.reflectivity);
+    // Where nothing changes nothing is reflected; Schlick's approximation would at grazing angles.
+    if (n1 == n2) return Real(0);
+    const auto fresnel =
+        material.reflection == Reflection::schlick ? schlick<Real> : dielectric<Real>;
+    return fresnel(refraction.cos_incident, refraction.cos_transmitted, n1, n2);
 }
 
 } // namespace raylane::core

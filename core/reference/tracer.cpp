@@ -3,6 +3,7 @@
 #include "core/fog.hpp"
 #include "core/optics.hpp"
 #include "core/pattern.hpp"
+#include "core/reference/enclosing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,17 @@ Color ReferenceTracer<Real>::pixel(int x, int y) {
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::trace(const Ray<Real>& ray) {
     ++searcher_.counters.primary;
-    return color_along({ray, Departure<Real>{}, Media{}, Vector(1), 0});
+    return color_along({ray, Departure<Real>{}, media_around(ray.origin), Vector(1), 0});
+}
+
+/// Perspective rays share their origin, so the last one's media serve again.
+template <class Real>
+const Media& ReferenceTracer<Real>::media_around(const Vector& origin) {
+    if (!start_media_ || origin != start_) {
+        start_ = origin;
+        start_media_ = enclosing_media(scene_, searcher_, origin);
+    }
+    return *start_media_;
 }
 
 /// The nearest visible surface, behind whatever fills the space in between.
@@ -99,6 +110,9 @@ ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encou
         flat = -flat;
         normal = -normal;
     }
+    // An apex has no normal, and what stands in for it may be on the wrong side. Elsewhere only
+    // rounding at grazing angles is.
+    if (dot(flat, path.ray.direction) > Real(0x1p-20)) normal = flat = -path.ray.direction;
     return {hit, encounter.contacts, scene_.material_of(hit.shape), point, flat, normal};
 }
 

@@ -6,6 +6,8 @@
 #include "core/reference/search.hpp"
 #include "core/region.hpp"
 
+#include <optional>
+
 namespace raylane::core {
 
 /// The scalar reference: what a picture of a scene is, written to be read. `Real` is float or
@@ -22,8 +24,7 @@ class ReferenceTracer {
     /// The mean of a pixel's samples, added in their order. Linear RGB.
     Color pixel(int x, int y);
 
-    /// The linear RGB colour seen along a ray that starts in empty space; its direction is a unit
-    /// vector.
+    /// The linear RGB colour seen along a ray; its direction is a unit vector.
     Vec3<Real> trace(const Ray<Real>& ray);
 
     /// What all calls so far have done.
@@ -62,6 +63,7 @@ class ReferenceTracer {
         Real behind;
     };
 
+    const Media& media_around(const Vector& origin);
     Vector color_along(const Path& path);
     Vector color_at_infinity(const Path& path) const;
     Surface surface_at(const Path& path, const Encounter<Real>& encounter) const;
@@ -87,6 +89,8 @@ class ReferenceTracer {
     CameraRays<Real> camera_rays_;
     Searcher<Real> searcher_;
     std::vector<Hit<Real>> crossings_; // of a shadow ray
+    Vector start_{};                   // of the last ray from the camera
+    std::optional<Media> start_media_; // around it
 };
 
 extern template class ReferenceTracer<float>;

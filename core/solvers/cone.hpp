@@ -42,7 +42,12 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
             });
         // Beside the cone, or on the axis side of it for good: then only the caps can be met.
         const bool no_roots = roots.begin() == roots.end();
-        if (no_roots && (curvature > 0 || judge.positive(C))) return {};
+        if (no_roots && (curvature > 0 || judge.positive(C))) {
+            if (!start.on_surface) return {};
+            // From a cap, by its rim: the ray leaves, whatever rounding says.
+            const Real vertex = curvature > 0 ? Real(-B / A) : Real(0.0);
+            roots.add({not_behind(vertex), body, false});
+        }
     }
     if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, judge);
 

@@ -25,8 +25,12 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
     if (from_body && !parallel) span.clip_back(not_behind(Real(tau + tau)), body);
     if (!from_body) {
         const Vec3<Real> foot = mul_add(tau, axial.across_direction, axial.across_origin);
-        const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
-        if (judge.negative(discriminant)) return {};
+        Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
+        if (judge.negative(discriminant)) {
+            if (!start.on_surface) return {};
+            // From a cap, by its rim: the ray leaves, whatever rounding says.
+            discriminant = Real(0.0);
+        }
         if (!parallel) {
             const Real half_chord = sqrt(discriminant / speed_squared);
             if (!start.on_surface) span.clip_front(tau - half_chord, body);

@@ -198,3 +198,65 @@ TEST_CASE("media nest, and are left in any order") {
         media.leave(material);
     CHECK(media.empty()); // the first was forgotten
 }
+
+TEST_CASE("a camera may stand inside of bodies") {
+    Material water = glass(1.25F, Reflection::dielectric);
+    water.absorption = {1.0F, 0.25F, 0.0F};
+    const Box tank{{-5, -5, -5}, {10, 0, 0}, {0, 10, 0}, {0, 0, 10}};
+    const auto seen = [&](auto add_more) {
+        Builder builder;
+        builder.fog = {FogKind::exponential, {0.0F, 0.0F, 1.0F}, 0.0F, 1.0F, 0.5F};
+        builder.add_shape(tank, water);
+        builder.add_shape(Sphere{{0, 0, -4}, 0.5F}, luminous());
+        add_more(builder);
+        return color_along<double>(builder.finish(), {0, 0, 0}, {0.03, 0, -1});
+    };
+    const Vec3d alone = seen([](Builder&) {});
+    const double length = -std::log(alone.x);
+    CHECK(length == Approx(3.5).epsilon(0.02));
+    CHECK(alone.y == Approx(std::exp(-0.25 * length)).epsilon(exactly));
+    CHECK(alone.z == 1.0); // no fog in here
+    // A ball of water in water cannot be seen, nor one around the camera.
+    for (const float z : {-2.0F, 0.0F}) {
+        const Vec3d with_ball = seen([&](Builder& builder) {
+            builder.add_shape(Sphere{{0.2F, 0, z}, 1}, water);
+        });
+        CHECK(with_ball.x == Approx(alone.x).epsilon(exactly));
+        CHECK(with_ball.y == Approx(alone.y).epsilon(exactly));
+    }
+    // Where a bubble's glass ends, the water goes on.
+    const Vec3d from_glass = seen([&](Builder& builder) {
+        builder.add_shape(Sphere{{0, 0, 0}, 1}, glass(1.25F));
+    });
+    CHECK(from_glass.x == Approx(std::exp(1.0 - length)).epsilon(exactly));
+    // Under the surface of a sea without end.
+    Builder sea;
+    sea.background = Color(1.0F);
+    sea.add_shape(Plane{{0, 3, 0}, {0, 1, 0}}, water);
+    sea.add_shape(Sphere{{0, 0, -4}, 0.5F}, luminous());
+    CHECK(color_along<double>(sea.finish(), {0, 0, 0}, {0, 0, -1}).x ==
+          Approx(std::exp(-3.5)).epsilon(exactly));
+}
+
+TEST_CASE("nothing is reflected between equal indices") {
+    for (const Reflection reflection : {Reflection::schlick, Reflection::dielectric})
+        for (const double sine : {0.0, 0.5, 0.999999, 1.0})
+            CHECK(reflectance_at(reflection, sine, 1.5, 1.5) == 0.0);
+    // Just beyond 1 by rounding: total for no ray into the denser side.
+    const Vec3d grazing{1.0 + 1e-15, 0.0, 0.0};
+    CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.5, 1.5).total);
+    CHECK_FALSE(refract(grazing, {0, 0, 1}, 1.0, 1.0).total);
+    CHECK(refract(grazing, {0, 0, 1}, 1.5, 1.0).total);
+}
+
+TEST_CASE("an apex is seen from wherever it is hit") {
+    // From below, beside a needle: its axis, which stands in for the normal, points away.
+    Builder builder;
+    builder.background = Color(1.0F);
+    Material lacquer = black();
+    lacquer.reflection = Reflection::schlick;
+    builder.add_shape(CappedCone{{0, 0, 0}, {0, 0, 1}, 0.125F, 0}, lacquer);
+    const Scene scene = builder.finish();
+    CHECK(gray_along(scene, {4, 0, -1}, {-4, 0, 2}) == Approx(0.04));
+    CHECK(gray_along(scene, {4, 0, -1}, {-4, 0, 2.01}) == 1.0); // past it
+}

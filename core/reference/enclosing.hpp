@@ -1,0 +1,72 @@
+#pragma once
+
+#include "core/media.hpp"
+#include "core/reference/search.hpp"
+
+#include <algorithm>
+#include <vector>
+
+/// What a point is inside of: where a camera may stand.
+namespace raylane::core {
+
+/// The transmissive materials that a ray leaves without having entered them, those left first in
+/// front. Planes, which have an inside without end, do not count.
+template <class Real>
+std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& searcher,
+                                      const Ray<Real>& ray) {
+    std::vector<Hit<Real>> hits;
+    searcher.each(ray, Departure<Real>{}, std::numeric_limits<Real>::infinity(),
+                  [&](const Hit<Real>& hit) {
+                      if (hit.kind != Kind::plane && scene.material_of(hit.shape).transmits())
+                          hits.push_back(hit);
+                      return true;
+                  });
+    std::sort(hits.begin(), hits.end(),
+              [](const Hit<Real>& a, const Hit<Real>& b) { return a.before(b); });
+
+    std::vector<MaterialIndex> entered, left;
+    for (const Hit<Real>& hit : hits) {
+        const MaterialIndex material = scene.material_index_of(hit.shape);
+        const auto match = std::find(entered.begin(), entered.end(), material);
+        if (hit.entering)
+            entered.push_back(material);
+        else if (match != entered.end())
+            entered.erase(match);
+        else
+            left.push_back(material);
+    }
+    return left;
+}
+
+/// A point is in a body if a line through it leaves the body both ways, and behind a plane if it
+/// is.
+template <class Real>
+Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, const Vec3<Real>& point) {
+    Media media;
+    const auto transmits = [](const Material& material) { return material.transmits(); };
+    if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits)) return media;
+
+    for (const Block<Plane>& block : std::get<Table<Plane>>(scene.shapes()).blocks())
+        for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
+            const Plane plane = block.get(lane);
+            const Vec3<Real> to_plane = convert<Real>(plane.point) - point;
+            if (scene.material_of(block.ids[lane]).transmits() &&
+                dot(to_plane, convert<Real>(plane.normal)) > Real(0))
+                media.enter(scene.material_index_of(block.ids[lane]));
+        }
+
+    // Any direction does; a round one would run along faces and edges.
+    const Vec3<Real> direction = normalized(Vec3<Real>(Real(0.41), Real(0.57), Real(0.71)));
+    const std::vector<MaterialIndex> ahead = left_along(scene, searcher, {point, direction});
+    std::vector<MaterialIndex> behind =
+        left_along(scene, searcher, {point, Vec3<Real>(-direction)});
+    for (auto outermost = ahead.rbegin(); outermost != ahead.rend(); ++outermost) {
+        const auto match = std::find(behind.begin(), behind.end(), *outermost);
+        if (match == behind.end()) continue;
+        behind.erase(match);
+        media.enter(*outermost);
+    }
+    return media;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,90 @@
+#include "core/invalid_value.hpp"
+#include "simd/render.hpp"
+#include "simd/tiles.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+using namespace raylane;
+using namespace little_scene;
+
+namespace {
+
+Scene mirrored_ball() {
+    Builder builder;
+    builder.settings.width = 70;
+    builder.settings.height = 50;
+    builder.background = {0.25F, 0.5F, 0.75F};
+    builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror(0.5F));
+    builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, ruler({3, 0, 3}));
+    return builder.finish();
+}
+
+} // namespace
+
+TEST_CASE("every pixel is in one tile") {
+    for (const int width : {1, 15, 16, 17, 100})
+        for (const int height : {1, 16, 33}) {
+            std::vector<std::atomic<int>> visits(static_cast<std::size_t>(width) * height);
+            simd::for_each_tile(width, height, 2, [&](const Region& region) {
+                for (int y = region.y0; y < region.y1; ++y)
+                    for (int x = region.x0; x < region.x1; ++x)
+                        ++visits[static_cast<std::size_t>(y) * width + x];
+            });
+            CHECK(std::all_of(visits.begin(), visits.end(),
+                              [](const auto& count) { return count == 1; }));
+        }
+}
+
+TEST_CASE("what a tile throws comes out of the loop") {
+    CHECK_THROWS_AS(
+        simd::for_each_tile(100, 100, 2, [](const Region&) { throw std::runtime_error("tile"); }),
+        std::runtime_error);
+}
+
+TEST_CASE("a picture does not depend on the number of threads") {
+    const Scene scene = mirrored_ball();
+    simd::RenderOptions one, many;
+    one.threads = 1;
+    many.threads = 5;
+    simd::Progress progress;
+    many.progress = &progress;
+    const simd::Rendering a = simd::render(scene, scene.settings(), one);
+    const simd::Rendering b = simd::render(scene, scene.settings(), many);
+    CHECK(a.film.pixels() == b.film.pixels());
+    CHECK(a.counters.rays() == b.counters.rays());
+    CHECK(progress.pixels == 70 * 50);
+    CHECK(progress.rays == b.counters.rays());
+    CHECK(a.counters.primary == 70 * 50);
+}
+
+TEST_CASE("settings are checked before they are rendered") {
+    const Scene scene = mirrored_ball();
+    Settings settings = scene.settings();
+    settings.grid = 0;
+    CHECK_THROWS_AS(simd::render(scene, settings, {}), InvalidValue);
+}
+
+TEST_CASE("paths of the greatest depth fit the threads' stacks") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 32;
+    builder.settings.max_depth = Settings::depth_limit;
+    builder.camera.from = {0, 0, 0.5F};
+    Material shine = mirror();
+    shine.ambient = 1.0F;
+    shine.pattern.colors[0] = Color(1.0F);
+    builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, shine);
+    builder.add_shape(Plane{{0, 0, 1}, {0, 0, -1}}, shine);
+    const Scene scene = builder.finish();
+    for (const auto precision :
+         {simd::Precision::single_precision, simd::Precision::double_precision}) {
+        simd::RenderOptions options;
+        options.threads = 2;
+        options.precision = precision;
+        const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
+        CHECK(rendering.film.at(16, 16).x == 1001.0F);
+    }
+}
