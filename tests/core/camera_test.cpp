@@ -75,6 +75,22 @@ TEST_CASE("stratified samples stay in their cells and repeat themselves") {
     CHECK(again.x == sample_point(SamplePattern::stratified, 3, 5, 2).x);
 }
 
+TEST_CASE("stratified rays go through their own points of their cells") {
+    Camera camera;
+    camera.projection = Projection::orthographic;
+    camera.from = {0, 0, 3};
+    camera.at = {0, 0, 0};
+    camera.height = 4.0F; // 4 pixels of 1
+    const CameraRays<double> rays(camera, settings_of(4, 4, 2, SamplePattern::stratified));
+    for (int sample = 0; sample < 4; ++sample) {
+        const SamplePoint point =
+            sample_point(SamplePattern::stratified, 1, 2, static_cast<unsigned>(sample));
+        const Vec3d origin = rays.ray(1, 2, sample).origin;
+        CHECK(origin.x == Approx(-1.0 + (sample % 2 + static_cast<double>(point.x)) / 2.0));
+        CHECK(origin.y == Approx(-(sample / 2 + static_cast<double>(point.y)) / 2.0));
+    }
+}
+
 TEST_CASE("a pixel is the mean of its four sub-pixels") {
     Builder builder;
     builder.camera.from = {0, 0, 4};

@@ -97,6 +97,15 @@ TEST_CASE("what is reflected totally is not lost") {
     CHECK(seen.x == Approx(0.25 * 0.04).epsilon(0.01));
 }
 
+TEST_CASE("glass that reflects nothing otherwise reflects all beyond the critical angle") {
+    Builder builder;
+    builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, glass(1.5F, Reflection::constant));
+    builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, luminous({0.25F, 0.5F, 0.75F}));
+    const Scene scene = builder.finish();
+    CHECK(color_along<double>(scene, {0, -0.5, 0}, {1, 0.5, 0}) == Vec3d(0.25, 0.5, 0.75));
+    CHECK(color_along<double>(scene, {0, -0.5, 0}, {0.1, 1, 0}) == Vec3d(0.0));
+}
+
 TEMPLATE_TEST_CASE("what is reflected and what is transmitted is all there is, to the bit", "",
                    float, double) {
     using Real = TestType;
@@ -166,6 +175,58 @@ TEST_CASE("absorption follows the length of the way inside") {
     expect(scene, {0, 0, 5}, 2.0);
     expect(scene, {10, 0, 5}, 6.0);
     expect(scene, {10, 0, 0}, 3.0); // the camera is inside
+}
+
+TEST_CASE("nothing shines through an endless body that absorbs") {
+    Material tinted = glass(1.5F);
+    tinted.absorption = {0.125F, 0.0F, 1.0F};
+    Builder builder;
+    builder.background = {0.25F, 0.5F, 0.75F};
+    builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, tinted);
+    CHECK(color_along<double>(builder.finish(), {0, 0, 5}, {0, 0, -1}) == Vec3d(0.0, 0.5, 0.0));
+}
+
+TEST_CASE("a path ends behind a body that absorbs its weight") {
+    Material tinted = glass(1.0F);
+    tinted.absorption = Vec3f(1.0F);
+    const auto seen = [&](float min_weight) {
+        Builder builder;
+        builder.background = Color(1.0F);
+        builder.settings.min_weight = min_weight;
+        builder.add_shape(Box{{-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, tinted);
+        return gray_along(builder.finish(), {0, 0, 5}, {0, 0, -1});
+    };
+    const float weight = std::exp(-2.0F);
+    CHECK(seen(0.99F * weight) == Approx(std::exp(-2.0)));
+    CHECK(seen(1.01F * weight) == 0.0);
+}
+
+TEST_CASE("each refraction counts against the depth limit") {
+    const auto seen = [](int max_depth) {
+        Builder builder;
+        builder.background = Color(1.0F);
+        builder.settings.max_depth = max_depth;
+        builder.add_shape(Sphere{{0, 0, 0}, 1}, glass(1.5F));
+        builder.add_shape(Sphere{{0, 0, 5}, 1}, glass(1.5F));
+        return gray_along(builder.finish(), {0, 0, 10}, {0, 0, -1});
+    };
+    CHECK(seen(0) == 0.0);
+    CHECK(seen(1) == 0.0);
+    CHECK(seen(3) == 0.0);
+    CHECK(seen(4) == 1.0);
+}
+
+TEST_CASE("an opaque surface reflects alike from both sides") {
+    // Behind it lies its own index, from whichever side it is seen.
+    Material varnish = black();
+    varnish.reflection = Reflection::dielectric;
+    Builder builder;
+    builder.background = Color(1.0F);
+    builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, varnish);
+    const Scene scene = builder.finish();
+    const double front = gray_along(scene, {0, 0, 5}, {0.5, 0, -1});
+    CHECK(front > 0.04);
+    CHECK(gray_along(scene, {0, 0, -5}, {0.5, 0, 1}) == Approx(front).epsilon(exactly));
 }
 
 TEST_CASE("a ray knows the index of what surrounds it") {

@@ -1,7 +1,10 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 using namespace little_scene;
 
@@ -101,6 +104,53 @@ TEST_CASE("what a transmissive body lets through, its shadow lets through") {
     CHECK(floor_below(slab, tinted, 5.0F).y == Approx(0.5 * std::exp(-0.5)).epsilon(exactly));
 }
 
+TEST_CASE("a shadow's glass reflects by the angle outside of it") {
+    // Light from (3, 4, 0) through a slab; its straight line has a cosine of 0.8 there.
+    const double n = 1.5, cosine = 0.8, cosine_inside = std::sqrt(1.0 - 0.36 / (n * n));
+    const auto square = [](double a) { return a * a; };
+    const double perpendicular =
+        square((cosine - n * cosine_inside) / (cosine + n * cosine_inside));
+    const double parallel = square((cosine_inside - n * cosine) / (cosine_inside + n * cosine));
+    const double dielectric = (perpendicular + parallel) / 2.0;
+    const double schlick = 0.04 + 0.96 * std::pow(1.0 - cosine, 5.0);
+    const auto seen = [](Reflection reflection) {
+        Builder builder;
+        builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte());
+        builder.add_shape(Box{{-9, 1, -9}, {18, 0, 0}, {0, 1, 0}, {0, 0, 18}},
+                          glass(1.5F, reflection));
+        return gray_along(builder.finish(point_light({3, 4, 0})), {0.5, 0.5, 0}, {-0.5, -0.5, 0});
+    };
+    CHECK(seen(Reflection::schlick) == Approx(0.5 * 0.8 * square(1.0 - schlick)));
+    CHECK(seen(Reflection::dielectric) == Approx(0.5 * 0.8 * square(1.0 - dielectric)));
+}
+
+TEST_CASE("light passes from body to touching body without a gap") {
+    // Of one index, they are one body: only its ends reflect. Their common face is where t rounds.
+    const auto seen = [](bool in_two) {
+        Builder builder;
+        builder.add_shape(Plane{{0, 0.1F, 0}, {0, 1, 0}}, matte());
+        const Material material = glass(1.5F, Reflection::dielectric);
+        const auto slab = [&](float low, float height, float width) {
+            builder.add_shape(Box{{-9, low, -9}, {width, 0, 0}, {0, height, 0}, {0, 0, width}},
+                              material);
+        };
+        if (in_two) {
+            slab(1.0F, 1.0F, 18.3F);
+            slab(2.0F, 2.0F, 17.7F);
+        } else {
+            slab(1.0F, 3.0F, 18.0F);
+        }
+        const Scene scene = builder.finish(point_light({0.7F, 10, 0.3F}));
+        std::vector<double> grays;
+        for (int i = 0; i < 100; ++i)
+            grays.push_back(gray_along(scene, {0.061 * i, 0.5, 0.037 * i}, {0.1, -0.5, 0.2}));
+        return grays;
+    };
+    const std::vector<double> one = seen(false), two = seen(true);
+    for (std::size_t i = 0; i < one.size(); ++i)
+        REQUIRE(two[i] == Approx(one[i]).epsilon(1e-9));
+}
+
 TEST_CASE("a one-sided surface is not there for rays to its other side") {
     Material outside_only = luminous();
     outside_only.visible = Visible::outside;
@@ -161,6 +211,7 @@ TEST_CASE("fog is absent at its first plane and complete at its second") {
     CHECK(seen(0.0F, FogKind::linear, 4.0) == mixed(0.0));
     CHECK(seen(0.0F, FogKind::linear, 6.0) == mixed(0.5));
     CHECK(seen(0.0F, FogKind::linear, 8.0) == mixed(1.0));
+    CHECK(seen(0.0F, FogKind::linear, 20.0) == mixed(1.0));
     CHECK(seen(0.0F, FogKind::exponential, 4.0).z == Approx(1.0 - std::exp(-1.0)));
     // Of what is infinitely far.
     const auto missed = [&](FogKind kind, float start, float end) {
@@ -174,6 +225,31 @@ TEST_CASE("fog is absent at its first plane and complete at its second") {
     CHECK(missed(FogKind::linear, 4.0F, 8.0F) == Vec3d(0, 0, 1));
     CHECK(missed(FogKind::exponential, 4.0F, 8.0F) == Vec3d(0, 0, 1));
     CHECK(missed(FogKind::none, 4.0F, 8.0F) == Vec3d(0, 1, 0));
+}
+
+TEST_CASE("a level ray through fog by height has the fog of its height") {
+    const auto missed = [](double z) {
+        Builder builder;
+        builder.fog = {FogKind::linear_z, {0.0F, 0.0F, 1.0F}, 4.0F, 8.0F, 0.0F};
+        builder.background = {1.0F, 0.0F, 0.0F};
+        return color_along<double>(builder.finish(), {0, 0, z}, {1, 0, 0});
+    };
+    CHECK(missed(3.0) == Vec3d(1, 0, 0));
+    CHECK(missed(5.0) == Vec3d(0.75, 0, 0.25));
+    CHECK(missed(9.0) == Vec3d(0, 0, 1));
+}
+
+TEST_CASE("a path ends behind fog that takes its weight") {
+    const auto seen = [](float min_weight) {
+        Builder builder;
+        builder.fog = {FogKind::linear, Color(0.0F), 0.0F, 8.0F, 0.0F};
+        builder.settings.min_weight = min_weight;
+        builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, mirror());
+        builder.add_shape(Plane{{0, 0, 6}, {0, 0, -1}}, luminous());
+        return gray_along(builder.finish(), {0, 0, 4}, {0, 0, -1});
+    };
+    CHECK(seen(0.5F) == 0.5 * 0.25);
+    CHECK(seen(0.51F) == 0.0);
 }
 
 TEST_CASE("fog lies on reflected rays too, segment by segment") {
@@ -235,4 +311,69 @@ TEST_CASE("smooth triangles shade by their corners' normals, from both sides") {
     const double slanted = 0.5 * std::sqrt(0.5);
     CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) == Approx(slanted).epsilon(exactly));
     CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == Approx(slanted).epsilon(exactly));
+}
+
+TEST_CASE("a light behind a smooth triangle does not shine on it, whatever its normals say") {
+    // The normals lean over so far that a light below the flat surface is before them.
+    const SmoothTriangle triangle{{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1},
+                                  {3, 1, 0},   {3, 1, 0},  {3, 1, 0}};
+    Builder builder;
+    builder.add_shape(triangle, matte());
+    const Scene scene = builder.finish(point_light({10, -1, 0}));
+    CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) == 0.0);
+}
+
+TEST_CASE("normals that point to a smooth triangle's back are turned to its front") {
+    const SmoothTriangle triangle{{-1, 0, -1}, {-1, 0, 3},  {3, 0, -1},
+                                  {0, -1, -1}, {0, -1, -1}, {0, -1, -1}};
+    Builder builder;
+    builder.add_shape(triangle, matte());
+    builder.add_light(point_light({0, -10, 0}));
+    const Scene scene = builder.finish(point_light({0, 10, 0}));
+    const double slanted = 0.5 * std::sqrt(0.5);
+    CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) == Approx(slanted).epsilon(exactly));
+    CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == Approx(slanted).epsilon(exactly));
+}
+
+TEST_CASE("a slanted normal sends no ray to the wrong side of the surface") {
+    const Vec3f slanted{-4, 1, 0};
+    const SmoothTriangle triangle{{-5, 0, -5}, {-5, 0, 15}, {15, 0, -5}, slanted, slanted, slanted};
+    const auto seen = [&](const Material& material, const Plane& red, const Plane& blue,
+                          const Vec3d& direction) {
+        Builder builder;
+        builder.add_shape(triangle, material);
+        builder.add_shape(red, luminous({1, 0, 0}));
+        builder.add_shape(blue, luminous({0, 0, 1}));
+        return color_along<double>(builder.finish(), -0.1 * direction, direction);
+    };
+    const Vec3d red(1, 0, 0);
+    // By the slanted normal the mirror would show what is below it.
+    CHECK(seen(mirror(), {{0, 5, 0}, {0, -1, 0}}, {{0, -5, 0}, {0, 1, 0}}, {-0.5, -1, 0}) == red);
+    // By the slanted normal the light would be bent up, to the right; by the flat one it is
+    // reflected totally, to the left.
+    CHECK(seen(glass(0.25F), {{-3, 0, 0}, {1, 0, 0}}, {{3, 0, 0}, {-1, 0, 0}}, {1, -0.125, 0}) ==
+          red);
+}
+
+TEST_CASE("what leaves a part of a polygon does not meet another part of it") {
+    // Rounded corners have made a valley of it: from the left half the right one is in the way.
+    const Triangle left{{0, 0, -1}, {0, 0, 1}, {-1, 0, 0}},
+        right{{0, 0, -1}, {1, 1e-6F, 0}, {0, 0, 1}};
+    Material shine = mirror();
+    shine.ambient = 1.0F;
+    shine.pattern.colors[0] = Color(1.0F);
+    const auto seen = [&](bool as_polygon) {
+        Builder builder;
+        const MaterialIndex material = builder.add_material(shine);
+        const std::array<Triangle, 2> halves = {left, right};
+        if (as_polygon) {
+            builder.add_polygon(std::span<const Triangle>(halves), material);
+        } else {
+            builder.add(left, material);
+            builder.add(right, material);
+        }
+        return gray_along(builder.finish(), {-0.6, 0.5e-7, 0}, {1, -1e-7, 0});
+    };
+    CHECK(seen(true) == 1.0);
+    CHECK(seen(false) == 2.0);
 }

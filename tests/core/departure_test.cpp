@@ -1,0 +1,257 @@
+#include "core/solve.hpp"
+#include "tests/catch.hpp"
+#include "tests/oracle.hpp"
+#include "tests/ray_sets.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+using namespace raylane;
+using namespace raylane::core;
+using ray_sets::Random;
+using ray_sets::Set;
+
+/// Rays that leave a surface: the solvers leave the start out instead of finding it again.
+namespace {
+
+/// Where a ray has hit a shape, in double: off the surface by `error` at most.
+struct Hitpoint {
+    Vec3d point;
+    Vec3d normal;
+    Face face;
+    double error;
+};
+
+/// The point of a crossing from outside.
+template <class Shape>
+std::optional<Hitpoint> hit(const Shape& shape, const Ray<float>& aimed) {
+    const Ray<double> ray{convert<double>(aimed.origin),
+                          normalized(convert<double>(aimed.direction))};
+    std::uint64_t widened = 0;
+    for (const Crossing<double>& crossing : solve(shape, ray, Start{}, widened)) {
+        if (!(crossing.t > 0.0)) continue;
+        if (!crossing.entering) return std::nullopt;
+        const Vec3d point = mul_add(crossing.t, ray.direction, ray.origin);
+        const double rounding = 0x1p-51 * (length(ray.origin) + crossing.t);
+        return Hitpoint{point, outward_normal(shape, point, crossing.face), crossing.face,
+                        crossing.error + rounding};
+    }
+    return std::nullopt;
+}
+
+/// Visits the points that rays of all sorts hit on shapes of all sorts.
+template <class Shape, class Visit>
+void for_each_hitpoint(int shapes, Random& random, const Visit& visit) {
+    for (int i = 0; i < shapes; ++i) {
+        const bool lattice = i % 2 == 1;
+        const Shape shape = ray_sets::Target<Shape>::make(random, lattice);
+        for (const Set set : ray_sets::all_sets) {
+            if ((set == Set::lattice) != lattice || set == Set::far) continue;
+            if (const auto at = hit(shape, ray_sets::make_ray(shape, set, random)))
+                visit(shape, *at);
+        }
+    }
+}
+
+/// To the inside, from steeply to as good as along the surface.
+Vec3d inward_direction(const Vec3d& normal, Random& random) {
+    Vec3d direction = random.direction();
+    if (dot(direction, normal) > 0.0) direction = -direction;
+    if (random.integer(0, 2) != 0) return direction;
+    const double flattened = 1.0 - random.log_uniform(1e-6, 1.0);
+    return normalized(Vec3d(direction - normal * (flattened * dot(direction, normal))));
+}
+
+/// How far a point is from the whole of the surface that a face is a part of.
+double distance_to_face(const Sphere& sphere, Face, const Vec3d& point) {
+    return std::abs(length(Vec3d(point - convert<double>(sphere.center))) -
+                    static_cast<double>(sphere.radius));
+}
+double distance_to_face(const Box& box, Face face, const Vec3d& point) {
+    const std::array edges = {box.edge_u, box.edge_v, box.edge_w};
+    const Vec3d normal = normalized(cross(convert<double>(edges[(face / 2 + 1) % 3]),
+                                          convert<double>(edges[(face / 2 + 2) % 3])));
+    Vec3d on_face = convert<double>(box.corner);
+    if (face % 2 == 1) on_face += convert<double>(edges[face / 2]);
+    return std::abs(dot(normal, Vec3d(point - on_face)));
+}
+double axial_distance_to_face(const Vec3f& base, const Vec3f& axis, double base_radius,
+                              double top_radius, Face face, const Vec3d& point) {
+    const Vec3d a = convert<double>(axis), from_base = point - convert<double>(base);
+    const double height = dot(from_base, a) / squared_length(a);
+    if (face == base_cap) return std::abs(height) * length(a);
+    if (face == top_cap) return std::abs(height - 1.0) * length(a);
+    const double radius = base_radius + height * (top_radius - base_radius);
+    const double across = length(Vec3d(from_base - height * a));
+    return std::abs(across - radius) * length(a) / std::hypot(length(a), top_radius - base_radius);
+}
+double distance_to_face(const CappedCylinder& c, Face face, const Vec3d& point) {
+    const double radius = static_cast<double>(c.radius);
+    return axial_distance_to_face(c.base, c.axis, radius, radius, face, point);
+}
+double distance_to_face(const CappedCone& c, Face face, const Vec3d& point) {
+    return axial_distance_to_face(c.base, c.axis, static_cast<double>(c.base_radius),
+                                  static_cast<double>(c.top_radius), face, point);
+}
+
+double to_double(const oracle::Number& number) {
+    return number.template convert_to<double>();
+}
+
+/// What a ray's t may be off by if its origin is off the surface by `at.error`: more where it runs
+/// along the surface.
+double tolerance(const Hitpoint& at, const Vec3d& direction, double t) {
+    return 4.0 * at.error / std::abs(dot(at.normal, direction)) + needed_accuracy * t;
+}
+
+#ifdef RAYLANE_FEW_RAYS
+constexpr int shape_count = 100;
+#else
+constexpr int shape_count = 1000;
+#endif
+
+} // namespace
+
+TEMPLATE_TEST_CASE("what enters a solid leaves it, where and by which face the oracle says", "",
+                   Sphere, Box, CappedCylinder, CappedCone) {
+    using Shape = TestType;
+    Random random(20260400 + static_cast<int>(kind_of<Shape>));
+    std::uint64_t widened = 0;
+    int starts = 0, lost = 0, misplaced = 0, wrong_face = 0;
+    for_each_hitpoint<Shape>(shape_count, random, [&](const Shape& shape, const Hitpoint& at) {
+        const Vec3d direction = inward_direction(at.normal, random);
+        const Ray<double> ray{at.point, direction};
+        const Crossings<double> found = solve(shape, ray, Start{true, at.face, true}, widened);
+        ++starts;
+        const bool one = found.end() - found.begin() == 1;
+        if (!one || found.begin()->entering) {
+            if (lost++ < 3)
+                UNSCOPED_INFO("lost from face " << int{at.face} << ", cosine "
+                                                << dot(at.normal, direction));
+            return;
+        }
+        const Crossing<double>& exit = *found.begin();
+
+        double truth = 0.0; // the point may be a little outside, and the ray miss the solid
+        for (const oracle::Hit& hit : oracle::crossings(shape, ray))
+            truth = std::max(truth, to_double(hit.t));
+        const double allowed = tolerance(at, direction, truth);
+        if (!(std::abs(exit.t - truth) <= allowed) && misplaced++ < 3)
+            UNSCOPED_INFO("from face " << int{at.face} << " to face " << int{exit.face} << " at "
+                                       << exit.t << " instead of " << truth);
+
+        const Vec3d end = mul_add(exit.t, direction, at.point);
+        const bool on_face =
+            distance_to_face(shape, exit.face, end) <= allowed + at.error + 1e-14 * length(end);
+        if (!on_face && wrong_face++ < 3)
+            UNSCOPED_INFO("from face " << int{at.face} << " not to face " << int{exit.face});
+    });
+    CHECK(lost == 0);
+    CHECK(misplaced == 0);
+    CHECK(wrong_face == 0);
+    CHECK(starts > shape_count);
+}
+
+TEMPLATE_TEST_CASE("what leaves a solid does not meet it again", "", Sphere, Box, CappedCylinder,
+                   CappedCone) {
+    using Shape = TestType;
+    Random random(20260500 + static_cast<int>(kind_of<Shape>));
+    std::uint64_t widened = 0;
+    int starts = 0, met = 0;
+    for_each_hitpoint<Shape>(shape_count, random, [&](const Shape& shape, const Hitpoint& at) {
+        const Ray<double> ray{at.point, -inward_direction(at.normal, random)};
+        const Crossings<double> found = solve(shape, ray, Start{true, at.face, false}, widened);
+        ++starts;
+        met += found.begin() != found.end() ? 1 : 0;
+    });
+    CHECK(met == 0);
+    CHECK(starts > shape_count);
+}
+
+TEMPLATE_TEST_CASE("what leaves a flat surface does not meet it again", "", Plane, Disc, Triangle,
+                   SmoothTriangle) {
+    using Shape = TestType;
+    Random random(20260600 + static_cast<int>(kind_of<Shape>));
+    std::uint64_t widened = 0;
+    int starts = 0, met = 0;
+    for_each_hitpoint<Shape>(shape_count, random, [&](const Shape& shape, const Hitpoint& at) {
+        const Vec3d inward = inward_direction(at.normal, random);
+        for (const bool goes_inside : {true, false}) {
+            const Ray<double> ray{at.point, goes_inside ? inward : -inward};
+            const auto found = solve(shape, ray, Start{true, at.face, goes_inside}, widened);
+            ++starts;
+            met += found.begin() != found.end() ? 1 : 0;
+        }
+    });
+    CHECK(met == 0);
+    CHECK(starts > 100);
+}
+
+// A bowl is left and met again, from its outside as from its inside if it is a hyperboloid.
+TEMPLATE_TEST_CASE("what leaves a curved surface meets the rest of it where the oracle says", "",
+                   OpenCylinder, OpenCone, Quadric) {
+    using Shape = TestType;
+    Random random(20260700 + static_cast<int>(kind_of<Shape>));
+    std::uint64_t widened = 0;
+    int starts = 0, wrong = 0;
+    std::array<int, 2> met = {0, 0};
+    for_each_hitpoint<Shape>(shape_count, random, [&](const Shape& shape, const Hitpoint& at) {
+        const Vec3d inward = inward_direction(at.normal, random);
+        // Close to the surface, or next to an apex, the start and the second crossing are one.
+        if (!(dot(at.normal, inward) < -0.01)) return;
+        for (const bool goes_inside : {true, false}) {
+            const Vec3d direction = goes_inside ? inward : -inward;
+            const Ray<double> ray{at.point, direction};
+            const auto found = solve(shape, ray, Start{true, at.face, goes_inside}, widened);
+            ++starts;
+
+            std::optional<oracle::Hit> truth;
+            for (const oracle::Hit& hit : oracle::crossings(shape, ray))
+                if (to_double(hit.t) > 1e-6) truth = hit;
+            const bool any = found.begin() != found.end() && found.begin()->t > 1e-6;
+            met[goes_inside] += any ? 1 : 0;
+            const double t = truth ? to_double(truth->t) : 0.0;
+            const bool right =
+                any == truth.has_value() &&
+                (!any || (found.begin()->entering == truth->entering &&
+                          std::abs(found.begin()->t - t) <= tolerance(at, direction, t)));
+            if (!right && wrong++ < 3)
+                UNSCOPED_INFO((goes_inside ? "inward to " : "outward to ")
+                              << (any ? found.begin()->t : -1.0) << " instead of "
+                              << (truth ? t : -1.0));
+        }
+    });
+    CHECK(wrong == 0);
+    CHECK(starts > shape_count / 2);
+    CHECK(met[true] > starts / 20);
+    if (kind_of<Shape> == Kind::quadric) CHECK(met[false] > starts / 100);
+}
+
+// A ray sent inward along a face may come out of its arithmetic as going outward by a hair. The
+// face that it starts on must then not be where it leaves.
+TEMPLATE_TEST_CASE("what runs along a flat face leaves the solid at the far end", "", float,
+                   double) {
+    using Real = TestType;
+    const Box box{{-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    const CappedCylinder cylinder{{0, 0, 0}, {0, 2, 0}, 1};
+    const CappedCone cone{{0, 0, 0}, {0, 2, 0}, 1, 2};
+    const auto end_of = [](const auto& shape, bool top, Face face, Real hair) {
+        std::uint64_t widened = 0;
+        const Ray<Real> ray{{Real(-0.5), Real(top ? 2 : 0), Real(0)},
+                            {Real(1), top ? hair : -hair, Real(0)}};
+        const Crossings<Real> found = solve(shape, ray, Start{true, face, true}, widened);
+        REQUIRE(found.end() - found.begin() == 1);
+        CHECK_FALSE(found.begin()->entering);
+        return static_cast<double>(found.begin()->t);
+    };
+    for (const Real hair : {Real(-1e-12), Real(1e-12)}) {
+        CHECK(end_of(box, false, 2, hair) == Approx(1.5));
+        CHECK(end_of(box, true, 3, hair) == Approx(1.5));
+        CHECK(end_of(cylinder, false, base_cap, hair) == Approx(1.5));
+        CHECK(end_of(cylinder, true, top_cap, hair) == Approx(1.5));
+        CHECK(end_of(cone, false, base_cap, hair) == Approx(1.5));
+        CHECK(end_of(cone, true, top_cap, hair) == Approx(2.5));
+    }
+}

@@ -1,0 +1,78 @@
+#include "core/solve.hpp"
+#include "tests/catch.hpp"
+#include "tests/ray_sets.hpp"
+
+#include <cmath>
+
+using namespace raylane;
+using namespace raylane::core;
+using ray_sets::Random;
+using ray_sets::Set;
+
+namespace {
+
+/// An apex has no normal, and next to it a rounded point has any.
+template <class Shape>
+bool is_apex(const Shape&, const Vec3d&) {
+    return false;
+}
+template <Ends ends>
+bool is_apex(const Cone<ends>& cone, const Vec3d& point) {
+    return length(offset_from_axis(cone.base, cone.axis, point)) < 1e-6;
+}
+bool is_apex(const Quadric& quadric, const Vec3d& point) {
+    const Vec3d from_center = point - convert<double>(quadric.center);
+    return length(quadric_half_gradient(quadric, from_center)) < 1e-6;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("a ray enters against the outward normal and leaves along it", "", Sphere, Plane,
+                   Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,
+                   CappedCone, Quadric) {
+    using Shape = TestType;
+    constexpr double grazing = 1e-4; // the cosine at which a rounded point may tell the wrong side
+    Random random(20260300 + static_cast<int>(kind_of<Shape>));
+    std::uint64_t widened = 0;
+    int entered = 0, left = 0, wrong = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const bool lattice = i % 2 == 1;
+        const Shape shape = ray_sets::Target<Shape>::make(random, lattice);
+        for (const Set set : {Set::random, Set::inside, Set::zeros, Set::lattice}) {
+            if ((set == Set::lattice) != lattice) continue;
+            const Ray<float> aimed = ray_sets::make_ray(shape, set, random);
+            const Ray<double> ray{convert<double>(aimed.origin),
+                                  normalized(convert<double>(aimed.direction))};
+            for (const Crossing<double>& crossing : solve(shape, ray, Start{}, widened)) {
+                const Vec3d point = mul_add(crossing.t, ray.direction, ray.origin);
+                if (is_apex(shape, point)) continue;
+                const Vec3d normal = outward_normal(shape, point, crossing.face);
+                const double cosine = dot(normal, ray.direction);
+                const bool is_unit = std::abs(length(normal) - 1.0) < 1e-12;
+                const bool is_outward =
+                    std::abs(cosine) < grazing || crossing.entering == (cosine < 0.0);
+                ++(crossing.entering ? entered : left);
+                if ((!is_unit || !is_outward) && wrong++ < 3)
+                    UNSCOPED_INFO("face " << int{crossing.face} << " entering " << crossing.entering
+                                          << " normal " << normal.x << ' ' << normal.y << ' '
+                                          << normal.z << " cosine " << cosine);
+            }
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(entered > 100);
+    CHECK(left > 100);
+}
+
+TEST_CASE("the normal of a cone's body leans to its narrower end") {
+    // Slopes of 3 along the axis to 4 across it.
+    const double along = 0.8, across = 0.6;
+    const OpenCone narrowing{{0, 0, 0}, {0, 3, 0}, 4, 0}, widening{{0, 0, 0}, {0, 3, 0}, 0, 4};
+    const Vec3d halfway{2, 1.5, 0};
+    const Vec3d up = outward_normal(narrowing, halfway, body);
+    CHECK(up.x == Approx(across));
+    CHECK(up.y == Approx(along));
+    const Vec3d down = outward_normal(widening, halfway, body);
+    CHECK(down.x == Approx(across));
+    CHECK(down.y == Approx(-along));
+}
