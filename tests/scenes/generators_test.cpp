@@ -69,7 +69,7 @@ std::string refusal_of(const Generator& generator) {
 TEST_CASE("a sphereflake is the balls of the Standard Procedural Databases") {
     const std::filesystem::path path = std::filesystem::path(RAYLANE_SHARED_SCENES) / "balls.nff";
     if (!std::filesystem::exists(path)) {
-        WARN("skipped, for there is no " << path);
+        WARN("skipped: no " << path);
         return;
     }
     std::vector<std::array<double, 4>> expected;
