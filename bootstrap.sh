@@ -69,7 +69,7 @@ install_missing() {
     fi
 }
 
-build() {
+build() { # options of cmake --build
     # A tree that another generator configured keeps it.
     generator=-GNinja
     [ ! -f build/release/CMakeCache.txt ] || generator=
@@ -79,7 +79,7 @@ build() {
         cat "$log" >&2
         exit 1
     fi
-    cmake --build --preset release --parallel "$(nproc)"
+    cmake --build --preset release --parallel "$(nproc)" "$@"
 }
 
 cd "$(dirname "$0")"
@@ -98,7 +98,7 @@ render | test)
 esac
 
 install_missing
-build
+if [ "$1" = render ]; then build --target raylane; else build; fi
 start=$(date +%s%N)
 if [ "$1" = render ]; then
     build/release/bin/raylane render scenes/birthday.json -o birthday.png
