@@ -186,7 +186,7 @@ TEMPLATE_TEST_CASE("what leaves a flat surface does not meet it again", "", Plan
         }
     });
     CHECK(met == 0);
-    CHECK(starts > 100);
+    CHECK(starts > shape_count / 4);
 }
 
 // A bowl is left and met again, from its outside as from its inside if it is a hyperboloid.
