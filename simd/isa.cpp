@@ -1,0 +1,31 @@
+#include "simd/isa.hpp"
+
+namespace raylane::simd {
+
+bool is_available(Isa isa) {
+    switch (isa) {
+    case Isa::sse42:
+        return __builtin_cpu_supports("sse4.2") != 0;
+    case Isa::avx2:
+        return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+    case Isa::avx512:
+        break;
+    }
+    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
+           __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+           __builtin_cpu_supports("avx512vl") != 0;
+}
+
+const Kernels& kernels_of(Isa isa) {
+    switch (isa) {
+    case Isa::sse42:
+        return kernels_sse42();
+    case Isa::avx2:
+        return kernels_avx2();
+    case Isa::avx512:
+        break;
+    }
+    return kernels_avx512();
+}
+
+} // namespace raylane::simd

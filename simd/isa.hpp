@@ -1,0 +1,21 @@
+#pragma once
+
+#include "simd/kernels.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace raylane::simd {
+
+enum class Isa : std::uint8_t { sse42, avx2, avx512 };
+
+inline constexpr Isa all_isas[] = {Isa::sse42, Isa::avx2, Isa::avx512};
+
+/// Whether this processor, and the system on it, can run it. avx2 stands for AVX2 and FMA, avx512
+/// for the F, CD, BW, DQ and VL parts.
+bool is_available(Isa isa);
+
+/// Undefined unless it is available.
+const Kernels& kernels_of(Isa isa);
+
+} // namespace raylane::simd

@@ -1,0 +1,236 @@
+#pragma once
+
+// xsimd 8.1's AVX-512 header calls an intrinsic that no compiler has.
+#if defined(__AVX512F__) && !defined(_mm512_rsqrt23_ps)
+#define _mm512_rsqrt23_ps _mm512_rsqrt14_ps
+#endif
+#include <xsimd/xsimd.hpp>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <immintrin.h>
+
+/// What raylane needs of vector registers and xsimd does not give, or not in all of its versions.
+/// Everything in kernel/ is a template over the instruction set, so that no two kernel units share
+/// an inline function: the linker could keep the one that an older processor cannot run.
+namespace raylane::simd {
+
+using Sse42 = xsimd::sse4_2;
+using Avx2 = xsimd::fma3<xsimd::avx2>;
+using Avx512 = xsimd::avx512f;
+
+template <class Arch>
+using Floats = xsimd::batch<float, Arch>;
+template <class Arch>
+using Mask = xsimd::batch_bool<float, Arch>;
+
+/// By loops over memory: what the native forms below are tested against, and what other processors
+/// can use.
+namespace generic {
+
+template <class Arch>
+std::uint32_t bits(const Mask<Arch>& mask) {
+    bool lanes[Mask<Arch>::size];
+    mask.store_unaligned(lanes);
+    std::uint32_t result = 0;
+    for (std::size_t i = 0; i < Mask<Arch>::size; ++i)
+        result |= static_cast<std::uint32_t>(lanes[i]) << i;
+    return result;
+}
+
+template <class Arch>
+void compress_store(float* out, const Floats<Arch>& values, std::uint32_t wanted) {
+    float lanes[Floats<Arch>::size];
+    values.store_unaligned(lanes);
+    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
+        if ((wanted >> i & 1) != 0) *out++ = lanes[i];
+}
+
+template <class Arch>
+Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<Arch>& c) {
+    float x[Floats<Arch>::size], y[Floats<Arch>::size], z[Floats<Arch>::size];
+    a.store_unaligned(x);
+    b.store_unaligned(y);
+    c.store_unaligned(z);
+    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
+        x[i] = __builtin_fmaf(x[i], y[i], z[i]);
+    return Floats<Arch>::load_unaligned(x);
+}
+
+template <class Arch>
+Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Floats<Arch>& last) {
+    float i[Floats<Arch>::size], f[Floats<Arch>::size], l[Floats<Arch>::size];
+    bool result[Floats<Arch>::size];
+    id.store_unaligned(i);
+    first.store_unaligned(f);
+    last.store_unaligned(l);
+    for (std::size_t k = 0; k < Floats<Arch>::size; ++k) {
+        const auto from = __builtin_bit_cast(std::uint32_t, f[k]);
+        result[k] = __builtin_bit_cast(std::uint32_t, i[k]) - from <=
+                    __builtin_bit_cast(std::uint32_t, l[k]) - from;
+    }
+    return Mask<Arch>::load_unaligned(result);
+}
+
+} // namespace generic
+
+/// bits: lane i of a mask as bit i.
+/// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
+/// mul_add: a * b + c, rounded once.
+/// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
+template <class Arch>
+struct Lanes {
+    static std::uint32_t bits(const Mask<Arch>& mask) { return generic::bits<Arch>(mask); }
+    static void compress_store(float* out, const Floats<Arch>& values, std::uint32_t wanted) {
+        generic::compress_store<Arch>(out, values, wanted);
+    }
+    static Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b,
+                                const Floats<Arch>& c) {
+        return generic::mul_add<Arch>(a, b, c);
+    }
+    static Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first,
+                               const Floats<Arch>& last) {
+        return generic::in_range<Arch>(id, first, last);
+    }
+};
+
+#ifdef __SSE4_2__
+template <>
+struct Lanes<Sse42> {
+    static std::uint32_t bits(const Mask<Sse42>& mask) {
+        return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
+    }
+
+    static void compress_store(float* out, const Floats<Sse42>& values, std::uint32_t wanted) {
+        const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(&orders[wanted]));
+        const __m128i bytes = _mm_castps_si128(values);
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(bytes, order));
+    }
+
+    /// By way of double: the product is exact there. The sum is rounded to odd, so that rounding it
+    /// again to float rounds as if once (Boldo and Melquiond, "Emulation of FMA and correctly
+    /// rounded sums: proved algorithms using rounding to odd", 2008).
+    static Floats<Sse42> mul_add(const Floats<Sse42>& a, const Floats<Sse42>& b,
+                                 const Floats<Sse42>& c) {
+        const __m128 low = by_double(a, b, c);
+        const __m128 high =
+            by_double(_mm_movehl_ps(a, a), _mm_movehl_ps(b, b), _mm_movehl_ps(c, c));
+        return _mm_movelh_ps(low, high);
+    }
+
+    static Mask<Sse42> in_range(const Floats<Sse42>& id, const Floats<Sse42>& first,
+                                const Floats<Sse42>& last) {
+        const __m128i from = _mm_castps_si128(first);
+        const __m128i offset = _mm_sub_epi32(_mm_castps_si128(id), from);
+        const __m128i most = _mm_sub_epi32(_mm_castps_si128(last), from);
+        return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_min_epu32(offset, most), offset));
+    }
+
+  private:
+    static __m128 by_double(__m128 a, __m128 b, __m128 c) {
+        const __m128d product = _mm_mul_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(b));
+        const __m128d addend = _mm_cvtps_pd(c);
+        const __m128d sum = _mm_add_pd(product, addend);
+        const __m128d part = _mm_sub_pd(sum, product);
+        const __m128d error =
+            _mm_add_pd(_mm_sub_pd(product, _mm_sub_pd(sum, part)), _mm_sub_pd(addend, part));
+        // Inexact and even: one step of the last bit towards the error. NaN compares unequal to
+        // itself alone, and infinite sums have NaN errors.
+        const __m128d zero = _mm_setzero_pd();
+        const __m128i inexact =
+            _mm_castpd_si128(_mm_or_pd(_mm_cmplt_pd(error, zero), _mm_cmpgt_pd(error, zero)));
+        const __m128i bits = _mm_castpd_si128(sum);
+        const __m128i one = _mm_set1_epi64x(1);
+        const __m128i odd = _mm_cmpeq_epi64(_mm_and_si128(bits, one), one);
+        const __m128i signs = _mm_castpd_si128(_mm_xor_pd(error, sum));
+        const __m128i shrinks = _mm_cmpgt_epi64(_mm_setzero_si128(), signs);
+        const __m128i step = _mm_or_si128(shrinks, one); // -1 or 1
+        const __m128i adjust = _mm_andnot_si128(odd, _mm_and_si128(inexact, step));
+        return _mm_cvtpd_ps(_mm_castsi128_pd(_mm_add_epi64(bits, adjust)));
+    }
+
+    struct alignas(16) Order {
+        std::uint8_t bytes[16];
+    };
+    static constexpr std::array<Order, 16> orders = [] {
+        std::array<Order, 16> all{};
+        for (unsigned wanted = 0; wanted < 16; ++wanted) {
+            unsigned to = 0;
+            for (unsigned lane = 0; lane < 4; ++lane) {
+                if ((wanted >> lane & 1) == 0) continue;
+                for (unsigned byte = 0; byte < 4; ++byte)
+                    all[wanted].bytes[4 * to + byte] = static_cast<std::uint8_t>(4 * lane + byte);
+                ++to;
+            }
+        }
+        return all;
+    }();
+};
+#endif
+
+#if defined(__AVX2__) && defined(__FMA__)
+template <>
+struct Lanes<Avx2> {
+    static std::uint32_t bits(const Mask<Avx2>& mask) {
+        return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
+    }
+
+    static void compress_store(float* out, const Floats<Avx2>& values, std::uint32_t wanted) {
+        const __m128i packed = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&orders[wanted]));
+        _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(values, _mm256_cvtepu8_epi32(packed)));
+    }
+
+    static Floats<Avx2> mul_add(const Floats<Avx2>& a, const Floats<Avx2>& b,
+                                const Floats<Avx2>& c) {
+        return _mm256_fmadd_ps(a, b, c);
+    }
+
+    static Mask<Avx2> in_range(const Floats<Avx2>& id, const Floats<Avx2>& first,
+                               const Floats<Avx2>& last) {
+        const __m256i from = _mm256_castps_si256(first);
+        const __m256i offset = _mm256_sub_epi32(_mm256_castps_si256(id), from);
+        const __m256i most = _mm256_sub_epi32(_mm256_castps_si256(last), from);
+        return _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(offset, most), offset));
+    }
+
+  private:
+    static constexpr std::array<std::array<std::uint8_t, 8>, 256> orders = [] {
+        std::array<std::array<std::uint8_t, 8>, 256> all{};
+        for (unsigned wanted = 0; wanted < 256; ++wanted) {
+            unsigned to = 0;
+            for (unsigned lane = 0; lane < 8; ++lane)
+                if ((wanted >> lane & 1) != 0) all[wanted][to++] = static_cast<std::uint8_t>(lane);
+        }
+        return all;
+    }();
+};
+#endif
+
+#ifdef __AVX512F__
+template <>
+struct Lanes<Avx512> {
+    static std::uint32_t bits(const Mask<Avx512>& mask) {
+        return static_cast<std::uint32_t>(static_cast<__mmask16>(mask));
+    }
+
+    static void compress_store(float* out, const Floats<Avx512>& values, std::uint32_t wanted) {
+        _mm512_mask_compressstoreu_ps(out, static_cast<__mmask16>(wanted), values);
+    }
+
+    static Floats<Avx512> mul_add(const Floats<Avx512>& a, const Floats<Avx512>& b,
+                                  const Floats<Avx512>& c) {
+        return _mm512_fmadd_ps(a, b, c);
+    }
+
+    static Mask<Avx512> in_range(const Floats<Avx512>& id, const Floats<Avx512>& first,
+                                 const Floats<Avx512>& last) {
+        const __m512i from = _mm512_castps_si512(first);
+        const __m512i offset = _mm512_sub_epi32(_mm512_castps_si512(id), from);
+        const __m512i most = _mm512_sub_epi32(_mm512_castps_si512(last), from);
+        return _mm512_cmple_epu32_mask(offset, most);
+    }
+};
+#endif
+
+} // namespace raylane::simd

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "simd/kernel/solvers/shapes.hpp"
+
+/// core/solvers/axial.hpp
+namespace raylane::simd {
+
+template <class Arch>
+struct AxialRays {
+    Floats<Arch> axis_squared, height_origin, height_direction;
+    Vectors<Arch> across_origin, across_direction;
+
+    AxialRays(const Vectors<Arch>& base, const Vectors<Arch>& axis, const Rays<Arch>& rays) {
+        const Vectors<Arch> from_base = rays.origin - base;
+        axis_squared = squared_length(axis);
+        height_origin = dot(from_base, axis);
+        height_direction = dot(rays.direction, axis);
+        across_origin = mul_add<Arch>(negated(height_origin / axis_squared), axis, from_base);
+        across_direction =
+            mul_add<Arch>(negated(height_direction / axis_squared), axis, rays.direction);
+    }
+
+    Mask<Arch> between_ends(const Floats<Arch>& t) const {
+        const Floats<Arch> height = mul_add<Arch>(t, height_direction, height_origin);
+        return ~(height < zero<Arch>()) & ~(axis_squared < height);
+    }
+};
+
+inline constexpr float base_cap_code = 1.0F;
+inline constexpr float top_cap_code = 2.0F;
+
+template <class Arch>
+void clip_caps(Span<Arch>& span, const AxialRays<Arch>& axial, const Starts<Arch>& starts) {
+    const Floats<Arch> base_face(base_cap_code), top_face(top_cap_code);
+    span.clip_slab(~starts.on_surface, axial.height_origin, axial.height_direction,
+                   axial.axis_squared, base_cap_code, top_cap_code);
+    const Mask<Arch> rises =
+        starts.on_surface & (axial.height_direction > zero<Arch>()) & (starts.face != top_face);
+    const Mask<Arch> falls =
+        starts.on_surface & (axial.height_direction < zero<Arch>()) & (starts.face != base_face);
+    span.clip_back(rises, (axial.axis_squared - axial.height_origin) / axial.height_direction,
+                   top_face);
+    span.clip_back(falls, negated(axial.height_origin) / axial.height_direction, base_face);
+}
+
+template <class Arch>
+Crossings<Arch> keep_between_ends(Crossings<Arch> crossings, const AxialRays<Arch>& axial) {
+    crossings.first.exists = crossings.first.exists & axial.between_ends(crossings.first.t);
+    crossings.second.exists = crossings.second.exists & axial.between_ends(crossings.second.t);
+    return crossings;
+}
+
+template <class Arch>
+Vectors<Arch> offset_from_axis(const Vectors<Arch>& base, const Vectors<Arch>& axis,
+                               const Vectors<Arch>& point) {
+    const Vectors<Arch> from_base = point - base;
+    return mul_add<Arch>(negated(dot(from_base, axis) / squared_length(axis)), axis, from_base);
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "simd/kernel/solvers/axial.hpp"
+#include "simd/kernel/solvers/quadratic.hpp"
+
+namespace raylane::simd {
+
+/// core/solvers/cone.hpp
+template <class Arch, bool capped>
+struct ConeLanes {
+    Vectors<Arch> base, axis;
+    Floats<Arch> base_radius, top_radius;
+
+    template <class Reader>
+    explicit ConeLanes(Reader reader)
+        : base(next_vector<Arch>(reader)), axis(next_vector<Arch>(reader)),
+          base_radius(reader.next()), top_radius(reader.next()) {}
+
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Floats<Arch> o = zero<Arch>();
+        const AxialRays<Arch> axial(base, axis, rays);
+        const Floats<Arch> slope = (top_radius - base_radius) / axial.axis_squared;
+        const Floats<Arch> W = mul_add<Arch>(slope, axial.height_origin, base_radius);
+        const Floats<Arch> M = slope * axial.height_direction;
+        const Floats<Arch> across_squared = squared_length(axial.across_direction);
+        const Floats<Arch> A = mul_add<Arch>(negated(M), M, across_squared);
+        const Floats<Arch> B =
+            mul_add<Arch>(negated(M), W, dot(axial.across_origin, axial.across_direction));
+        const Floats<Arch> C = mul_add<Arch>(negated(W), W, squared_length(axial.across_origin));
+        const Mask<Arch> opens_up = A > o, opens_down = A < o;
+
+        Crossings<Arch> roots = solve_quadratic<Arch>(
+            A, B, C, mul_add<Arch>(M, M, across_squared), [&](const Floats<Arch>& tau) {
+                const Floats<Arch> width = mul_add<Arch>(tau, M, W);
+                return mul_add<Arch>(negated(width), width,
+                                     squared_length(mul_add<Arch>(tau, axial.across_direction,
+                                                                  axial.across_origin)));
+            });
+        const Mask<Arch> from_body = starts.on_surface & (starts.face == o);
+        const Mask<Arch> no_roots = ~roots.first.exists & ~roots.second.exists;
+        const Mask<Arch> missed = ~from_body & no_roots & (opens_up | (C > o));
+        const Mask<Arch> beside = missed & ~starts.on_surface;
+        const Mask<Arch> by_rim = missed & starts.on_surface;
+
+        roots.first.exists = roots.first.exists & ~from_body;
+        const Mask<Arch> body_exit = from_body & opens_up;
+        roots.second.exists = (roots.second.exists & ~from_body) | body_exit | by_rim;
+        roots.second.t =
+            xsimd::select(from_body, not_behind<Arch>(negated(B + B) / A), roots.second.t);
+        const Floats<Arch> vertex = xsimd::select(opens_up, negated(B) / A, o);
+        roots.second.t = xsimd::select(by_rim, not_behind<Arch>(vertex), roots.second.t);
+        roots.second.entering = roots.second.entering & ~from_body & ~by_rim;
+
+        Crossings<Arch> result = roots;
+        if constexpr (capped) {
+            Span<Arch> span;
+            const Mask<Arch> widens = M > o;
+            for (const Crossing<Arch>& root : {roots.first, roots.second}) {
+                const Mask<Arch> on_nappe = (root.entering & widens) | (~root.entering & ~widens);
+                const Mask<Arch> clips = root.exists & (~opens_down | on_nappe);
+                span.clip_front(clips & root.entering & ~starts.on_surface, root.t, o);
+                span.clip_back(clips & ~root.entering, root.t, o);
+            }
+            clip_caps(span, axial, starts);
+            result = span.crossings(starts.on_surface);
+        } else {
+            result = keep_between_ends(roots, axial);
+        }
+        result.first.exists = result.first.exists & ~beside;
+        result.second.exists = result.second.exists & ~beside;
+        return inward_only(result, starts);
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>& face) const {
+        const Floats<Arch> o = zero<Arch>();
+        const Vectors<Arch> unit_axis = normalized(axis);
+        const Vectors<Arch> across = offset_from_axis(base, axis, point);
+        const Floats<Arch> narrowing = base_radius - top_radius;
+        const Floats<Arch> width = xsimd::sqrt(squared_length(across));
+        const Vectors<Arch> gradient =
+            mul_add<Arch>(width * narrowing / squared_length(axis), axis, across);
+        const Vectors<Arch> at_apex = select(narrowing > o, unit_axis, -unit_axis);
+        const Vectors<Arch> on_body =
+            select(squared_length(gradient) > o, normalized(gradient), at_apex);
+        return select(face == Floats<Arch>(base_cap_code), -unit_axis,
+                      select(face == Floats<Arch>(top_cap_code), unit_axis, on_body));
+    }
+};
+
+} // namespace raylane::simd

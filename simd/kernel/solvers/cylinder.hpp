@@ -1,0 +1,56 @@
+#pragma once
+
+#include "simd/kernel/solvers/axial.hpp"
+
+namespace raylane::simd {
+
+/// core/solvers/cylinder.hpp
+template <class Arch, bool capped>
+struct CylinderLanes {
+    Vectors<Arch> base, axis;
+    Floats<Arch> radius;
+
+    template <class Reader>
+    explicit CylinderLanes(Reader reader)
+        : base(next_vector<Arch>(reader)), axis(next_vector<Arch>(reader)), radius(reader.next()) {}
+
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const AxialRays<Arch> axial(base, axis, rays);
+        const Floats<Arch> speed_squared = squared_length(axial.across_direction);
+        const Mask<Arch> parallel =
+            ~(speed_squared > zero<Arch>()) & ~(speed_squared < zero<Arch>());
+        const Floats<Arch> tau = xsimd::select(
+            parallel, zero<Arch>(),
+            negated(dot(axial.across_origin, axial.across_direction)) / speed_squared);
+
+        Span<Arch> span;
+        const Mask<Arch> from_body = starts.on_surface & (starts.face == zero<Arch>());
+        span.clip_back(from_body & ~parallel, not_behind<Arch>(tau + tau), zero<Arch>());
+
+        const Vectors<Arch> foot = mul_add<Arch>(tau, axial.across_direction, axial.across_origin);
+        const Floats<Arch> discriminant =
+            mul_add<Arch>(radius, radius, negated(squared_length(foot)));
+        const Mask<Arch> no_roots = discriminant < zero<Arch>();
+        const Mask<Arch> beside = no_roots & ~starts.on_surface;
+        const Floats<Arch> half_chord =
+            xsimd::sqrt(xsimd::select(no_roots, zero<Arch>(), discriminant) / speed_squared);
+        span.clip_front(~parallel & ~starts.on_surface, tau - half_chord, zero<Arch>());
+        span.clip_back(~parallel & ~from_body, tau + half_chord, zero<Arch>());
+
+        if constexpr (capped) clip_caps(span, axial, starts);
+        Crossings<Arch> result = span.crossings(starts.on_surface);
+        if constexpr (!capped) result = keep_between_ends(result, axial);
+        result.first.exists = result.first.exists & ~beside;
+        result.second.exists = result.second.exists & ~beside;
+        return inward_only(result, starts);
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>& face) const {
+        const Vectors<Arch> unit_axis = normalized(axis);
+        const Vectors<Arch> from_axis = normalized(offset_from_axis(base, axis, point));
+        return select(face == Floats<Arch>(base_cap_code), -unit_axis,
+                      select(face == Floats<Arch>(top_cap_code), unit_axis, from_axis));
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "simd/kernel/solvers/shapes.hpp"
+
+/// core/solvers/flat.hpp
+namespace raylane::simd {
+
+template <class Arch>
+Crossing<Arch> cross_plane(const Vectors<Arch>& to_point, const Vectors<Arch>& normal,
+                           const Vectors<Arch>& direction) {
+    const Floats<Arch> approach = dot(normal, direction);
+    const Mask<Arch> falls = approach < zero<Arch>();
+    return {falls | (approach > zero<Arch>()), dot(normal, to_point) / approach, zero<Arch>(),
+            falls};
+}
+
+template <class Arch>
+Crossings<Arch> only(const Crossing<Arch>& crossing) {
+    return {crossing, {none<Arch>(), zero<Arch>(), zero<Arch>(), none<Arch>()}};
+}
+
+template <class Arch>
+struct PlaneLanes {
+    Vectors<Arch> point, normal;
+
+    template <class Reader>
+    explicit PlaneLanes(Reader reader)
+        : point(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)) {}
+
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        Crossing<Arch> crossing = cross_plane(point - rays.origin, normal, rays.direction);
+        crossing.exists = crossing.exists & ~starts.on_surface;
+        return only(crossing);
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>&, const Floats<Arch>&) const {
+        return normalized(normal);
+    }
+};
+
+template <class Arch>
+struct DiscLanes {
+    Vectors<Arch> center, normal;
+    Floats<Arch> radius;
+
+    template <class Reader>
+    explicit DiscLanes(Reader reader)
+        : center(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)),
+          radius(reader.next()) {}
+
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Vectors<Arch> to_center = center - rays.origin;
+        Crossing<Arch> crossing = cross_plane(to_center, normal, rays.direction);
+        const Vectors<Arch> from_center = mul_add<Arch>(crossing.t, rays.direction, -to_center);
+        const Mask<Arch> outside = radius * radius < squared_length(from_center);
+        crossing.exists = crossing.exists & ~outside & ~starts.on_surface;
+        return only(crossing);
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>&, const Floats<Arch>&) const {
+        return normalized(normal);
+    }
+};
+
+template <class Arch>
+struct TriangleLanes {
+    Vectors<Arch> a, b, c;
+
+    template <class Reader>
+    explicit TriangleLanes(Reader reader)
+        : a(next_vector<Arch>(reader)), b(next_vector<Arch>(reader)), c(next_vector<Arch>(reader)) {
+    }
+
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Vectors<Arch> to_a = a - rays.origin, to_b = b - rays.origin, to_c = c - rays.origin;
+        const Floats<Arch> u = dot(rays.direction, cross(to_c, to_b));
+        const Floats<Arch> v = dot(rays.direction, cross(to_a, to_c));
+        const Floats<Arch> w = dot(rays.direction, cross(to_b, to_a));
+        const Floats<Arch> o = zero<Arch>();
+        const Mask<Arch> some_negative = (u < o) | (v < o) | (w < o);
+        const Mask<Arch> some_positive = (u > o) | (v > o) | (w > o);
+        const Mask<Arch> inside =
+            (some_negative & ~some_positive) | (some_positive & ~some_negative);
+        Crossing<Arch> crossing =
+            cross_plane(to_a, cross(to_b - to_a, to_c - to_a), rays.direction);
+        crossing.exists = crossing.exists & inside & ~starts.on_surface;
+        return only(crossing);
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>&, const Floats<Arch>&) const {
+        return normalized(cross(b - a, c - a));
+    }
+};
+
+} // namespace raylane::simd

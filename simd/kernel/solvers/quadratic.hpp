@@ -1,0 +1,35 @@
+#pragma once
+
+#include "simd/kernel/crossings.hpp"
+
+namespace raylane::simd {
+
+/// core::solve_quadratic. In lanes where A = 0 the first crossing is the only one.
+template <class Arch, class AtVertex>
+Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, const Floats<Arch>& C,
+                                const Floats<Arch>& scale, const AtVertex& at_vertex) {
+    const Floats<Arch> o = zero<Arch>();
+    const Mask<Arch> opens_up = A > o, linear = ~opens_up & ~(A < o);
+    const Mask<Arch> near_linear = xsimd::abs(A) < Floats<Arch>(0x1p-4F) * scale;
+    const Floats<Arch> discriminant = xsimd::select(
+        near_linear, mul_add<Arch>(B, B, negated(A * C)), negated(A * at_vertex(negated(B) / A)));
+    const Mask<Arch> curved = ~linear & ~(discriminant < o);
+    const Floats<Arch> root = xsimd::sqrt(discriminant);
+
+    const Mask<Arch> falling = B < o;
+    const Floats<Arch> q = xsimd::select(falling, root - B, negated(root) - B);
+    const Mask<Arch> tangent = q == o;
+    const Floats<Arch> by_A = q / A, by_C = C / q;
+    // by_A leaves where B falls, so it comes first where it enters and A > 0, or neither.
+    const Mask<Arch> A_first = (opens_up & ~falling) | (~opens_up & falling);
+    const Floats<Arch> first = xsimd::select(A_first, by_A, by_C);
+    const Floats<Arch> second = xsimd::select(A_first, by_C, by_A);
+
+    const Mask<Arch> sloped = linear & ((B > o) | falling);
+    const Floats<Arch> on_line = negated(C) / (B + B);
+    return {{curved | sloped, xsimd::select(linear, on_line, xsimd::select(tangent, o, first)), o,
+             (linear & falling) | (~linear & opens_up)},
+            {curved, xsimd::select(tangent, o, second), o, ~linear & ~opens_up}};
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,101 @@
+#pragma once
+
+#include "simd/kernel/lanes.hpp"
+
+/// The native forms of `Lanes` against the generic ones. For units that are built for one
+/// instruction set, so without anything inline that others share.
+namespace raylane::simd {
+
+template <class Arch>
+struct LanesCheck {
+    static constexpr int size = static_cast<int>(Floats<Arch>::size);
+
+    std::uint64_t state = 1;
+
+    std::uint32_t random() {
+        state = state * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<std::uint32_t>(state >> 32);
+    }
+
+    /// All bit patterns, NaN and denormal ones included; or, for sums that cancel, few exponents.
+    float random_float(bool tame) {
+        std::uint32_t bits = random();
+        if (tame) bits = (bits & 0x83FFFFFF) | 0x3C000000;
+        return __builtin_bit_cast(float, bits);
+    }
+
+    static bool same(float a, float b) {
+        return (a != a && b != b) ||
+               __builtin_bit_cast(std::uint32_t, a) == __builtin_bit_cast(std::uint32_t, b);
+    }
+
+    int mul_add_failures(int rounds) {
+        int failures = 0;
+        for (int round = 0; round < rounds; ++round) {
+            float a[size], b[size], c[size], native[size], generic_way[size];
+            for (int i = 0; i < size; ++i) {
+                const bool tame = round % 2 == 0;
+                a[i] = random_float(tame);
+                b[i] = random_float(tame);
+                c[i] = random_float(tame);
+                // Half an ulp of the sum, give or take a little: where rounding twice goes wrong.
+                if (round % 4 == 0)
+                    c[i] = a[i] * b[i] * 0x1p24F * (random() % 2 == 0 ? 1.0F : -1.0F);
+            }
+            const auto x = Floats<Arch>::load_unaligned(a), y = Floats<Arch>::load_unaligned(b),
+                       z = Floats<Arch>::load_unaligned(c);
+            Lanes<Arch>::mul_add(x, y, z).store_unaligned(native);
+            generic::mul_add<Arch>(x, y, z).store_unaligned(generic_way);
+            for (int i = 0; i < size; ++i)
+                failures += same(native[i], generic_way[i]) ? 0 : 1;
+        }
+        return failures;
+    }
+
+    int compress_failures() {
+        int failures = 0;
+        for (std::uint32_t wanted = 0; wanted < 1U << size; ++wanted) {
+            float values[size], native[size] = {}, generic_way[size] = {};
+            for (float& value : values)
+                value = random_float(false);
+            const auto x = Floats<Arch>::load_unaligned(values);
+            Lanes<Arch>::compress_store(native, x, wanted);
+            generic::compress_store<Arch>(generic_way, x, wanted);
+            for (int i = 0; i < __builtin_popcount(wanted); ++i)
+                failures += same(native[i], generic_way[i]) ? 0 : 1;
+        }
+        return failures;
+    }
+
+    int mask_failures(int rounds) {
+        int failures = 0;
+        for (int round = 0; round < rounds; ++round) {
+            float id[size], first[size], last[size];
+            for (int i = 0; i < size; ++i) {
+                const std::uint32_t from = round % 3 == 0 ? 0xFFFFFFFF : random();
+                id[i] = __builtin_bit_cast(float, from + random() % 3 - 1);
+                first[i] = __builtin_bit_cast(float, from);
+                last[i] = __builtin_bit_cast(float, from + random() % 2);
+            }
+            const auto x = Floats<Arch>::load_unaligned(id),
+                       y = Floats<Arch>::load_unaligned(first),
+                       z = Floats<Arch>::load_unaligned(last);
+            const Mask<Arch> native = Lanes<Arch>::in_range(x, y, z);
+            const Mask<Arch> generic_way = generic::in_range<Arch>(x, y, z);
+            failures += Lanes<Arch>::bits(native) == generic::bits<Arch>(generic_way) ? 0 : 1;
+        }
+        return failures;
+    }
+
+    static int failures() {
+        LanesCheck check;
+        return check.mul_add_failures(200000) + check.compress_failures() +
+               check.mask_failures(10000);
+    }
+};
+
+int lanes_failures_sse42();
+int lanes_failures_avx2();
+int lanes_failures_avx512();
+
+} // namespace raylane::simd

@@ -1,0 +1,11 @@
+#include "simd/isa.hpp"
+#include "tests/catch.hpp"
+#include "tests/simd/lanes_check.hpp"
+
+using namespace raylane::simd;
+
+TEST_CASE("native and generic lanes do the same") {
+    if (is_available(Isa::sse42)) CHECK(lanes_failures_sse42() == 0);
+    if (is_available(Isa::avx2)) CHECK(lanes_failures_avx2() == 0);
+    if (is_available(Isa::avx512)) CHECK(lanes_failures_avx512() == 0);
+}

@@ -1,0 +1,24 @@
+#!/bin/sh
+# An inline function that a kernel unit shares with the rest of the program may be the copy that the
+# linker keeps for all, with instructions that an older processor does not have. So each symbol that
+# the linker may merge must carry the unit's instruction set in its name.
+#
+# usage: symbols_test.sh OBJECT...   those not called kernels_* are passed over
+set -eu
+units=0
+for object in "$@"; do
+    case "$object" in
+    *kernels_sse42*) tag=6sse4_2 ;;
+    *kernels_avx2*) tag=4fma3I ;;
+    *kernels_avx512*) tag=7avx512f ;;
+    *) continue ;;
+    esac
+    units=$((units + 1))
+    shared=$(nm "$object" | awk '$(NF - 1) ~ /^[WVu]$/ { print $NF }' | grep -v -e "$tag" -e '^DW.ref.' || true)
+    if [ -n "$shared" ]; then
+        echo "$object shares with others:"
+        echo "$shared" | c++filt
+        exit 1
+    fi
+done
+[ "$units" -eq 3 ] || { echo "expected 3 kernel units, got $units"; exit 1; }
