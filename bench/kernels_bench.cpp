@@ -1,0 +1,221 @@
+#include "core/shape_table.hpp"
+#include "core/solve.hpp"
+#include "simd/isa.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <bit>
+#include <random>
+#include <string>
+#include <vector>
+
+/// Each kernel's speed, in rays tested against one shape per second, beside its error in ulps of t
+/// against the certified double reference, over the same rays; and the scalar float reference in
+/// the same run.
+
+namespace {
+
+using namespace raylane;
+using namespace raylane::core;
+
+constexpr std::size_t ray_count = 1024; // fits the first-level cache with its hits
+
+class Random {
+  public:
+    float uniform(float low, float high) {
+        return low + (high - low) * (static_cast<float>(engine_() >> 8) * 0x1p-24F);
+    }
+    Vec3f cube(float size) {
+        return {uniform(-size, size), uniform(-size, size), uniform(-size, size)};
+    }
+
+  private:
+    std::mt19937 engine_{1};
+};
+
+/// A shape of a size of about 1 within 1 of the origin.
+template <class Shape>
+Shape make(Random& r) {
+    const Vec3f a = r.cube(1), b = r.cube(1), c = r.cube(1), d = r.cube(1);
+    if constexpr (kind_of<Shape> == Kind::sphere) return {a, r.uniform(0.3F, 1)};
+    if constexpr (kind_of<Shape> == Kind::plane) return {a, b};
+    if constexpr (kind_of<Shape> == Kind::disc) return {a, b, r.uniform(0.5F, 1.5F)};
+    if constexpr (kind_of<Shape> == Kind::triangle) return {2.0F * a, 2.0F * b, 2.0F * c};
+    if constexpr (kind_of<Shape> == Kind::smooth_triangle)
+        return {2.0F * a, 2.0F * b, 2.0F * c, a, b, c};
+    if constexpr (kind_of<Shape> == Kind::box) return {a, b, c, d};
+    if constexpr (kind_of<Shape> == Kind::open_cylinder || kind_of<Shape> == Kind::capped_cylinder)
+        return {a, 2.0F * b, r.uniform(0.2F, 0.8F)};
+    if constexpr (kind_of<Shape> == Kind::open_cone || kind_of<Shape> == Kind::capped_cone)
+        return {a, 2.0F * b, r.uniform(0.3F, 1), r.uniform(0, 0.3F)};
+    if constexpr (kind_of<Shape> == Kind::quadric) {
+        const auto square = [&] { return r.uniform(0.5F, 3); };
+        return {a, square(), square(), square(), 0.1F,         0.2F,       0.1F,
+                0, 0,        0,        -1,       Vec3f(-0.7F), Vec3f(0.7F)};
+    }
+}
+
+/// Rays from all around at the middle: about as many hit as miss.
+struct Rays {
+    std::vector<float> ox, oy, oz, dx, dy, dz, none, zero, t, shape, face, entering;
+    std::vector<Ray<float>> scalar;
+
+    explicit Rays(Random& r) {
+        for (std::size_t i = 0; i < ray_count; ++i) {
+            const Vec3f origin = 4.0F * normalized(r.cube(1));
+            const Vec3f direction = normalized(r.cube(1) - origin);
+            scalar.push_back({origin, direction});
+            ox.push_back(origin.x);
+            oy.push_back(origin.y);
+            oz.push_back(origin.z);
+            dx.push_back(direction.x);
+            dy.push_back(direction.y);
+            dz.push_back(direction.z);
+        }
+        none.assign(ray_count, std::bit_cast<float>(no_shape));
+        zero.assign(ray_count, 0.0F);
+        reset();
+    }
+
+    void reset() {
+        t.assign(ray_count, std::numeric_limits<float>::infinity());
+        shape.assign(ray_count, std::bit_cast<float>(no_shape));
+        face.assign(ray_count, 0.0F);
+        entering.assign(ray_count, 0.0F);
+    }
+
+    simd::RayStream view() {
+        return {ray_count,
+                {ox.data(), oy.data(), oz.data()},
+                {dx.data(), dy.data(), dz.data()},
+                none.data(),
+                none.data(),
+                zero.data(),
+                zero.data(),
+                t.data(),
+                shape.data(),
+                face.data(),
+                entering.data()};
+    }
+};
+
+template <class Shape>
+struct Setup {
+    Random random;
+    Block<Shape> block;
+    Rays rays{random};
+
+    Setup() {
+        for (int lane = 0; lane < block_size; ++lane)
+            block.set(lane, make<Shape>(random), static_cast<ShapeId>(lane));
+    }
+
+    simd::ShapeBlock view() const {
+        return {block.values, reinterpret_cast<const float*>(block.ids)};
+    }
+};
+
+template <class Real>
+Real nearest(const auto& block, const Ray<Real>& ray, Real t) {
+    std::uint64_t widened = 0;
+    for (int lane = 0; lane < block_size; ++lane)
+        for (const core::Crossing<Real>& crossing : solve(block.get(lane), ray, Start{}, widened))
+            if (crossing.t > Real(0) && crossing.t < t) t = crossing.t;
+    return t;
+}
+
+/// Median and largest error of the t in `setup.rays`, in ulps, and the share of wrong decisions.
+template <class Shape>
+void report(benchmark::State& state, Setup<Shape>& setup) {
+    std::vector<double> ulps;
+    int wrong = 0;
+    for (std::size_t i = 0; i < ray_count; ++i) {
+        const Ray<double> ray{convert<double>(setup.rays.scalar[i].origin),
+                              convert<double>(setup.rays.scalar[i].direction)};
+        const double truth = nearest(setup.block, ray, std::numeric_limits<double>::infinity());
+        const float t = setup.rays.t[i];
+        if (std::isinf(truth) != std::isinf(t)) ++wrong;
+        if (std::isinf(truth) || std::isinf(t)) continue;
+        const double ulp = static_cast<double>(std::nextafter(t, 1e30F)) - static_cast<double>(t);
+        ulps.push_back(std::abs(static_cast<double>(t) - truth) / ulp);
+    }
+    std::sort(ulps.begin(), ulps.end());
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ray_count) * block_size);
+    if (ulps.empty()) return;
+    state.counters["ulp_median"] = ulps[ulps.size() / 2];
+    state.counters["ulp_p99"] = ulps[ulps.size() * 99 / 100];
+    state.counters["ulp_max"] = ulps.back();
+    state.counters["wrong"] = wrong;
+}
+
+template <class Shape>
+void scalar(benchmark::State& state) {
+    Setup<Shape> setup;
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < ray_count; ++i)
+            setup.rays.t[i] =
+                nearest(setup.block, setup.rays.scalar[i], std::numeric_limits<float>::infinity());
+        benchmark::ClobberMemory();
+    }
+    report(state, setup);
+}
+
+template <class Shape>
+void one_shape(benchmark::State& state, const simd::Kernels& kernels) {
+    Setup<Shape> setup;
+    simd::RayStream view = setup.rays.view();
+    for (auto _ : state) {
+        for (int lane = 0; lane < block_size; ++lane)
+            kernels.intersect_rays(static_cast<simd::KindNumber>(kind_of<Shape>), setup.view(),
+                                   lane, view);
+        benchmark::ClobberMemory();
+    }
+    report(state, setup);
+}
+
+template <class Shape>
+void one_ray(benchmark::State& state, const simd::Kernels& kernels) {
+    Setup<Shape> setup;
+    simd::RayStream view = setup.rays.view();
+    for (auto _ : state) {
+        for (std::size_t i = 0; i < ray_count; ++i)
+            kernels.intersect_block(static_cast<simd::KindNumber>(kind_of<Shape>), setup.view(),
+                                    view, i);
+        benchmark::ClobberMemory();
+    }
+    report(state, setup);
+}
+
+template <class Shape>
+void add_kind() {
+    const std::string name(name_of(kind_of<Shape>));
+    benchmark::RegisterBenchmark((name + "/scalar").c_str(), scalar<Shape>);
+    for (const simd::Isa isa : simd::all_isas) {
+        if (!simd::is_available(isa)) continue;
+        const simd::Kernels& kernels = simd::kernels_of(isa);
+        benchmark::RegisterBenchmark(
+            (name + "/one_shape/" + kernels.name).c_str(),
+            [&kernels](benchmark::State& state) { one_shape<Shape>(state, kernels); });
+        benchmark::RegisterBenchmark(
+            (name + "/one_ray/" + kernels.name).c_str(),
+            [&kernels](benchmark::State& state) { one_ray<Shape>(state, kernels); });
+    }
+}
+
+const bool registered = [] {
+    add_kind<Sphere>();
+    add_kind<Plane>();
+    add_kind<Disc>();
+    add_kind<Triangle>();
+    add_kind<SmoothTriangle>();
+    add_kind<Box>();
+    add_kind<OpenCylinder>();
+    add_kind<CappedCylinder>();
+    add_kind<OpenCone>();
+    add_kind<CappedCone>();
+    add_kind<Quadric>();
+    return true;
+}();
+
+} // namespace
