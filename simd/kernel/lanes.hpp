@@ -81,6 +81,7 @@ Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Flo
 /// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
 template <class Arch>
 struct Lanes {
+    static constexpr bool has_mul_add = false; ///< in one instruction
     static std::uint32_t bits(const Mask<Arch>& mask) { return generic::bits<Arch>(mask); }
     static void compress_store(float* out, const Floats<Arch>& values, std::uint32_t wanted) {
         generic::compress_store<Arch>(out, values, wanted);
@@ -98,6 +99,7 @@ struct Lanes {
 #ifdef __SSE4_2__
 template <>
 struct Lanes<Sse42> {
+    static constexpr bool has_mul_add = false;
     static std::uint32_t bits(const Mask<Sse42>& mask) {
         return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
     }
@@ -172,6 +174,7 @@ struct Lanes<Sse42> {
 #if defined(__AVX2__) && defined(__FMA__)
 template <>
 struct Lanes<Avx2> {
+    static constexpr bool has_mul_add = true;
     static std::uint32_t bits(const Mask<Avx2>& mask) {
         return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
     }
@@ -210,6 +213,7 @@ struct Lanes<Avx2> {
 #ifdef __AVX512F__
 template <>
 struct Lanes<Avx512> {
+    static constexpr bool has_mul_add = true;
     static std::uint32_t bits(const Mask<Avx512>& mask) {
         return static_cast<std::uint32_t>(static_cast<__mmask16>(mask));
     }
