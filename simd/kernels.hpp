@@ -1,5 +1,7 @@
 #pragma once
 
+#include "simd/scene_view.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -33,8 +35,35 @@ struct ShapeBlock {
     const float* ids;
 };
 
-/// core::Kind by number.
-using KindNumber = std::uint8_t;
+/// Rays in double with the shapes that were found for them, structure of arrays of `count` values,
+/// readable and writable up to whole packets of 16. Directions are unit vectors.
+struct Found {
+    std::size_t count;
+    const double* origin[3];
+    const double* direction[3];
+    /// The shapes that the ray leaves, first to last; `no_shape` twice if none.
+    const std::uint32_t* departed_first;
+    const std::uint32_t* departed_last;
+    const std::uint32_t* departure; ///< departure_bits
+    /// The shape's slot, or no_slot: such lanes are left as they are.
+    const std::uint32_t* slot;
+
+    /// Out: its first crossing with t > 0 (for a start on the surface, as core::Start has it).
+    double* t;
+    double* error;             ///< what t may be off by; at most 2^-27 t unless doubtful
+    double* normal[3];         ///< unit, outward
+    double* shading_normal[3]; ///< interpolated on smooth triangles, else the same; may be null
+    std::uint32_t* hit;        ///< hit_bits
+};
+
+/// Of Found::departure.
+inline constexpr std::uint32_t departure_face = 0xFF;
+inline constexpr std::uint32_t departure_inward = 0x100;
+
+/// Of Found::hit.
+inline constexpr std::uint32_t hit_face = 0xFF;
+inline constexpr std::uint32_t hit_entering = 0x100;
+inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; the rest means nothing
 
 struct Kernels {
     const char* name;

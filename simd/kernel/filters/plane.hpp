@@ -31,7 +31,8 @@ struct FlatBounds {
         const Mask<Arch> behind = (height > zero<Arch>()) ^ (approach > zero<Arch>());
         const F least = (height_size - height_error) / (approach_size + approach_error);
         const F most = (height_size + height_error) / (approach_size - approach_error);
-        return {~(sure & behind),
+        // Empty lanes hold NaN.
+        return {(height_size >= zero<Arch>()) & ~(sure & behind),
                 xsimd::select(least > zero<Arch>(), least * F(1 - 4 * half_ulp), zero<Arch>()),
                 sure & ~behind, most * F(1 + 4 * half_ulp)};
     }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// A scene as the kernel units see it: plain data, so that nothing inline is shared with the units
+/// that are built for newer processors.
+namespace raylane::simd {
+
+/// core::Kind by number.
+using KindNumber = std::uint8_t;
+inline constexpr int kinds = 11;
+
+/// All shapes of one kind: an array of core::Block, which is `values` rows of 16 floats and a row
+/// of 16 ids. Shapes are numbered across the kinds by slots: that of lane l in block b is
+/// first_slot + 16 b + l.
+struct TableView {
+    const float* blocks;
+    std::uint32_t block_count;
+    std::uint32_t block_floats; ///< from one block to the next, in floats
+    std::uint32_t values;       ///< floats that a shape is
+    std::uint32_t first_slot;
+};
+
+/// core::WideNode
+struct NodeView {
+    float lower[3][16];
+    float upper[3][16];
+    std::uint32_t children[16]; ///< core::Child's bits
+};
+
+struct SceneView {
+    TableView tables[kinds];
+    const NodeView* nodes; ///< the root first
+    std::uint32_t node_count;
+};
+
+inline constexpr std::uint32_t no_slot = 0xFFFFFFFF;
+
+} // namespace raylane::simd
