@@ -55,19 +55,35 @@ class CameraRays {
         up_ = convert<Real>(up * per_half_pixel);
     }
 
+    /// Where a sample lies in the picture, from its middle to the right and upwards, in halves of a
+    /// pixel.
+    struct Place {
+        Real across;
+        Real upward;
+    };
+
     /// Sample 0 <= sample < grid^2 of pixel (x, y); y counts from the top.
-    Ray<Real> ray(int x, int y, int sample) const {
+    Place place(int x, int y, int sample) const {
         const SamplePoint point =
             sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                          static_cast<std::uint32_t>(sample));
         const Real column = Real(x) + (Real(sample % grid_) + Real(point.x)) / Real(grid_);
         const Real row = Real(y) + (Real(sample / grid_) + Real(point.y)) / Real(grid_);
-        const Real across = Real(2) * column - Real(width_);
-        const Real upward = Real(height_) - Real(2) * row;
-        const Vec3<Real> offset = mul_add(across, right_, Vec3<Real>(upward * up_));
+        return {Real(2) * column - Real(width_), Real(height_) - Real(2) * row};
+    }
+
+    Ray<Real> ray(int x, int y, int sample) const {
+        const Place at = place(x, y, sample);
+        const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
         if (orthographic_) return {from_ + offset, forward_};
         return {from_, normalized(Vec3<Real>(forward_ + offset))};
     }
+
+    bool orthographic() const { return orthographic_; }
+    const Vec3<Real>& from() const { return from_; }
+    const Vec3<Real>& forward() const { return forward_; }
+    const Vec3<Real>& right() const { return right_; } ///< half a pixel long
+    const Vec3<Real>& up() const { return up_; }       ///< half a pixel long
 
   private:
     int grid_;

@@ -16,6 +16,8 @@ class Media {
     static constexpr MaterialIndex none = std::numeric_limits<MaterialIndex>::max();
 
     MaterialIndex top() const { return stack_[0]; }
+    /// Number i from the top.
+    MaterialIndex at(int i) const { return stack_[i]; }
     bool empty() const { return stack_[0] == none; }
 
     void enter(MaterialIndex material) {

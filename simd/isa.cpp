@@ -16,6 +16,13 @@ bool is_available(Isa isa) {
            __builtin_cpu_supports("avx512vl") != 0;
 }
 
+std::optional<Isa> best_isa() {
+    std::optional<Isa> best;
+    for (const Isa isa : all_isas)
+        if (is_available(isa)) best = isa;
+    return best;
+}
+
 const Kernels& kernels_of(Isa isa) {
     switch (isa) {
     case Isa::sse42:

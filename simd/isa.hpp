@@ -3,7 +3,8 @@
 #include "simd/kernels.hpp"
 
 #include <cstdint>
-#include <vector>
+#include <optional>
+#include <string_view>
 
 namespace raylane::simd {
 
@@ -14,6 +15,15 @@ inline constexpr Isa all_isas[] = {Isa::sse42, Isa::avx2, Isa::avx512};
 /// Whether this processor, and the system on it, can run it. avx2 stands for AVX2 and FMA, avx512
 /// for the F, CD, BW, DQ and VL parts.
 bool is_available(Isa isa);
+
+/// The widest that is available, if any is.
+std::optional<Isa> best_isa();
+
+/// What people call it.
+inline constexpr std::string_view name_of(Isa isa) {
+    constexpr std::string_view names[] = {"sse4.2", "avx2", "avx512"};
+    return names[static_cast<std::size_t>(isa)];
+}
 
 /// Undefined unless it is available.
 const Kernels& kernels_of(Isa isa);

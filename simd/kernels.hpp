@@ -1,6 +1,8 @@
 #pragma once
 
 #include "simd/scene_view.hpp"
+#include "simd/shade_kernels.hpp"
+#include "simd/trace_kernels.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -64,6 +66,7 @@ inline constexpr std::uint32_t departure_inward = 0x100;
 inline constexpr std::uint32_t hit_face = 0xFF;
 inline constexpr std::uint32_t hit_entering = 0x100;
 inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; the rest means nothing
+inline constexpr std::uint32_t hit_none = 0x400;     ///< certainly none; the rest means nothing
 
 struct Kernels {
     const char* name;
@@ -85,6 +88,9 @@ struct Kernels {
     /// The unit outward normals of one shape of a block at n points. `face` as in RayStream.
     void (*outward_normals)(KindNumber kind, const ShapeBlock& block, int lane, std::size_t count,
                             const float* const point[3], const float* face, float* const normal[3]);
+
+    TraceKernels trace;
+    ShadeKernels shade;
 };
 
 const Kernels& kernels_sse42();

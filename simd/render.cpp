@@ -3,20 +3,22 @@
 #include "core/reference/tracer.hpp"
 #include "core/validate.hpp"
 #include "simd/tiles.hpp"
+#include "simd/wavefront/wavefront.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
+
+#include <functional>
 
 namespace raylane::simd {
 
 namespace {
 
-template <class Real>
-Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
-                           const RenderOptions& options) {
-    using Tracer = core::ReferenceTracer<Real>;
+template <class Tracer>
+Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
+                    const core::Settings& settings, const RenderOptions& options) {
     Rendering rendering{core::Film(settings.width, settings.height), {}};
-    tbb::enumerable_thread_specific<Tracer> tracers([&] { return Tracer(scene, settings); });
-    for_each_tile(settings.width, settings.height, options.threads,
+    tbb::enumerable_thread_specific<Tracer> tracers(make_tracer);
+    for_each_tile(settings.width, settings.height, tile, options.threads,
                   [&](const core::Region& region) {
                       Tracer& tracer = tracers.local();
                       const std::uint64_t rays_before = tracer.counters().rays();
@@ -30,11 +32,31 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
     return rendering;
 }
 
+template <class Real>
+Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
+                           const RenderOptions& options) {
+    using Tracer = core::ReferenceTracer<Real>;
+    const int tile = options.tile != 0 ? options.tile : 16;
+    return render_by<Tracer>([&] { return Tracer(scene, settings); }, tile, settings, options);
+}
+
+Rendering render_vector(const core::Scene& scene, const core::Settings& settings,
+                        const RenderOptions& options, Isa isa) {
+    const Kernels& kernels = kernels_of(isa);
+    const SceneData data(scene);
+    const int tile = options.tile != 0 ? options.tile : 32;
+    return render_by<Wavefront>([&] { return Wavefront(data, settings, kernels); }, tile, settings,
+                                options);
+}
+
 } // namespace
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& options) {
     core::validate(settings);
+    const std::optional<Isa> isa = options.isa ? options.isa : best_isa();
+    if (options.engine == Engine::vector && isa)
+        return render_vector(scene, settings, options, *isa);
     switch (options.precision) {
     case Precision::single_precision:
         return render_reference<float>(scene, settings, options);

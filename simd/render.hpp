@@ -3,13 +3,16 @@
 #include "core/counters.hpp"
 #include "core/film.hpp"
 #include "core/scene.hpp"
+#include "simd/isa.hpp"
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 namespace raylane::simd {
 
 enum class Engine : std::uint8_t {
+    vector,    ///< Wavefront; where a processor has none of its instruction sets, the reference
     reference, ///< core::ReferenceTracer
 };
 
@@ -22,7 +25,9 @@ struct Progress {
 };
 
 struct RenderOptions {
-    Engine engine = Engine::reference;
+    Engine engine = Engine::vector;
+    std::optional<Isa> isa; ///< of the vector engine, an available one; default: the best
+    int tile = 0; ///< pixels on a tile's side, in [8, 64]; 0: as suits the engine
     Precision precision = Precision::double_precision; ///< of the reference
     int threads = 0;                                   ///< 0: all that the machine has
     Progress* progress = nullptr;

@@ -33,7 +33,15 @@ struct SceneView {
     TableView tables[kinds];
     const NodeView* nodes; ///< the root first
     std::uint32_t node_count;
+    /// By slot / 16: which lanes of a block are opaque and seen from both sides, so that whatever
+    /// hits them is blocked. Null: all are.
+    const std::uint16_t* plain_lanes;
 };
+
+/// core::Child's bits.
+inline constexpr std::uint32_t child_is_block = 0x80000000;
+inline constexpr std::uint32_t child_index = (1U << 27) - 1;
+inline constexpr std::uint32_t no_child = 0xFFFFFFFF;
 
 inline constexpr std::uint32_t no_slot = 0xFFFFFFFF;
 

@@ -13,7 +13,7 @@ int default_threads() {
     return tbb::info::default_concurrency();
 }
 
-void for_each_tile(int width, int height, int threads,
+void for_each_tile(int width, int height, int tile_size, int threads,
                    const std::function<void(const core::Region&)>& visit) {
     const int columns = (width + tile_size - 1) / tile_size;
     const int rows = (height + tile_size - 1) / tile_size;

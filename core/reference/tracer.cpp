@@ -64,12 +64,17 @@ const Media& ReferenceTracer<Real>::media_around(const Vector& origin) {
     return *start_media_;
 }
 
+template <class Real>
+Encounter<Real> ReferenceTracer<Real>::nearest_visible(const Ray<Real>& ray,
+                                                       const Departure<Real>& departure) {
+    return searcher_.nearest(ray, departure,
+                             [&](const Hit<Real>& candidate) { return is_visible(candidate); });
+}
+
 /// The nearest visible surface, behind whatever fills the space in between.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::color_along(const Path& path) {
-    const Encounter<Real> encounter =
-        searcher_.nearest(path.ray, path.departure,
-                          [&](const Hit<Real>& candidate) { return is_visible(candidate); });
+    const Encounter<Real> encounter = nearest_visible(path.ray, path.departure);
     const Hit<Real>& hit = encounter.hit;
     if (!hit.any()) return color_at_infinity(path);
 
@@ -164,8 +169,10 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
             share += Real(material.specular) * std::pow(cos_halfway, Real(material.exponent));
         }
         if (share == Vector(0)) continue;
-        color += light_let_through(path, surface, to_light, distance) * convert<Real>(light.color) *
-                 share;
+        color += light_let_through({surface.point, to_light},
+                                   surface.departure(/*through=*/false, to_light), path.media,
+                                   distance) *
+                 convert<Real>(light.color) * share;
     }
     return color;
 }
@@ -204,18 +211,14 @@ Vec3<Real> ReferenceTracer<Real>::transmitted_color(const Path& path, const Surf
                                  path.depth + 1});
 }
 
-/// What of a light reaches a surface: nothing through an opaque one; through transmissive ones, on
-/// a straight line, what they transmit and do not absorb.
 template <class Real>
-Vec3<Real> ReferenceTracer<Real>::light_let_through(const Path& path, const Surface& surface,
-                                                    const Vector& to_light, Real distance) {
+Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
+                                                    const Departure<Real>& departure, Media media,
+                                                    Real distance) {
     ++searcher_.counters.shadow;
-    const Ray<Real> ray{surface.point, to_light};
-    if (!find_crossings(ray, surface.departure(/*through=*/false, to_light), distance))
-        return Vector(0);
+    if (!find_crossings(ray, departure, distance)) return Vector(0);
 
     Vector share(1);
-    Media media = path.media;
     Real reached = 0;
     for (const Hit<Real>& hit : crossings_) {
         share *= absorbed(medium_before(hit, media), hit.t - reached);

@@ -30,7 +30,6 @@ class ReferenceTracer {
     /// What all calls so far have done.
     const Counters& counters() const { return searcher_.counters; }
 
-  private:
     using Vector = Vec3<Real>;
 
     /// A ray underway.
@@ -42,6 +41,23 @@ class ReferenceTracer {
         int depth;         ///< reflections and refractions so far
     };
 
+    /// The linear RGB colour seen along a path, not yet weighted by its throughput.
+    Vector color_along(const Path& path);
+
+    /// The first surface that can be seen along a ray, and what it touches there.
+    Encounter<Real> nearest_visible(const Ray<Real>& ray, const Departure<Real>& departure);
+
+    /// What of a light reaches the origin of a ray towards it: nothing through an opaque surface;
+    /// through transmissive ones, on a straight line, what they transmit and do not absorb.
+    Vector light_let_through(const Ray<Real>& ray, const Departure<Real>& departure, Media media,
+                             Real distance);
+
+    /// What a ray from the camera starts in.
+    const Media& media_around(const Vector& origin);
+
+    const Searcher<Real>& searcher() const { return searcher_; }
+
+  private:
     /// The surface that a path has hit, seen from the side that it came from.
     struct Surface {
         Hit<Real> hit;
@@ -63,8 +79,6 @@ class ReferenceTracer {
         Real behind;
     };
 
-    const Media& media_around(const Vector& origin);
-    Vector color_along(const Path& path);
     Vector color_at_infinity(const Path& path) const;
     Surface surface_at(const Path& path, const Encounter<Real>& encounter) const;
     Vector shade(const Path& path, const Surface& surface);
@@ -72,8 +86,6 @@ class ReferenceTracer {
     Vector reflected_color(const Path& path, const Surface& surface, Real reflectance);
     Vector transmitted_color(const Path& path, const Surface& surface, Real weight,
                              const Vector& direction);
-    Vector light_let_through(const Path& path, const Surface& surface, const Vector& to_light,
-                             Real distance);
     bool find_crossings(const Ray<Real>& ray, const Departure<Real>& departure, Real distance);
     Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Media& media) const;
 

@@ -20,7 +20,7 @@ namespace {
 
 struct RenderArguments {
     Argument scene, output, size, samples, max_depth, min_weight, threads, transfer, stats;
-    Argument engine = "reference", real = "double";
+    Argument engine = "vector", isa, tile, real;
 };
 
 class Stopwatch {
@@ -95,14 +95,38 @@ struct Overrides {
     std::optional<core::Transfer> transfer;
 };
 
+simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
+    std::vector<std::pair<std::string_view, simd::Isa>> choices;
+    std::string available;
+    for (const simd::Isa isa : simd::all_isas) {
+        choices.emplace_back(simd::name_of(isa), isa);
+        if (simd::is_available(isa))
+            available += (available.empty() ? "" : ", ") + std::string(simd::name_of(isa));
+    }
+    const auto isa = choice_argument<simd::Isa>("--isa", text, choices);
+    if (engine != simd::Engine::vector) throw BadInput("--isa", "", "goes with --engine vector");
+    if (!simd::is_available(isa))
+        throw BadInput("--isa", "",
+                       "this processor has no " + text + ", but " +
+                           (available.empty() ? "none of the others either" : available));
+    return isa;
+}
+
 simd::RenderOptions options_of(const RenderArguments& arguments) {
     simd::RenderOptions options;
     options.engine = choice_argument<simd::Engine>("--engine", *arguments.engine,
-                                                   {{"reference", simd::Engine::reference}});
-    options.precision =
-        choice_argument<simd::Precision>("--real", *arguments.real,
-                                         {{"float", simd::Precision::single_precision},
-                                          {"double", simd::Precision::double_precision}});
+                                                   {{"vector", simd::Engine::vector},
+                                                    {"reference", simd::Engine::reference}});
+    if (arguments.real) {
+        if (options.engine != simd::Engine::reference)
+            throw BadInput("--real", "", "goes with --engine reference");
+        options.precision =
+            choice_argument<simd::Precision>("--real", *arguments.real,
+                                             {{"float", simd::Precision::single_precision},
+                                              {"double", simd::Precision::double_precision}});
+    }
+    if (arguments.isa) options.isa = isa_argument(*arguments.isa, options.engine);
+    if (arguments.tile) options.tile = whole_argument("--tile", *arguments.tile, 8, 64);
     options.threads = arguments.threads
                           ? whole_argument("--threads", *arguments.threads, 1, simd::max_threads)
                           : simd::default_threads();
@@ -116,7 +140,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
     return {{"version", RAYLANE_VERSION},
             {"scene", printable(*arguments.scene, 4096)},
             {"engine", *arguments.engine},
-            {"real", *arguments.real},
+            {"real", arguments.real.value_or("double")},
             {"threads", threads},
             {"width", settings.width},
             {"height", settings.height},
@@ -200,7 +224,14 @@ Command add_render_command(CLI::App& app) {
     add("--min-weight", arguments->min_weight,
         "Leave paths of less influence on the pixel (default: as the scene says)", "W");
     add("--threads", arguments->threads, "Threads (default: all processors)", "N");
-    add("--engine", arguments->engine, "What traces: reference (default: reference)", "NAME");
+    add("--engine", arguments->engine,
+        "What traces: vector, or reference, which is slow and written to be read (default: vector)",
+        "NAME");
+    add("--isa", arguments->isa,
+        "The vector engine's instructions: sse4.2, avx2 or avx512 (default: the best there are)",
+        "NAME");
+    add("--tile", arguments->tile,
+        "Pixels on the side of the squares that threads work on, 8 to 64; changes no picture", "N");
     add("--real", arguments->real, "The reference's numbers: float or double (default: double)",
         "TYPE");
     add("--transfer", arguments->transfer,

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "simd/kernel/shade/shade.hpp"
 #include "simd/kernel/solvers/box.hpp"
 #include "simd/kernel/solvers/cone.hpp"
 #include "simd/kernel/solvers/cylinder.hpp"
 #include "simd/kernel/solvers/flat.hpp"
 #include "simd/kernel/solvers/quadric.hpp"
 #include "simd/kernel/solvers/sphere.hpp"
+#include "simd/kernel/trace/prepare.hpp"
 #include "simd/kernels.hpp"
 
 namespace raylane::simd {
@@ -208,8 +210,15 @@ struct KernelsOf {
     }
 
     static constexpr Kernels table(const char* name) {
-        return {name,         lanes,         intersect_rays, intersect_block,
-                occlude_rays, occlude_block, outward_normals};
+        return {name,
+                lanes,
+                intersect_rays,
+                intersect_block,
+                occlude_rays,
+                occlude_block,
+                outward_normals,
+                Prepare<Arch>::table(),
+                Shading<Double<Arch>>::table()};
     }
 };
 

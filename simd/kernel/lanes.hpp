@@ -59,6 +59,34 @@ Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<
 }
 
 template <class Arch>
+float least(const Floats<Arch>& values) {
+    float lanes[Floats<Arch>::size];
+    values.store_unaligned(lanes);
+    float result = lanes[0];
+    for (const float lane : lanes)
+        result = lane < result ? lane : result;
+    return result;
+}
+
+template <class Arch>
+float greatest(const Floats<Arch>& values) {
+    float lanes[Floats<Arch>::size];
+    values.store_unaligned(lanes);
+    float result = lanes[0];
+    for (const float lane : lanes)
+        result = lane > result ? lane : result;
+    return result;
+}
+
+template <class Arch>
+Floats<Arch> narrow(const double* from) {
+    float lanes[Floats<Arch>::size];
+    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
+        lanes[i] = static_cast<float>(from[i]);
+    return Floats<Arch>::load_unaligned(lanes);
+}
+
+template <class Arch>
 Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Floats<Arch>& last) {
     float i[Floats<Arch>::size], f[Floats<Arch>::size], l[Floats<Arch>::size];
     bool result[Floats<Arch>::size];
@@ -78,6 +106,8 @@ Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Flo
 /// bits: lane i of a mask as bit i.
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
 /// mul_add: a * b + c, rounded once.
+/// least, greatest: of all lanes.
+/// narrow: doubles from memory, rounded to float.
 /// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
 template <class Arch>
 struct Lanes {
@@ -90,6 +120,9 @@ struct Lanes {
                                 const Floats<Arch>& c) {
         return generic::mul_add<Arch>(a, b, c);
     }
+    static float least(const Floats<Arch>& values) { return generic::least<Arch>(values); }
+    static float greatest(const Floats<Arch>& values) { return generic::greatest<Arch>(values); }
+    static Floats<Arch> narrow(const double* from) { return generic::narrow<Arch>(from); }
     static Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first,
                                const Floats<Arch>& last) {
         return generic::in_range<Arch>(id, first, last);
@@ -119,6 +152,19 @@ struct Lanes<Sse42> {
         const __m128 high =
             by_double(_mm_movehl_ps(a, a), _mm_movehl_ps(b, b), _mm_movehl_ps(c, c));
         return _mm_movelh_ps(low, high);
+    }
+
+    static float least(const Floats<Sse42>& values) {
+        const __m128 two = _mm_min_ps(values, _mm_movehl_ps(values, values));
+        return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+    static float greatest(const Floats<Sse42>& values) {
+        const __m128 two = _mm_max_ps(values, _mm_movehl_ps(values, values));
+        return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+
+    static Floats<Sse42> narrow(const double* from) {
+        return _mm_movelh_ps(_mm_cvtpd_ps(_mm_loadu_pd(from)), _mm_cvtpd_ps(_mm_loadu_pd(from + 2)));
     }
 
     static Mask<Sse42> in_range(const Floats<Sse42>& id, const Floats<Sse42>& first,
@@ -189,6 +235,24 @@ struct Lanes<Avx2> {
         return _mm256_fmadd_ps(a, b, c);
     }
 
+    static float least(const Floats<Avx2>& values) {
+        const __m128 four =
+            _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+        const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+        return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+    static float greatest(const Floats<Avx2>& values) {
+        const __m128 four =
+            _mm_max_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+        const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+        return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+
+    static Floats<Avx2> narrow(const double* from) {
+        return _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(from + 4)),
+                               _mm256_cvtpd_ps(_mm256_loadu_pd(from)));
+    }
+
     static Mask<Avx2> in_range(const Floats<Avx2>& id, const Floats<Avx2>& first,
                                const Floats<Avx2>& last) {
         const __m256i from = _mm256_castps_si256(first);
@@ -225,6 +289,15 @@ struct Lanes<Avx512> {
     static Floats<Avx512> mul_add(const Floats<Avx512>& a, const Floats<Avx512>& b,
                                   const Floats<Avx512>& c) {
         return _mm512_fmadd_ps(a, b, c);
+    }
+
+    static float least(const Floats<Avx512>& values) { return _mm512_reduce_min_ps(values); }
+    static float greatest(const Floats<Avx512>& values) { return _mm512_reduce_max_ps(values); }
+
+    static Floats<Avx512> narrow(const double* from) {
+        const __m256 low = _mm512_cvtpd_ps(_mm512_loadu_pd(from));
+        const __m256 high = _mm512_cvtpd_ps(_mm512_loadu_pd(from + 8));
+        return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
     }
 
     static Mask<Avx512> in_range(const Floats<Avx512>& id, const Floats<Avx512>& first,

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "simd/kernel/elementary.hpp"
+#include "simd/kernel/vectors.hpp"
+#include "simd/shade_kernels.hpp"
+
+/// core/pattern.hpp
+namespace raylane::simd {
+
+template <class Arch>
+Vectors<Arch> broadcast_vector(const double (&v)[3]) {
+    return {Floats<Arch>(v[0]), Floats<Arch>(v[1]), Floats<Arch>(v[2])};
+}
+
+template <class Arch>
+struct Patterns {
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+
+    /// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ...
+    static F parity(const F& value) {
+        const F cell = xsimd::floor(value);
+        return cell - F(2.0) * xsimd::floor(cell * F(0.5));
+    }
+
+    static Vectors<Arch> color_at(const MaterialView& material, const Vectors<Arch>& point) {
+        const Vectors<Arch> first = broadcast_vector<Arch>(material.colors[0]);
+        const Vectors<Arch> second = broadcast_vector<Arch>(material.colors[1]);
+        switch (material.pattern) {
+        case 1: { // checker
+            const F zero(0.0), one(1.0);
+            F sum = zero;
+            const F* coordinates[3] = {&point.x, &point.y, &point.z};
+            for (int axis = 0; axis < 3; ++axis)
+                if ((material.axes >> axis & 1) != 0)
+                    sum = sum + parity(*coordinates[axis] / F(material.size));
+            return select<Arch>(parity(sum) < one, first, second);
+        }
+        case 2: // stripes
+            return select<Arch>(parity(dot<Arch>(point, broadcast_vector<Arch>(
+                                                            material.direction)) /
+                                       F(material.size)) < F(1.0),
+                                first, second);
+        case 3: { // gradient
+            const F raw = dot<Arch>(point - broadcast_vector<Arch>(material.from),
+                                    broadcast_vector<Arch>(material.run));
+            const F fraction = xsimd::min(xsimd::max(raw, F(0.0)), F(1.0));
+            const F rest = F(1.0) - fraction;
+            return {fraction * second.x + rest * first.x, fraction * second.y + rest * first.y,
+                    fraction * second.z + rest * first.z};
+        }
+        case 4:
+            return back_plane(point.x, point.y);
+        default:
+            return first;
+        }
+    }
+
+    static Vectors<Arch> back_plane(const F& x, const F& y) {
+        const F zero(0.0);
+        const M above = y > zero, below = y < zero;
+        const M sun = (x * x + y * y < F(150.0)) & (above | below);
+        const F root = xsimd::sqrt(xsimd::max(y, zero));
+        const M sky = y >= zero;
+        const Vectors<Arch> bands = select<Arch>(
+            sky,
+            Vectors<Arch>{xsimd::abs(cosine(x)), xsimd::abs(sine(root)),
+                          xsimd::abs(cosine(root))},
+            Vectors<Arch>{zero, zero, xsimd::abs(cosine(y))});
+        const Vectors<Arch> orange{xsimd::select(above, F(1.0), F(0.7)), F(0.2), zero};
+        return select<Arch>(sun, orange, bands);
+    }
+};
+
+} // namespace raylane::simd

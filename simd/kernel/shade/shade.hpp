@@ -1,0 +1,262 @@
+#pragma once
+
+#include "simd/kernel/shade/optics.hpp"
+#include "simd/kernel/shade/patterns.hpp"
+#include "simd/kernels.hpp"
+
+namespace raylane::simd {
+
+/// The shading formula at core::Material, for packets of surfaces of one material. `Arch` is one
+/// of double lanes.
+template <class Arch>
+struct Shading {
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+    using V = Vectors<Arch>;
+    static constexpr std::size_t lanes = F::size;
+
+    static F load(const double* from) { return F::load_unaligned(from); }
+    static V load(const double* const (&from)[3], std::size_t i) {
+        return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
+    }
+    static V load(double* const (&from)[3], std::size_t i) {
+        return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
+    }
+    static void store(const V& v, double* const (&to)[3], std::size_t i) {
+        v.x.store_unaligned(to[0] + i);
+        v.y.store_unaligned(to[1] + i);
+        v.z.store_unaligned(to[2] + i);
+    }
+    static V scaled(const F& s, const V& v) { return {s * v.x, s * v.y, s * v.z}; }
+    static V product(const V& a, const V& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+    /// A column at the places of a packet's lanes; the last packet repeats its last lane.
+    struct Gather {
+        std::uint32_t places[lanes];
+        bool in_a_row;
+
+        Gather(const std::uint32_t* numbers, std::size_t count) {
+            for (std::size_t k = 0; k < lanes; ++k)
+                places[k] = numbers[k < count ? k : count - 1];
+            in_a_row = places[lanes - 1] - places[0] == lanes - 1;
+            for (std::size_t k = 1; k < lanes; ++k)
+                in_a_row &= places[k] > places[k - 1];
+        }
+
+        F operator()(const double* column) const {
+            if (in_a_row) return load(column + places[0]);
+            double values[lanes];
+            for (std::size_t k = 0; k < lanes; ++k)
+                values[k] = column[places[k]];
+            return load(values);
+        }
+        V operator()(const double* const (&columns)[3]) const {
+            const F x = (*this)(columns[0]), y = (*this)(columns[1]), z = (*this)(columns[2]);
+            return {x, y, z};
+        }
+    };
+
+    static void surfaces(const Run& run, const std::uint32_t* numbers, const HitPaths& paths,
+                         const FogView& fog, const MediumColumns* media,
+                         const Surfaces& surfaces) {
+        const MaterialView& material = *run.material;
+        for (std::size_t i = run.begin; i < run.end; i += lanes) {
+            const Gather gather(numbers + i, run.end - i);
+            const V direction = gather(paths.direction);
+            const F t = gather(paths.t);
+            const V point = mul_add<Arch>(t, direction, gather(paths.origin));
+
+            double sides[lanes];
+            for (std::size_t k = 0; k < lanes; ++k)
+                sides[k] = (paths.hit[gather.places[k]] & hit_entering) != 0 ? 1.0 : -1.0;
+            const F side = load(sides);
+            V flat = scaled(side, gather(paths.normal));
+            V normal = flat;
+            if (paths.shading_normal[0] != nullptr) {
+                normal = scaled(side, gather(paths.shading_normal));
+                normal = select<Arch>(dot<Arch>(normal, flat) < F(0.0), -normal, normal);
+            }
+            // core::ReferenceTracer::surface_at
+            const M beside = dot<Arch>(flat, direction) > F(0x1p-20);
+            flat = select<Arch>(beside, -direction, flat);
+            normal = select<Arch>(beside, -direction, normal);
+
+            V throughput = gather(paths.throughput);
+            F fogged(0.0);
+            if (fog.kind != 0) fogged = fog_fraction(fog, t, point.z);
+            if (media != nullptr) {
+                fogged = xsimd::select(load(media->inside + i) > F(0.0), F(0.0), fogged);
+                throughput = product(throughput, let_through(load(media->absorption, i), t));
+            }
+            const V own = Patterns<Arch>::color_at(material, point);
+            V radiance = scaled(F(material.ambient), own);
+            if (fog.kind != 0) {
+                const V before = throughput;
+                throughput = scaled(F(1.0) - fogged, before);
+                radiance = product(throughput, radiance) +
+                           product(scaled(fogged, before), broadcast_vector<Arch>(fog.color));
+            } else {
+                radiance = product(throughput, radiance);
+            }
+
+            store(point, surfaces.point, i);
+            store(flat, surfaces.flat_normal, i);
+            store(normal, surfaces.normal, i);
+            store(direction, surfaces.direction, i);
+            store(throughput, surfaces.throughput, i);
+            store(own, surfaces.own, i);
+            store(radiance, surfaces.radiance, i);
+        }
+    }
+
+    static F fog_fraction(const FogView& fog, const F& distance, const F& z) {
+        const F start(fog.start), range(fog.end - fog.start);
+        switch (fog.kind) {
+        case 1:
+            return clamped((z - start) / range);
+        case 2:
+            return clamped((distance - start) / range);
+        default:
+            return negated(expm1(negated(F(fog.density) * distance)));
+        }
+    }
+
+    static F clamped(const F& value) {
+        return xsimd::min(xsimd::max(value, F(0.0)), F(1.0));
+    }
+
+    /// Beer and Lambert's law.
+    static V let_through(const V& absorption, const F& distance) {
+        const M some = (absorption.x > F(0.0)) | (absorption.y > F(0.0)) | (absorption.z > F(0.0));
+        if (Lanes<Arch>::bits(some) == 0) return {F(1.0), F(1.0), F(1.0)};
+        return {exp(negated(absorption.x) * distance), exp(negated(absorption.y) * distance),
+                exp(negated(absorption.z) * distance)};
+    }
+
+    static F numbers_from(std::size_t i) {
+        double numbers[lanes];
+        for (std::size_t k = 0; k < lanes; ++k)
+            numbers[k] = static_cast<double>(i + k);
+        return load(numbers);
+    }
+
+    static std::uint32_t present(std::size_t i, std::size_t end) {
+        return end - i < lanes ? (1U << (end - i)) - 1 : (1U << lanes) - 1;
+    }
+
+    static void append(SpawnedRays& rays, std::uint32_t wanted, const V& origin,
+                       const V& direction, const V& weight, const F& parent) {
+        const std::size_t at = rays.count;
+        const F* const values[] = {&origin.x,    &origin.y, &origin.z, &direction.x, &direction.y,
+                                   &direction.z, &weight.x, &weight.y, &weight.z,    &parent};
+        double* const columns[] = {rays.origin[0],    rays.origin[1], rays.origin[2],
+                                   rays.direction[0], rays.direction[1], rays.direction[2],
+                                   rays.weight[0],    rays.weight[1], rays.weight[2],
+                                   rays.parent};
+        for (int k = 0; k < 10; ++k)
+            Lanes<Arch>::compress_store(columns[k] + at, *values[k], wanted);
+        rays.count += static_cast<std::size_t>(__builtin_popcount(wanted));
+    }
+
+    static void light(const Run& run, const LightView& light, const Surfaces& surfaces,
+                      SpawnedRays& shadows) {
+        const MaterialView& material = *run.material;
+        const F zero(0.0);
+        for (std::size_t i = run.begin; i < run.end; i += lanes) {
+            const V point = load(surfaces.point, i);
+            V to_light = broadcast_vector<Arch>(light.to_light);
+            F distance(__builtin_inf());
+            if (light.is_point) {
+                const V offset = broadcast_vector<Arch>(light.position) - point;
+                distance = xsimd::sqrt(squared_length<Arch>(offset));
+                to_light = scaled(F(1.0) / distance, offset);
+            }
+            const M facing = dot<Arch>(load(surfaces.flat_normal, i), to_light) > zero;
+            std::uint32_t wanted = Lanes<Arch>::bits(facing) & present(i, run.end);
+            if (wanted == 0) continue;
+
+            const V normal = load(surfaces.normal, i);
+            const F cos_light = xsimd::max(dot<Arch>(normal, to_light), zero);
+            V share = scaled(F(material.diffuse) * cos_light, load(surfaces.own, i));
+            if (material.specular > 0.0) {
+                const V halfway = to_light - load(surfaces.direction, i);
+                const F squared = squared_length<Arch>(halfway);
+                const F cosine_of_halfway =
+                    xsimd::max(dot<Arch>(normal, halfway) / xsimd::sqrt(squared), zero);
+                const F highlight =
+                    xsimd::select(squared > zero,
+                                  F(material.specular) *
+                                      pow(xsimd::min(cosine_of_halfway, F(1.0)),
+                                          F(material.exponent)),
+                                  zero);
+                share = share + V{highlight, highlight, highlight};
+            }
+            wanted &= Lanes<Arch>::bits((share.x > zero) | (share.y > zero) | (share.z > zero));
+            const V weight = product(product(load(surfaces.throughput, i), share),
+                                     broadcast_vector<Arch>(light.color));
+            Lanes<Arch>::compress_store(shadows.distance + shadows.count, distance, wanted);
+            append(shadows, wanted, point, to_light, weight, numbers_from(i));
+        }
+    }
+
+    static V mirrored(const V& incident, const V& normal) {
+        return mul_add<Arch>(F(-2.0) * dot<Arch>(incident, normal), normal, incident);
+    }
+
+    static void spawn(const Run& run, double min_weight, const MediumColumns* media,
+                      const Surfaces& surfaces, SpawnedRays& reflected, SpawnedRays& transmitted) {
+        const MaterialView& material = *run.material;
+        const F zero(0.0), one(1.0);
+        const bool fresnel = material.reflection != 0;
+        for (std::size_t i = run.begin; i < run.end; i += lanes) {
+            const std::uint32_t here = present(i, run.end);
+            const V point = load(surfaces.point, i), direction = load(surfaces.direction, i);
+            const V normal = load(surfaces.normal, i), flat = load(surfaces.flat_normal, i);
+            const V throughput = load(surfaces.throughput, i);
+            const F parent = numbers_from(i);
+
+            F share(material.reflectivity);
+            if (fresnel || material.transmits) {
+                F before(1.0), behind(material.index);
+                if (media != nullptr) {
+                    before = load(media->index_before + i);
+                    behind = load(media->index_behind + i);
+                }
+                Refractions<Arch> refraction(direction, normal, before, behind);
+                const M wrong_side =
+                    ~refraction.total & (dot<Arch>(refraction.transmitted, flat) >= zero);
+                if ((Lanes<Arch>::bits(wrong_side) & here) != 0)
+                    refraction.replace(wrong_side,
+                                       Refractions<Arch>(direction, flat, before, behind));
+                share = refraction.reflectance(material, before, behind);
+                if (material.transmits) {
+                    const F let = (one - share) * F(material.transmission);
+                    const V weight = scaled(let, throughput);
+                    const std::uint32_t wanted = Lanes<Arch>::bits(is_worth(weight, min_weight) &
+                                                                   (let > zero)) &
+                                                 here;
+                    if (wanted != 0)
+                        append(transmitted, wanted, point,
+                               normalized<Arch>(refraction.transmitted), weight, parent);
+                }
+            }
+            const V weight = scaled(share, throughput);
+            const std::uint32_t wanted = Lanes<Arch>::bits(is_worth(weight, min_weight)) & here;
+            if (wanted == 0) continue;
+            V away = mirrored(direction, normal);
+            const M wrong_side = dot<Arch>(away, flat) <= zero;
+            if ((Lanes<Arch>::bits(wrong_side) & wanted) != 0)
+                away = select<Arch>(wrong_side, mirrored(direction, flat), away);
+            append(reflected, wanted, point, normalized<Arch>(away), weight, parent);
+        }
+    }
+
+    static M is_worth(const V& weight, double min_weight) {
+        const F most = xsimd::max(xsimd::max(weight.x, weight.y), weight.z);
+        return (most > F(0.0)) & (most >= F(min_weight));
+    }
+
+    static constexpr ShadeKernels table() { return {surfaces, light, spawn}; }
+};
+
+} // namespace raylane::simd

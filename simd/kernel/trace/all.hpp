@@ -1,0 +1,105 @@
+#pragma once
+
+#include "simd/kernel/trace/rays.hpp"
+
+namespace raylane::simd {
+
+/// Every shape against packets of rays: for scenes of a few shapes, and for unbounded ones. The
+/// rays stay in registers while the shapes go by.
+template <class Arch>
+struct TraceAll : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    /// Calls visit(filter, id, slot) for each shape of the kinds.
+    template <class Visit>
+    static void for_each_shape(const SceneView& scene, std::uint32_t kind_bits,
+                               const Visit& visit) {
+        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
+            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
+            const TableView& table = scene.tables[kind];
+            with_filter<Arch>(kind, [&]<class Filter>() {
+                for (std::uint32_t b = 0; b < table.block_count; ++b) {
+                    const float* block = S::block_of(table, b);
+                    const std::uint32_t* ids = S::ids_of(table, block);
+                    for (int lane = 0; lane < 16 && ids[lane] != no_slot; ++lane)
+                        visit(Filter(BroadcastReader<Arch>(S::rows_of(block), lane)), ids[lane],
+                              table.first_slot + 16 * b + static_cast<std::uint32_t>(lane));
+                }
+            });
+        }
+    }
+
+    static void nearest(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
+                        const RoundedRays& stream, const Candidates& candidates,
+                        TraceCounters& counters) {
+        std::uint64_t shapes = 0;
+        for (std::size_t i = 0; i < count; i += F::size) {
+            const FilterRays<Arch> rays = S::packet(stream, i);
+            const F departed_first = S::load_bits(stream.departed_first + i);
+            const F departed_last = S::load_bits(stream.departed_last + i);
+            F first = S::load(candidates.first + i), second = S::load(candidates.second + i);
+            F slot = S::load_bits(candidates.slot + i);
+            for_each_shape(scene, kind_bits,
+                           [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
+                               const Bounds<Arch> bounds = filter.bounds(rays);
+                               const M counts =
+                                   bounds.possible & ~Lanes<Arch>::in_range(S::broadcast_bits(id),
+                                                                            departed_first,
+                                                                            departed_last);
+                               const F t = xsimd::select(counts, bounds.lower, S::infinity());
+                               const M nearer = t < first;
+                               second = xsimd::min(second, xsimd::max(t, first));
+                               first = xsimd::min(first, t);
+                               slot = xsimd::select(nearer, S::broadcast_bits(this_slot), slot);
+                               shapes += F::size;
+                           });
+            first.store_unaligned(candidates.first + i);
+            second.store_unaligned(candidates.second + i);
+            S::store_bits(slot, candidates.slot + i);
+        }
+        counters.shapes += shapes;
+    }
+
+    static void occluded(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
+                         const RoundedRays& stream, const Occlusions& occlusions,
+                         TraceCounters& counters) {
+        std::uint64_t shapes = 0;
+        for (std::size_t i = 0; i < count; i += F::size) {
+            const FilterRays<Arch> rays = S::packet(stream, i);
+            const F departed_first = S::load_bits(stream.departed_first + i);
+            const F departed_last = S::load_bits(stream.departed_last + i);
+            const F t_most = S::load(occlusions.t_most + i);
+            const F surely_before = t_most * F(1 - 4 * half_ulp);
+            const F perhaps_before = t_most * F(1 + 4 * half_ulp);
+            std::uint32_t some = 0, sure = 0;
+            for_each_shape(
+                scene, kind_bits,
+                [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
+                    const Bounds<Arch> bounds = filter.bounds(rays);
+                    const M elsewhere = ~Lanes<Arch>::in_range(S::broadcast_bits(id),
+                                                               departed_first, departed_last);
+                    const M possible = bounds.possible & elsewhere &
+                                       (bounds.lower < perhaps_before);
+                    some |= Lanes<Arch>::bits(possible);
+                    if (scene.plain_lanes == nullptr ||
+                        (scene.plain_lanes[this_slot / 16] >> this_slot % 16 & 1) != 0)
+                        sure |= Lanes<Arch>::bits(possible & bounds.certain &
+                                                  (bounds.upper < surely_before));
+                    shapes += F::size;
+                });
+            const std::size_t end = count - i < F::size ? count - i : F::size;
+            for (std::size_t lane = 0; lane < end; ++lane) {
+                std::uint8_t& state = occlusions.state[i + lane];
+                if ((sure >> lane & 1) != 0)
+                    state = blocked;
+                else if ((some >> lane & 1) != 0 && state == open)
+                    state = doubtful;
+            }
+        }
+        counters.shapes += shapes;
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,280 @@
+#pragma once
+
+#include "simd/kernel/trace/all.hpp"
+#include "simd/kernel/trace/group.hpp"
+
+namespace raylane::simd {
+
+/// Bundles of rays, a group at a time: a node or a block is visited once for up to 256 rays, and a
+/// shape is tested against those bunches of 16 that may meet it.
+template <class Arch>
+struct TraceBundle : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+    using Rays = Group<Arch>;
+    static constexpr std::size_t bunch = 16;
+
+    /// What the sixteen bunches ask: the t from which on nothing matters to them.
+    struct Limits {
+        float t[16];
+        float largest;
+
+        void update() {
+            largest = t[0];
+            for (int i = 1; i < 16; ++i)
+                largest = t[i] > largest ? t[i] : largest;
+        }
+    };
+
+    /// Visits blocks in the order of their distance: block(kind, number).
+    template <class Visit>
+    static void walk(const SceneView& scene, std::uint32_t kind_bits, bool has_tree,
+                     const Rays& group, const Limits& limits, const Pending& pending,
+                     TraceCounters& counters, const Visit& visit_block) {
+        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
+            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
+            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
+                visit_block(kind, block);
+        }
+        if (!has_tree) return;
+        int size = 0;
+        std::uint32_t child = 0;
+        for (;;) {
+            if ((child & child_is_block) != 0) {
+                visit_block(static_cast<KindNumber>(child >> 27 & 0xF), child & child_index);
+            } else {
+                ++counters.nodes;
+                const int before = size;
+                const NodeView& node = scene.nodes[child];
+                for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+                    F near = zero<Arch>();
+                    std::uint32_t bits = group.enter(node, from, F(limits.largest), near);
+                    float near_t[F::size];
+                    near.store_unaligned(near_t);
+                    for (; bits != 0; bits &= bits - 1) {
+                        const int slot = __builtin_ctz(bits);
+                        int place = size++;
+                        for (; place > before && pending.t[place - 1] < near_t[slot]; --place) {
+                            pending.t[place] = pending.t[place - 1];
+                            pending.child[place] = pending.child[place - 1];
+                        }
+                        pending.t[place] = near_t[slot];
+                        pending.child[place] = node.children[from + slot];
+                    }
+                }
+            }
+            while (size > 0 && pending.t[size - 1] > limits.largest)
+                --size;
+            if (size == 0) return;
+            child = pending.child[--size];
+        }
+    }
+
+    /// Calls visit(filter, id, slot, bunches) for the shapes of a block that the group may meet.
+    template <class Visit>
+    static void for_each_shape(const SceneView& scene, KindNumber kind, std::uint32_t number,
+                               const Rays& group, const Limits& limits, const Visit& visit) {
+        const TableView& table = scene.tables[kind];
+        const float* block = S::block_of(table, number);
+        const auto rows = S::rows_of(block);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        std::uint32_t shapes = 0;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size))
+            shapes |= group.meet(sphere_around<Arch>(kind, BlockReader<Arch>(rows, from))) << from;
+        if (shapes == 0) return;
+        with_filter<Arch>(kind, [&]<class Filter>() {
+            for (; shapes != 0; shapes &= shapes - 1) {
+                const int lane = __builtin_ctz(shapes);
+                const auto sphere =
+                    sphere_around<Arch>(kind, BroadcastReader<Arch>(rows, lane));
+                std::uint32_t bunches = 0;
+                for (std::size_t from = 0; from < 16; from += F::size)
+                    bunches |= group.bunches_that_meet(sphere, from, S::load(limits.t + from))
+                               << from;
+                if (bunches == 0) continue;
+                visit(Filter(BroadcastReader<Arch>(rows, lane)), ids[lane],
+                      table.first_slot + 16 * number + static_cast<std::uint32_t>(lane), bunches);
+            }
+        });
+    }
+
+    static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
+                        std::size_t count, const RoundedRays& rays, const Candidates& candidates,
+                        const Pending& pending, TraceCounters& counters) {
+        const bool has_tree = pending.t != nullptr;
+        for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
+            const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
+            Rays group;
+            if (!group.enclose(rays, begin, end, bundle, nullptr)) {
+                nearest_one_by_one(scene, kind_bits, has_tree, begin, end, rays, candidates,
+                                   pending, counters);
+                continue;
+            }
+            Limits limits;
+            for (float& t : limits.t)
+                t = __builtin_inff();
+            limits.update();
+            walk(scene, kind_bits, has_tree, group, limits, pending, counters,
+                 [&](KindNumber kind, std::uint32_t number) {
+                     bool changed = false;
+                     for_each_shape(scene, kind, number, group, limits,
+                                    [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
+                                        std::uint32_t bunches) {
+                                        for (; bunches != 0; bunches &= bunches - 1) {
+                                            const int which = __builtin_ctz(bunches);
+                                            const std::size_t from =
+                                                begin + bunch * static_cast<std::size_t>(which);
+                                            limits.t[which] =
+                                                test(filter, id, slot, from, end, rays,
+                                                     candidates);
+                                            counters.shapes += bunch;
+                                            changed = true;
+                                        }
+                                    });
+                     if (changed) limits.update();
+                 });
+        }
+    }
+
+    /// One shape against a bunch of rays. Returns from which t on nothing matters to them.
+    template <class Filter>
+    static float test(const Filter& filter, std::uint32_t id, std::uint32_t this_slot,
+                      std::size_t from, std::size_t end, const RoundedRays& stream,
+                      const Candidates& candidates) {
+        F latest = zero<Arch>();
+        for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
+            const Bounds<Arch> bounds = filter.bounds(S::packet(stream, i));
+            const M counts =
+                bounds.possible &
+                ~Lanes<Arch>::in_range(S::broadcast_bits(id),
+                                       S::load_bits(stream.departed_first + i),
+                                       S::load_bits(stream.departed_last + i));
+            const F t = xsimd::select(counts, bounds.lower, S::infinity());
+            const F first = S::load(candidates.first + i);
+            const F second = S::load(candidates.second + i);
+            const F slot = S::load_bits(candidates.slot + i);
+            const F nearest = xsimd::min(first, t);
+            xsimd::min(second, xsimd::max(t, first)).store_unaligned(candidates.second + i);
+            nearest.store_unaligned(candidates.first + i);
+            S::store_bits(xsimd::select(t < first, S::broadcast_bits(this_slot), slot),
+                          candidates.slot + i);
+            latest = xsimd::max(latest,
+                                xsimd::select(S::first_lanes(end - i), nearest, zero<Arch>()));
+        }
+        return Lanes<Arch>::greatest(latest) * culling_slack;
+    }
+
+    static void occluded(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
+                         std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
+                         const Pending& pending, TraceCounters& counters) {
+        const bool has_tree = pending.t != nullptr;
+        for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
+            const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
+            Rays group;
+            if (!group.enclose(rays, begin, end, bundle, occlusions.t_most)) {
+                occluded_one_by_one(scene, kind_bits, has_tree, begin, end, rays, occlusions,
+                                    pending, counters);
+                continue;
+            }
+            Limits limits; // -1 once a bunch is blocked
+            for (float& t : limits.t)
+                t = __builtin_inff();
+            limits.update();
+            walk(scene, kind_bits, has_tree, group, limits, pending, counters,
+                 [&](KindNumber kind, std::uint32_t number) {
+                     bool changed = false;
+                     for_each_shape(
+                         scene, kind, number, group, limits,
+                         [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
+                             std::uint32_t bunches) {
+                             for (; bunches != 0; bunches &= bunches - 1) {
+                                 const int which = __builtin_ctz(bunches);
+                                 const std::size_t from =
+                                     begin + bunch * static_cast<std::size_t>(which);
+                                 counters.shapes += bunch;
+                                 if (!block(scene, filter, id, slot, from, end, rays, occlusions))
+                                     continue;
+                                 limits.t[which] = -1.0F;
+                                 changed = true;
+                             }
+                         });
+                     if (changed) limits.update();
+                 });
+        }
+    }
+
+    /// One shape against a bunch of rays. Returns whether all of them are blocked.
+    template <class Filter>
+    static bool block(const SceneView& scene, const Filter& filter, std::uint32_t id,
+                      std::uint32_t slot, std::size_t from, std::size_t end,
+                      const RoundedRays& stream, const Occlusions& occlusions) {
+        const bool plain = scene.plain_lanes == nullptr ||
+                           (scene.plain_lanes[slot / 16] >> slot % 16 & 1) != 0;
+        bool all_blocked = true;
+        for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
+            const F t_most = S::load(occlusions.t_most + i);
+            const Bounds<Arch> bounds = filter.bounds(S::packet(stream, i));
+            const M possible = bounds.possible &
+                               ~Lanes<Arch>::in_range(S::broadcast_bits(id),
+                                                      S::load_bits(stream.departed_first + i),
+                                                      S::load_bits(stream.departed_last + i)) &
+                               (bounds.lower < t_most * F(1 + 4 * half_ulp));
+            const std::uint32_t some = Lanes<Arch>::bits(possible);
+            const std::uint32_t sure =
+                plain ? Lanes<Arch>::bits(possible & bounds.certain &
+                                          (bounds.upper < t_most * F(1 - 4 * half_ulp)))
+                      : 0;
+            const std::size_t lanes = Rays::lesser(end - i, F::size);
+            for (std::size_t lane = 0; lane < lanes; ++lane) {
+                std::uint8_t& state = occlusions.state[i + lane];
+                if ((sure >> lane & 1) != 0)
+                    state = blocked;
+                else if ((some >> lane & 1) != 0 && state == open)
+                    state = doubtful;
+                all_blocked = all_blocked && state == blocked;
+            }
+        }
+        return all_blocked;
+    }
+
+    /// Streams from one ray on.
+    static RoundedRays from_ray(const RoundedRays& rays, std::size_t begin) {
+        RoundedRays result = rays;
+        for (int axis = 0; axis < 3; ++axis) {
+            result.origin[axis] += begin;
+            result.direction[axis] += begin;
+        }
+        result.slack += begin;
+        result.departed_first += begin;
+        result.departed_last += begin;
+        return result;
+    }
+
+    static void nearest_one_by_one(const SceneView& scene, std::uint32_t kind_bits, bool has_tree,
+                                   std::size_t begin, std::size_t end, const RoundedRays& rays,
+                                   const Candidates& candidates, const Pending& pending,
+                                   TraceCounters& counters) {
+        const RoundedRays some = from_ray(rays, begin);
+        const Candidates theirs{candidates.first + begin, candidates.second + begin,
+                                candidates.slot + begin};
+        if (kind_bits != 0)
+            TraceAll<Arch>::nearest(scene, kind_bits, end - begin, some, theirs, counters);
+        if (has_tree)
+            TraceTree<Arch>::nearest(scene, end - begin, some, theirs, pending, counters);
+    }
+
+    static void occluded_one_by_one(const SceneView& scene, std::uint32_t kind_bits, bool has_tree,
+                                    std::size_t begin, std::size_t end, const RoundedRays& rays,
+                                    const Occlusions& occlusions, const Pending& pending,
+                                    TraceCounters& counters) {
+        const RoundedRays some = from_ray(rays, begin);
+        const Occlusions theirs{occlusions.t_most + begin, occlusions.state + begin};
+        if (kind_bits != 0)
+            TraceAll<Arch>::occluded(scene, kind_bits, end - begin, some, theirs, counters);
+        if (has_tree)
+            TraceTree<Arch>::occluded(scene, end - begin, some, theirs, pending, counters);
+    }
+};
+
+} // namespace raylane::simd

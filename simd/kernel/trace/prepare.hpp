@@ -1,0 +1,68 @@
+#pragma once
+
+#include "simd/kernel/trace/bundle.hpp"
+
+namespace raylane::simd {
+
+/// Makes rays, and rounds them for the filters.
+template <class Arch>
+struct Prepare : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+
+    /// core::CameraRays, in double.
+    static void camera_rays(const CameraView& camera, std::size_t count, const double* across,
+                            const double* upward, double* const origin[3],
+                            double* const direction[3]) {
+        using D = Double<Arch>;
+        using Number = Floats<D>;
+        const auto broadcast = [](const double (&v)[3]) {
+            return Vectors<D>{Number(v[0]), Number(v[1]), Number(v[2])};
+        };
+        const Vectors<D> from = broadcast(camera.from), forward = broadcast(camera.forward);
+        const Vectors<D> right = broadcast(camera.right), up = broadcast(camera.up);
+        for (std::size_t i = 0; i < count; i += Number::size) {
+            const Number x = Number::load_unaligned(across + i);
+            const Number y = Number::load_unaligned(upward + i);
+            const Vectors<D> offset{x * right.x + y * up.x, x * right.y + y * up.y,
+                                    x * right.z + y * up.z};
+            const Vectors<D> o = camera.orthographic ? from + offset : from;
+            const Vectors<D> d =
+                camera.orthographic ? forward : normalized<D>(forward + offset);
+            const Number* const values[] = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
+            double* const columns[] = {origin[0],    origin[1],    origin[2],
+                                       direction[0], direction[1], direction[2]};
+            for (int k = 0; k < 6; ++k)
+                values[k]->store_unaligned(columns[k] + i);
+        }
+    }
+
+    static void round_rays(std::size_t count, const double* const origin[3],
+                           const double* const direction[3], const RoundedRays& rays) {
+        for (std::size_t i = 0; i < count; i += F::size) {
+            F sum = zero<Arch>();
+            for (int axis = 0; axis < 3; ++axis) {
+                const F o = Lanes<Arch>::narrow(origin[axis] + i);
+                o.store_unaligned(rays.origin[axis] + i);
+                sum = sum + xsimd::abs(o);
+                Lanes<Arch>::narrow(direction[axis] + i)
+                    .store_unaligned(rays.direction[axis] + i);
+            }
+            // Half an ulp of each coordinate; the factor is for the rounding of the sum.
+            (sum * F(half_ulp * (1 + 8 * half_ulp))).store_unaligned(rays.slack + i);
+        }
+    }
+
+    static constexpr TraceKernels table() {
+        return {camera_rays,
+                round_rays,
+                TraceAll<Arch>::nearest,
+                TraceAll<Arch>::occluded,
+                TraceBundle<Arch>::nearest,
+                TraceBundle<Arch>::occluded,
+                TraceTree<Arch>::nearest,
+                TraceTree<Arch>::occluded};
+    }
+};
+
+} // namespace raylane::simd

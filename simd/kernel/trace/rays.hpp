@@ -1,0 +1,57 @@
+#pragma once
+
+#include "simd/kernel/filters/filters.hpp"
+#include "simd/trace_kernels.hpp"
+
+namespace raylane::simd {
+
+/// Access to the streams of trace_kernels.hpp.
+template <class Arch>
+struct Streams {
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+    static constexpr std::size_t lanes = F::size;
+
+    static F load(const float* from) { return F::load_unaligned(from); }
+    static F load_bits(const std::uint32_t* from) {
+        return F::load_unaligned(reinterpret_cast<const float*>(from));
+    }
+    static F broadcast_bits(std::uint32_t bits) {
+        return F(__builtin_bit_cast(float, bits));
+    }
+    static void store_bits(const F& values, std::uint32_t* to) {
+        values.store_unaligned(reinterpret_cast<float*>(to));
+    }
+    static F infinity() { return F(__builtin_inff()); }
+
+    static FilterRays<Arch> packet(const RoundedRays& rays, std::size_t i) {
+        return {{load(rays.origin[0] + i), load(rays.origin[1] + i), load(rays.origin[2] + i)},
+                {load(rays.direction[0] + i), load(rays.direction[1] + i),
+                 load(rays.direction[2] + i)},
+                load(rays.slack + i)};
+    }
+
+    static FilterRays<Arch> broadcast(const RoundedRays& rays, std::size_t i) {
+        return {{F(rays.origin[0][i]), F(rays.origin[1][i]), F(rays.origin[2][i])},
+                {F(rays.direction[0][i]), F(rays.direction[1][i]), F(rays.direction[2][i])},
+                F(rays.slack[i])};
+    }
+
+    /// The first `count` lanes.
+    static M first_lanes(std::size_t count) {
+        static constexpr float numbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                              8, 9, 10, 11, 12, 13, 14, 15};
+        return load(numbers) < F(static_cast<float>(count < lanes ? count : lanes));
+    }
+
+    static const float* block_of(const TableView& table, std::uint32_t block) {
+        return table.blocks + static_cast<std::size_t>(block) * table.block_floats;
+    }
+    using Rows = const float (*)[16];
+    static Rows rows_of(const float* block) { return reinterpret_cast<Rows>(block); }
+    static const std::uint32_t* ids_of(const TableView& table, const float* block) {
+        return reinterpret_cast<const std::uint32_t*>(block + std::size_t{16} * table.values);
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+/// How the kernel units shade: plain data only. Arrays have `count` values and are readable and
+/// writable up to whole packets of 16; colours are linear RGB, vectors x, y, z.
+namespace raylane::simd {
+
+/// core::Material, with its numbers in double.
+struct MaterialView {
+    double ambient, diffuse, specular, exponent;
+    double reflectivity, transmission, index;
+    std::uint8_t reflection; ///< core::Reflection
+    bool transmits, reflects;
+
+    std::uint8_t pattern; ///< core::PatternKind
+    std::uint8_t axes;
+    double colors[2][3];
+    double size;
+    double direction[3]; ///< stripes, a unit vector
+    double from[3];      ///< gradient
+    double run[3];       ///< gradient: from `from` to `to`, over its squared length
+};
+
+struct LightView {
+    bool is_point;
+    double position[3];
+    double to_light[3]; ///< directional: a unit vector
+    double color[3];
+};
+
+struct FogView {
+    std::uint8_t kind; ///< core::FogKind
+    double color[3];
+    double start, end, density;
+};
+
+/// Paths and what they have hit, by lane.
+struct HitPaths {
+    const double* origin[3];
+    const double* direction[3];
+    const double* throughput[3];
+    const double* t;
+    const double* normal[3]; ///< unit, outward
+    const double* shading_normal[3];
+    const std::uint32_t* hit; ///< hit_bits
+};
+
+/// Of paths inside of transmissive materials, by position in the sorted wave. Absent where a scene
+/// has none.
+struct MediumColumns {
+    double* index_before;
+    double* index_behind;
+    double* inside;        ///< 1 in a medium, else 0
+    double* absorption[3]; ///< per unit of length
+};
+
+/// The surfaces that a wave has hit, in the order in which they are shaded: by material.
+struct Surfaces {
+    double* point[3];
+    double* flat_normal[3];  ///< unit, on the side that the ray comes from
+    double* normal[3];       ///< the same to shade with
+    double* direction[3];    ///< of the ray
+    double* throughput[3];   ///< behind the segment's fog or absorption
+    double* own[3];          ///< the material's colour here
+    double* radiance[3];     ///< what is seen, times throughput, without lights and further rays
+};
+
+/// Positions `begin` to `end` of a sorted wave have one material.
+struct Run {
+    const MaterialView* material;
+    std::size_t begin, end;
+};
+
+/// Rays made by surfaces; `parent` is the surface's position, a whole number. `count` grows.
+struct SpawnedRays {
+    std::size_t count;
+    double* origin[3];
+    double* direction[3]; ///< unit
+    double* weight[3];    ///< shadow rays: what is seen if nothing is in the way; others: throughput
+    double* distance;     ///< shadow rays: to the light
+    double* parent;
+};
+
+struct ShadeKernels {
+    /// Surfaces begin to end from the lanes with these numbers. `media` may be null.
+    void (*surfaces)(const Run& run, const std::uint32_t* lanes, const HitPaths& paths,
+                     const FogView& fog, const MediumColumns* media, const Surfaces& surfaces);
+
+    /// The shadow rays that are worth tracing.
+    void (*light)(const Run& run, const LightView& light, const Surfaces& surfaces,
+                  SpawnedRays& shadows);
+
+    /// Reflected rays, and transmitted ones where the material transmits. What weighs less than
+    /// `min_weight` is dropped. `media` may be null.
+    void (*spawn)(const Run& run, double min_weight, const MediumColumns* media,
+                  const Surfaces& surfaces, SpawnedRays& reflected, SpawnedRays& transmitted);
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,105 @@
+#pragma once
+
+#include "simd/scene_view.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+/// What the kernel units offer to the wavefront loop and to streams of rays: plain data only.
+/// Arrays have `count` values and are readable and writable up to whole packets of 16.
+namespace raylane::simd {
+
+/// Rays rounded to float (FilterRays in kernel/filters/filter.hpp), with the shapes that they
+/// leave, which no filter sees: ids first to last, no_shape twice if none.
+struct RoundedRays {
+    float* origin[3];
+    float* direction[3];
+    float* slack;
+    const std::uint32_t* departed_first;
+    const std::uint32_t* departed_last;
+};
+
+/// What may be the nearest crossing of each ray. In and out.
+struct Candidates {
+    float* first;        ///< the smallest lower bound, infinity if there is none
+    float* second;       ///< the next smallest of another shape
+    std::uint32_t* slot; ///< the shape that has the smallest; no_slot if there is none
+};
+
+/// A candidate's t is within this factor of its lower bound, or not certain to be the nearest:
+/// what lies beyond has not been looked at.
+inline constexpr float culling_slack = 1.0F + 0x1p-10F;
+
+/// What is in a ray's way before t_most.
+struct Occlusions {
+    const float* t_most;
+    std::uint8_t* state; ///< in and out: Occlusion
+};
+
+/// Lanes that are blocked on the way in are not looked at.
+enum Occlusion : std::uint8_t {
+    open = 0,
+    doubtful = 1, ///< perhaps something, or something that light may pass
+    blocked = 2,
+};
+
+/// Where in the hierarchy single rays leave what they are still to visit: 16 entries per level.
+struct Pending {
+    float* t;
+    std::uint32_t* child;
+};
+
+struct CameraView {
+    double from[3], forward[3], right[3], up[3]; ///< right and up are half a pixel long
+    bool orthographic;
+};
+
+struct TraceCounters {
+    std::uint64_t nodes;  ///< visited by a ray or a group of rays
+    std::uint64_t shapes; ///< tests of a ray against a shape
+};
+
+/// Rays that start at one point, or end there, or are parallel. Consecutive ones are near each
+/// other, so that what many of them miss need be found only once.
+struct Bundle {
+    float apex[3]; ///< unless they are parallel
+    bool towards;  ///< they end at the apex
+    bool parallel;
+};
+
+struct TraceKernels {
+    void (*camera_rays)(const CameraView& camera, std::size_t count, const double* across,
+                        const double* upward, double* const origin[3], double* const direction[3]);
+
+    /// Fills origin, direction and slack.
+    void (*round_rays)(std::size_t count, const double* const origin[3],
+                       const double* const direction[3], const RoundedRays& rays);
+
+    /// All shapes of the kinds in `kind_bits` against all rays.
+    void (*nearest_of_all)(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
+                           const RoundedRays& rays, const Candidates& candidates,
+                           TraceCounters& counters);
+    void (*occluded_by_all)(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
+                            const RoundedRays& rays, const Occlusions& occlusions,
+                            TraceCounters& counters);
+
+    /// Bundles: the kinds in `kind_bits` one by one, and the hierarchy if `pending` is not null.
+    void (*nearest_in_bundle)(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
+                              std::size_t count, const RoundedRays& rays,
+                              const Candidates& candidates, const Pending& pending,
+                              TraceCounters& counters);
+    void (*occluded_in_bundle)(const SceneView& scene, std::uint32_t kind_bits,
+                               const Bundle& bundle, std::size_t count, const RoundedRays& rays,
+                               const Occlusions& occlusions, const Pending& pending,
+                               TraceCounters& counters);
+
+    /// By way of the hierarchy, each ray by itself.
+    void (*nearest_in_tree)(const SceneView& scene, std::size_t count, const RoundedRays& rays,
+                            const Candidates& candidates, const Pending& pending,
+                            TraceCounters& counters);
+    void (*occluded_in_tree)(const SceneView& scene, std::size_t count, const RoundedRays& rays,
+                             const Occlusions& occlusions, const Pending& pending,
+                             TraceCounters& counters);
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+
+namespace raylane::simd {
+
+/// Hands out arrays from one piece of memory, which is asked for once. Made twice over: with no
+/// memory it only counts what would be taken.
+class Arena {
+  public:
+    Arena() = default;
+    explicit Arena(std::size_t bytes)
+        : memory_(static_cast<std::byte*>(::operator new(bytes, alignment))) {}
+
+    /// `count` values, aligned for the widest registers, and room to read and write a whole packet
+    /// at any of them.
+    template <class Value>
+    Value* take(std::size_t count) {
+        constexpr std::size_t packet = 16;
+        const std::size_t start = used_;
+        const auto line = static_cast<std::size_t>(alignment);
+        used_ += ((count + packet) * sizeof(Value) + line - 1) / line * line;
+        return memory_ == nullptr ? nullptr : reinterpret_cast<Value*>(memory_.get() + start);
+    }
+
+    template <class Value, std::size_t n>
+    void take(Value* (&columns)[n], std::size_t count) {
+        for (Value*& column : columns)
+            column = take<Value>(count);
+    }
+
+    std::size_t used() const { return used_; }
+
+  private:
+    static constexpr std::align_val_t alignment{64};
+    struct Free {
+        void operator()(std::byte* memory) const { ::operator delete(memory, alignment); }
+    };
+
+    std::unique_ptr<std::byte, Free> memory_;
+    std::size_t used_ = 0;
+};
+
+} // namespace raylane::simd

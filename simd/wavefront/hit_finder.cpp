@@ -1,0 +1,254 @@
+#include "simd/wavefront/hit_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace raylane::simd {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+void take(Arena& arena, Hits& hits, std::size_t capacity, bool smooth) {
+    hits.slot = arena.take<std::uint32_t>(capacity);
+    hits.t = arena.take<double>(capacity);
+    hits.error = arena.take<double>(capacity);
+    arena.take(hits.normal, capacity);
+    for (double*& column : hits.shading_normal)
+        column = smooth ? arena.take<double>(capacity) : nullptr;
+    hits.hit = arena.take<std::uint32_t>(capacity);
+}
+
+Found found_in(const Paths& paths, const Hits& hits, std::size_t count) {
+    Found found{};
+    found.count = count;
+    for (int axis = 0; axis < 3; ++axis) {
+        found.origin[axis] = paths.origin[axis];
+        found.direction[axis] = paths.direction[axis];
+        found.normal[axis] = hits.normal[axis];
+        found.shading_normal[axis] = hits.shading_normal[axis];
+    }
+    found.departed_first = paths.departed_first;
+    found.departed_last = paths.departed_last;
+    found.departure = paths.departure;
+    found.slot = hits.slot;
+    found.t = hits.t;
+    found.error = hits.error;
+    found.hit = hits.hit;
+    return found;
+}
+
+/// A float that is not above.
+float rounded_down(double value) {
+    const auto nearest = static_cast<float>(value);
+    return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, -infinity);
+}
+
+} // namespace
+
+Pending pending_for(const SceneData& scene, Arena& arena) {
+    if (!scene.has_tree()) return {nullptr, nullptr};
+    const auto entries = static_cast<std::size_t>(16 * (scene.tree_depth() + 1));
+    float* t = arena.take<float>(entries);
+    return {t, arena.take<std::uint32_t>(entries)};
+}
+
+bool may_return(core::Kind kind, bool inward) {
+    switch (kind) {
+    case core::Kind::plane:
+    case core::Kind::disc:
+    case core::Kind::triangle:
+    case core::Kind::smooth_triangle:
+        return false;
+    case core::Kind::quadric:
+        return true;
+    default:
+        return inward;
+    }
+}
+
+core::Ray<double> ray_of(const Paths& paths, std::size_t lane) {
+    return {{paths.origin[0][lane], paths.origin[1][lane], paths.origin[2][lane]},
+            {paths.direction[0][lane], paths.direction[1][lane], paths.direction[2][lane]}};
+}
+
+core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
+                                     std::size_t lane) {
+    core::Departure<double> departure;
+    const std::uint32_t slot = paths.departed_slot[lane];
+    if (slot == no_slot) return departure;
+    core::Hit<double> hit;
+    hit.shape = scene.id_of(slot);
+    hit.face = static_cast<core::Face>(paths.departure[lane] & departure_face);
+    hit.kind = scene.kind_of(slot);
+    hit.slot = scene.place_of(slot);
+    const bool inward = (paths.departure[lane] & departure_inward) != 0;
+    departure.add({hit, {paths.departed_first[lane], paths.departed_last[lane]},
+                   core::Vec3d(0.0), inward, inward});
+    return departure;
+}
+
+HitFinder::HitFinder(const SceneData& scene, const Kernels& kernels,
+                     core::ReferenceTracer<double>& reference)
+    : scene_(scene), kernels_(kernels), reference_(reference) {}
+
+void HitFinder::take_from(Arena& arena, std::size_t capacity) {
+    arena.take(rounded_.origin, capacity);
+    arena.take(rounded_.direction, capacity);
+    rounded_.slack = arena.take<float>(capacity);
+    candidates_.first = arena.take<float>(capacity);
+    candidates_.second = arena.take<float>(capacity);
+    pending_ = pending_for(scene_, arena);
+    take(arena, hits_, capacity, scene_.smooth());
+    doubtful_ = arena.take<std::uint8_t>(capacity);
+    contacts_ = arena.take<std::uint32_t>(capacity);
+    gathered_.take_from(arena, capacity, false);
+    take(arena, gathered_hits_, capacity, scene_.smooth());
+    lanes_ = arena.take<std::uint32_t>(capacity);
+}
+
+void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& counters) {
+    start(paths);
+    find_own_exits(paths);
+
+    TraceCounters traced{};
+    const TraceKernels& trace = kernels_.trace;
+    if (bundle != nullptr) {
+        trace.nearest_in_bundle(scene_.view(), scene_.listed_kinds(), *bundle, paths.count,
+                                rounded_, candidates_, pending_, traced);
+    } else {
+        if (scene_.listed_kinds() != 0)
+            trace.nearest_of_all(scene_.view(), scene_.listed_kinds(), paths.count, rounded_,
+                                 candidates_, traced);
+        if (scene_.has_tree())
+            trace.nearest_in_tree(scene_.view(), paths.count, rounded_, candidates_, pending_,
+                                  traced);
+    }
+    counters.nodes += traced.nodes;
+    counters.shapes += traced.shapes;
+
+    kernels_.finish(scene_.view(), found_in(paths, hits_, paths.count));
+    certify(paths);
+    ask_reference(paths);
+}
+
+void HitFinder::start(const Paths& paths) {
+    rounded_.departed_first = paths.departed_first;
+    rounded_.departed_last = paths.departed_last;
+    kernels_.trace.round_rays(paths.count, paths.origin, paths.direction, rounded_);
+    candidates_.slot = hits_.slot;
+    const std::size_t padded = (paths.count + 15) / 16 * 16;
+    std::fill_n(candidates_.first, padded, infinity);
+    std::fill_n(candidates_.second, padded, infinity);
+    std::fill_n(hits_.slot, padded, no_slot);
+    std::fill_n(doubtful_, padded, std::uint8_t{0});
+}
+
+/// Where a ray starts on a shape that it may cross again, no filter can tell 0 from that crossing.
+/// It is solved before, and bounds what else can be nearest.
+void HitFinder::find_own_exits(const Paths& paths) {
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        const std::uint32_t slot = paths.departed_slot[lane];
+        if (slot == no_slot ||
+            !may_return(scene_.kind_of(slot), (paths.departure[lane] & departure_inward) != 0))
+            continue;
+        gathered_.copy(paths, lane, count);
+        gathered_hits_.slot[count] = slot;
+        lanes_[count++] = static_cast<std::uint32_t>(lane);
+    }
+    if (count == 0) return;
+    std::fill_n(gathered_hits_.slot + count, 15, no_slot);
+    kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
+        if ((hit & hit_doubtful) != 0) {
+            doubtful_[lane] = 1;
+        } else if ((hit & hit_none) == 0) {
+            candidates_.first[lane] =
+                std::max(0.0F, rounded_down(gathered_hits_.t[i] - gathered_hits_.error[i]));
+            candidates_.slot[lane] = gathered_hits_.slot[i];
+        }
+    }
+}
+
+/// What remains in doubt: lanes_[0 ... ), and doubtful_.
+void HitFinder::certify(const Paths& paths) {
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        if (hits_.slot[lane] == no_slot) continue;
+        const double last = hits_.t[lane] + hits_.error[lane];
+        const double most =
+            static_cast<double>(std::min(candidates_.second[lane],
+                                         candidates_.first[lane] * culling_slack));
+        if ((hits_.hit[lane] & (hit_doubtful | hit_none)) != 0 || !(last <= most))
+            doubtful_[lane] = 1;
+    }
+    if (!scene_.one_sided()) return;
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        if (hits_.slot[lane] == no_slot) continue;
+        const core::Visible visible =
+            scene_.scene().material_of(scene_.id_of(hits_.slot[lane])).visible;
+        const bool entering = (hits_.hit[lane] & hit_entering) != 0;
+        if (visible != core::Visible::both && (visible == core::Visible::outside) != entering)
+            doubtful_[lane] = 1;
+    }
+}
+
+/// The reference says which shape it is. The numbers are then those that the kernel has for it, so
+/// that they do not depend on what was in doubt.
+void HitFinder::ask_reference(const Paths& paths) {
+    contact_count_ = 0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        if (doubtful_[lane] == 0) continue;
+        const core::Ray<double> ray = ray_of(paths, lane);
+        const core::Encounter<double> encounter =
+            reference_.nearest_visible(ray, departure_of(scene_, paths, lane));
+        if (!encounter.hit.any()) {
+            hits_.slot[lane] = no_slot;
+            continue;
+        }
+        if (encounter.contacts.end() - encounter.contacts.begin() > 1) {
+            contacts_[contact_count_++] = static_cast<std::uint32_t>(lane);
+            continue;
+        }
+        const core::Hit<double>& hit = encounter.hit;
+        const std::uint32_t slot = scene_.slot_of(hit.kind, hit.slot);
+        hits_.slot[lane] = slot;
+        gathered_.copy(paths, lane, 0);
+        gathered_hits_.slot[0] = slot;
+        std::fill_n(gathered_hits_.slot + 1, 15, no_slot);
+        kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));
+        const std::uint32_t bits = hit.face | (hit.entering ? hit_entering : 0);
+        if (gathered_hits_.hit[0] == bits) {
+            take_gathered(0, lane);
+            continue;
+        }
+        hits_.hit[lane] = bits;
+        hits_.t[lane] = hit.t;
+        const core::Vec3d point = core::mul_add(hit.t, ray.direction, ray.origin);
+        const core::Vec3d normal = reference_.searcher().outward_normal_at(hit, point);
+        core::Vec3d shading = normal;
+        if (hit.kind == core::Kind::smooth_triangle)
+            shading = core::shading_normal(
+                std::get<core::Table<core::SmoothTriangle>>(scene_.scene().shapes()).get(hit.slot),
+                point);
+        for (int axis = 0; axis < 3; ++axis) {
+            hits_.normal[axis][lane] = normal[axis];
+            if (scene_.smooth()) hits_.shading_normal[axis][lane] = shading[axis];
+        }
+    }
+}
+
+void HitFinder::take_gathered(std::size_t from, std::size_t lane) {
+    hits_.hit[lane] = gathered_hits_.hit[from];
+    hits_.t[lane] = gathered_hits_.t[from];
+    hits_.error[lane] = gathered_hits_.error[from];
+    for (int axis = 0; axis < 3; ++axis) {
+        hits_.normal[axis][lane] = gathered_hits_.normal[axis][from];
+        if (scene_.smooth())
+            hits_.shading_normal[axis][lane] = gathered_hits_.shading_normal[axis][from];
+    }
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,75 @@
+#pragma once
+
+#include "core/reference/tracer.hpp"
+#include "simd/kernels.hpp"
+#include "simd/wavefront/paths.hpp"
+#include "simd/wavefront/scene_data.hpp"
+
+#include <span>
+
+namespace raylane::simd {
+
+/// What rays hit, by lane.
+struct Hits {
+    std::uint32_t* slot; ///< no_slot: nothing
+    double* t;
+    double* error;
+    double* normal[3];
+    double* shading_normal[3]; ///< null where the scene has no smooth triangles
+    std::uint32_t* hit;        ///< hit_bits
+};
+
+/// Finds the first surfaces that rays hit, as core::ReferenceTracer<double> would. In float, shapes
+/// are bounded; in double, the one that may be nearest is solved; where that is not certain, the
+/// reference is asked.
+class HitFinder {
+  public:
+    HitFinder(const SceneData& scene, const Kernels& kernels,
+              core::ReferenceTracer<double>& reference);
+
+    /// Arrays for this many rays.
+    void take_from(Arena& arena, std::size_t capacity);
+
+    /// `bundle` may be null: the rays have nothing in common.
+    void find(const Paths& paths, const Bundle* bundle, core::Counters& counters);
+
+    const Hits& hits() const { return hits_; }
+    /// Lanes that meet several surfaces at one point, which only the reference can follow.
+    std::span<const std::uint32_t> contacts() const { return {contacts_, contact_count_}; }
+
+  private:
+    void start(const Paths& paths);
+    void find_own_exits(const Paths& paths);
+    void certify(const Paths& paths);
+    void ask_reference(const Paths& paths);
+    void take_gathered(std::size_t from, std::size_t lane);
+
+    const SceneData& scene_;
+    const Kernels& kernels_;
+    core::ReferenceTracer<double>& reference_;
+
+    RoundedRays rounded_{};
+    Candidates candidates_{};
+    Pending pending_{};
+    Hits hits_{};
+    std::uint8_t* doubtful_ = nullptr;
+    std::uint32_t* contacts_ = nullptr;
+    std::size_t contact_count_ = 0;
+
+    // Some of the rays, put together.
+    Paths gathered_{};
+    Hits gathered_hits_{};
+    std::uint32_t* lanes_ = nullptr;
+};
+
+/// How core sees the departure of a lane.
+core::Departure<double> departure_of(const SceneData& scene, const Paths& paths, std::size_t lane);
+core::Ray<double> ray_of(const Paths& paths, std::size_t lane);
+
+/// Room for what a ray is still to visit; null where there is no hierarchy to walk.
+Pending pending_for(const SceneData& scene, Arena& arena);
+
+/// Whether a ray that leaves a shape may cross it again.
+bool may_return(core::Kind kind, bool inward);
+
+} // namespace raylane::simd

@@ -1,0 +1,147 @@
+#include "simd/wavefront/scene_data.hpp"
+
+#include <algorithm>
+
+namespace raylane::simd {
+
+namespace {
+
+/// With so many shapes or fewer, testing all of them costs less than the hierarchy.
+constexpr std::size_t few_shapes = 24;
+
+MaterialView view_of(const core::Material& material) {
+    MaterialView view{};
+    view.ambient = static_cast<double>(material.ambient);
+    view.diffuse = static_cast<double>(material.diffuse);
+    view.specular = static_cast<double>(material.specular);
+    view.exponent = static_cast<double>(material.exponent);
+    view.reflectivity = static_cast<double>(material.reflectivity);
+    view.transmission = static_cast<double>(material.transmission);
+    view.index = static_cast<double>(material.index);
+    view.reflection = static_cast<std::uint8_t>(material.reflection);
+    view.transmits = material.transmits();
+    view.reflects = material.reflects();
+
+    const core::Pattern& pattern = material.pattern;
+    view.pattern = static_cast<std::uint8_t>(pattern.kind);
+    view.axes = pattern.axes;
+    view.size = static_cast<double>(pattern.size);
+    const core::Vec3d direction = core::normalized(core::convert<double>(pattern.direction));
+    const core::Vec3d run =
+        core::convert<double>(pattern.to) - core::convert<double>(pattern.from);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int which = 0; which < 2; ++which)
+            view.colors[which][axis] = static_cast<double>(pattern.colors[which][axis]);
+        view.direction[axis] = direction[axis];
+        view.from[axis] = static_cast<double>(pattern.from[axis]);
+        view.run[axis] = run[axis] / core::squared_length(run);
+    }
+    return view;
+}
+
+LightView view_of(const core::Light& light) {
+    LightView view{};
+    view.is_point = light.kind == core::LightKind::point;
+    const core::Vec3d to_light = -core::normalized(core::convert<double>(light.direction));
+    for (int axis = 0; axis < 3; ++axis) {
+        view.position[axis] = static_cast<double>(light.position[axis]);
+        view.to_light[axis] = to_light[axis];
+        view.color[axis] = static_cast<double>(light.color[axis]);
+    }
+    return view;
+}
+
+FogView view_of(const core::Fog& fog) {
+    FogView view{};
+    view.kind = static_cast<std::uint8_t>(fog.kind);
+    for (int axis = 0; axis < 3; ++axis)
+        view.color[axis] = static_cast<double>(fog.color[axis]);
+    view.start = static_cast<double>(fog.start);
+    view.end = static_cast<double>(fog.end);
+    view.density = static_cast<double>(fog.density);
+    return view;
+}
+
+int depth_below(const std::vector<core::WideNode>& nodes, std::uint32_t index) {
+    int deepest = 0;
+    for (const core::Child child : nodes[index].children)
+        if (!child.empty() && !child.is_block())
+            deepest = std::max(deepest, depth_below(nodes, child.index()));
+    return deepest + 1;
+}
+
+} // namespace
+
+SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(scene.fog())) {
+    static_assert(sizeof(NodeView) == sizeof(core::WideNode));
+    for (const core::Material& material : scene.materials())
+        materials_.push_back(view_of(material));
+    for (const core::Light& light : scene.lights())
+        lights_.push_back(view_of(light));
+
+    std::uint32_t slots = 0, present = 0;
+    core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+        const auto kind = static_cast<int>(core::kind_of<Shape>);
+        view_.tables[kind] = {reinterpret_cast<const float*>(table.blocks().data()),
+                              static_cast<std::uint32_t>(table.blocks().size()),
+                              sizeof(core::Block<Shape>) / sizeof(float),
+                              core::float_count<Shape>, slots};
+        slots += static_cast<std::uint32_t>(table.blocks().size()) * core::block_size;
+        if (table.size() != 0) present |= 1U << kind;
+    });
+    const std::uint32_t planes = 1U << static_cast<int>(core::Kind::plane);
+    const std::vector<core::WideNode>& nodes = scene.hierarchy().nodes;
+    has_tree_ = scene.shape_count() > few_shapes && !nodes.empty();
+    listed_kinds_ = has_tree_ ? present & planes : present;
+    if (has_tree_) tree_depth_ = depth_below(nodes, 0);
+    view_.nodes = reinterpret_cast<const NodeView*>(nodes.data());
+    view_.node_count = static_cast<std::uint32_t>(nodes.size());
+    smooth_ = (present >> static_cast<int>(core::Kind::smooth_triangle) & 1) != 0;
+
+    const auto is_plain = [](const core::Material& material) {
+        return !material.transmits() && material.visible == core::Visible::both;
+    };
+    if (std::all_of(scene.materials().begin(), scene.materials().end(), is_plain)) return;
+    one_sided_ = std::any_of(
+        scene.materials().begin(), scene.materials().end(),
+        [](const core::Material& m) { return m.visible != core::Visible::both; });
+    plain_lanes_.reserve(slots / core::block_size);
+    core::for_each_table(scene.shapes(), [&](const auto& table) {
+        for (const auto& block : table.blocks()) {
+            unsigned plain = 0;
+            for (int lane = 0; lane < core::block_size; ++lane)
+                if (block.ids[lane] != core::no_shape &&
+                    is_plain(scene.material_of(block.ids[lane])))
+                    plain |= 1U << lane;
+            plain_lanes_.push_back(static_cast<std::uint16_t>(plain));
+        }
+    });
+    view_.plain_lanes = plain_lanes_.data();
+}
+
+core::Kind SceneData::kind_of(std::uint32_t slot) const {
+    int kind = kinds - 1;
+    while (slot < view_.tables[kind].first_slot)
+        --kind;
+    return static_cast<core::Kind>(kind);
+}
+
+core::Slot SceneData::place_of(std::uint32_t slot) const {
+    const std::uint32_t offset =
+        slot - view_.tables[static_cast<int>(kind_of(slot))].first_slot;
+    return {offset / core::block_size, static_cast<std::uint8_t>(offset % core::block_size)};
+}
+
+core::ShapeId SceneData::id_of(std::uint32_t slot) const {
+    const TableView& table = view_.tables[static_cast<int>(kind_of(slot))];
+    const std::uint32_t offset = slot - table.first_slot;
+    const float* block = table.blocks + std::size_t{table.block_floats} * (offset / 16);
+    return reinterpret_cast<const core::ShapeId*>(block + std::size_t{16} * table.values)[offset % 16];
+}
+
+std::uint32_t SceneData::slot_of(core::Kind kind, core::Slot place) const {
+    return view_.tables[static_cast<int>(kind)].first_slot + core::block_size * place.block +
+           place.lane;
+}
+
+} // namespace raylane::simd

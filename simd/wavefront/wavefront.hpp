@@ -1,0 +1,99 @@
+#pragma once
+
+#include "core/camera_rays.hpp"
+#include "core/film.hpp"
+#include "core/region.hpp"
+#include "simd/wavefront/hit_finder.hpp"
+
+#include <vector>
+
+namespace raylane::simd {
+
+/// Renders regions of a picture: camera rays in chunks, then wave after wave of what they meet,
+/// until no ray is left. To be used by one thread. All of its memory is asked for once.
+///
+/// A picture does not depend on how it is divided: each sample's contributions are added in an
+/// order that knows of no other sample, and samples are added in theirs.
+class Wavefront {
+  public:
+    Wavefront(const SceneData& scene, const core::Settings& settings, const Kernels& kernels);
+
+    void render(const core::Region& region, core::Film& film);
+
+    const core::Counters& counters() const { return counters_; }
+
+    /// Pixels on a region's side, at most.
+    static constexpr int max_region = 64;
+
+  private:
+    /// Samples in a chunk, and rays in a wave: so that all arrays fit in the second-level cache.
+    static constexpr std::size_t chunk_samples = 2048;
+    static constexpr std::size_t wave_rays = chunk_samples;
+    static constexpr std::size_t deferred_rays = 12 * 2 * wave_rays;
+
+    struct Sample {
+        int x, y, number;
+    };
+    struct Deferred {
+        std::size_t begin;
+        std::size_t count;
+        int depth;
+    };
+
+    void take_from(Arena& arena);
+    void start(std::size_t count);
+    void trace();
+    void trace_wave(int depth);
+    void follow_contacts(int depth);
+    void sort_hits();
+    void see_background();
+    void shade(int depth);
+    void fill_media();
+    void add_lights();
+    void trace_shadows(const LightView& light);
+    void spawn(int depth);
+    void add_to_next(const SpawnedRays& spawned, bool through);
+    void split_next(int depth);
+    void take_deferred(int& depth);
+    void add(std::uint32_t sample, double r, double g, double b);
+    core::Vec3d background_along(std::size_t lane) const;
+
+    const SceneData& scene_;
+    core::Settings settings_;
+    const Kernels& kernels_;
+    core::CameraRays<double> camera_rays_;
+    CameraView camera_{};
+    Bundle camera_bundle_{};
+    bool with_media_;
+    core::ReferenceTracer<double> reference_;
+    HitFinder finder_;
+    core::Counters counters_;
+
+    Arena arena_;
+    Paths paths_{}, next_{}, deferred_{};
+    std::vector<Deferred> pending_;
+
+    std::vector<Sample> samples_;
+    double* across_ = nullptr;
+    double* upward_ = nullptr;
+    double* radiance_[3] = {}; // by sample
+    std::vector<core::Vec3d> sums_; // by pixel of the region
+
+    // A wave, sorted.
+    std::uint32_t* keys_ = nullptr;
+    std::uint32_t* order_ = nullptr;
+    std::uint32_t* scratch_ = nullptr;
+    std::size_t hit_count_ = 0;
+    std::vector<Run> runs_;
+    Surfaces surfaces_{};
+    MediumColumns media_{};
+    SpawnedRays transmitted_{};
+    SpawnedRays shadows_{};
+    Paths shadow_paths_{};
+    RoundedRays shadow_rounded_{};
+    Occlusions occlusions_{};
+    float* shadow_t_most_ = nullptr;
+    Pending shadow_pending_{};
+};
+
+} // namespace raylane::simd
