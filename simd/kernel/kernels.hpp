@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/finish.hpp"
 #include "simd/kernel/solvers/box.hpp"
 #include "simd/kernel/solvers/cone.hpp"
 #include "simd/kernel/solvers/cylinder.hpp"
@@ -209,7 +210,7 @@ struct KernelsOf {
 
     static constexpr Kernels table(const char* name) {
         return {name,         lanes,         intersect_rays, intersect_block,
-                occlude_rays, occlude_block, outward_normals};
+                occlude_rays, occlude_block, outward_normals, finish<Arch>};
     }
 };
 

@@ -20,10 +20,25 @@ using Sse42 = xsimd::sse4_2;
 using Avx2 = xsimd::fma3<xsimd::avx2>;
 using Avx512 = xsimd::avx512f;
 
+/// Stands for Arch, but with numbers that are double. Its Lanes are in doubles.hpp.
 template <class Arch>
-using Floats = xsimd::batch<float, Arch>;
+struct Double {};
+
 template <class Arch>
-using Mask = xsimd::batch_bool<float, Arch>;
+struct Registers {
+    using Floats = xsimd::batch<float, Arch>;
+    using Mask = xsimd::batch_bool<float, Arch>;
+};
+template <class Arch>
+struct Registers<Double<Arch>> {
+    using Floats = xsimd::batch<double, Arch>;
+    using Mask = xsimd::batch_bool<double, Arch>;
+};
+
+template <class Arch>
+using Floats = typename Registers<Arch>::Floats;
+template <class Arch>
+using Mask = typename Registers<Arch>::Mask;
 
 /// By loops over memory: what the native forms below are tested against, and what other processors
 /// can use.
