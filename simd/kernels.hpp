@@ -38,7 +38,8 @@ struct ShapeBlock {
 };
 
 /// Rays in double with the shapes that were found for them, structure of arrays of `count` values,
-/// readable and writable up to whole packets of 16. Directions are unit vectors.
+/// readable and writable up to whole packets of 16. Directions have a length
+/// of 1 +- 2^-48.
 struct Found {
     std::size_t count;
     const double* origin[3];
@@ -88,6 +89,10 @@ struct Kernels {
     /// The unit outward normals of one shape of a block at n points. `face` as in RayStream.
     void (*outward_normals)(KindNumber kind, const ShapeBlock& block, int lane, std::size_t count,
                             const float* const point[3], const float* face, float* const normal[3]);
+
+    /// Where rays first cross the shapes that were found for them, in double. The same bits in
+    /// every unit.
+    void (*finish)(const SceneView& scene, const Found& found);
 
     TraceKernels trace;
     ShadeKernels shade;

@@ -27,7 +27,7 @@ struct Progress {
 struct RenderOptions {
     Engine engine = Engine::vector;
     std::optional<Isa> isa; ///< of the vector engine, an available one; default: the best
-    int tile = 0; ///< pixels on a tile's side, in [8, 64]; 0: as suits the engine
+    int tile = 0;           ///< pixels on a tile's side, in [8, 64]; 0: as suits the engine
     Precision precision = Precision::double_precision; ///< of the reference
     int threads = 0;                                   ///< 0: all that the machine has
     Progress* progress = nullptr;

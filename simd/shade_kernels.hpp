@@ -59,12 +59,12 @@ struct MediumColumns {
 /// The surfaces that a wave has hit, in the order in which they are shaded: by material.
 struct Surfaces {
     double* point[3];
-    double* flat_normal[3];  ///< unit, on the side that the ray comes from
-    double* normal[3];       ///< the same to shade with
-    double* direction[3];    ///< of the ray
-    double* throughput[3];   ///< behind the segment's fog or absorption
-    double* own[3];          ///< the material's colour here
-    double* radiance[3];     ///< what is seen, times throughput, without lights and further rays
+    double* flat_normal[3]; ///< unit, on the side that the ray comes from
+    double* normal[3];      ///< the same to shade with
+    double* direction[3];   ///< of the ray
+    double* throughput[3];  ///< behind the segment's fog or absorption
+    double* own[3];         ///< the material's colour here
+    double* radiance[3];    ///< what is seen, times throughput, without lights and further rays
 };
 
 /// Positions `begin` to `end` of a sorted wave have one material.
@@ -78,8 +78,8 @@ struct SpawnedRays {
     std::size_t count;
     double* origin[3];
     double* direction[3]; ///< unit
-    double* weight[3];    ///< shadow rays: what is seen if nothing is in the way; others: throughput
-    double* distance;     ///< shadow rays: to the light
+    double* weight[3]; ///< shadow rays: what is seen if nothing is in the way; others: throughput
+    double* distance;  ///< shadow rays: to the light
     double* parent;
 };
 

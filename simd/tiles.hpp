@@ -12,8 +12,8 @@ inline constexpr int max_threads = 4096;
 /// As many as the machine has for this process.
 int default_threads();
 
-/// Calls visit(region) once for each tile of a picture, `tile` pixels on a side, on `threads` threads (0:
-/// default_threads()). An exception ends the loop and comes out of it.
+/// Calls visit(region) once for each tile of a picture, `tile` pixels on a side, on `threads`
+/// threads (0: default_threads()). An exception ends the loop and comes out of it.
 void for_each_tile(int width, int height, int tile, int threads,
                    const std::function<void(const core::Region&)>& visit);
 

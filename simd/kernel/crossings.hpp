@@ -43,7 +43,7 @@ Mask<Arch> all() {
 }
 template <class Arch>
 Floats<Arch> zero() {
-    return Floats<Arch>(0.0F);
+    return Floats<Arch>(static_cast<typename Floats<Arch>::value_type>(0.0F));
 }
 
 /// core::not_behind

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/finish.hpp"
 #include "simd/kernel/shade/shade.hpp"
 #include "simd/kernel/solvers/box.hpp"
 #include "simd/kernel/solvers/cone.hpp"
@@ -217,6 +218,7 @@ struct KernelsOf {
                 occlude_rays,
                 occlude_block,
                 outward_normals,
+                finish<Arch>,
                 Prepare<Arch>::table(),
                 Shading<Double<Arch>>::table()};
     }

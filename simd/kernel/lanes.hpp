@@ -20,10 +20,35 @@ using Sse42 = xsimd::sse4_2;
 using Avx2 = xsimd::fma3<xsimd::avx2>;
 using Avx512 = xsimd::avx512f;
 
+/// Stands for Arch, but with numbers that are double. Its Lanes are in doubles.hpp.
 template <class Arch>
-using Floats = xsimd::batch<float, Arch>;
+struct Double {};
+
 template <class Arch>
-using Mask = xsimd::batch_bool<float, Arch>;
+struct Registers {
+    using Floats = xsimd::batch<float, Arch>;
+    using Mask = xsimd::batch_bool<float, Arch>;
+};
+template <class Arch>
+struct Registers<Double<Arch>> {
+    using Floats = xsimd::batch<double, Arch>;
+    using Mask = xsimd::batch_bool<double, Arch>;
+};
+
+template <class Arch>
+using Floats = typename Registers<Arch>::Floats;
+template <class Arch>
+using Mask = typename Registers<Arch>::Mask;
+
+/// The same bits as lanes of another type of the same size.
+template <class To, class From, class Arch>
+xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
+#if XSIMD_VERSION_MAJOR < 9
+    return xsimd::bitwise_cast<xsimd::batch<To, Arch>>(from);
+#else
+    return xsimd::bitwise_cast<To>(from);
+#endif
+}
 
 /// By loops over memory: what the native forms below are tested against, and what other processors
 /// can use.
@@ -164,7 +189,8 @@ struct Lanes<Sse42> {
     }
 
     static Floats<Sse42> narrow(const double* from) {
-        return _mm_movelh_ps(_mm_cvtpd_ps(_mm_loadu_pd(from)), _mm_cvtpd_ps(_mm_loadu_pd(from + 2)));
+        return _mm_movelh_ps(_mm_cvtpd_ps(_mm_loadu_pd(from)),
+                             _mm_cvtpd_ps(_mm_loadu_pd(from + 2)));
     }
 
     static Mask<Sse42> in_range(const Floats<Sse42>& id, const Floats<Sse42>& first,

@@ -11,9 +11,9 @@ Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<
 }
 
 /// -a. In some versions of xsimd -a is 0 - a, which loses the sign of zeros.
-template <class Arch>
-Floats<Arch> negated(const Floats<Arch>& a) {
-    return a ^ Floats<Arch>(-0.0F);
+template <class Number, class Arch>
+xsimd::batch<Number, Arch> negated(const xsimd::batch<Number, Arch>& a) {
+    return a ^ xsimd::batch<Number, Arch>(static_cast<Number>(-0.0F));
 }
 
 /// One vector per lane.

@@ -73,8 +73,7 @@ core::Ray<double> ray_of(const Paths& paths, std::size_t lane) {
             {paths.direction[0][lane], paths.direction[1][lane], paths.direction[2][lane]}};
 }
 
-core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
-                                     std::size_t lane) {
+core::Departure<double> departure_of(const SceneData& scene, const Paths& paths, std::size_t lane) {
     core::Departure<double> departure;
     const std::uint32_t slot = paths.departed_slot[lane];
     if (slot == no_slot) return departure;
@@ -84,8 +83,11 @@ core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
     hit.kind = scene.kind_of(slot);
     hit.slot = scene.place_of(slot);
     const bool inward = (paths.departure[lane] & departure_inward) != 0;
-    departure.add({hit, {paths.departed_first[lane], paths.departed_last[lane]},
-                   core::Vec3d(0.0), inward, inward});
+    departure.add({hit,
+                   {paths.departed_first[lane], paths.departed_last[lane]},
+                   core::Vec3d(0.0),
+                   inward,
+                   inward});
     return departure;
 }
 
@@ -178,9 +180,8 @@ void HitFinder::certify(const Paths& paths) {
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         if (hits_.slot[lane] == no_slot) continue;
         const double last = hits_.t[lane] + hits_.error[lane];
-        const double most =
-            static_cast<double>(std::min(candidates_.second[lane],
-                                         candidates_.first[lane] * culling_slack));
+        const double most = static_cast<double>(
+            std::min(candidates_.second[lane], candidates_.first[lane] * culling_slack));
         if ((hits_.hit[lane] & (hit_doubtful | hit_none)) != 0 || !(last <= most))
             doubtful_[lane] = 1;
     }

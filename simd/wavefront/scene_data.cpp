@@ -27,8 +27,7 @@ MaterialView view_of(const core::Material& material) {
     view.axes = pattern.axes;
     view.size = static_cast<double>(pattern.size);
     const core::Vec3d direction = core::normalized(core::convert<double>(pattern.direction));
-    const core::Vec3d run =
-        core::convert<double>(pattern.to) - core::convert<double>(pattern.from);
+    const core::Vec3d run = core::convert<double>(pattern.to) - core::convert<double>(pattern.from);
     for (int axis = 0; axis < 3; ++axis) {
         for (int which = 0; which < 2; ++which)
             view.colors[which][axis] = static_cast<double>(pattern.colors[which][axis]);
@@ -84,8 +83,8 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
         const auto kind = static_cast<int>(core::kind_of<Shape>);
         view_.tables[kind] = {reinterpret_cast<const float*>(table.blocks().data()),
                               static_cast<std::uint32_t>(table.blocks().size()),
-                              sizeof(core::Block<Shape>) / sizeof(float),
-                              core::float_count<Shape>, slots};
+                              sizeof(core::Block<Shape>) / sizeof(float), core::float_count<Shape>,
+                              slots};
         slots += static_cast<std::uint32_t>(table.blocks().size()) * core::block_size;
         if (table.size() != 0) present |= 1U << kind;
     });
@@ -102,9 +101,9 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
         return !material.transmits() && material.visible == core::Visible::both;
     };
     if (std::all_of(scene.materials().begin(), scene.materials().end(), is_plain)) return;
-    one_sided_ = std::any_of(
-        scene.materials().begin(), scene.materials().end(),
-        [](const core::Material& m) { return m.visible != core::Visible::both; });
+    one_sided_ =
+        std::any_of(scene.materials().begin(), scene.materials().end(),
+                    [](const core::Material& m) { return m.visible != core::Visible::both; });
     plain_lanes_.reserve(slots / core::block_size);
     core::for_each_table(scene.shapes(), [&](const auto& table) {
         for (const auto& block : table.blocks()) {
@@ -127,8 +126,7 @@ core::Kind SceneData::kind_of(std::uint32_t slot) const {
 }
 
 core::Slot SceneData::place_of(std::uint32_t slot) const {
-    const std::uint32_t offset =
-        slot - view_.tables[static_cast<int>(kind_of(slot))].first_slot;
+    const std::uint32_t offset = slot - view_.tables[static_cast<int>(kind_of(slot))].first_slot;
     return {offset / core::block_size, static_cast<std::uint8_t>(offset % core::block_size)};
 }
 
@@ -136,7 +134,8 @@ core::ShapeId SceneData::id_of(std::uint32_t slot) const {
     const TableView& table = view_.tables[static_cast<int>(kind_of(slot))];
     const std::uint32_t offset = slot - table.first_slot;
     const float* block = table.blocks + std::size_t{table.block_floats} * (offset / 16);
-    return reinterpret_cast<const core::ShapeId*>(block + std::size_t{16} * table.values)[offset % 16];
+    return reinterpret_cast<const core::ShapeId*>(block +
+                                                  std::size_t{16} * table.values)[offset % 16];
 }
 
 std::uint32_t SceneData::slot_of(core::Kind kind, core::Slot place) const {

@@ -62,13 +62,11 @@ Bundle bundle_of(const LightView& light) {
 
 } // namespace
 
-Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings,
-                     const Kernels& kernels)
+Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Kernels& kernels)
     : scene_(scene), settings_(settings), kernels_(kernels),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
-      camera_bundle_(bundle_of(camera_)),
-      with_media_(any_transmits(scene.scene())), reference_(scene.scene(), settings),
-      finder_(scene, kernels, reference_) {
+      camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
+      reference_(scene.scene(), settings), finder_(scene, kernels, reference_) {
     Arena measure;
     take_from(measure);
     arena_ = Arena(measure.used());
@@ -89,9 +87,9 @@ void Wavefront::take_from(Arena& arena) {
     keys_ = arena.take<std::uint32_t>(wave_rays);
     order_ = arena.take<std::uint32_t>(wave_rays);
     scratch_ = arena.take<std::uint32_t>(wave_rays);
-    for (auto* columns : {&surfaces_.point, &surfaces_.flat_normal, &surfaces_.normal,
-                          &surfaces_.direction, &surfaces_.throughput, &surfaces_.own,
-                          &surfaces_.radiance})
+    for (auto* columns :
+         {&surfaces_.point, &surfaces_.flat_normal, &surfaces_.normal, &surfaces_.direction,
+          &surfaces_.throughput, &surfaces_.own, &surfaces_.radiance})
         arena.take(*columns, wave_rays);
     if (with_media_) {
         media_.index_before = arena.take<double>(wave_rays);
@@ -202,11 +200,10 @@ void Wavefront::follow_contacts(int depth) {
     for (const std::uint32_t lane : finder_.contacts()) {
         const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                      paths_.throughput[2][lane]);
-        const core::Vec3d color = reference_.color_along({ray_of(paths_, lane),
-                                                          departure_of(scene_, paths_, lane),
-                                                          paths_.media_at(lane), throughput,
-                                                          depth}) *
-                                  throughput;
+        const core::Vec3d color =
+            reference_.color_along({ray_of(paths_, lane), departure_of(scene_, paths_, lane),
+                                    paths_.media_at(lane), throughput, depth}) *
+            throughput;
         add(paths_.sample[lane], color.x, color.y, color.z);
     }
 }
@@ -452,13 +449,11 @@ void Wavefront::add_to_next(const SpawnedRays& spawned, bool through) {
 /// alone makes too many of, the reference follows.
 void Wavefront::split_next(int depth) {
     while (paths_.count > wave_rays) {
-        const auto [least, most] =
-            std::minmax_element(paths_.sample, paths_.sample + paths_.count);
+        const auto [least, most] = std::minmax_element(paths_.sample, paths_.sample + paths_.count);
         const std::uint32_t first = *least, last = *most;
         if (first == last) {
             for (std::size_t lane = 0; lane < paths_.count; ++lane) {
-                const core::Vec3d throughput(paths_.throughput[0][lane],
-                                             paths_.throughput[1][lane],
+                const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                              paths_.throughput[2][lane]);
                 const core::Vec3d color =
                     reference_.color_along({ray_of(paths_, lane),

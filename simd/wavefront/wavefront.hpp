@@ -76,7 +76,7 @@ class Wavefront {
     std::vector<Sample> samples_;
     double* across_ = nullptr;
     double* upward_ = nullptr;
-    double* radiance_[3] = {}; // by sample
+    double* radiance_[3] = {};      // by sample
     std::vector<core::Vec3d> sums_; // by pixel of the region
 
     // A wave, sorted.

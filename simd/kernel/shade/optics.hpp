@@ -19,8 +19,7 @@ struct Refractions {
                 const F& n2)
         : total(false), cos_incident(0.0), cos_transmitted(0.0), transmitted(incident) {
         const F zero(0.0), one(1.0);
-        cos_incident =
-            xsimd::min(xsimd::max(negated(dot<Arch>(incident, normal)), zero), one);
+        cos_incident = xsimd::min(xsimd::max(negated(dot<Arch>(incident, normal)), zero), one);
         const Vectors<Arch> tangential = mul_add<Arch>(cos_incident, normal, incident);
         const F ratio = n1 / n2;
         const Vectors<Arch> along = {ratio * tangential.x, ratio * tangential.y,
@@ -41,8 +40,7 @@ struct Refractions {
 
     F reflectance(const MaterialView& material, const F& n1, const F& n2) const {
         const F one(1.0);
-        if (material.reflection == 0)
-            return xsimd::select(total, one, F(material.reflectivity));
+        if (material.reflection == 0) return xsimd::select(total, one, F(material.reflectivity));
         const F share = material.reflection == 1 ? schlick(n1, n2) : dielectric(n1, n2);
         return xsimd::select(total, one, xsimd::select(n1 == n2, F(0.0), share));
     }
@@ -58,12 +56,11 @@ struct Refractions {
     }
 
     F dielectric(const F& n1, const F& n2) const {
-        const F perpendicular = (n1 * cos_incident - n2 * cos_transmitted) /
-                                (n1 * cos_incident + n2 * cos_transmitted);
-        const F parallel = (n1 * cos_transmitted - n2 * cos_incident) /
-                           (n1 * cos_transmitted + n2 * cos_incident);
-        return xsimd::min(F(1.0),
-                          (perpendicular * perpendicular + parallel * parallel) * F(0.5));
+        const F perpendicular =
+            (n1 * cos_incident - n2 * cos_transmitted) / (n1 * cos_incident + n2 * cos_transmitted);
+        const F parallel =
+            (n1 * cos_transmitted - n2 * cos_incident) / (n1 * cos_transmitted + n2 * cos_incident);
+        return xsimd::min(F(1.0), (perpendicular * perpendicular + parallel * parallel) * F(0.5));
     }
 };
 

@@ -16,6 +16,7 @@ template <class Arch>
 struct Patterns {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
+    using Elementary = core::Elementary<F>;
 
     /// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ...
     static F parity(const F& value) {
@@ -37,10 +38,10 @@ struct Patterns {
             return select<Arch>(parity(sum) < one, first, second);
         }
         case 2: // stripes
-            return select<Arch>(parity(dot<Arch>(point, broadcast_vector<Arch>(
-                                                            material.direction)) /
-                                       F(material.size)) < F(1.0),
-                                first, second);
+            return select<Arch>(
+                parity(dot<Arch>(point, broadcast_vector<Arch>(material.direction)) /
+                       F(material.size)) < F(1.0),
+                first, second);
         case 3: { // gradient
             const F raw = dot<Arch>(point - broadcast_vector<Arch>(material.from),
                                     broadcast_vector<Arch>(material.run));
@@ -62,11 +63,12 @@ struct Patterns {
         const M sun = (x * x + y * y < F(150.0)) & (above | below);
         const F root = xsimd::sqrt(xsimd::max(y, zero));
         const M sky = y >= zero;
-        const Vectors<Arch> bands = select<Arch>(
-            sky,
-            Vectors<Arch>{xsimd::abs(cosine(x)), xsimd::abs(sine(root)),
-                          xsimd::abs(cosine(root))},
-            Vectors<Arch>{zero, zero, xsimd::abs(cosine(y))});
+        const Vectors<Arch> bands =
+            select<Arch>(sky,
+                         Vectors<Arch>{xsimd::abs(Elementary::sin_cos(x).cosine),
+                                       xsimd::abs(Elementary::sin_cos(root).sine),
+                                       xsimd::abs(Elementary::sin_cos(root).cosine)},
+                         Vectors<Arch>{zero, zero, xsimd::abs(Elementary::sin_cos(y).cosine)});
         const Vectors<Arch> orange{xsimd::select(above, F(1.0), F(0.7)), F(0.2), zero};
         return select<Arch>(sun, orange, bands);
     }

@@ -16,9 +16,6 @@ struct Shading {
     static constexpr std::size_t lanes = F::size;
 
     static F load(const double* from) { return F::load_unaligned(from); }
-    static V load(const double* const (&from)[3], std::size_t i) {
-        return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
-    }
     static V load(double* const (&from)[3], std::size_t i) {
         return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
     }
@@ -57,8 +54,7 @@ struct Shading {
     };
 
     static void surfaces(const Run& run, const std::uint32_t* numbers, const HitPaths& paths,
-                         const FogView& fog, const MediumColumns* media,
-                         const Surfaces& surfaces) {
+                         const FogView& fog, const MediumColumns* media, const Surfaces& surfaces) {
         const MaterialView& material = *run.material;
         for (std::size_t i = run.begin; i < run.end; i += lanes) {
             const Gather gather(numbers + i, run.end - i);
@@ -117,20 +113,20 @@ struct Shading {
         case 2:
             return clamped((distance - start) / range);
         default:
-            return negated(expm1(negated(F(fog.density) * distance)));
+            return negated(core::Elementary<F>::expm1(negated(F(fog.density) * distance)));
         }
     }
 
-    static F clamped(const F& value) {
-        return xsimd::min(xsimd::max(value, F(0.0)), F(1.0));
-    }
+    static F clamped(const F& value) { return xsimd::min(xsimd::max(value, F(0.0)), F(1.0)); }
 
     /// Beer and Lambert's law.
     static V let_through(const V& absorption, const F& distance) {
         const M some = (absorption.x > F(0.0)) | (absorption.y > F(0.0)) | (absorption.z > F(0.0));
         if (Lanes<Arch>::bits(some) == 0) return {F(1.0), F(1.0), F(1.0)};
-        return {exp(negated(absorption.x) * distance), exp(negated(absorption.y) * distance),
-                exp(negated(absorption.z) * distance)};
+        const auto share = [&](const F& channel) {
+            return core::Elementary<F>::exp(negated(channel) * distance);
+        };
+        return {share(absorption.x), share(absorption.y), share(absorption.z)};
     }
 
     static F numbers_from(std::size_t i) {
@@ -144,15 +140,14 @@ struct Shading {
         return end - i < lanes ? (1U << (end - i)) - 1 : (1U << lanes) - 1;
     }
 
-    static void append(SpawnedRays& rays, std::uint32_t wanted, const V& origin,
-                       const V& direction, const V& weight, const F& parent) {
+    static void append(SpawnedRays& rays, std::uint32_t wanted, const V& origin, const V& direction,
+                       const V& weight, const F& parent) {
         const std::size_t at = rays.count;
         const F* const values[] = {&origin.x,    &origin.y, &origin.z, &direction.x, &direction.y,
                                    &direction.z, &weight.x, &weight.y, &weight.z,    &parent};
-        double* const columns[] = {rays.origin[0],    rays.origin[1], rays.origin[2],
-                                   rays.direction[0], rays.direction[1], rays.direction[2],
-                                   rays.weight[0],    rays.weight[1], rays.weight[2],
-                                   rays.parent};
+        double* const columns[] = {
+            rays.origin[0],    rays.origin[1], rays.origin[2], rays.direction[0], rays.direction[1],
+            rays.direction[2], rays.weight[0], rays.weight[1], rays.weight[2],    rays.parent};
         for (int k = 0; k < 10; ++k)
             Lanes<Arch>::compress_store(columns[k] + at, *values[k], wanted);
         rays.count += static_cast<std::size_t>(__builtin_popcount(wanted));
@@ -185,9 +180,9 @@ struct Shading {
                     xsimd::max(dot<Arch>(normal, halfway) / xsimd::sqrt(squared), zero);
                 const F highlight =
                     xsimd::select(squared > zero,
-                                  F(material.specular) *
-                                      pow(xsimd::min(cosine_of_halfway, F(1.0)),
-                                          F(material.exponent)),
+                                  F(material.specular) * core::Elementary<F>::pow(
+                                                             xsimd::min(cosine_of_halfway, F(1.0)),
+                                                             F(material.exponent)),
                                   zero);
                 share = share + V{highlight, highlight, highlight};
             }
@@ -232,12 +227,11 @@ struct Shading {
                 if (material.transmits) {
                     const F let = (one - share) * F(material.transmission);
                     const V weight = scaled(let, throughput);
-                    const std::uint32_t wanted = Lanes<Arch>::bits(is_worth(weight, min_weight) &
-                                                                   (let > zero)) &
-                                                 here;
+                    const std::uint32_t wanted =
+                        Lanes<Arch>::bits(is_worth(weight, min_weight) & (let > zero)) & here;
                     if (wanted != 0)
-                        append(transmitted, wanted, point,
-                               normalized<Arch>(refraction.transmitted), weight, parent);
+                        append(transmitted, wanted, point, normalized<Arch>(refraction.transmitted),
+                               weight, parent);
                 }
             }
             const V weight = scaled(share, throughput);

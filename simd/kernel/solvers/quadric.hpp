@@ -57,7 +57,6 @@ struct QuadricLanes {
         return select(squared_length(gradient) > o, normalized(gradient), unit_z);
     }
 
-  private:
     Vectors<Arch> product(const Vectors<Arch>& p) const {
         return {dot(Vectors<Arch>{xx, xy, xz}, p), dot(Vectors<Arch>{xy, yy, yz}, p),
                 dot(Vectors<Arch>{xz, yz, zz}, p)};

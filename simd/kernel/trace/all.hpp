@@ -74,21 +74,20 @@ struct TraceAll : Streams<Arch> {
             const F surely_before = t_most * F(1 - 4 * half_ulp);
             const F perhaps_before = t_most * F(1 + 4 * half_ulp);
             std::uint32_t some = 0, sure = 0;
-            for_each_shape(
-                scene, kind_bits,
-                [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
-                    const Bounds<Arch> bounds = filter.bounds(rays);
-                    const M elsewhere = ~Lanes<Arch>::in_range(S::broadcast_bits(id),
-                                                               departed_first, departed_last);
-                    const M possible = bounds.possible & elsewhere &
-                                       (bounds.lower < perhaps_before);
-                    some |= Lanes<Arch>::bits(possible);
-                    if (scene.plain_lanes == nullptr ||
-                        (scene.plain_lanes[this_slot / 16] >> this_slot % 16 & 1) != 0)
-                        sure |= Lanes<Arch>::bits(possible & bounds.certain &
-                                                  (bounds.upper < surely_before));
-                    shapes += F::size;
-                });
+            for_each_shape(scene, kind_bits,
+                           [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
+                               const Bounds<Arch> bounds = filter.bounds(rays);
+                               const M elsewhere = ~Lanes<Arch>::in_range(
+                                   S::broadcast_bits(id), departed_first, departed_last);
+                               const M possible =
+                                   bounds.possible & elsewhere & (bounds.lower < perhaps_before);
+                               some |= Lanes<Arch>::bits(possible);
+                               if (scene.plain_lanes == nullptr ||
+                                   (scene.plain_lanes[this_slot / 16] >> this_slot % 16 & 1) != 0)
+                                   sure |= Lanes<Arch>::bits(possible & bounds.certain &
+                                                             (bounds.upper < surely_before));
+                               shapes += F::size;
+                           });
             const std::size_t end = count - i < F::size ? count - i : F::size;
             for (std::size_t lane = 0; lane < end; ++lane) {
                 std::uint8_t& state = occlusions.state[i + lane];

@@ -86,8 +86,7 @@ struct TraceBundle : Streams<Arch> {
         with_filter<Arch>(kind, [&]<class Filter>() {
             for (; shapes != 0; shapes &= shapes - 1) {
                 const int lane = __builtin_ctz(shapes);
-                const auto sphere =
-                    sphere_around<Arch>(kind, BroadcastReader<Arch>(rows, lane));
+                const auto sphere = sphere_around<Arch>(kind, BroadcastReader<Arch>(rows, lane));
                 std::uint32_t bunches = 0;
                 for (std::size_t from = 0; from < 16; from += F::size)
                     bunches |= group.bunches_that_meet(sphere, from, S::load(limits.t + from))
@@ -126,8 +125,7 @@ struct TraceBundle : Streams<Arch> {
                                             const std::size_t from =
                                                 begin + bunch * static_cast<std::size_t>(which);
                                             limits.t[which] =
-                                                test(filter, id, slot, from, end, rays,
-                                                     candidates);
+                                                test(filter, id, slot, from, end, rays, candidates);
                                             counters.shapes += bunch;
                                             changed = true;
                                         }
@@ -146,10 +144,9 @@ struct TraceBundle : Streams<Arch> {
         for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
             const Bounds<Arch> bounds = filter.bounds(S::packet(stream, i));
             const M counts =
-                bounds.possible &
-                ~Lanes<Arch>::in_range(S::broadcast_bits(id),
-                                       S::load_bits(stream.departed_first + i),
-                                       S::load_bits(stream.departed_last + i));
+                bounds.possible & ~Lanes<Arch>::in_range(S::broadcast_bits(id),
+                                                         S::load_bits(stream.departed_first + i),
+                                                         S::load_bits(stream.departed_last + i));
             const F t = xsimd::select(counts, bounds.lower, S::infinity());
             const F first = S::load(candidates.first + i);
             const F second = S::load(candidates.second + i);
@@ -159,8 +156,8 @@ struct TraceBundle : Streams<Arch> {
             nearest.store_unaligned(candidates.first + i);
             S::store_bits(xsimd::select(t < first, S::broadcast_bits(this_slot), slot),
                           candidates.slot + i);
-            latest = xsimd::max(latest,
-                                xsimd::select(S::first_lanes(end - i), nearest, zero<Arch>()));
+            latest =
+                xsimd::max(latest, xsimd::select(S::first_lanes(end - i), nearest, zero<Arch>()));
         }
         return Lanes<Arch>::greatest(latest) * culling_slack;
     }
@@ -209,8 +206,8 @@ struct TraceBundle : Streams<Arch> {
     static bool block(const SceneView& scene, const Filter& filter, std::uint32_t id,
                       std::uint32_t slot, std::size_t from, std::size_t end,
                       const RoundedRays& stream, const Occlusions& occlusions) {
-        const bool plain = scene.plain_lanes == nullptr ||
-                           (scene.plain_lanes[slot / 16] >> slot % 16 & 1) != 0;
+        const bool plain =
+            scene.plain_lanes == nullptr || (scene.plain_lanes[slot / 16] >> slot % 16 & 1) != 0;
         bool all_blocked = true;
         for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
             const F t_most = S::load(occlusions.t_most + i);
@@ -260,8 +257,7 @@ struct TraceBundle : Streams<Arch> {
                                 candidates.slot + begin};
         if (kind_bits != 0)
             TraceAll<Arch>::nearest(scene, kind_bits, end - begin, some, theirs, counters);
-        if (has_tree)
-            TraceTree<Arch>::nearest(scene, end - begin, some, theirs, pending, counters);
+        if (has_tree) TraceTree<Arch>::nearest(scene, end - begin, some, theirs, pending, counters);
     }
 
     static void occluded_one_by_one(const SceneView& scene, std::uint32_t kind_bits, bool has_tree,

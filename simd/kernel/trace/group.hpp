@@ -32,12 +32,12 @@ struct Group : Streams<Arch> {
 
     float apex[3];
     float slack;
-    int along;         ///< k
-    int across[2];     ///< the other coordinates
-    float sense;       ///< of the rays along k: 1 or -1
-    float least_w;     ///< of sense * w_k: what comes before is behind all rays
-    float greatest_w;  ///< and what comes after this is beyond them
-    float fastest;     ///< the largest |d_k|
+    int along;          ///< k
+    int across[2];      ///< the other coordinates
+    float sense;        ///< of the rays along k: 1 or -1
+    float least_w;      ///< of sense * w_k: what comes before is behind all rays
+    float greatest_w;   ///< and what comes after this is beyond them
+    float fastest;      ///< the largest |d_k|
     float latest_start; ///< sense * w_k of the last origin
     Side above[2], below[2];
     std::size_t bunches;
@@ -84,8 +84,8 @@ struct Group : Streams<Arch> {
             for (std::size_t i = from; i < from + 16; i += F::size) {
                 if (i >= end) break;
                 const M here = S::first_lanes(end - i);
-                most_slack = xsimd::max(
-                    most_slack, xsimd::select(here, S::load(rays.slack + i), zero<Arch>()));
+                most_slack = xsimd::max(most_slack,
+                                        xsimd::select(here, S::load(rays.slack + i), zero<Arch>()));
                 const F d = F(bundle.towards ? -sense : sense) * S::load(rays.direction[along] + i);
                 speeds_low = xsimd::min(speeds_low, xsimd::select(here, d, S::infinity()));
                 speeds_high = xsimd::max(speeds_high, xsimd::select(here, d, zero<Arch>()));
@@ -105,9 +105,8 @@ struct Group : Streams<Arch> {
                     high_slope[side] = xsimd::max(
                         high_slope[side], xsimd::select(here, slope, negated(S::infinity())));
                     if (!bundle.parallel) continue;
-                    const F offset =
-                        (S::load(rays.origin[a] + i) - F(apex[a])) -
-                        slope * (S::load(rays.origin[along] + i) - F(apex[along]));
+                    const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) -
+                                     slope * (S::load(rays.origin[along] + i) - F(apex[along]));
                     low_offset[side] =
                         xsimd::min(low_offset[side], xsimd::select(here, offset, S::infinity()));
                     high_offset[side] = xsimd::max(
@@ -244,8 +243,8 @@ struct Group : Streams<Arch> {
     std::uint32_t bunches_that_meet(const SphereAround<Arch>& sphere, std::size_t from,
                                     const F& t_most) const {
         const F w_along = component(sphere.center, along) - F(apex[along]);
-        M meets = near_t(F(sense) * w_along - grace(w_along, zero<Arch>()) - sphere.radius) <=
-                  t_most;
+        M meets =
+            near_t(F(sense) * w_along - grace(w_along, zero<Arch>()) - sphere.radius) <= t_most;
         for (int side = 0; side < 2; ++side) {
             const F w_across = component(sphere.center, across[side]) - F(apex[across[side]]);
             const F room = grace(w_along, w_across);

@@ -16,7 +16,7 @@ struct Prepare : Streams<Arch> {
                             double* const direction[3]) {
         using D = Double<Arch>;
         using Number = Floats<D>;
-        const auto broadcast = [](const double (&v)[3]) {
+        const auto broadcast = [](const double(&v)[3]) {
             return Vectors<D>{Number(v[0]), Number(v[1]), Number(v[2])};
         };
         const Vectors<D> from = broadcast(camera.from), forward = broadcast(camera.forward);
@@ -27,8 +27,7 @@ struct Prepare : Streams<Arch> {
             const Vectors<D> offset{x * right.x + y * up.x, x * right.y + y * up.y,
                                     x * right.z + y * up.z};
             const Vectors<D> o = camera.orthographic ? from + offset : from;
-            const Vectors<D> d =
-                camera.orthographic ? forward : normalized<D>(forward + offset);
+            const Vectors<D> d = camera.orthographic ? forward : normalized<D>(forward + offset);
             const Number* const values[] = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
             double* const columns[] = {origin[0],    origin[1],    origin[2],
                                        direction[0], direction[1], direction[2]};
@@ -45,8 +44,7 @@ struct Prepare : Streams<Arch> {
                 const F o = Lanes<Arch>::narrow(origin[axis] + i);
                 o.store_unaligned(rays.origin[axis] + i);
                 sum = sum + xsimd::abs(o);
-                Lanes<Arch>::narrow(direction[axis] + i)
-                    .store_unaligned(rays.direction[axis] + i);
+                Lanes<Arch>::narrow(direction[axis] + i).store_unaligned(rays.direction[axis] + i);
             }
             // Half an ulp of each coordinate; the factor is for the rounding of the sum.
             (sum * F(half_ulp * (1 + 8 * half_ulp))).store_unaligned(rays.slack + i);

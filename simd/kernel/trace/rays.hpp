@@ -16,19 +16,17 @@ struct Streams {
     static F load_bits(const std::uint32_t* from) {
         return F::load_unaligned(reinterpret_cast<const float*>(from));
     }
-    static F broadcast_bits(std::uint32_t bits) {
-        return F(__builtin_bit_cast(float, bits));
-    }
+    static F broadcast_bits(std::uint32_t bits) { return F(__builtin_bit_cast(float, bits)); }
     static void store_bits(const F& values, std::uint32_t* to) {
         values.store_unaligned(reinterpret_cast<float*>(to));
     }
     static F infinity() { return F(__builtin_inff()); }
 
     static FilterRays<Arch> packet(const RoundedRays& rays, std::size_t i) {
-        return {{load(rays.origin[0] + i), load(rays.origin[1] + i), load(rays.origin[2] + i)},
-                {load(rays.direction[0] + i), load(rays.direction[1] + i),
-                 load(rays.direction[2] + i)},
-                load(rays.slack + i)};
+        return {
+            {load(rays.origin[0] + i), load(rays.origin[1] + i), load(rays.origin[2] + i)},
+            {load(rays.direction[0] + i), load(rays.direction[1] + i), load(rays.direction[2] + i)},
+            load(rays.slack + i)};
     }
 
     static FilterRays<Arch> broadcast(const RoundedRays& rays, std::size_t i) {
@@ -39,8 +37,7 @@ struct Streams {
 
     /// The first `count` lanes.
     static M first_lanes(std::size_t count) {
-        static constexpr float numbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                              8, 9, 10, 11, 12, 13, 14, 15};
+        static constexpr float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
         return load(numbers) < F(static_cast<float>(count < lanes ? count : lanes));
     }
 

@@ -48,8 +48,8 @@ SphereAround<Arch> sphere_around(int kind, Reader reader) {
         const Vectors<Arch> b = next_vector<Arch>(reader), c = next_vector<Arch>(reader);
         const Vectors<Arch> center = half<Arch>(first + half<Arch>(b + c));
         const F to_a = length<Arch>(first - center), to_b = length<Arch>(b - center);
-        return rounded_up<Arch>(
-            center, xsimd::max(xsimd::max(to_a, to_b), length<Arch>(c - center)));
+        return rounded_up<Arch>(center,
+                                xsimd::max(xsimd::max(to_a, to_b), length<Arch>(c - center)));
     }
     case 5: { // box
         const Vectors<Arch> u = half<Arch>(next_vector<Arch>(reader));

@@ -60,8 +60,7 @@ struct TraceTree : Streams<Arch> {
 
     /// The shapes of a block that the ray does not leave.
     static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {
-        return ~Lanes<Arch>::in_range(S::load_bits(ids),
-                                      S::broadcast_bits(rays.departed_first[i]),
+        return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.departed_first[i]),
                                       S::broadcast_bits(rays.departed_last[i]));
     }
 

@@ -1,0 +1,200 @@
+#pragma once
+
+#include "simd/kernel/vectors.hpp"
+
+/// Lanes of doubles, half as many as of floats, with what it takes to fill them from arrays of
+/// floats and of 32-bit numbers.
+///
+/// No multiply-add is fused: so every instruction set, and any scalar code, gives the same bits.
+namespace raylane::simd {
+
+/// Floats of a table, one per lane: base[offsets[lane]].
+template <class Arch>
+struct Spots {
+    const float* base;
+    long long offsets[Floats<Double<Arch>>::size];
+};
+
+/// bits, from_bits: lane i of a mask as bit i.
+/// in_range: first <= value <= last for unsigned numbers in memory.
+/// from_numbers, to_numbers: numbers below 2^31 in memory.
+/// gather: the floats at some spots, `row` further on.
+/// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
+template <class Arch>
+struct DoubleLanes;
+
+#ifdef __SSE4_2__
+template <>
+struct DoubleLanes<Sse42> {
+    using F = Floats<Double<Sse42>>;
+    using M = Mask<Double<Sse42>>;
+
+    static std::uint32_t bits(const M& mask) {
+        return static_cast<std::uint32_t>(_mm_movemask_pd(mask));
+    }
+    static M from_bits(std::uint32_t bits) {
+        const __m128i lane = _mm_set_epi64x(2, 1);
+        const __m128i wanted = _mm_and_si128(_mm_set1_epi64x(bits), lane);
+        return M(_mm_castsi128_pd(_mm_cmpeq_epi64(wanted, lane)));
+    }
+    static M in_range(const std::uint32_t* value, const std::uint32_t* first,
+                      const std::uint32_t* last) {
+        return in_range(load(value), load(first), load(last));
+    }
+    static M in_range(const std::uint32_t* value, std::uint32_t first, std::uint32_t last) {
+        return in_range(load(value), _mm_set1_epi32(static_cast<int>(first)),
+                        _mm_set1_epi32(static_cast<int>(last)));
+    }
+    static F from_numbers(const std::uint32_t* from, std::uint32_t kept) {
+        return F(
+            _mm_cvtepi32_pd(_mm_and_si128(load(from), _mm_set1_epi32(static_cast<int>(kept)))));
+    }
+    static void to_numbers(std::uint32_t* out, const F& values) {
+        _mm_storel_epi64(reinterpret_cast<__m128i*>(out), _mm_cvttpd_epi32(values));
+    }
+    static F gather(const Spots<Sse42>& spots, int row) {
+        const float* const from = spots.base + row;
+        return F(
+            _mm_cvtps_pd(_mm_setr_ps(from[spots.offsets[0]], from[spots.offsets[1]], 0.0F, 0.0F)));
+    }
+
+    static void compress_store(double* out, const F& values, std::uint32_t wanted) {
+        const __m128d lanes = values;
+        _mm_storeu_pd(out, wanted == 2 ? _mm_unpackhi_pd(lanes, lanes) : lanes);
+    }
+
+  private:
+    static __m128i load(const std::uint32_t* from) {
+        return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(from));
+    }
+    static M in_range(__m128i value, __m128i first, __m128i last) {
+        const __m128i offset = _mm_sub_epi32(value, first), most = _mm_sub_epi32(last, first);
+        const __m128i within = _mm_cmpeq_epi32(_mm_min_epu32(offset, most), offset);
+        return M(_mm_castsi128_pd(_mm_cvtepi32_epi64(within)));
+    }
+};
+#endif
+
+#if defined(__AVX2__) && defined(__FMA__)
+template <>
+struct DoubleLanes<Avx2> {
+    using F = Floats<Double<Avx2>>;
+    using M = Mask<Double<Avx2>>;
+
+    static std::uint32_t bits(const M& mask) {
+        return static_cast<std::uint32_t>(_mm256_movemask_pd(mask));
+    }
+    static M from_bits(std::uint32_t bits) {
+        const __m256i lane = _mm256_set_epi64x(8, 4, 2, 1);
+        const __m256i wanted = _mm256_and_si256(_mm256_set1_epi64x(bits), lane);
+        return M(_mm256_castsi256_pd(_mm256_cmpeq_epi64(wanted, lane)));
+    }
+    static M in_range(const std::uint32_t* value, const std::uint32_t* first,
+                      const std::uint32_t* last) {
+        return in_range(load(value), load(first), load(last));
+    }
+    static M in_range(const std::uint32_t* value, std::uint32_t first, std::uint32_t last) {
+        return in_range(load(value), _mm_set1_epi32(static_cast<int>(first)),
+                        _mm_set1_epi32(static_cast<int>(last)));
+    }
+    static F from_numbers(const std::uint32_t* from, std::uint32_t kept) {
+        return F(
+            _mm256_cvtepi32_pd(_mm_and_si128(load(from), _mm_set1_epi32(static_cast<int>(kept)))));
+    }
+    static void to_numbers(std::uint32_t* out, const F& values) {
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm256_cvttpd_epi32(values));
+    }
+    static F gather(const Spots<Avx2>& spots, int row) {
+        const float* const from = spots.base + row;
+        return F(_mm256_cvtps_pd(_mm_setr_ps(from[spots.offsets[0]], from[spots.offsets[1]],
+                                             from[spots.offsets[2]], from[spots.offsets[3]])));
+    }
+
+    static void compress_store(double* out, const F& values, std::uint32_t wanted) {
+        const __m256i order =
+            _mm256_load_si256(reinterpret_cast<const __m256i*>(orders[wanted].lanes));
+        _mm256_storeu_ps(reinterpret_cast<float*>(out),
+                         _mm256_permutevar8x32_ps(_mm256_castpd_ps(values), order));
+    }
+
+  private:
+    /// By pairs of 32 bits.
+    struct alignas(32) Order {
+        std::int32_t lanes[8];
+    };
+    static constexpr std::array<Order, 16> orders = [] {
+        std::array<Order, 16> all{};
+        for (unsigned wanted = 0; wanted < 16; ++wanted) {
+            int to = 0;
+            for (int lane = 0; lane < 4; ++lane) {
+                if ((wanted >> lane & 1) == 0) continue;
+                all[wanted].lanes[to++] = 2 * lane;
+                all[wanted].lanes[to++] = 2 * lane + 1;
+            }
+        }
+        return all;
+    }();
+
+    static __m128i load(const std::uint32_t* from) {
+        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+    }
+    static M in_range(__m128i value, __m128i first, __m128i last) {
+        const __m128i offset = _mm_sub_epi32(value, first), most = _mm_sub_epi32(last, first);
+        const __m128i within = _mm_cmpeq_epi32(_mm_min_epu32(offset, most), offset);
+        return M(_mm256_castsi256_pd(_mm256_cvtepi32_epi64(within)));
+    }
+};
+#endif
+
+#ifdef __AVX512F__
+template <>
+struct DoubleLanes<Avx512> {
+    using F = Floats<Double<Avx512>>;
+    using M = Mask<Double<Avx512>>;
+
+    static std::uint32_t bits(const M& mask) {
+        return static_cast<std::uint32_t>(static_cast<__mmask8>(mask));
+    }
+    static M from_bits(std::uint32_t bits) { return M(static_cast<__mmask8>(bits)); }
+    static M in_range(const std::uint32_t* value, const std::uint32_t* first,
+                      const std::uint32_t* last) {
+        return in_range(load(value), load(first), load(last));
+    }
+    static M in_range(const std::uint32_t* value, std::uint32_t first, std::uint32_t last) {
+        return in_range(load(value), _mm256_set1_epi32(static_cast<int>(first)),
+                        _mm256_set1_epi32(static_cast<int>(last)));
+    }
+    static F from_numbers(const std::uint32_t* from, std::uint32_t kept) {
+        return F(_mm512_cvtepi32_pd(
+            _mm256_and_si256(load(from), _mm256_set1_epi32(static_cast<int>(kept)))));
+    }
+    static void to_numbers(std::uint32_t* out, const F& values) {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm512_cvttpd_epi32(values));
+    }
+    static F gather(const Spots<Avx512>& spots, int row) {
+        const __m512i offsets = _mm512_loadu_si512(spots.offsets);
+        return F(_mm512_cvtps_pd(_mm512_i64gather_ps(offsets, spots.base + row, 4)));
+    }
+
+    static void compress_store(double* out, const F& values, std::uint32_t wanted) {
+        _mm512_mask_compressstoreu_pd(out, static_cast<__mmask8>(wanted), values);
+    }
+
+  private:
+    static __m256i load(const std::uint32_t* from) {
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+    }
+    static M in_range(__m256i value, __m256i first, __m256i last) {
+        const __m256i offset = _mm256_sub_epi32(value, first), most = _mm256_sub_epi32(last, first);
+        return M(_mm256_cmple_epu32_mask(offset, most));
+    }
+};
+#endif
+
+template <class Arch>
+struct Lanes<Double<Arch>> : DoubleLanes<Arch> {
+    using F = Floats<Double<Arch>>;
+    static F mul_add(const F& a, const F& b, const F& c) { return a * b + c; }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,222 @@
+#pragma once
+
+#include "simd/kernel/finishers/axial.hpp"
+#include "simd/kernel/finishers/box.hpp"
+#include "simd/kernel/finishers/flat.hpp"
+#include "simd/kernel/finishers/quadric.hpp"
+#include "simd/kernel/finishers/sphere.hpp"
+#include "simd/kernels.hpp"
+
+namespace raylane::simd {
+
+/// Calls visit.operator()<the kind's finisher>(). The order is core::Kind's.
+template <class Arch, class Visit>
+void with_finisher(int kind, const Visit& visit) {
+    using D = Double<Arch>;
+    switch (kind) {
+    case 0:
+        return visit.template operator()<SphereFinisher<D>>();
+    case 1:
+        return visit.template operator()<PlaneFinisher<D>>();
+    case 2:
+        return visit.template operator()<DiscFinisher<D>>();
+    case 3:
+        return visit.template operator()<TriangleFinisher<D>>();
+    case 4:
+        return visit.template operator()<SmoothTriangleFinisher<D>>();
+    case 5:
+        return visit.template operator()<BoxFinisher<D>>();
+    case 6:
+        return visit.template operator()<OpenFinisher<D, CylinderProfile<D, false>>>();
+    case 7:
+        return visit.template operator()<CappedFinisher<D, CylinderProfile<D, true>>>();
+    case 8:
+        return visit.template operator()<OpenFinisher<D, ConeProfile<D, false>>>();
+    case 9:
+        return visit.template operator()<CappedFinisher<D, ConeProfile<D, true>>>();
+    default:
+        return visit.template operator()<QuadricFinisher<D>>();
+    }
+}
+
+/// Reads the floats of one shape for all lanes.
+template <class Arch>
+class OneShapeReader {
+  public:
+    explicit OneShapeReader(const float* first) : next_(first) {}
+    Floats<Double<Arch>> next() {
+        const float value = *next_;
+        next_ += 16;
+        return Floats<Double<Arch>>(static_cast<double>(value));
+    }
+
+  private:
+    const float* next_;
+};
+
+/// Reads the floats of a shape per lane.
+template <class Arch>
+class GatherReader {
+  public:
+    explicit GatherReader(const Spots<Arch>& spots) : spots_(spots) {}
+    Floats<Double<Arch>> next() {
+        const Floats<Double<Arch>> values = Lanes<Double<Arch>>::gather(spots_, row_);
+        row_ += 16;
+        return values;
+    }
+
+  private:
+    const Spots<Arch>& spots_;
+    int row_ = 0;
+};
+
+/// Kernels::finish.
+template <class Arch>
+class Finish {
+  public:
+    Finish(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
+
+    void all_rays() const {
+        for (std::size_t i = 0; i < found_.count; i += width) {
+            const std::size_t rest = found_.count - i;
+            const std::uint32_t in_use = rest < width ? (1U << rest) - 1 : all_lanes;
+            std::uint32_t left = in_use & ~in_range(found_.slot + i, no_slot, no_slot);
+            while (left != 0) {
+                const std::uint32_t slot = found_.slot[i + first_of(left)];
+                const int kind = kind_of(slot);
+                const TableView& table = scene_.tables[kind];
+                const std::uint32_t last = table.first_slot + 16 * table.block_count - 1;
+                const std::uint32_t alike =
+                    left & in_range(found_.slot + i, table.first_slot, last);
+                with_finisher<Arch>(
+                    kind, [&]<class Finisher>() { finish_packet<Finisher>(table, i, alike); });
+                left &= ~alike;
+            }
+        }
+    }
+
+  private:
+    using D = Double<Arch>;
+    using F = Floats<D>;
+    using M = Mask<D>;
+    static constexpr std::size_t width = F::size;
+    static constexpr std::uint32_t all_lanes = (1U << width) - 1;
+
+    static unsigned first_of(std::uint32_t lanes) {
+        return static_cast<unsigned>(__builtin_ctz(lanes));
+    }
+
+    static std::uint32_t in_range(const std::uint32_t* values, std::uint32_t first,
+                                  std::uint32_t last) {
+        return Lanes<D>::bits(Lanes<D>::in_range(values, first, last));
+    }
+
+    int kind_of(std::uint32_t slot) const {
+        int kind = 0;
+        while (slot - scene_.tables[kind].first_slot >= 16 * scene_.tables[kind].block_count)
+            ++kind;
+        return kind;
+    }
+
+    /// The lanes `active` of a packet, which all found shapes of one table.
+    template <class Finisher>
+    void finish_packet(const TableView& table, std::size_t i, std::uint32_t active) const {
+        const std::uint32_t slot = found_.slot[i + first_of(active)];
+        const bool one_shape = (active & ~in_range(found_.slot + i, slot, slot)) == 0;
+        Spots<Arch> spots;
+        spots.base = table.blocks;
+        if (one_shape) {
+            spots.offsets[0] = offset(table, slot);
+        } else {
+            for (unsigned lane = 0; lane < width; ++lane)
+                spots.offsets[lane] =
+                    offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
+        }
+        const Finisher finisher =
+            one_shape ? Finisher(OneShapeReader<Arch>(table.blocks + spots.offsets[0]))
+                      : Finisher(GatherReader<Arch>(spots));
+
+        const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
+        const Finished<D> finished =
+            finisher.finish(rays, starts(table, spots, one_shape, i, active));
+        store(finished, i, active);
+        if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
+            if (found_.shading_normal[0] != nullptr)
+                store(finisher.shading_normal(mul_add<D>(finished.t, rays.direction, rays.origin),
+                                              finished.normal),
+                      found_.shading_normal, i, active);
+        } else if (found_.shading_normal[0] != nullptr) {
+            store(finished.normal, found_.shading_normal, i, active);
+        }
+    }
+
+    static long long offset(const TableView& table, std::uint32_t slot) {
+        const std::uint32_t place = slot - table.first_slot;
+        return static_cast<long long>(place / 16) * table.block_floats + place % 16;
+    }
+
+    Starts<D> starts(const TableView& table, const Spots<Arch>& spots, bool one_shape,
+                     std::size_t i, std::uint32_t active) const {
+        Starts<D> starts = {none<D>(), none<D>(), zero<D>()};
+        const std::uint32_t* const first = found_.departed_first + i;
+        const std::uint32_t no_shape = ~0U;
+        if ((active & ~in_range(first, no_shape, no_shape)) == 0) return starts;
+
+        const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
+        std::uint32_t id[width];
+        for (unsigned lane = 0; lane < width; ++lane)
+            id[lane] = __builtin_bit_cast(std::uint32_t, ids[spots.offsets[one_shape ? 0 : lane]]);
+        starts.on_surface = Lanes<D>::in_range(id, first, found_.departed_last + i);
+        starts.inward = Lanes<D>::from_numbers(found_.departure + i, departure_inward) > zero<D>();
+        starts.face = Lanes<D>::from_numbers(found_.departure + i, departure_face);
+        return starts;
+    }
+
+    static F load(const double* from) { return F::load_unaligned(from); }
+
+    static Vectors<D> load_vector(const double* const from[3], std::size_t i) {
+        return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
+    }
+
+    void store(const Finished<D>& finished, std::size_t i, std::uint32_t active) const {
+        store(finished.t, found_.t + i, active);
+        store(finished.error, found_.error + i, active);
+        store(finished.normal, found_.normal, i, active);
+        const F bits = xsimd::select(
+            finished.certain,
+            finished.face + xsimd::select(finished.entering, F(double{hit_entering}), zero<D>()),
+            F(double{hit_doubtful}));
+        if (active == all_lanes) {
+            Lanes<D>::to_numbers(found_.hit + i, bits);
+            return;
+        }
+        std::uint32_t numbers[width];
+        Lanes<D>::to_numbers(numbers, bits);
+        for (unsigned lane = 0; lane < width; ++lane)
+            if ((active >> lane & 1) != 0) found_.hit[i + lane] = numbers[lane];
+    }
+
+    static void store(const Vectors<D>& values, double* const out[3], std::size_t i,
+                      std::uint32_t active) {
+        store(values.x, out[0] + i, active);
+        store(values.y, out[1] + i, active);
+        store(values.z, out[2] + i, active);
+    }
+
+    static void store(const F& values, double* out, std::uint32_t active) {
+        if (active == all_lanes)
+            values.store_unaligned(out);
+        else
+            xsimd::select(Lanes<D>::from_bits(active), values, load(out)).store_unaligned(out);
+    }
+
+    const SceneView& scene_;
+    const Found& found_;
+};
+
+template <class Arch>
+void finish(const SceneView& scene, const Found& found) {
+    Finish<Arch>(scene, found).all_rays();
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,263 @@
+#pragma once
+
+#include "simd/kernel/finishers/root.hpp"
+#include "simd/kernel/solvers/cone.hpp"
+#include "simd/kernel/solvers/cylinder.hpp"
+
+namespace raylane::simd {
+
+template <class Arch, bool capped>
+struct CylinderProfile : CylinderLanes<Arch, capped> {
+    static constexpr bool tapers = false;
+    static constexpr bool has_caps = capped;
+    using CylinderLanes<Arch, capped>::CylinderLanes;
+
+    Floats<Arch> base_width() const { return this->radius; }
+    Floats<Arch> top_width() const { return this->radius; }
+};
+
+template <class Arch, bool capped>
+struct ConeProfile : ConeLanes<Arch, capped> {
+    static constexpr bool tapers = true;
+    static constexpr bool has_caps = capped;
+    using ConeLanes<Arch, capped>::ConeLanes;
+
+    Floats<Arch> base_width() const { return this->base_radius; }
+    Floats<Arch> top_width() const { return this->top_radius; }
+};
+
+/// A ray along and across the axis, as in solvers/axial.hpp: F(s) = |across|^2 - width^2 is 0 on
+/// the body, with width = W + s M.
+///
+/// Errors, with P = local.error_at(s) for the position: across errs by P, of which 12 u (|start| +
+/// |s|) come from taking the axis out. With k = |top - base| / |axis|, width errs by k P + 4 u
+/// widest. So with `spread` >= 1 + k, both together err by T = spread P + 8 u widest, and
+///   F by 2 T (1 + 1/8) width + T^2 + 8 u width^2     where |F| < width^2 / 4,
+///   half F' = across . across_direction - width M, by spread (T + 64 u width) there,
+///   A = |across_direction|^2 - M^2, by 64 u spread^2,
+///   the height above the base, by |axis| P, and the other end's by 3 u |axis|^2 more.
+template <class Arch, class Profile>
+struct AxialLine {
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+    using V = Vectors<Arch>;
+
+    LocalRays<Arch> local;
+    V axis;
+    F axis_size, axis_squared;
+    F height_start, height_slope;
+    V across_start, across_direction;
+    F base_width, top_width, widest;
+    F slope, width_start, width_slope; // if it tapers
+    F spread;
+    Quadratic<Arch> quadratic;
+
+    AxialLine(const Profile& shape, const Rays<Arch>& rays)
+        : local(rays, shape.base), axis(shape.axis), base_width(shape.base_width()),
+          top_width(shape.top_width()) {
+        axis_size = sum_of_sizes(axis);
+        axis_squared = squared_length(axis);
+        const F inverse = F(1.0) / axis_squared;
+        height_start = dot(local.start, axis);
+        height_slope = dot(local.direction, axis);
+        across_start = mul_add<Arch>(negated(height_start * inverse), axis, local.start);
+        across_direction = mul_add<Arch>(negated(height_slope * inverse), axis, local.direction);
+        quadratic.A = squared_length(across_direction);
+        quadratic.B = dot(across_start, across_direction);
+        quadratic.C = squared_length(across_start);
+        if constexpr (Profile::tapers) {
+            widest = xsimd::select(base_width < top_width, top_width, base_width);
+            slope = (top_width - base_width) * inverse;
+            width_start = base_width + slope * height_start;
+            width_slope = slope * height_slope;
+            quadratic.A = quadratic.A - width_slope * width_slope;
+            quadratic.B = quadratic.B - width_slope * width_start;
+            quadratic.C = quadratic.C - width_start * width_start;
+            spread = F(1.5) + F(0.75) * (slope * slope) * axis_squared; // >= 1.5 + k^2 / 2
+        } else {
+            widest = base_width;
+            quadratic.C = quadratic.C - base_width * base_width;
+            spread = F(1.0);
+        }
+        quadratic.A_error = F(0x1p-47) * (spread * spread);
+    }
+
+    /// Where F rises, or else falls.
+    Passage<Arch> passage(const M& leaves) const {
+        const F s = quadratic.root_where(leaves);
+        const V across = across_at(s);
+        const F width = width_at(s), square = width * width;
+        const F off = together(local.error_at(s));
+        const F value = squared_length(across) - square;
+        const Residual<Arch> residual = {value, (F(3.0) * width + off) * off + F(0x1p-49) * square,
+                                         rise(across, width), spread * (off + F(0x1p-47) * width)};
+        Passage<Arch> result;
+        result.root = quadratic.refine(s, residual, leaves);
+        result.root.certain =
+            result.root.certain & (width > zero<Arch>()) & (xsimd::abs(value) < F(0.25) * square);
+        result.t = local.shift + result.root.s;
+        result.error = local.error_of_t(result.t, result.root.s, result.root.error);
+        clip(result);
+        return result;
+    }
+
+    /// Leaving after a start on the body: t = 0 is one root, so the other is twice the vertex,
+    /// where F' = 0. Half F' errs there by spread^2 (P + 16 u (|start| + |s| + widest)).
+    Passage<Arch> from_surface(const Starts<Arch>& starts) const {
+        const F vertex = negated(quadratic.B) / quadratic.A;
+        const F size = local.size + xsimd::abs(vertex) + widest;
+        const F rise_error = (spread * spread) * (local.error_at(vertex) + F(0x1p-48) * size);
+        const F rise_there = rise(across_at(vertex), width_at(vertex));
+        const F vertex_error = F(1.25) * (xsimd::abs(rise_there) + rise_error) / quadratic.A;
+        const F half = local.shift + vertex;
+        Passage<Arch> result;
+        result.root.certain = starts.inward & (quadratic.A > F(8.0) * quadratic.A_error);
+        result.root.s = half + vertex;
+        result.root.error = F(2.0) * vertex_error;
+        result.t = half + half;
+        result.error = F(2.0) * local.error_of_t(half, vertex, vertex_error);
+        clip(result);
+        return result;
+    }
+
+    F reach() const { return local.size + F(1.0625) * (axis_size + widest); }
+
+    F height_at(const F& s) const { return mul_add<Arch>(s, height_slope, height_start); }
+    V across_at(const F& s) const { return mul_add<Arch>(s, across_direction, across_start); }
+    /// How far the height is off at an s that is off by `error_s`.
+    F height_error(const F& s, const F& error_s) const {
+        return F(2.0) * axis_size * (local.error_at(s) + error_s) + F(0x1p-49) * axis_squared;
+    }
+
+  private:
+    F width_at(const F& s) const {
+        if constexpr (Profile::tapers)
+            return mul_add<Arch>(s, width_slope, width_start);
+        else
+            return base_width;
+    }
+
+    /// T for P
+    F together(const F& position_error) const {
+        if constexpr (Profile::tapers)
+            return spread * position_error + F(0x1p-50) * widest;
+        else
+            return position_error;
+    }
+
+    F rise(const V& across, const F& width) const {
+        if constexpr (Profile::tapers)
+            return dot(across, across_direction) - width * width_slope;
+        else
+            return dot(across, across_direction);
+    }
+
+    /// The rest of the passage at root.s. The normal is half the gradient of F.
+    void clip(Passage<Arch>& passage) const {
+        const F s = passage.root.s;
+        const F height = height_at(s), above = axis_squared - height;
+        const F margin = height_error(s, passage.root.error);
+        passage.inside = (height > margin) & (above > margin);
+        passage.outside = (height < negated(margin)) | (above < negated(margin));
+        passage.normal = across_at(s);
+        if constexpr (Profile::tapers)
+            passage.normal = mul_add<Arch>(negated(width_at(s) * slope), axis, passage.normal);
+    }
+};
+
+/// Without caps, the ray may have come in, or gone, through an end.
+template <class Arch, class Profile>
+struct OpenFinisher {
+    Profile shape;
+
+    template <class Reader>
+    explicit OpenFinisher(Reader reader) : shape(reader) {}
+
+    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const AxialLine<Arch, Profile> line(shape, rays);
+        Finished<Arch> result = first_passage<Arch>(line, starts);
+        result.normal = normalized(result.normal);
+        return result;
+    }
+};
+
+/// The body bounds a convex solid together with its caps. So where a ray crosses the body in one
+/// direction, certainly between the ends, or a cap, certainly inside its rim, that is where it
+/// enters the solid, or leaves it.
+template <class Arch, class Profile>
+struct CappedFinisher {
+    Profile shape;
+
+    template <class Reader>
+    explicit CappedFinisher(Reader reader) : shape(reader) {}
+
+    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Line line(shape, rays);
+        Finished<Arch> result = pass(line, starts.on_surface, starts);
+        const M behind = result.certain & ~starts.on_surface & (result.t < negated(result.error));
+        if (any<Arch>(behind))
+            result = select<Arch>(behind, pass(line, starts.on_surface | behind, starts), result);
+        result.certain = result.certain & (~starts.on_surface | starts.inward) &
+                         is_result<Arch>(result.t, result.error);
+        result.normal = normalized(result.normal);
+        return result;
+    }
+
+  private:
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+    using Line = AxialLine<Arch, Profile>;
+
+    /// Where the ray leaves the solid, or else enters it.
+    static Finished<Arch> pass(const Line& line, const M& leaves, const Starts<Arch>& starts) {
+        const LocalRays<Arch>& local = line.local;
+        const M rises = line.height_slope > zero<Arch>();
+        const M at_top = (rises & leaves) | (~rises & ~leaves);
+        const F face = xsimd::select(at_top, F(2.0), F(1.0));
+
+        // The cap's plane; and within the rim, where |across| errs by `off`, so |across|^2 by 2
+        // width off + off^2, and 6 u width^2.
+        const F inverse = F(1.0) / line.height_slope;
+        const F cap_height = xsimd::select(at_top, line.axis_squared, zero<Arch>());
+        const F width = xsimd::select(at_top, line.top_width, line.base_width);
+        const F s = (cap_height - line.height_start) * inverse;
+        const F error_s = line.height_error(s, zero<Arch>()) * xsimd::abs(inverse);
+        const F off = local.error_at(s) + error_s;
+        const F within = width * width - squared_length(line.across_at(s));
+        const M meets_plane = xsimd::abs(line.height_slope) > F(0x1p-44) * line.axis_size;
+        M by_cap = meets_plane & (within > width * (F(3.0) * off + F(0x1p-49) * width));
+
+        Passage<Arch> side = line.passage(leaves);
+        M by_side = side.root.certain & side.inside;
+
+        const M from_body = starts.on_surface & (starts.face == zero<Arch>());
+        if (any<Arch>(from_body)) {
+            // It leaves through what comes first, and through the cap if the body is not met again.
+            const Passage<Arch> onward = line.from_surface(starts);
+            const M never = line.quadratic.A < F(-1.0) * line.quadratic.A_error;
+            const M beyond = onward.root.certain & onward.outside &
+                             ((onward.t > zero<Arch>()) & passes(line, onward, at_top));
+            by_side = (~from_body & by_side) | (from_body & onward.root.certain & onward.inside);
+            by_cap = (~from_body & by_cap) | (from_body & meets_plane & (never | beyond));
+            side.t = xsimd::select(from_body, onward.t, side.t);
+            side.error = xsimd::select(from_body, onward.error, side.error);
+            side.normal = select<Arch>(from_body, onward.normal, side.normal);
+        }
+
+        const F t = local.shift + s;
+        const Finished<Arch> cap = {by_cap, t,       local.error_of_t(t, s, error_s),
+                                    face,   ~leaves, negated_where<Arch>(~at_top, line.axis)};
+        Finished<Arch> result = select<Arch>(by_cap, cap, side.finished(by_side, ~leaves));
+        // A ray does not leave by the cap that it starts on.
+        result.certain = result.certain & ~(starts.on_surface & (starts.face == face));
+        return result;
+    }
+
+    /// Whether what is outside of both ends is so at the end that the ray goes to.
+    static M passes(const Line& line, const Passage<Arch>& passage, const M& at_top) {
+        const F height = line.height_at(passage.root.s);
+        return (at_top & (height > line.axis_squared)) | (~at_top & (height < zero<Arch>()));
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "simd/kernel/crossings.hpp"
+#include "simd/kernel/doubles.hpp"
+
+/// Finishers: where a ray first crosses a shape, in double, with a bound on the error of t; and
+/// whether that is certain. What is not is rare, and a scalar solver that knows how to ask again in
+/// a wider type decides it. So there is no search for what happens in hard cases here, only for
+/// proofs that a case is not hard: a lane is certain if some sufficient condition holds.
+///
+/// Each finisher stands for one kind of shape, is loaded like its solver (solvers/shapes.hpp), in
+/// doubles, and has
+///   Finished<Arch> finish(const Rays<Arch>&, const Starts<Arch>&) const
+/// Arch is a Double<...> throughout.
+///
+/// In the comments u = 2^-53 is what one operation is off by, relative to its result. Rays and
+/// shapes are exact, directions have a length of 1 +- 2^-48. Powers of two that are larger than
+/// what they bound leave room for the rounding of the bounds themselves. Comparisons are such that
+/// NaN is not certain. Underflow is outside of it, as in core/bounded.hpp.
+namespace raylane::simd {
+
+/// The first crossing per lane, as core::Searcher counts them.
+template <class Arch>
+struct Finished {
+    Mask<Arch> certain; ///< if not, the rest means nothing
+    Floats<Arch> t;
+    Floats<Arch> error; ///< |t - true t|
+    Floats<Arch> face;
+    Mask<Arch> entering;
+    Vectors<Arch> normal; ///< unit, outward
+};
+
+/// The relative accuracy that a t must have, as core::needed_accuracy.
+inline constexpr double needed_accuracy = 0x1p-27;
+
+/// a where mask, else b.
+template <class Arch>
+Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a, const Finished<Arch>& b) {
+    return {(mask & a.certain) | (~mask & b.certain),   xsimd::select(mask, a.t, b.t),
+            xsimd::select(mask, a.error, b.error),      xsimd::select(mask, a.face, b.face),
+            (mask & a.entering) | (~mask & b.entering), select(mask, a.normal, b.normal)};
+}
+
+/// Accurate, and ahead of the ray.
+template <class Arch>
+Mask<Arch> is_result(const Floats<Arch>& t, const Floats<Arch>& error) {
+    return error <= Floats<Arch>(needed_accuracy) * t;
+}
+
+template <class Arch>
+bool any(const Mask<Arch>& mask) {
+    return Lanes<Arch>::bits(mask) != 0;
+}
+
+/// |x| + |y| + |z|, between |v| and 1.74 |v|.
+template <class Arch>
+Floats<Arch> sum_of_sizes(const Vectors<Arch>& v) {
+    return xsimd::abs(v.x) + xsimd::abs(v.y) + xsimd::abs(v.z);
+}
+
+template <class Arch>
+Vectors<Arch> scaled(const Floats<Arch>& s, const Vectors<Arch>& v) {
+    return {s * v.x, s * v.y, s * v.z};
+}
+
+/// v with the sign of each lane's components turned where `mask`.
+template <class Arch>
+Vectors<Arch> negated_where(const Mask<Arch>& mask, const Vectors<Arch>& v) {
+    const Floats<Arch> sign = xsimd::select(mask, Floats<Arch>(-0.0), zero<Arch>());
+    return {v.x ^ sign, v.y ^ sign, v.z ^ sign};
+}
+
+/// A ray relative to a point of its shape, and moved along itself to where it is next to that
+/// point: then all that follows happens at the scale of the shape, and how far away the ray starts
+/// shows in `error` alone.
+///   t = shift + s,  point(t) = anchor + start + s direction
+template <class Arch>
+struct LocalRays {
+    Vectors<Arch> direction;
+    Floats<Arch> shift;  ///< any number will do, so this one is exact
+    Vectors<Arch> start; ///< within `error` of the true one
+    Floats<Arch> size;   ///< >= |start|
+    Floats<Arch> error;
+
+    LocalRays(const Rays<Arch>& rays, const Vectors<Arch>& anchor) : direction(rays.direction) {
+        const Vectors<Arch> from_anchor = rays.origin - anchor;
+        shift = negated(dot(from_anchor, direction));
+        start = mul_add<Arch>(shift, direction, from_anchor);
+        size = sum_of_sizes(start);
+        // The operands of each rounding: u (|from_anchor| + |shift| |direction| + |start|), and
+        // |from_anchor| <= |shift| |direction| + |start|.
+        error = Floats<Arch>(0x1p-51) * (xsimd::abs(shift) + size);
+    }
+
+    Vectors<Arch> at(const Floats<Arch>& s) const { return mul_add<Arch>(s, direction, start); }
+
+    /// Bounds the error of at(s), u (|s| |direction| + |at(s)|) beside that of the start, and 14 u
+    /// (|start| + |s|) more, for what is computed from them.
+    Floats<Arch> error_at(const Floats<Arch>& s) const {
+        return error + Floats<Arch>(0x1p-49) * (size + xsimd::abs(s));
+    }
+
+    /// The error of t = shift + s for an s that is off by `error_s`, of which the last rounding is
+    /// not yet counted.
+    Floats<Arch> error_of_t(const Floats<Arch>& t, const Floats<Arch>& s,
+                            const Floats<Arch>& error_s) const {
+        return error_s + Floats<Arch>(0x1p-51) * (xsimd::abs(t) + xsimd::abs(s));
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,147 @@
+#pragma once
+
+#include "simd/kernel/finishers/finisher.hpp"
+#include "simd/kernel/solvers/flat.hpp"
+
+namespace raylane::simd {
+
+/// A flat shape is not met again by a ray that starts on it.
+template <class Arch>
+Finished<Arch> finish_flat(const Mask<Arch>& certain, const Floats<Arch>& t,
+                           const Floats<Arch>& error, const Floats<Arch>& approach,
+                           const Vectors<Arch>& unit_normal, const Starts<Arch>& starts) {
+    return {certain & ~starts.on_surface & is_result<Arch>(t, error),
+            t,
+            error,
+            zero<Arch>(),
+            approach < zero<Arch>(),
+            unit_normal};
+}
+
+/// t = (normal . (point - origin)) / (normal . direction), where rounding is relative to the single
+/// terms of each product: on a floor along the axes it hardly matters how far away its point is.
+/// Each product errs by 4 u times the sum of its terms' sizes; t by both, divided by approach, and
+/// the share 2^-27 of which approach itself is in doubt where t is certain.
+template <class Arch>
+struct PlaneFinisher {
+    PlaneLanes<Arch> plane;
+
+    template <class Reader>
+    explicit PlaneFinisher(Reader reader) : plane(reader) {}
+
+    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        using F = Floats<Arch>;
+        const F inverse = F(1.0) / dot(plane.normal, rays.direction);
+        const Vectors<Arch> to_point = plane.point - rays.origin;
+        const F t = dot(plane.normal, to_point) * inverse;
+        const F error = F(0x1p-50) * xsimd::abs(inverse) *
+                        (sum_of_terms(plane.normal, to_point) +
+                         xsimd::abs(t) * sum_of_terms(plane.normal, rays.direction));
+        return finish_flat<Arch>(all<Arch>(), t, error, inverse, normalized(plane.normal), starts);
+    }
+
+  private:
+    static Floats<Arch> sum_of_terms(const Vectors<Arch>& a, const Vectors<Arch>& b) {
+        return xsimd::abs(a.x * b.x) + xsimd::abs(a.y * b.y) + xsimd::abs(a.z * b.z);
+    }
+};
+
+/// With N >= |normal|, normal . (at(s) - true at(s)) is at most N error_at(s), as are the roundings
+/// of both products; so s errs by that, divided by |approach|, if approach itself is certain within
+/// a fifth: it errs by 5 u N.
+template <class Arch>
+struct DiscFinisher {
+    DiscLanes<Arch> disc;
+
+    template <class Reader>
+    explicit DiscFinisher(Reader reader) : disc(reader) {}
+
+    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        using F = Floats<Arch>;
+        const F radius = disc.radius;
+        const LocalRays<Arch> local(rays, disc.center);
+        const F N = sum_of_sizes(disc.normal);
+        const F approach = dot(disc.normal, local.direction);
+        const F inverse = F(1.0) / approach;
+        const F s = negated(dot(disc.normal, local.start)) * inverse;
+        const F position_error = local.error_at(s);
+        const F error_s = F(1.25) * N * position_error * xsimd::abs(inverse);
+
+        // |p| <= radius: p is off by `off`, so |p|^2 by 2 radius off + off^2, and 6 u radius^2.
+        const F off = position_error + error_s;
+        const F inside = radius * radius - squared_length(local.at(s));
+        const Mask<Arch> certain = (xsimd::abs(approach) > F(0x1p-44) * N) &
+                                   (inside > radius * (F(3.0) * off + F(0x1p-49) * radius));
+        const F t = local.shift + s;
+        return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), approach,
+                                 normalized(disc.normal), starts);
+    }
+};
+
+/// Barycentric coordinates, times normal . direction, from one cross product of start and
+/// direction (Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997).
+/// With U >= |b - a|, V >= |c - a|: the determinant errs by less than 16 u U V; the coordinates by
+/// U or V times error + 10 u |start|, twice for the roundings of the products.
+template <class Arch>
+struct TriangleFinisher {
+    TriangleLanes<Arch> triangle;
+
+    template <class Reader>
+    explicit TriangleFinisher(Reader reader) : triangle(reader) {}
+
+    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        using F = Floats<Arch>;
+        const LocalRays<Arch> local(rays, triangle.a);
+        const Vectors<Arch> to_b = triangle.b - triangle.a, to_c = triangle.c - triangle.a;
+        const F U = sum_of_sizes(to_b), V = sum_of_sizes(to_c);
+        const Vectors<Arch> normal = cross(to_b, to_c);
+        const F determinant = dot(normal, local.direction);
+        const F inverse = F(1.0) / determinant;
+        const F s = negated(dot(normal, local.start)) * inverse;
+        const F error_s = F(1.25) * (U * V) * local.error_at(s) * xsimd::abs(inverse);
+
+        const Vectors<Arch> moment = cross(local.start, local.direction);
+        const F sign = xsimd::select(determinant < zero<Arch>(), F(-1.0), F(1.0));
+        const F at_c = sign * dot(moment, to_b), at_b = negated(sign * dot(moment, to_c));
+        const F moment_error = F(2.0) * local.error_at(zero<Arch>());
+        const F b_error = V * moment_error, c_error = U * moment_error;
+        const F size = xsimd::abs(determinant);
+        const Mask<Arch> inside = (at_b > b_error) & (at_c > c_error) &
+                                  (size - at_b - at_c > b_error + c_error + F(0x1p-48) * (U * V));
+        const Mask<Arch> certain = inside & (size > F(0x1p-44) * (U * V));
+        const F t = local.shift + s;
+        return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), determinant,
+                                 normalized(normal), starts);
+    }
+};
+
+template <class Arch>
+struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
+    Vectors<Arch> normal_a, normal_b, normal_c;
+
+    template <class Reader>
+    explicit SmoothTriangleFinisher(Reader reader)
+        : TriangleFinisher<Arch>(PassOn<Reader>{reader}), normal_a(next_vector<Arch>(reader)),
+          normal_b(next_vector<Arch>(reader)), normal_c(next_vector<Arch>(reader)) {}
+
+    /// core::shading_normal
+    Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
+        const Vectors<Arch> a = this->triangle.a - point, b = this->triangle.b - point,
+                            c = this->triangle.c - point;
+        const Vectors<Arch> sum = scaled<Arch>(dot(unit_flat, cross(b, c)), normalized(normal_a)) +
+                                  scaled<Arch>(dot(unit_flat, cross(c, a)), normalized(normal_b)) +
+                                  scaled<Arch>(dot(unit_flat, cross(a, b)), normalized(normal_c));
+        const Floats<Arch> square = squared_length(sum);
+        return select<Arch>(square > zero<Arch>(), sum / xsimd::sqrt(square), unit_flat);
+    }
+
+  private:
+    /// Reads on behalf of another reader.
+    template <class Reader>
+    struct PassOn {
+        Reader& reader;
+        Floats<Arch> next() { return reader.next(); }
+    };
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,123 @@
+#pragma once
+
+#include "simd/kernel/finishers/root.hpp"
+#include "simd/kernel/solvers/quadric.hpp"
+
+namespace raylane::simd {
+
+/// F(s) = Q(p) with p = start + s direction relative to the centre.
+///
+/// Errors, with m the largest of the square coefficients' sizes, l = |linear|_1, v = m |p|_1 + l,
+/// and P = local.error_at(s) for the position: each component of the half gradient N = M p + linear
+/// errs by 8 u v + 1.74 m P, and is at most v, so
+///   Q(p) = p . (N + linear) + one   by 8 u ((v + l) |p|_1 + |one|) + 3.5 v P + 3 m P^2,
+///   half F' = N . direction         by 20 u v + 3.1 m P,
+///   A = direction . M direction     by 24 u m.
+template <class Arch>
+struct QuadricFinisher {
+    QuadricLanes<Arch> quadric;
+
+    template <class Reader>
+    explicit QuadricFinisher(Reader reader) : quadric(reader) {}
+
+    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        Finished<Arch> result = first_passage<Arch>(Line(quadric, rays), starts);
+        const F square = squared_length(result.normal);
+        result.normal = result.normal / xsimd::sqrt(square);
+        return result;
+    }
+
+  private:
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+    using V = Vectors<Arch>;
+
+    struct Line {
+        const QuadricLanes<Arch>& form;
+        LocalRays<Arch> local;
+        F largest, linear_size;
+        Quadratic<Arch> quadratic;
+
+        Line(const QuadricLanes<Arch>& quadric, const Rays<Arch>& rays)
+            : form(quadric), local(rays, quadric.center) {
+            largest = quadric.largest_coefficient();
+            linear_size = sum_of_sizes(quadric.linear);
+            quadratic.A = dot(local.direction, quadric.product(local.direction));
+            quadratic.A_error = F(0x1p-47) * largest;
+            const V half_gradient = quadric.half_gradient(local.start);
+            quadratic.B = dot(local.direction, half_gradient);
+            quadratic.C = dot(local.start, half_gradient + quadric.linear) + quadric.one;
+        }
+
+        Passage<Arch> passage(const M& leaves) const {
+            const F s = quadratic.root_where(leaves);
+            const V p = local.at(s);
+            const V half_gradient = form.half_gradient(p);
+            const F size = sum_of_sizes(p), position_error = local.error_at(s);
+            const F steepest = largest * size + linear_size;
+            const Residual<Arch> residual = {
+                dot(p, half_gradient + form.linear) + form.one,
+                F(0x1p-49) * ((steepest + linear_size) * size + xsimd::abs(form.one)) +
+                    (F(4.0) * steepest + F(3.0) * largest * position_error) * position_error,
+                dot(half_gradient, local.direction), rise_error(steepest, position_error)};
+            Passage<Arch> result;
+            result.root = quadratic.refine(s, residual, leaves);
+            result.t = local.shift + result.root.s;
+            result.error = local.error_of_t(result.t, result.root.s, result.root.error);
+            clip(result);
+            return result;
+        }
+
+        /// t = 0 is one root, so the other is twice the vertex, where F' = 0: ahead if the ray
+        /// first falls inside and the form rises again, or the reverse.
+        Passage<Arch> from_surface(const Starts<Arch>& starts) const {
+            const F vertex = negated(quadratic.B) / quadratic.A;
+            const V p = local.at(vertex);
+            const F error =
+                rise_error(largest * sum_of_sizes(p) + linear_size, local.error_at(vertex));
+            const F rise = dot(form.half_gradient(p), local.direction);
+            const F vertex_error = F(1.25) * (xsimd::abs(rise) + error) / xsimd::abs(quadratic.A);
+            const F half = local.shift + vertex;
+            const F certain_A = F(8.0) * quadratic.A_error;
+            Passage<Arch> result;
+            result.root.certain = (starts.inward & (quadratic.A > certain_A)) |
+                                  (~starts.inward & (quadratic.A < negated(certain_A)));
+            result.root.s = half + vertex;
+            result.root.error = F(2.0) * vertex_error;
+            result.t = half + half;
+            result.error = F(2.0) * local.error_of_t(half, vertex, vertex_error);
+            clip(result);
+            return result;
+        }
+
+        F reach() const {
+            const auto larger = [](const F& a, const F& b) {
+                const F x = xsimd::abs(a), y = xsimd::abs(b);
+                return xsimd::select(x < y, y, x);
+            };
+            return local.size + F(1.0625) * (larger(form.lower.x, form.upper.x) +
+                                             larger(form.lower.y, form.upper.y) +
+                                             larger(form.lower.z, form.upper.z));
+        }
+
+      private:
+        F rise_error(const F& steepest, const F& position_error) const {
+            return F(0x1p-48) * steepest + F(4.0) * largest * position_error;
+        }
+
+        /// The rest of the passage at root.s.
+        void clip(Passage<Arch>& passage) const {
+            const V p = local.at(passage.root.s);
+            const F margin = local.error_at(passage.root.s) + F(1.0625) * passage.root.error;
+            const auto least = [&](const F& a, const F& b) { return xsimd::select(a < b, a, b); };
+            const V over = p - form.lower, under = form.upper - p;
+            const F room = least(least(least(over.x, under.x), least(over.y, under.y)),
+                                 least(over.z, under.z));
+            passage.inside = room > margin;
+            passage.outside = room < negated(margin);
+            passage.normal = form.half_gradient(p);
+        }
+    };
+};
+
+} // namespace raylane::simd

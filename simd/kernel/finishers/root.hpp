@@ -1,0 +1,116 @@
+#pragma once
+
+#include "simd/kernel/finishers/finisher.hpp"
+
+/// Roots of F(s) = A s^2 + 2 B s + C, found with no thought of errors and then certified.
+namespace raylane::simd {
+
+/// F at some s: its value, half of its derivative, and what they are off by when they are computed
+/// from the geometry there. They owe nothing to the errors of A, B and C.
+template <class Arch>
+struct Residual {
+    Floats<Arch> value, value_error;
+    Floats<Arch> rise, rise_error;
+};
+
+template <class Arch>
+struct Root {
+    Mask<Arch> certain;
+    Floats<Arch> s, error;
+    Floats<Arch> rise; ///< |F'| / 2, within a quarter
+};
+
+template <class Arch>
+struct Quadratic {
+    Floats<Arch> A, B, C;
+    Floats<Arch> A_error;
+
+    Mask<Arch> opens_up() const { return A > A_error; }
+    Floats<Arch> most_A() const { return xsimd::abs(A) + A_error; }
+
+    /// Where F rises (the ray leaves), or else falls. Neither form cancels.
+    Floats<Arch> root_where(const Mask<Arch>& rises) const {
+        const Floats<Arch> root = xsimd::sqrt(B * B - A * C);
+        const Mask<Arch> falling = B < zero<Arch>();
+        const Floats<Arch> q = xsimd::select(falling, root - B, negated(root + B));
+        const Mask<Arch> by_A = (falling & rises) | (~falling & ~rises);
+        return xsimd::select(by_A, q, C) / xsimd::select(by_A, A, q);
+    }
+
+    /// One step of Newton's method, and a proof. After a step h = value / (2 rise),
+    ///   |F| <= value_error + |h| (2 rise_error + |A h| + roundings)
+    /// and half F' is still three quarters of `rise`, if both its error and A h are below an
+    /// eighth. Then, where A |F| <= (F' / 2)^2, F changes its sign within |F| / (|F'| / 2).
+    Root<Arch> refine(const Floats<Arch>& s, const Residual<Arch>& residual,
+                      const Mask<Arch>& rises) const {
+        using F = Floats<Arch>;
+        const F inverse = F(1.0) / residual.rise;
+        const F step = F(0.5) * residual.value * inverse;
+        const F step_size = xsimd::abs(step), rise_size = xsimd::abs(residual.rise);
+        const F bend = most_A() * step_size;
+        const F value = residual.value_error + step_size * (F(5.0) * residual.rise_error + bend);
+        const Mask<Arch> wanted_sign =
+            (rises & (residual.rise > zero<Arch>())) | (~rises & (residual.rise < zero<Arch>()));
+        const F eighth = F(0.125) * rise_size;
+        return {wanted_sign & (residual.rise_error < eighth) & (bend < eighth) &
+                    (F(2.0) * most_A() * value < rise_size * rise_size),
+                s - step, F(1.5) * value * xsimd::abs(inverse), rise_size};
+    }
+
+    /// Whether the other root is further than `reach` from s = 0, going by this one: they are
+    /// F' / A apart.
+    Mask<Arch> other_is_beyond(const Floats<Arch>& reach, const Root<Arch>& root) const {
+        return root.certain & (root.rise > most_A() * (xsimd::abs(root.s) + reach));
+    }
+};
+
+/// A crossing with a surface that does not close a solid.
+template <class Arch>
+struct Passage {
+    Root<Arch> root;
+    Floats<Arch> t, error;
+    Mask<Arch> inside;  ///< certainly within the bounds of the surface
+    Mask<Arch> outside; ///< certainly not
+    Vectors<Arch> normal;
+
+    Mask<Arch> counts() const { return root.certain & inside & is_result<Arch>(t, error); }
+    Mask<Arch> does_not_count() const { return root.certain & (outside | (t < negated(error))); }
+    Mask<Arch> is_before(const Passage& other) const { return t + error < other.t - other.error; }
+
+    Finished<Arch> finished(const Mask<Arch>& certain, const Mask<Arch>& entering) const {
+        return {certain, t, error, zero<Arch>(), entering, normal};
+    }
+};
+
+/// The first of both crossings with `surface`, which has
+///   passage(leaves), from_surface(starts)  as Passage,
+///   quadratic, reach()                     as Quadratic and how far |s| can be inside its bounds
+template <class Arch, class Surface>
+Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts) {
+    using M = Mask<Arch>;
+    const Passage<Arch> entry = surface.passage(none<Arch>());
+    const M opens_up = surface.quadratic.opens_up();
+    const M enters = entry.counts();
+    Finished<Arch> result = entry.finished(enters & opens_up, all<Arch>());
+
+    if (any<Arch>(~result.certain & ~starts.on_surface)) {
+        const Passage<Arch> exit = surface.passage(all<Arch>());
+        const M leaves = exit.counts();
+        const M no_entry =
+            entry.does_not_count() | surface.quadratic.other_is_beyond(surface.reach(), exit.root);
+        const M no_exit =
+            exit.does_not_count() | surface.quadratic.other_is_beyond(surface.reach(), entry.root);
+        const M entry_first = enters & (opens_up | no_exit | (leaves & entry.is_before(exit)));
+        const M exit_first = leaves & (no_entry | (enters & exit.is_before(entry)));
+        result.certain = entry_first;
+        result = select<Arch>(exit_first, exit.finished(exit_first, none<Arch>()), result);
+    }
+    if (any<Arch>(starts.on_surface)) {
+        const Passage<Arch> onward = surface.from_surface(starts);
+        result = select<Arch>(starts.on_surface, onward.finished(onward.counts(), ~starts.inward),
+                              result);
+    }
+    return result;
+}
+
+} // namespace raylane::simd
