@@ -159,7 +159,11 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"rays_per_second", count / times.render},
             {"nodes_visited", counters.nodes},
             {"shapes_tested", counters.shapes},
-            {"tests_beyond_double", counters.widened}};
+            {"tests_beyond_double", counters.widened},
+            {"left_to_the_reference",
+             {{"hits", counters.doubtful_hits},
+              {"shadows", counters.doubtful_shadows},
+              {"contacts", counters.contacts}}}};
 }
 
 int render(const RenderArguments& arguments) {

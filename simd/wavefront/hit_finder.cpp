@@ -132,7 +132,7 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
 
     kernels_.finish(scene_.view(), found_in(paths, hits_, paths.count));
     certify(paths);
-    ask_reference(paths);
+    ask_reference(paths, counters);
 }
 
 void HitFinder::start(const Paths& paths) {
@@ -198,10 +198,11 @@ void HitFinder::certify(const Paths& paths) {
 
 /// The reference says which shape it is. The numbers are then those that the kernel has for it, so
 /// that they do not depend on what was in doubt.
-void HitFinder::ask_reference(const Paths& paths) {
+void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
     contact_count_ = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         if (doubtful_[lane] == 0) continue;
+        ++counters.doubtful_hits;
         const core::Ray<double> ray = ray_of(paths, lane);
         const core::Encounter<double> encounter =
             reference_.nearest_visible(ray, departure_of(scene_, paths, lane));

@@ -41,7 +41,7 @@ class HitFinder {
     void start(const Paths& paths);
     void find_own_exits(const Paths& paths);
     void certify(const Paths& paths);
-    void ask_reference(const Paths& paths);
+    void ask_reference(const Paths& paths, core::Counters& counters);
     void take_gathered(std::size_t from, std::size_t lane);
 
     const SceneData& scene_;

@@ -198,6 +198,7 @@ void Wavefront::trace_wave(int depth) {
 /// Where several surfaces meet, the reference goes on.
 void Wavefront::follow_contacts(int depth) {
     for (const std::uint32_t lane : finder_.contacts()) {
+        ++counters_.contacts;
         const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                      paths_.throughput[2][lane]);
         const core::Vec3d color =
@@ -368,6 +369,7 @@ void Wavefront::trace_shadows(const LightView& light) {
         const std::uint32_t lane = order_[static_cast<std::size_t>(shadows_.parent[k])];
         core::Vec3d weight(shadows_.weight[0][k], shadows_.weight[1][k], shadows_.weight[2][k]);
         if (occlusions_.state[k] == doubtful) {
+            ++counters_.doubtful_shadows;
             const std::uint32_t slot = hits.slot[lane];
             const bool inward = (hits.hit[lane] & hit_entering) == 0;
             core::Hit<double> hit;

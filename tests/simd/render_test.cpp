@@ -40,9 +40,9 @@ TEST_CASE("every pixel is in one tile") {
 }
 
 TEST_CASE("what a tile throws comes out of the loop") {
-    CHECK_THROWS_AS(
-        simd::for_each_tile(100, 100, 16, 2, [](const Region&) { throw std::runtime_error("tile"); }),
-        std::runtime_error);
+    CHECK_THROWS_AS(simd::for_each_tile(100, 100, 16, 2,
+                                        [](const Region&) { throw std::runtime_error("tile"); }),
+                    std::runtime_error);
 }
 
 TEST_CASE("a picture does not depend on the number of threads") {

@@ -1,0 +1,121 @@
+#include "core/transfer.hpp"
+#include "scenes/scene_file.hpp"
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+/// Whole pictures by the vector engine: the reference's, and the same whatever makes them.
+using namespace raylane;
+
+namespace {
+
+core::Settings test_settings(const core::Scene& scene) {
+    core::Settings settings = scene.settings();
+#ifdef RAYLANE_FEW_RAYS
+    constexpr int longest = 64;
+#else
+    constexpr int longest = 240;
+#endif
+    const int divisor = (std::max(settings.width, settings.height) + longest - 1) / longest;
+    settings.width /= divisor;
+    settings.height /= divisor;
+    settings.grid = 1;
+    return settings;
+}
+
+core::Film render(const core::Scene& scene, const core::Settings& settings,
+                  const simd::RenderOptions& options) {
+    return simd::render(scene, settings, options).film;
+}
+
+/// The largest difference of two colours on the 8-bit scale of the picture.
+int difference(const core::Color& a, const core::Color& b, core::Transfer transfer) {
+    int largest = 0;
+    for (int channel = 0; channel < 3; ++channel)
+        largest = std::max(largest, std::abs(core::encode(a[channel], transfer) -
+                                             core::encode(b[channel], transfer)));
+    return largest;
+}
+
+/// How much a picture varies about a pixel.
+int contrast(const core::Film& film, int x, int y, core::Transfer transfer) {
+    int largest = 0;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, film.height() - 1); ++v)
+        for (int u = std::max(x - 1, 0); u <= std::min(x + 1, film.width() - 1); ++u)
+            largest = std::max(largest, difference(film.at(x, y), film.at(u, v), transfer));
+    return largest;
+}
+
+void check(const std::filesystem::path& path) {
+    CAPTURE(path.filename());
+    const core::Scene scene = scenes::load_scene(path);
+    const core::Settings settings = test_settings(scene);
+
+    simd::RenderOptions reference;
+    reference.engine = simd::Engine::reference;
+    const core::Film expected = render(scene, settings, reference);
+    const core::Film film = render(scene, settings, {});
+
+    int differing = 0;
+    for (int y = 0; y < settings.height; ++y)
+        for (int x = 0; x < settings.width; ++x) {
+            const int found = difference(film.at(x, y), expected.at(x, y), settings.transfer);
+            if (found <= 1) continue;
+            ++differing;
+            CHECK(contrast(expected, x, y, settings.transfer) >= found / 2);
+        }
+    CHECK(differing * 10000 <= settings.width * settings.height);
+
+    for (const simd::Isa isa : simd::all_isas) {
+        if (!simd::is_available(isa)) continue;
+        simd::RenderOptions options;
+        options.isa = isa;
+        options.threads = 1;
+        CAPTURE(simd::name_of(isa));
+        CHECK(render(scene, settings, options).pixels() == film.pixels());
+    }
+    for (const int tile : {8, 23, 64}) {
+        simd::RenderOptions options;
+        options.tile = tile;
+        options.threads = 2;
+        CAPTURE(tile);
+        CHECK(render(scene, settings, options).pixels() == film.pixels());
+    }
+}
+
+void check_shared(const std::string& name) {
+    const std::filesystem::path path = RAYLANE_SHARED_SCENES "/" + name;
+    if (std::filesystem::exists(path))
+        check(path);
+    else
+        WARN("skipped: no " << path);
+}
+
+} // namespace
+
+TEST_CASE("the vector engine draws what the reference draws") {
+    int scenes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(RAYLANE_SOURCE_DIR "/scenes")) {
+        if (entry.path().extension() != ".json" ||
+            entry.path().filename().string().find("schema") != std::string::npos)
+            continue;
+        check(entry.path());
+        ++scenes;
+    }
+    CHECK(scenes >= 14);
+}
+
+TEST_CASE("the vector engine draws the databases' balls as the reference does") {
+    check_shared("balls.nff");
+}
+
+TEST_CASE("the vector engine draws the databases' rings as the reference does") {
+    check_shared("rings.nff");
+}
+
+TEST_CASE("the vector engine draws the databases' tree as the reference does") {
+    check_shared("tree.nff");
+}

@@ -1,0 +1,134 @@
+#include "simd/isa.hpp"
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+
+#include <cmath>
+
+/// The wavefront loop where its queues are put to the test.
+using namespace raylane;
+using namespace little_scene;
+
+namespace {
+
+simd::RenderOptions by(simd::Engine engine) {
+    simd::RenderOptions options;
+    options.engine = engine;
+    options.threads = 1;
+    return options;
+}
+
+/// Pixels that differ by more than rounding.
+int differing(const Scene& scene) {
+    const Film expected = simd::render(scene, scene.settings(), by(simd::Engine::reference)).film;
+    const Film film = simd::render(scene, scene.settings(), by(simd::Engine::vector)).film;
+    int count = 0;
+    for (std::size_t i = 0; i < film.pixels().size(); ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+            const float a = film.pixels()[i][channel], b = expected.pixels()[i][channel];
+            if (!(std::abs(a - b) <= 1e-5F * (1.0F + std::abs(b)))) ++count;
+        }
+    return count;
+}
+
+/// Panes of glass one behind the other, between mirrors: every pane doubles the paths.
+Scene panes(int depth) {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 40;
+    builder.settings.max_depth = depth;
+    builder.settings.min_weight = 0.0F;
+    builder.background = {0.2F, 0.4F, 0.8F};
+    Material pane = glass(1.5F, Reflection::dielectric);
+    for (int i = 0; i < 6; ++i) {
+        const float z = -static_cast<float>(i);
+        builder.add_shape(Box{{-9, -9, z}, {18, 0, 0}, {0, 18, 0}, {0, 0, 0.25F}}, pane);
+    }
+    Material back = mirror(0.75F);
+    back.ambient = 0.25F;
+    builder.add_shape(Plane{{0, 0, -7}, {0, 0.1F, 1}}, back);
+    return builder.finish();
+}
+
+} // namespace
+
+TEST_CASE("waves that outgrow their queues are divided") {
+    // Up to 2^11 paths per sample, a thousand samples in a chunk.
+    CHECK(differing(panes(11)) == 0);
+}
+
+TEST_CASE("a sample that outgrows a queue by itself is followed to its end") {
+    // Up to 2^14 paths.
+    Builder builder;
+    Scene scene = panes(14);
+    Settings settings = scene.settings();
+    settings.width = settings.height = 3;
+    const Film expected = simd::render(scene, settings, by(simd::Engine::reference)).film;
+    const Film film = simd::render(scene, settings, by(simd::Engine::vector)).film;
+    for (std::size_t i = 0; i < film.pixels().size(); ++i)
+        CHECK(film.pixels()[i].z == Approx(expected.pixels()[i].z).epsilon(1e-5));
+}
+
+TEST_CASE("more samples than a chunk holds make one pixel") {
+    Builder builder;
+    builder.settings.width = 3;
+    builder.settings.height = 2;
+    builder.settings.grid = 64;
+    builder.settings.samples = SamplePattern::stratified;
+    builder.add_shape(Sphere{{0, 0, 0}, 1}, ruler({1, 1, 0}));
+    CHECK(differing(builder.finish()) == 0);
+}
+
+TEST_CASE("more materials than a byte counts are sorted") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 64;
+    builder.camera.from = {0, 0, 30};
+    for (int i = 0; i < 700; ++i) {
+        const float x = static_cast<float>(i % 28) - 13.5F, y = static_cast<float>(i / 28) - 12.0F;
+        builder.add_shape(
+            Sphere{{x, y, 0}, 0.5F},
+            luminous(Color(static_cast<float>(i % 7) / 7.0F, static_cast<float>(i % 11) / 11.0F,
+                           static_cast<float>(i) / 700.0F)));
+    }
+    CHECK(differing(builder.finish()) == 0);
+}
+
+TEST_CASE("an orthographic camera and parallel light trace bundles too") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 64;
+    builder.camera.projection = Projection::orthographic;
+    builder.camera.from = {3, 4, 5};
+    builder.camera.height = 4.0F;
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {-1, -2, -0.5F};
+    builder.add_light(sun);
+    Material matte = luminous(Color(0.5F));
+    matte.ambient = 0.1F;
+    matte.diffuse = 0.9F;
+    for (int i = 0; i < 60; ++i) {
+        const float a = 0.37F * static_cast<float>(i);
+        builder.add_shape(
+            Sphere{{std::sin(a), 0.05F * static_cast<float>(i) - 1.0F, std::cos(a)}, 0.15F}, matte);
+    }
+    builder.add_shape(Plane{{0, -1.5F, 0}, {0, 1, 0}}, matte);
+    CHECK(differing(builder.finish()) == 0);
+}
+
+TEST_CASE("a camera inside of everything sees it") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 48;
+    builder.camera.from = {0.1F, 0.2F, 0.3F};
+    builder.camera.at = {1, 0, 0};
+    builder.camera.field_of_view = 150.0F;
+    builder.add_shape(Sphere{{0, 0, 0}, 10}, ruler({10, 10, 10}));
+    builder.add_shape(Box{{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, glass(1.3F));
+    builder.add_shape(CappedCylinder{{0, 0, -1}, {0, 0, 2}, 1.5F}, glass(1.2F));
+    CHECK(differing(builder.finish()) == 0);
+}
+
+TEST_CASE("the vector engine is what renders, unless told otherwise") {
+    const Scene scene = panes(3);
+    const auto counters = simd::render(scene, scene.settings(), {}).counters;
+    if (simd::best_isa()) CHECK(counters.widened == 0);
+    CHECK(counters.primary == 1600);
+}
