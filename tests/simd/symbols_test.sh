@@ -3,7 +3,7 @@
 # linker keeps for all, with instructions that an older processor does not have. So each symbol that
 # the linker may merge must carry the unit's instruction set in its name.
 #
-# usage: symbols_test.sh OBJECT...   those not called kernels_* are passed over
+# usage: symbols_test.sh OBJECT...   those not called *kernels_* are passed over
 set -eu
 units=0
 for object in "$@"; do

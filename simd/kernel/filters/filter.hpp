@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/crossings.hpp"
 #include "simd/kernel/solvers/shapes.hpp"
 
 /// Filters: float arithmetic that cannot be wrong, because it does not say where a ray crosses a
@@ -10,18 +11,26 @@
 ///   Bounds<Arch> bounds(const FilterRays<Arch>&) const
 /// The bounds hold whether or not mul_add is fused, and for every ray whose floats are within the
 /// stated errors.
+///
+/// In the derivations u = half_ulp, terms in u^2 go into what constants are rounded up by, and |v|
+/// is a vector's length. To be safe from overflow each decision is the negation of what is sure:
+/// NaN then decides nothing.
 namespace raylane::simd {
 
-/// Rays that were rounded to float. The ray meant has a direction of length 1 +- 2^-48 and is
-/// within half an ulp of this direction in each component, and within `slack`, a length, of this
-/// origin.
+/// Rays that were rounded to float. The ray meant has a direction of length 1 +- 2^-40 and is
+/// within half an ulp of this direction in each component. Its origin is closer to this one than
+/// (slack - slack_floor) / (1 + 2^-16), a length: the rest pays for roundings of slack itself and
+/// for squares of lengths that underflow.
 template <class Arch>
 struct FilterRays {
     Vectors<Arch> origin, direction;
     Floats<Arch> slack;
 };
 
-/// What is certain of a ray's crossings with one shape, of those with t > 0, per lane.
+inline constexpr float slack_floor = 0x1p-68F;
+
+/// What is certain of a ray's crossings with one shape, of those with t > 0, per lane. What a
+/// caller does not use of it costs nothing.
 template <class Arch>
 struct Bounds {
     Mask<Arch> possible; ///< false: there is none
@@ -32,6 +41,9 @@ struct Bounds {
 
 /// Half an ulp of 1: what one operation is off by, relative to its result.
 inline constexpr float half_ulp = 0x1p-24F;
+
+/// More than what some products that underflow are off by together.
+inline constexpr float underflow = 0x1p-120F;
 
 /// a * b + c, fused where the processor does it in one instruction.
 template <class Arch>
@@ -48,15 +60,70 @@ Vectors<Arch> fast_mul_add(const Floats<Arch>& s, const Vectors<Arch>& a, const 
             fast_mul_add<Arch>(s, a.z, b.z)};
 }
 
+/// a . b + c; off by at most 3 u of the sum of the products' absolute values (and u of c).
+template <class Arch>
+Floats<Arch> fast_dot(const Vectors<Arch>& a, const Vectors<Arch>& b, const Floats<Arch>& c) {
+    return fast_mul_add<Arch>(a.x, b.x,
+                              fast_mul_add<Arch>(a.y, b.y, fast_mul_add<Arch>(a.z, b.z, c)));
+}
+
 template <class Arch>
 Floats<Arch> fast_dot(const Vectors<Arch>& a, const Vectors<Arch>& b) {
     return fast_mul_add<Arch>(a.x, b.x, fast_mul_add<Arch>(a.y, b.y, a.z * b.z));
 }
 
-/// |a| . |b|, which bounds the rounding errors of a . b.
+/// a x b; each component is off by at most 2 u of its part of absolute_cross(a, b).
 template <class Arch>
-Floats<Arch> absolute_dot(const Vectors<Arch>& a, const Vectors<Arch>& b) {
-    return xsimd::abs(a.x * b.x) + xsimd::abs(a.y * b.y) + xsimd::abs(a.z * b.z);
+Vectors<Arch> fast_cross(const Vectors<Arch>& a, const Vectors<Arch>& b) {
+    return {fast_mul_add<Arch>(a.y, b.z, negated(a.z * b.y)),
+            fast_mul_add<Arch>(a.z, b.x, negated(a.x * b.z)),
+            fast_mul_add<Arch>(a.x, b.y, negated(a.y * b.x))};
+}
+
+template <class Arch>
+Vectors<Arch> absolute(const Vectors<Arch>& a) {
+    return {xsimd::abs(a.x), xsimd::abs(a.y), xsimd::abs(a.z)};
+}
+
+/// The sums of what a x b has the differences of, plus c. Of length <= 1.155 |a| |b| if c = 0.
+template <class Arch>
+Vectors<Arch> absolute_cross(const Vectors<Arch>& a, const Vectors<Arch>& b,
+                             const Floats<Arch>& c) {
+    const Vectors<Arch> p = absolute(a), q = absolute(b);
+    return {fast_mul_add<Arch>(p.y, q.z, fast_mul_add<Arch>(p.z, q.y, c)),
+            fast_mul_add<Arch>(p.z, q.x, fast_mul_add<Arch>(p.x, q.z, c)),
+            fast_mul_add<Arch>(p.x, q.y, fast_mul_add<Arch>(p.y, q.x, c))};
+}
+
+/// s |a| + c, component by component.
+template <class Arch>
+Vectors<Arch> error_of(float s, const Vectors<Arch>& a, const Floats<Arch>& c) {
+    return fast_mul_add<Arch>(Floats<Arch>(s), absolute(a), {c, c, c});
+}
+
+template <class Arch>
+Floats<Arch> sign_bit(const Floats<Arch>& a) {
+    return a & Floats<Arch>(-0.0F);
+}
+
+/// a > 0 ? a : 0, which is also what NaN becomes.
+template <class Arch>
+Floats<Arch> positive_part(const Floats<Arch>& a) {
+    return xsimd::select(a > zero<Arch>(), a, zero<Arch>());
+}
+
+/// Where the input was numbers. Differences of coordinates, which are at most 1e30, are then
+/// numbers as well.
+template <class Arch>
+Mask<Arch> is_number(const Floats<Arch>& difference) {
+    return difference == difference;
+}
+
+/// sqrt(a), or up to 2^-9 and 2^-50 more, for a >= 0.
+template <class Arch>
+Floats<Arch> root_above(const Floats<Arch>& a) {
+    const Floats<Arch> positive = a + Floats<Arch>(0x1p-100F);
+    return positive * xsimd::rsqrt(positive) * Floats<Arch>(1 + 0x1p-10F);
 }
 
 } // namespace raylane::simd

@@ -4,39 +4,55 @@
 
 namespace raylane::simd {
 
-/// What bounds t = height / approach for height = n . (p - origin) and approach = n . d.
-///
-/// Each is a sum of three products: off by at most 4 u of the sum of their absolute values, by u
-/// more for the rounded difference or direction, and the height by |n| slack. 8 u leaves room for
-/// the rounding of these bounds.
+/// t = height / approach for height = n . (p - origin) and approach = n . d, given what these two
+/// may be off by.
 template <class Arch>
-struct FlatBounds {
-    Floats<Arch> height, height_error, approach, approach_error;
+struct FlatCrossing {
+    Floats<Arch> t;      ///< an approximation, of either sign
+    Floats<Arch> spread; ///< where clear: what t may be off by, but for 6 u |t|
+    Floats<Arch> lower;  ///< no crossing with t > 0 is before; may be < 0
+    Floats<Arch> upper;  ///< where ahead: the crossing is not behind
+    Mask<Arch> clear;    ///< the ray is not nearly parallel
+    Mask<Arch> ahead;    ///< clear, and the plane is surely in front
+    Mask<Arch> behind;   ///< the plane is surely not in front
 
-    FlatBounds(const Vectors<Arch>& to_point, const Vectors<Arch>& normal,
-               const FilterRays<Arch>& rays) {
+    /// With a = |approach|, h = |height| and their errors, h' = h +- e and a' = a +- f are
+    ///   (h - e) / (a + f) <= h' / a' <= (h + e) / (a - f),
+    /// and one division serves both: (a + f) / (a - f) = 1 / (1 - x) <= 1 + 2 x for
+    /// x = 2 f / (a + f) <= 1/2.
+    FlatCrossing(const Floats<Arch>& height, const Floats<Arch>& height_error,
+                 const Floats<Arch>& approach, const Floats<Arch>& approach_error) {
         using F = Floats<Arch>;
-        const F reach = xsimd::abs(normal.x) + xsimd::abs(normal.y) + xsimd::abs(normal.z);
-        height = fast_dot(normal, to_point);
-        height_error =
-            fast_mul_add<Arch>(F(8 * half_ulp), absolute_dot(normal, to_point), reach * rays.slack);
-        approach = fast_dot(normal, rays.direction);
-        approach_error = F(8 * half_ulp) * absolute_dot(normal, rays.direction);
-    }
-
-    Bounds<Arch> bounds() const {
-        using F = Floats<Arch>;
-        const F height_size = xsimd::abs(height), approach_size = xsimd::abs(approach);
-        const Mask<Arch> sure = (height_size > height_error) & (approach_size > approach_error);
-        const Mask<Arch> behind = (height > zero<Arch>()) ^ (approach > zero<Arch>());
-        const F least = (height_size - height_error) / (approach_size + approach_error);
-        const F most = (height_size + height_error) / (approach_size - approach_error);
-        // Empty lanes hold NaN.
-        return {(height_size >= zero<Arch>()) & ~(sure & behind),
-                xsimd::select(least > zero<Arch>(), least * F(1 - 4 * half_ulp), zero<Arch>()),
-                sure & ~behind, most * F(1 + 4 * half_ulp)};
+        const F one(1.0F);
+        const F signed_height = height ^ sign_bit<Arch>(approach);
+        const F h = xsimd::abs(height), a = xsimd::abs(approach);
+        const F inverse = one / (a + approach_error);
+        const F stretch = F(4.0F) * approach_error * inverse;
+        t = signed_height * inverse;
+        lower = (h - height_error) * (inverse * F(1 - 4 * half_ulp));
+        upper = (h + height_error) *
+                (inverse * fast_mul_add<Arch>(stretch, F(1 + 8 * half_ulp), F(1 + 8 * half_ulp)));
+        spread = upper - xsimd::abs(t);
+        clear = stretch <= one;
+        ahead = clear & (signed_height > height_error);
+        behind = (a > approach_error) & (negated(signed_height) > height_error);
     }
 };
+
+/// height and approach are sums of three products: off by 3 u of the sum of their absolute values,
+/// by u more for the rounded difference or direction, and the height by |n| slack.
+template <class Arch>
+FlatCrossing<Arch> cross_plane(const Vectors<Arch>& to_point, const Vectors<Arch>& normal,
+                               const FilterRays<Arch>& rays) {
+    using F = Floats<Arch>;
+    const Vectors<Arch> n = absolute(normal);
+    const F reach = n.x + n.y + n.z;
+    const Vectors<Arch> height_error = error_of<Arch>(5 * half_ulp, to_point, rays.slack);
+    const Vectors<Arch> approach_error = error_of<Arch>(5 * half_ulp, rays.direction, F(underflow));
+    const F none_smaller = F(underflow) + F(0x1p-149F) * reach;
+    return {fast_dot(normal, to_point), fast_dot(n, height_error, none_smaller),
+            fast_dot(normal, rays.direction), fast_dot(n, approach_error, none_smaller)};
+}
 
 template <class Arch>
 struct PlaneFilter {
@@ -47,7 +63,10 @@ struct PlaneFilter {
         : point(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)) {}
 
     Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
-        return FlatBounds<Arch>(point - rays.origin, normal, rays).bounds();
+        const Vectors<Arch> to_point = point - rays.origin;
+        const FlatCrossing<Arch> crossing = cross_plane(to_point, normal, rays);
+        return {is_number<Arch>(to_point.x) & ~crossing.behind, positive_part<Arch>(crossing.lower),
+                crossing.ahead, crossing.upper};
     }
 };
 

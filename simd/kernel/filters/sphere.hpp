@@ -4,15 +4,16 @@
 
 namespace raylane::simd {
 
-/// In exact arithmetic, with f = origin - center, tau = -f . d and q = f + tau d (the foot of the
-/// perpendicular), a unit direction crosses at tau -+ sqrt(r^2 - q^2).
+/// With f = origin - center, tau = -f . d and q = f + tau d (the foot of the perpendicular), a ray
+/// with unit d crosses at tau -+ sqrt(r^2 - q^2).
 ///
-/// With u = half_ulp, tau comes with an error below slack + 9 u |f|: f is off by slack + u |f|, d
-/// by u, and the sum of three products by 4 u |f|, with room for |d| != 1. q is then off by at most
-/// slack + 16 u |f|, two thirds of it along d, where it counts at second order only. Near the
-/// surface, and only there it matters, |f| <= |tau| + |q| and |q| <= r + error. So
-/// `error` = slack + 24 u (|tau| + r) bounds all of these with room for the squares' and the root's
-/// own rounding, 6 u r.
+/// The point that the floats mean at t is within e = slack + u |f| + u t of the true one: at a
+/// crossing, |f + t d| = r -+ e. As a polynomial in t - tau this is Q + 2 b (t - tau) +
+/// |d|^2 (t - tau)^2, where sqrt(Q) is within u (|tau| + |q|) of |q|, |b| <= 3 u |f| + 2 u |tau|
+/// for the rounding of tau and for |d|^2 = 1 -+ 2 u. Here |f| <= |tau| + |q|, t <= |tau| + r and,
+/// where it matters, |q| <= r. So, with room for the rounding of the squares,
+///   (r -+ e)^2 - Q + b^2 is within (r -+ E)^2 - q^2 for E = slack + u (6 |tau| + 7 r),
+/// and tau -+ sqrt() is then off by |b| + u (2 |tau| + 4 r) < u (7 |tau| + 8 r).
 template <class Arch>
 struct SphereFilter {
     Vectors<Arch> center;
@@ -24,32 +25,35 @@ struct SphereFilter {
 
     Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
+        const F o = zero<Arch>();
         const Vectors<Arch> from_center = rays.origin - center;
         const F tau = negated(fast_dot(from_center, rays.direction));
         const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
         const F foot_squared = fast_dot(foot, foot);
-        const F error = fast_mul_add<Arch>(F(24 * half_ulp), xsimd::abs(tau) + radius, rays.slack);
+        const F rounding = F(10 * half_ulp) * (xsimd::abs(tau) + radius);
+        const F error = rounding + rays.slack;
 
         const F outer = radius + error, inner = radius - error;
-        const F outer_chord = outer * outer - foot_squared;
-        const F half_chord = xsimd::sqrt(outer_chord);
-        const F entry = tau - half_chord - error;
-        const Mask<Arch> meets = outer_chord >= zero<Arch>();
-        const Mask<Arch> ahead = entry > zero<Arch>();
+        const F outer_chord = fast_mul_add<Arch>(outer, outer, negated(foot_squared));
+        const F outer_half = xsimd::sqrt(outer_chord);
+        const F entry = tau - outer_half - rounding;
+        const F exit = tau + outer_half + rounding;
+        const Mask<Arch> missed = (outer_chord < o) | (exit < o);
 
-        Bounds<Arch> result{meets & (tau + half_chord + error > zero<Arch>()),
-                            xsimd::select(ahead, entry, zero<Arch>()), none<Arch>(), tau + error};
-        const F inner_chord = inner * inner - foot_squared;
-        result.certain = ahead & (inner > zero<Arch>()) & (inner_chord > zero<Arch>());
+        const F inner_chord = fast_mul_add<Arch>(inner, inner, negated(foot_squared));
+        const F inner_half = xsimd::sqrt(inner_chord);
+        const Mask<Arch> meets = (inner > o) & (inner_chord > o), ahead = entry > o;
+        Bounds<Arch> result{is_number<Arch>(from_center.x) & ~missed, positive_part<Arch>(entry),
+                            meets & ahead, tau - inner_half + rounding};
 
         // Surely inside, it is the exit that counts.
         const Mask<Arch> inside =
-            (inner > zero<Arch>()) & (fast_mul_add<Arch>(tau, tau, foot_squared) < inner * inner);
+            (inner > o) & (fast_mul_add<Arch>(tau, tau, foot_squared) < inner * inner);
         if (Lanes<Arch>::bits(inside) != 0) [[unlikely]] {
-            const F exit = tau + xsimd::sqrt(xsimd::select(inside, inner_chord, zero<Arch>()));
-            result.lower = xsimd::select(inside & (exit > error), exit - error, result.lower);
+            const F least = tau + inner_half - rounding;
+            result.lower = xsimd::select(inside, positive_part<Arch>(least), result.lower);
             result.certain = result.certain | inside;
-            result.upper = xsimd::select(inside, tau + half_chord + error, result.upper);
+            result.upper = xsimd::select(inside, exit, result.upper);
         }
         return result;
     }

@@ -1,0 +1,169 @@
+#pragma once
+
+#include "simd/kernel/filters/surface.hpp"
+
+/// Cylinders and cones. Each ray is first moved to t = `start`, where it enters the slab between
+/// the ends or a sphere about the shape, if it is not inside: so magnitudes are the shape's, the
+/// mirror nappe is left behind, and what crosses the body next is the answer.
+namespace raylane::simd {
+
+/// With the unit axis x, f = origin + start d - base, m = f x x, n = d x x, the width W + s M at
+/// s = t - start, where W = r0 + k f . x, M = k d . x and k = (r1 - r0) / |axis|:
+///   F(s) = |m + s n|^2 - (W + s M)^2 = (n.n - M^2) s^2 + 2 (m.n - M W) s + (m.m - W^2)
+/// and, as |m x n| = |f . n|, the discriminant is |W n - M m|^2 - (f . n)^2, without the
+/// cancellation in B^2 - A C. For a cylinder k = 0.
+///
+/// Rounding moves x by u across itself and changes its length by 3.5 u, k by 5 u. Let |f| stand for
+/// length_above(f) and e = slack + u (3 start + 24 |f|). Then the point at `start` is off by
+/// slack + u (3 start + 2 |f|), and with |n|, |d| <= 1, |m| <= |f|, |W| <= r0 + k |f|:
+///   m       slack + u (3 start + 9 |f|)               n   8 u
+///   f . n   slack + u (3 start + 13 |f|)              M   15 u k
+///   W       k (slack + u (3 start + 17 |f|)) + 3 u r0
+///   W n - M m   k (2 slack + u (6 start + 53 |f|)) + 11 u r0
+/// Of the last and f . n together, with 2 u of each for the squares, the discriminant's `error`
+/// = (1 + 2.5 k) e + 16 u r0. It bounds the errors of m and W with their squares' too, so that
+/// those of C are below 2 error (|m| + |W| + error). B is off by |m| 11 u + |n| (error of m) +
+/// |M| (error of W) + |W| 17 u k < (1 + 2 k^2) e + (22 k + 4) u r0.
+template <class Arch, bool cone>
+struct AxialFilter {
+    using F = Floats<Arch>;
+
+    Vectors<Arch> base, axis; ///< of length 1
+    F half_length, base_radius, narrowing;
+    F reach;             ///< all is this close to the base
+    Mask<Arch> ordinary; ///< |axis|^2 neither overflows nor underflows
+    F body_factor, body_error, slope_factor, slope_error;
+
+    AxialFilter(const Vectors<Arch>& base_, const Vectors<Arch>& axis_, const F& r0, const F& r1)
+        : base(base_), base_radius(r0), narrowing(zero<Arch>()) {
+        const F axis_squared = fast_dot(axis_, axis_);
+        const F length = xsimd::sqrt(axis_squared);
+        const F inverse = F(1.0F) / length;
+        axis = {axis_.x * inverse, axis_.y * inverse, axis_.z * inverse};
+        half_length = F(0.5F) * length;
+        ordinary = (axis_squared > F(0x1p-90F)) & (axis_squared < F(0x1p+120F));
+        reach = (length + (cone ? xsimd::max(r0, r1) : r0)) * F(1 + 0x1p-10F);
+        if constexpr (cone) {
+            narrowing = (r1 - r0) * inverse;
+            const F k = xsimd::abs(narrowing);
+            body_factor = fast_mul_add<Arch>(F(2.5F), k, F(1.0F));
+            slope_factor = fast_mul_add<Arch>(k + k, k, F(1.0F));
+            slope_error = fast_mul_add<Arch>(F(22.0F), k, F(4.0F)) * r0 * F(half_ulp);
+        } else {
+            slope_error = r0 * F(4 * half_ulp);
+        }
+        body_error = r0 * F(16 * half_ulp);
+    }
+
+    struct Crossing {
+        Stay<Arch> between_ends;
+        F start;
+        FirstCrossing<Arch> body;
+        Mask<Arch> is_shape;
+        Mask<Arch> near;  ///< what the errors in between_ends assume of a ray that hits is so
+        Mask<Arch> nappe; ///< W > 0
+    };
+
+    Crossing cross(const FilterRays<Arch>& rays) const {
+        const Vectors<Arch> from_base = rays.origin - base;
+        const F closest = negated(fast_dot(from_base, rays.direction));
+
+        // The height above the middle: 9 u |f| and slack for f . x, 2 u |axis| for half the length,
+        // twice, and 3 u of their sum for rounding. |f| <= |closest| + 2 reach if the ray comes
+        // near.
+        const F position = fast_dot(from_base, axis) - half_length;
+        const F rise = fast_dot(rays.direction, axis);
+        const F far = xsimd::abs(closest) + (reach + reach);
+        const F height_error = fast_mul_add<Arch>(F(15 * half_ulp), far, rays.slack);
+        const Stay<Arch> ends =
+            cross_slab<Arch>(position, half_length, height_error, rise, F(9 * half_ulp));
+
+        const F start = xsimd::max(positive_part<Arch>(ends.in_low),
+                                   positive_part<Arch>(closest - (reach + height_error)));
+        const Vectors<Arch> f = fast_mul_add<Arch>(start, rays.direction, from_base);
+        const Vectors<Arch> m = fast_cross(f, axis), n = fast_cross(rays.direction, axis);
+        const F distance = root_above<Arch>(fast_dot(f, f));
+        const F error = fast_mul_add<Arch>(F(24 * half_ulp), distance,
+                                           fast_mul_add<Arch>(F(3 * half_ulp), start, rays.slack));
+        const F across = fast_dot(f, n);
+        const F m_squared = fast_dot(m, m);
+        const F m_length = root_above<Arch>(m_squared);
+
+        F W = base_radius, B = fast_dot(m, n), B_error = error + slope_error,
+          body = error + body_error, g_squared, g_length;
+        if constexpr (cone) {
+            const F M = narrowing * rise;
+            W = fast_mul_add<Arch>(narrowing, fast_dot(f, axis), base_radius);
+            B = fast_mul_add<Arch>(negated(M), W, B);
+            B_error = fast_mul_add<Arch>(slope_factor, error, slope_error);
+            body = fast_mul_add<Arch>(body_factor, error, body_error);
+            const Vectors<Arch> across_m = {M * m.x, M * m.y, M * m.z};
+            const Vectors<Arch> g = fast_mul_add<Arch>(W, n, -across_m);
+            g_squared = fast_dot(g, g);
+            g_length = root_above<Arch>(g_squared);
+        } else {
+            const F n_squared = fast_dot(n, n);
+            g_squared = base_radius * base_radius * n_squared;
+            g_length = base_radius * root_above<Arch>(n_squared);
+        }
+        const F C = fast_mul_add<Arch>(negated(W), W, m_squared);
+        const F C_error = (body + body) * (m_length + xsimd::abs(W) + body);
+        const F D = fast_mul_add<Arch>(negated(across), across, g_squared);
+        const F D_error = body * (g_length + g_length + body);
+        return {ends,
+                start,
+                FirstCrossing<Arch>(B, B_error, C, C_error, D, D_error),
+                is_number<Arch>(closest),
+                (distance < reach + reach),
+                (W > zero<Arch>())};
+    }
+
+    Bounds<Arch> open_bounds(const FilterRays<Arch>& rays) const {
+        const Crossing crossing = cross(rays);
+        const Bounds<Arch> bounds = surface_bounds<Arch>(crossing.is_shape, crossing.between_ends,
+                                                         crossing.start, crossing.body);
+        return sure(crossing, bounds);
+    }
+
+    Bounds<Arch> capped_bounds(const FilterRays<Arch>& rays) const {
+        const Crossing crossing = cross(rays);
+        const Stay<Arch>& ends = crossing.between_ends;
+        const FirstCrossing<Arch>& body = crossing.body;
+        const F o = zero<Arch>();
+        const F body_low = (crossing.start + body.low) * F(1 - 4 * half_ulp);
+        const F body_high = (crossing.start + body.high) * F(1 + 4 * half_ulp);
+
+        // Within the body at `start`, the solid is entered there at the earliest, unless the ray
+        // is inside already: then the exit counts, by the body or by an end.
+        const Mask<Arch> within = body.inside & crossing.nappe & crossing.near;
+        const Mask<Arch> inside = within & ends.inside & (crossing.start == o);
+        const F entry = xsimd::select(body.outside, body_low, crossing.start);
+        const F exit = xsimd::min(body_low, positive_part<Arch>(ends.out_low));
+        const Mask<Arch> missed = (body.none & body.outside) | (ends.out_high < crossing.start) |
+                                  (body.outside & (ends.out_high < body_low));
+
+        // Certain by the body, between the ends; by an end, where the body is not left before; or
+        // inside.
+        const Mask<Arch> by_body =
+            body.outside & body.definite & (body_low >= ends.in_high) & (body_high <= ends.out_low);
+        const Mask<Arch> by_end = within & (ends.in_low > o) & (crossing.start <= ends.in_high) &
+                                  (ends.in_high <= body_low) & (ends.in_high <= ends.out_low);
+        const F exit_high =
+            xsimd::select(body.definite, xsimd::min(body_high, ends.out_high), ends.out_high);
+        return sure(crossing,
+                    {crossing.is_shape & ~missed,
+                     positive_part<Arch>(xsimd::select(inside, exit, entry)),
+                     ends.definite & (by_body | by_end | inside),
+                     xsimd::select(inside, exit_high,
+                                   xsimd::select(body.outside, body_high, ends.in_high))});
+    }
+
+  private:
+    Bounds<Arch> sure(const Crossing& crossing, const Bounds<Arch>& bounds) const {
+        return {crossing.is_shape & (bounds.possible | ~ordinary),
+                xsimd::select(ordinary, bounds.lower, zero<Arch>()),
+                bounds.certain & ordinary & crossing.near, bounds.upper};
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "simd/kernel/filters/filter.hpp"
+
+namespace raylane::simd {
+
+/// When a ray enters and leaves a convex set, between bounds.
+template <class Arch>
+struct Stay {
+    Floats<Arch> in_low;   ///< not inside before, for t > 0; may be < 0
+    Floats<Arch> out_high; ///< not inside behind; < 0 if never for t > 0
+    Floats<Arch> in_high;  ///< where definite: inside from here, >= 0 ...
+    Floats<Arch> out_low;  ///< ... to here, if that is not before
+    Mask<Arch> definite;
+    Mask<Arch> inside; ///< the origin is
+};
+
+/// |position + t slope| <= half for a position, slope and half that are off by `error` (of position
+/// and half together) and `slope_error`. `error` has to pay for 2 u (|position| + half) besides.
+///
+/// Coming closer by c = -position sign(slope), one division serves all bounds as in FlatCrossing.
+template <class Arch>
+Stay<Arch> cross_slab(const Floats<Arch>& position, const Floats<Arch>& half,
+                      const Floats<Arch>& error, const Floats<Arch>& slope,
+                      const Floats<Arch>& slope_error) {
+    using F = Floats<Arch>;
+    const F one(1.0F), infinity(__builtin_inff());
+    const F closer = negated(position) ^ sign_bit<Arch>(slope);
+    const F inverse = one / (xsimd::abs(slope) + slope_error);
+    const F stretch = F(4.0F) * slope_error * inverse;
+    const Mask<Arch> clear = stretch <= one;
+    const F least = inverse * F(1 - 4 * half_ulp);
+    const F most = inverse * fast_mul_add<Arch>(stretch, F(1 + 8 * half_ulp), F(1 + 8 * half_ulp));
+    const F outer = half + error, inner = half - error;
+    const F distance = xsimd::abs(position);
+    const Mask<Arch> inside = distance < inner;
+    // Along the slab, either side may be the one that the ray leaves by.
+    const F to_leave = xsimd::select(clear, closer, negated(distance));
+    return {(closer - outer) * least,
+            xsimd::select(clear, (closer + outer) * most, infinity),
+            positive_part<Arch>((closer - inner) * most),
+            (to_leave + inner) * least,
+            (clear | inside) & (inner > zero<Arch>()),
+            inside};
+}
+
+/// Inside both.
+template <class Arch>
+Stay<Arch> operator&(const Stay<Arch>& a, const Stay<Arch>& b) {
+    return {xsimd::max(a.in_low, b.in_low),   xsimd::min(a.out_high, b.out_high),
+            xsimd::max(a.in_high, b.in_high), xsimd::min(a.out_low, b.out_low),
+            a.definite & b.definite,          a.inside & b.inside};
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "simd/kernels.hpp"
+
+#include <cstddef>
+
+/// The filters for the tests: plain data, as nothing inline may be shared with units that are built
+/// for newer processors.
+namespace raylane::simd {
+
+/// Structure of arrays, readable and writable up to whole packets of 16.
+struct FilterStream {
+    std::size_t count;
+    const float* origin[3];
+    const float* direction[3];
+    const float* slack;
+    /// Out: Bounds, the masks as 1 or 0.
+    float *possible, *lower, *certain, *upper;
+};
+
+struct FilterChecks {
+    /// One shape of a block against all rays.
+    void (*bound_rays)(KindNumber kind, const ShapeBlock& block, int lane,
+                       const FilterStream& stream);
+    /// One ray against all 16 shapes of a block, into the stream's first 16 places.
+    void (*bound_block)(KindNumber kind, const ShapeBlock& block, const FilterStream& stream,
+                        std::size_t ray);
+};
+
+FilterChecks filter_checks_sse42();
+FilterChecks filter_checks_avx2();
+FilterChecks filter_checks_avx512();
+
+} // namespace raylane::simd

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "simd/kernel/filters/filters.hpp"
+#include "tests/simd/filter_check.hpp"
+
+namespace raylane::simd {
+
+template <class Arch>
+struct FilterChecksOf {
+    using F = Floats<Arch>;
+
+    static F load(const float* from) { return F::load_unaligned(from); }
+
+    static void store(const Bounds<Arch>& bounds, const FilterStream& stream, std::size_t i) {
+        xsimd::select(bounds.possible, F(1.0F), F(0.0F)).store_unaligned(stream.possible + i);
+        bounds.lower.store_unaligned(stream.lower + i);
+        xsimd::select(bounds.certain, F(1.0F), F(0.0F)).store_unaligned(stream.certain + i);
+        bounds.upper.store_unaligned(stream.upper + i);
+    }
+
+    static void bound_rays(KindNumber kind, const ShapeBlock& block, int lane,
+                           const FilterStream& stream) {
+        with_filter<Arch>(kind, [&]<class Filter>() {
+            const Filter filter(BroadcastReader<Arch>(block.values, lane));
+            for (std::size_t i = 0; i < stream.count; i += F::size)
+                store(filter.bounds({{load(stream.origin[0] + i), load(stream.origin[1] + i),
+                                      load(stream.origin[2] + i)},
+                                     {load(stream.direction[0] + i), load(stream.direction[1] + i),
+                                      load(stream.direction[2] + i)},
+                                     load(stream.slack + i)}),
+                      stream, i);
+        });
+    }
+
+    static void bound_block(KindNumber kind, const ShapeBlock& block, const FilterStream& stream,
+                            std::size_t ray) {
+        with_filter<Arch>(kind, [&]<class Filter>() {
+            const auto broadcast = [&](const float* const from[3]) {
+                return Vectors<Arch>{F(from[0][ray]), F(from[1][ray]), F(from[2][ray])};
+            };
+            const FilterRays<Arch> rays = {broadcast(stream.origin), broadcast(stream.direction),
+                                           F(stream.slack[ray])};
+            for (std::size_t lane = 0; lane < 16; lane += F::size)
+                store(Filter(BlockReader<Arch>(block.values, static_cast<int>(lane))).bounds(rays),
+                      stream, lane);
+        });
+    }
+
+    static constexpr FilterChecks table() { return {bound_rays, bound_block}; }
+};
+
+} // namespace raylane::simd
