@@ -45,15 +45,16 @@ struct DoubleLanes<Sse42> {
                         _mm_set1_epi32(static_cast<int>(last)));
     }
     static F from_numbers(const std::uint32_t* from, std::uint32_t kept) {
-        return F(_mm_cvtepi32_pd(_mm_and_si128(load(from), _mm_set1_epi32(static_cast<int>(kept)))));
+        return F(
+            _mm_cvtepi32_pd(_mm_and_si128(load(from), _mm_set1_epi32(static_cast<int>(kept)))));
     }
     static void to_numbers(std::uint32_t* out, const F& values) {
         _mm_storel_epi64(reinterpret_cast<__m128i*>(out), _mm_cvttpd_epi32(values));
     }
     static F gather(const Spots<Sse42>& spots, int row) {
         const float* const from = spots.base + row;
-        return F(_mm_cvtps_pd(
-            _mm_setr_ps(from[spots.offsets[0]], from[spots.offsets[1]], 0.0F, 0.0F)));
+        return F(
+            _mm_cvtps_pd(_mm_setr_ps(from[spots.offsets[0]], from[spots.offsets[1]], 0.0F, 0.0F)));
     }
 
   private:

@@ -80,8 +80,7 @@ class Finish {
         for (std::size_t i = 0; i < found_.count; i += width) {
             const std::size_t rest = found_.count - i;
             const std::uint32_t in_use = rest < width ? (1U << rest) - 1 : all_lanes;
-            std::uint32_t left =
-                in_use & ~in_range(found_.slot + i, no_slot, no_slot);
+            std::uint32_t left = in_use & ~in_range(found_.slot + i, no_slot, no_slot);
             while (left != 0) {
                 const std::uint32_t slot = found_.slot[i + first_of(left)];
                 const int kind = kind_of(slot);
@@ -89,9 +88,8 @@ class Finish {
                 const std::uint32_t last = table.first_slot + 16 * table.block_count - 1;
                 const std::uint32_t alike =
                     left & in_range(found_.slot + i, table.first_slot, last);
-                with_finisher<Arch>(kind, [&]<class Finisher>() {
-                    finish_packet<Finisher>(table, i, alike);
-                });
+                with_finisher<Arch>(
+                    kind, [&]<class Finisher>() { finish_packet<Finisher>(table, i, alike); });
                 left &= ~alike;
             }
         }
@@ -131,8 +129,8 @@ class Finish {
             spots.offsets[0] = offset(table, slot);
         } else {
             for (unsigned lane = 0; lane < width; ++lane)
-                spots.offsets[lane] = offset(
-                    table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
+                spots.offsets[lane] =
+                    offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
         }
         const Finisher finisher =
             one_shape ? Finisher(OneShapeReader<Arch>(table.blocks + spots.offsets[0]))
@@ -144,8 +142,8 @@ class Finish {
         store(finished, i, active);
         if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
             if (found_.shading_normal[0] != nullptr)
-                store(finisher.shading_normal(
-                          mul_add<D>(finished.t, rays.direction, rays.origin), finished.normal),
+                store(finisher.shading_normal(mul_add<D>(finished.t, rays.direction, rays.origin),
+                                              finished.normal),
                       found_.shading_normal, i, active);
         } else if (found_.shading_normal[0] != nullptr) {
             store(finished.normal, found_.shading_normal, i, active);
@@ -167,11 +165,9 @@ class Finish {
         const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
         std::uint32_t id[width];
         for (unsigned lane = 0; lane < width; ++lane)
-            id[lane] =
-                __builtin_bit_cast(std::uint32_t, ids[spots.offsets[one_shape ? 0 : lane]]);
+            id[lane] = __builtin_bit_cast(std::uint32_t, ids[spots.offsets[one_shape ? 0 : lane]]);
         starts.on_surface = Lanes<D>::in_range(id, first, found_.departed_last + i);
-        starts.inward =
-            Lanes<D>::from_numbers(found_.departure + i, departure_inward) > zero<D>();
+        starts.inward = Lanes<D>::from_numbers(found_.departure + i, departure_inward) > zero<D>();
         starts.face = Lanes<D>::from_numbers(found_.departure + i, departure_face);
         return starts;
     }

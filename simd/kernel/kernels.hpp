@@ -209,7 +209,7 @@ struct KernelsOf {
     }
 
     static constexpr Kernels table(const char* name) {
-        return {name,         lanes,         intersect_rays, intersect_block,
+        return {name,         lanes,         intersect_rays,  intersect_block,
                 occlude_rays, occlude_block, outward_normals, finish<Arch>};
     }
 };

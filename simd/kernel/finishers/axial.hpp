@@ -73,7 +73,7 @@ struct AxialLine {
             quadratic.A = quadratic.A - width_slope * width_slope;
             quadratic.B = quadratic.B - width_slope * width_start;
             quadratic.C = quadratic.C - width_start * width_start;
-            spread = F(1.5) + F(0.75) * (slope * slope) * axis_squared; // >= 1.5 + k^2 / 2
+            spread = F(1.0625) * (F(1.0) + xsimd::abs(slope) * axis_size);
         } else {
             widest = base_width;
             quadratic.C = quadratic.C - base_width * base_width;
@@ -86,16 +86,15 @@ struct AxialLine {
     Passage<Arch> passage(const M& leaves) const {
         const F s = quadratic.root_where(leaves);
         const V across = across_at(s);
-        const F width = width_at(s), square = width * width;
+        const F width = width_at(s), square = width * width, width_size = xsimd::abs(width);
         const F off = together(local.error_at(s));
         const F value = squared_length(across) - square;
         const Residual<Arch> residual = {
-            value, (F(3.0) * width + off) * off + F(0x1p-49) * square,
-            rise(across, width), spread * (off + F(0x1p-47) * width)};
+            value, (F(3.0) * width_size + off) * off + F(0x1p-49) * square, rise(across, width),
+            spread * (off + F(0x1p-47) * width_size)};
         Passage<Arch> result;
         result.root = quadratic.refine(s, residual, leaves);
-        result.root.certain = result.root.certain & (width > zero<Arch>()) &
-                              (xsimd::abs(value) < F(0.25) * square);
+        result.root.certain = result.root.certain & (xsimd::abs(value) < F(0.25) * square);
         result.t = local.shift + result.root.s;
         result.error = local.error_of_t(result.t, result.root.s, result.root.error);
         clip(result);
@@ -107,11 +106,9 @@ struct AxialLine {
     Passage<Arch> from_surface(const Starts<Arch>& starts) const {
         const F vertex = negated(quadratic.B) / quadratic.A;
         const F size = local.size + xsimd::abs(vertex) + widest;
-        const F rise_error =
-            (spread * spread) * (local.error_at(vertex) + F(0x1p-48) * size);
+        const F rise_error = (spread * spread) * (local.error_at(vertex) + F(0x1p-48) * size);
         const F rise_there = rise(across_at(vertex), width_at(vertex));
-        const F vertex_error =
-            F(1.25) * (xsimd::abs(rise_there) + rise_error) / quadratic.A;
+        const F vertex_error = F(1.25) * (xsimd::abs(rise_there) + rise_error) / quadratic.A;
         const F half = local.shift + vertex;
         Passage<Arch> result;
         result.root.certain = starts.inward & (quadratic.A > F(8.0) * quadratic.A_error);
@@ -164,8 +161,7 @@ struct AxialLine {
         passage.outside = (height < negated(margin)) | (above < negated(margin));
         passage.normal = across_at(s);
         if constexpr (Profile::tapers)
-            passage.normal =
-                mul_add<Arch>(negated(width_at(s) * slope), axis, passage.normal);
+            passage.normal = mul_add<Arch>(negated(width_at(s) * slope), axis, passage.normal);
     }
 };
 
@@ -200,8 +196,7 @@ struct CappedFinisher {
         Finished<Arch> result = pass(line, starts.on_surface, starts);
         const M behind = result.certain & ~starts.on_surface & (result.t < negated(result.error));
         if (any<Arch>(behind))
-            result =
-                select<Arch>(behind, pass(line, starts.on_surface | behind, starts), result);
+            result = select<Arch>(behind, pass(line, starts.on_surface | behind, starts), result);
         result.certain = result.certain & (~starts.on_surface | starts.inward) &
                          is_result<Arch>(result.t, result.error);
         result.normal = normalized(result.normal);
@@ -229,8 +224,7 @@ struct CappedFinisher {
         const F error_s = line.height_error(s, zero<Arch>()) * xsimd::abs(inverse);
         const F off = local.error_at(s) + error_s;
         const F within = width * width - squared_length(line.across_at(s));
-        const M meets_plane =
-            xsimd::abs(line.height_slope) > F(0x1p-44) * line.axis_size;
+        const M meets_plane = xsimd::abs(line.height_slope) > F(0x1p-44) * line.axis_size;
         M by_cap = meets_plane & (within > width * (F(3.0) * off + F(0x1p-49) * width));
 
         Passage<Arch> side = line.passage(leaves);
@@ -251,9 +245,8 @@ struct CappedFinisher {
         }
 
         const F t = local.shift + s;
-        const Finished<Arch> cap = {
-            by_cap, t,       local.error_of_t(t, s, error_s),
-            face,   ~leaves, negated_where<Arch>(~at_top, line.axis)};
+        const Finished<Arch> cap = {by_cap, t,       local.error_of_t(t, s, error_s),
+                                    face,   ~leaves, negated_where<Arch>(~at_top, line.axis)};
         Finished<Arch> result = select<Arch>(by_cap, cap, side.finished(by_side, ~leaves));
         // A ray does not leave by the cap that it starts on.
         result.certain = result.certain & ~(starts.on_surface & (starts.face == face));

@@ -84,15 +84,14 @@ struct BoxFinisher {
                 face = xsimd::select(chosen[i], at_face, face);
                 best_slope = xsimd::select(chosen[i], slope[i], best_slope);
                 best_size = xsimd::select(chosen[i], sizes[i], best_size);
-                normal = select<Arch>(chosen[i],
-                                      negated_where<Arch>(~is_far, normals[i]), normal);
+                normal = select<Arch>(chosen[i], negated_where<Arch>(~is_far, normals[i]), normal);
             }
             chosen[1] = chosen[1] & ~chosen[2];
             chosen[0] = chosen[0] & ~chosen[1] & ~chosen[2];
 
             const F position_error = local.error_at(s);
-            const F error_s = F(1.25) * (best_size * position_error + volume_error) /
-                              xsimd::abs(best_slope);
+            const F error_s =
+                F(1.25) * (best_size * position_error + volume_error) / xsimd::abs(best_slope);
             M within = any_yet;
             for (int i = 0; i < 3; ++i) {
                 const F at = mul_add<Arch>(s, slope[i], position[i]);

@@ -36,18 +36,15 @@ inline constexpr double needed_accuracy = 0x1p-27;
 /// a where mask, else b.
 template <class Arch>
 Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a, const Finished<Arch>& b) {
-    return {(mask & a.certain) | (~mask & b.certain),
-            xsimd::select(mask, a.t, b.t),
-            xsimd::select(mask, a.error, b.error),
-            xsimd::select(mask, a.face, b.face),
-            (mask & a.entering) | (~mask & b.entering),
-            select(mask, a.normal, b.normal)};
+    return {(mask & a.certain) | (~mask & b.certain),   xsimd::select(mask, a.t, b.t),
+            xsimd::select(mask, a.error, b.error),      xsimd::select(mask, a.face, b.face),
+            (mask & a.entering) | (~mask & b.entering), select(mask, a.normal, b.normal)};
 }
 
 /// Accurate, and ahead of the ray.
 template <class Arch>
 Mask<Arch> is_result(const Floats<Arch>& t, const Floats<Arch>& error) {
-    return error <= Floats<Arch>(needed_accuracy) * t;
+    return error < Floats<Arch>(needed_accuracy) * t;
 }
 
 template <class Arch>

@@ -70,9 +70,8 @@ struct DiscFinisher {
         // |p| <= radius: p is off by `off`, so |p|^2 by 2 radius off + off^2, and 6 u radius^2.
         const F off = position_error + error_s;
         const F inside = radius * radius - squared_length(local.at(s));
-        const Mask<Arch> certain =
-            (xsimd::abs(approach) > F(0x1p-44) * N) &
-            (inside > radius * (F(3.0) * off + F(0x1p-49) * radius));
+        const Mask<Arch> certain = (xsimd::abs(approach) > F(0x1p-44) * N) &
+                                   (inside > radius * (F(3.0) * off + F(0x1p-49) * radius));
         const F t = local.shift + s;
         return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), approach,
                                  normalized(disc.normal), starts);
@@ -107,9 +106,8 @@ struct TriangleFinisher {
         const F moment_error = F(2.0) * local.error_at(zero<Arch>());
         const F b_error = V * moment_error, c_error = U * moment_error;
         const F size = xsimd::abs(determinant);
-        const Mask<Arch> inside =
-            (at_b > b_error) & (at_c > c_error) &
-            (size - at_b - at_c > b_error + c_error + F(0x1p-48) * (U * V));
+        const Mask<Arch> inside = (at_b > b_error) & (at_c > c_error) &
+                                  (size - at_b - at_c > b_error + c_error + F(0x1p-48) * (U * V));
         const Mask<Arch> certain = inside & (size > F(0x1p-44) * (U * V));
         const F t = local.shift + s;
         return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), determinant,
@@ -130,10 +128,9 @@ struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
     Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
         const Vectors<Arch> a = this->triangle.a - point, b = this->triangle.b - point,
                             c = this->triangle.c - point;
-        const Vectors<Arch> sum =
-            scaled<Arch>(dot(unit_flat, cross(b, c)), normalized(normal_a)) +
-            scaled<Arch>(dot(unit_flat, cross(c, a)), normalized(normal_b)) +
-            scaled<Arch>(dot(unit_flat, cross(a, b)), normalized(normal_c));
+        const Vectors<Arch> sum = scaled<Arch>(dot(unit_flat, cross(b, c)), normalized(normal_a)) +
+                                  scaled<Arch>(dot(unit_flat, cross(c, a)), normalized(normal_b)) +
+                                  scaled<Arch>(dot(unit_flat, cross(a, b)), normalized(normal_c));
         const Floats<Arch> square = squared_length(sum);
         return select<Arch>(square > zero<Arch>(), sum / xsimd::sqrt(square), unit_flat);
     }

@@ -73,11 +73,10 @@ struct QuadricFinisher {
         Passage<Arch> from_surface(const Starts<Arch>& starts) const {
             const F vertex = negated(quadratic.B) / quadratic.A;
             const V p = local.at(vertex);
-            const F error = rise_error(largest * sum_of_sizes(p) + linear_size,
-                                       local.error_at(vertex));
+            const F error =
+                rise_error(largest * sum_of_sizes(p) + linear_size, local.error_at(vertex));
             const F rise = dot(form.half_gradient(p), local.direction);
-            const F vertex_error =
-                F(1.25) * (xsimd::abs(rise) + error) / xsimd::abs(quadratic.A);
+            const F vertex_error = F(1.25) * (xsimd::abs(rise) + error) / xsimd::abs(quadratic.A);
             const F half = local.shift + vertex;
             const F certain_A = F(8.0) * quadratic.A_error;
             Passage<Arch> result;

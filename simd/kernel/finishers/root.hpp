@@ -73,12 +73,8 @@ struct Passage {
     Mask<Arch> outside; ///< certainly not
     Vectors<Arch> normal;
 
-    Mask<Arch> counts() const {
-        return root.certain & inside & is_result<Arch>(t, error);
-    }
-    Mask<Arch> does_not_count() const {
-        return root.certain & (outside | (t < negated(error)));
-    }
+    Mask<Arch> counts() const { return root.certain & inside & is_result<Arch>(t, error); }
+    Mask<Arch> does_not_count() const { return root.certain & (outside | (t < negated(error))); }
     Mask<Arch> is_before(const Passage& other) const { return t + error < other.t - other.error; }
 
     Finished<Arch> finished(const Mask<Arch>& certain, const Mask<Arch>& entering) const {

@@ -39,11 +39,11 @@ struct SphereFinisher {
         const F error = F(0x1p-45) * H + discriminant_error * (inverse * radius);
         const F entry = shift - root;
         const Mask<Arch> entering = (entry > zero<Arch>()) & ~starts.on_surface;
-        const F from_foot = xsimd::select(
-            starts.on_surface, shift, xsimd::select(entering, negated(root), root));
+        const F from_foot =
+            xsimd::select(starts.on_surface, shift, xsimd::select(entering, negated(root), root));
         const F t = shift + from_foot;
-        const Mask<Arch> one_ahead =
-            (starts.on_surface & starts.inward) | (~starts.on_surface & (xsimd::abs(entry) > error));
+        const Mask<Arch> one_ahead = (starts.on_surface & starts.inward) |
+                                     (~starts.on_surface & (xsimd::abs(entry) > error));
         return {(discriminant > discriminant_error) & one_ahead & is_result<Arch>(t, error),
                 t,
                 error,
