@@ -73,7 +73,7 @@ struct AxialLine {
             quadratic.A = quadratic.A - width_slope * width_slope;
             quadratic.B = quadratic.B - width_slope * width_start;
             quadratic.C = quadratic.C - width_start * width_start;
-            spread = F(1.5) + F(0.75) * (slope * slope) * axis_squared; // >= 1.5 + k^2 / 2
+            spread = F(1.0625) * (F(1.0) + xsimd::abs(slope) * axis_size);
         } else {
             widest = base_width;
             quadratic.C = quadratic.C - base_width * base_width;
@@ -86,15 +86,15 @@ struct AxialLine {
     Passage<Arch> passage(const M& leaves) const {
         const F s = quadratic.root_where(leaves);
         const V across = across_at(s);
-        const F width = width_at(s), square = width * width;
+        const F width = width_at(s), square = width * width, width_size = xsimd::abs(width);
         const F off = together(local.error_at(s));
         const F value = squared_length(across) - square;
-        const Residual<Arch> residual = {value, (F(3.0) * width + off) * off + F(0x1p-49) * square,
-                                         rise(across, width), spread * (off + F(0x1p-47) * width)};
+        const Residual<Arch> residual = {
+            value, (F(3.0) * width_size + off) * off + F(0x1p-49) * square, rise(across, width),
+            spread * (off + F(0x1p-47) * width_size)};
         Passage<Arch> result;
         result.root = quadratic.refine(s, residual, leaves);
-        result.root.certain =
-            result.root.certain & (width > zero<Arch>()) & (xsimd::abs(value) < F(0.25) * square);
+        result.root.certain = result.root.certain & (xsimd::abs(value) < F(0.25) * square);
         result.t = local.shift + result.root.s;
         result.error = local.error_of_t(result.t, result.root.s, result.root.error);
         clip(result);

@@ -44,7 +44,7 @@ Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a, const Fin
 /// Accurate, and ahead of the ray.
 template <class Arch>
 Mask<Arch> is_result(const Floats<Arch>& t, const Floats<Arch>& error) {
-    return error <= Floats<Arch>(needed_accuracy) * t;
+    return error < Floats<Arch>(needed_accuracy) * t;
 }
 
 template <class Arch>
