@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/region.hpp"
+#include "simd/threads.hpp"
 
 #include <functional>
 
@@ -8,12 +9,6 @@ namespace raylane::simd {
 
 /// Pixels on the side of a tile, the unit of work.
 inline constexpr int tile_size = 16;
-
-/// More than any machine has of use.
-inline constexpr int max_threads = 4096;
-
-/// As many as the machine has for this process.
-int default_threads();
 
 /// Calls visit(region) once for each tile of a picture, on `threads` threads (0:
 /// default_threads()). An exception ends the loop and comes out of it.
