@@ -85,7 +85,7 @@ struct Rays {
         entering.assign(ray_count, 0.0F);
     }
 
-    simd::RayStream view() {
+    simd::PacketStream view() {
         return {ray_count,
                 {ox.data(), oy.data(), oz.data()},
                 {dx.data(), dy.data(), dz.data()},
@@ -164,7 +164,7 @@ void scalar(benchmark::State& state) {
 template <class Shape>
 void one_shape(benchmark::State& state, const simd::Kernels& kernels) {
     Setup<Shape> setup;
-    simd::RayStream view = setup.rays.view();
+    simd::PacketStream view = setup.rays.view();
     for (auto _ : state) {
         for (int lane = 0; lane < block_size; ++lane)
             kernels.intersect_rays(static_cast<simd::KindNumber>(kind_of<Shape>), setup.view(),
@@ -177,7 +177,7 @@ void one_shape(benchmark::State& state, const simd::Kernels& kernels) {
 template <class Shape>
 void one_ray(benchmark::State& state, const simd::Kernels& kernels) {
     Setup<Shape> setup;
-    simd::RayStream view = setup.rays.view();
+    simd::PacketStream view = setup.rays.view();
     for (auto _ : state) {
         for (std::size_t i = 0; i < ray_count; ++i)
             kernels.intersect_block(static_cast<simd::KindNumber>(kind_of<Shape>), setup.view(),

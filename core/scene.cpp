@@ -133,7 +133,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     validate_in("camera", camera);
     validate_in("fog", fog);
     validate_color("background", background);
-    if (scene_.lights_.empty() && shape_count() > 0)
+    if (wants_light && scene_.lights_.empty() && shape_count() > 0)
         throw InvalidValue("lights",
                            "must have at least one light where there are objects, got none");
 

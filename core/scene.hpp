@@ -71,10 +71,11 @@ class Scene {
 /// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was.
 class SceneBuilder {
   public:
-    Camera camera;          ///< checked by build(), field "camera/..."
-    Color background{0.0F}; ///< checked by build(), field "background"
-    Fog fog;                ///< checked by build(), field "fog/..."
-    Settings settings;      ///< checked by build(), field "settings/..."
+    Camera camera;           ///< checked by build(), field "camera/..."
+    Color background{0.0F};  ///< checked by build(), field "background"
+    Fog fog;                 ///< checked by build(), field "fog/..."
+    Settings settings;       ///< checked by build(), field "settings/..."
+    bool wants_light = true; ///< whether build() refuses shapes without a light
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -31,8 +32,11 @@ InputFile::InputFile(const std::filesystem::path& path)
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
+InputFile::InputFile(std::string name, std::string_view text)
+    : name_(std::move(name)), size_(text.size()), head_(text) {}
+
 InputFile::~InputFile() {
-    ::close(descriptor_);
+    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::string_view InputFile::head() {
@@ -46,7 +50,7 @@ std::string_view InputFile::head() {
         }
         head_.resize(filled);
     }
-    return std::string_view(head_).substr(head_used_);
+    return std::string_view(head_).substr(head_used_, head_size);
 }
 
 std::size_t InputFile::read(std::span<char> buffer) {
@@ -70,18 +74,21 @@ std::string InputFile::read_all() {
 }
 
 bool InputFile::rewind() {
-    if (::lseek(descriptor_, 0, SEEK_SET) != 0) return false;
-    head_.clear();
+    if (descriptor_ >= 0) {
+        if (::lseek(descriptor_, 0, SEEK_SET) != 0) return false;
+        head_.clear();
+    }
     head_used_ = 0;
     return true;
 }
 
 std::size_t InputFile::read_some(std::span<char> buffer) {
-    while (true) {
+    while (descriptor_ >= 0) {
         const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
         if (count >= 0) return static_cast<std::size_t>(count);
         if (errno != EINTR) throw SystemRefused(name_, "read", errno);
     }
+    return 0;
 }
 
 } // namespace raylane::scenes

@@ -15,6 +15,8 @@ class InputFile {
     /// Throws BadInput if there is no such file or it is a directory, SystemRefused if it cannot be
     /// opened.
     explicit InputFile(const std::filesystem::path& path);
+    /// A text in memory that is read as if it were the content of a file of that name.
+    InputFile(std::string name, std::string_view text);
     ~InputFile();
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
@@ -38,9 +40,9 @@ class InputFile {
     std::size_t read_some(std::span<char> buffer);
 
     std::string name_;
-    int descriptor_;
+    int descriptor_ = -1; // none for a text
     std::uint64_t size_ = 0;
-    std::string head_; // read ahead
+    std::string head_; // read ahead; all of a text
     std::size_t head_used_ = 0;
 };
 

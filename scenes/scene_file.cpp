@@ -27,8 +27,8 @@ bool is_binary(std::string_view head) {
     });
 }
 
-bool is_json(const std::filesystem::path& path, InputFile& file) {
-    std::string ending = path.extension().string();
+bool is_json(InputFile& file) {
+    std::string ending = std::filesystem::path(file.name()).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     });
@@ -39,12 +39,21 @@ bool is_json(const std::filesystem::path& path, InputFile& file) {
     return looks_like_json(file.head());
 }
 
+core::Scene read_scene(InputFile& file) {
+    if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
+    return is_json(file) ? read_json(file) : read_nff(file);
+}
+
 } // namespace
 
 core::Scene load_scene(const std::filesystem::path& path) {
     InputFile file(path);
-    if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
-    return is_json(path, file) ? read_json(file) : read_nff(file);
+    return read_scene(file);
+}
+
+core::Scene parse_scene(const std::string& name, std::string_view text) {
+    InputFile file(name, text);
+    return read_scene(file);
 }
 
 } // namespace raylane::scenes

@@ -13,7 +13,7 @@ namespace raylane::simd {
 
 /// Rays and what they have hit so far, structure of arrays: each array has `count` values, rounded
 /// up to whole packets of 16. A lane without a ray has t = -1: nothing is nearer.
-struct RayStream {
+struct PacketStream {
     std::size_t count;
     const float* origin[3];
     const float* direction[3];
@@ -74,19 +74,19 @@ struct Kernels {
     int lanes;
 
     /// One shape of a block against all rays: nearest hits. At equal t the lower id wins.
-    void (*intersect_rays)(KindNumber kind, const ShapeBlock& block, int lane, RayStream& rays);
+    void (*intersect_rays)(KindNumber kind, const ShapeBlock& block, int lane, PacketStream& rays);
 
     /// One ray against all shapes of a block.
-    void (*intersect_block)(KindNumber kind, const ShapeBlock& block, RayStream& rays,
+    void (*intersect_block)(KindNumber kind, const ShapeBlock& block, PacketStream& rays,
                             std::size_t ray);
 
     /// The same for rays that only ask whether anything is before their t: it becomes -1, and the
     /// lane inert, where there is.
-    void (*occlude_rays)(KindNumber kind, const ShapeBlock& block, int lane, RayStream& rays);
-    void (*occlude_block)(KindNumber kind, const ShapeBlock& block, RayStream& rays,
+    void (*occlude_rays)(KindNumber kind, const ShapeBlock& block, int lane, PacketStream& rays);
+    void (*occlude_block)(KindNumber kind, const ShapeBlock& block, PacketStream& rays,
                           std::size_t ray);
 
-    /// The unit outward normals of one shape of a block at n points. `face` as in RayStream.
+    /// The unit outward normals of one shape of a block at n points. `face` as in PacketStream.
     void (*outward_normals)(KindNumber kind, const ShapeBlock& block, int lane, std::size_t count,
                             const float* const point[3], const float* face, float* const normal[3]);
 

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 namespace raylane::simd {
@@ -18,10 +19,11 @@ enum class Engine : std::uint8_t {
 
 enum class Precision : std::uint8_t { single_precision, double_precision };
 
-/// How far a rendering has come. May be read while it runs.
+/// How far a rendering has come, for any thread to read while it runs; and to end it.
 struct Progress {
     std::atomic<std::int64_t> pixels = 0;
     std::atomic<std::uint64_t> rays = 0;
+    std::atomic<bool> stop = false; ///< once true, no more tiles are begun
 };
 
 struct RenderOptions {
@@ -31,15 +33,19 @@ struct RenderOptions {
     Precision precision = Precision::double_precision; ///< of the reference
     int threads = 0;                                   ///< 0: all that the machine has
     Progress* progress = nullptr;
+    /// Called behind each tile by the thread that has drawn it, so by several at a time.
+    std::function<void()> after_tile;
 };
 
 struct Rendering {
     core::Film film;
     core::Counters counters;
+    bool complete = true; ///< false if it was stopped: tiles may be black
 };
 
 /// Renders a picture of settings.width * settings.height pixels. It depends on scene, settings,
-/// engine and precision alone. Throws std::bad_alloc, and InvalidValue for settings that are none.
+/// engine and precision alone. Throws std::bad_alloc, InvalidValue for settings that are none, and
+/// what `after_tile` throws.
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& options);
 

@@ -1,16 +1,11 @@
 #pragma once
 
 #include "core/region.hpp"
+#include "simd/threads.hpp"
 
 #include <functional>
 
 namespace raylane::simd {
-
-/// More than any machine has of use.
-inline constexpr int max_threads = 4096;
-
-/// As many as the machine has for this process.
-int default_threads();
 
 /// Calls visit(region) once for each tile of a picture, `tile` pixels on a side, on `threads`
 /// threads (0: default_threads()). An exception ends the loop and comes out of it.

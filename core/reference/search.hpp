@@ -20,10 +20,11 @@ class Searcher {
   public:
     Searcher(const Scene& scene, Search search) : scene_(scene), search_(search) {}
 
-    /// The first crossing that `counts(hit)`. Its t is infinite if there is none.
+    /// The first crossing with t < t_most that `counts(hit)`. Its t is infinite if there is none.
     template <class Counts>
     Encounter<Real> nearest(const Ray<Real>& ray, const Departure<Real>& departure,
-                            const Counts& counts) {
+                            const Counts& counts,
+                            Real t_most = std::numeric_limits<Real>::infinity()) {
         Hit<Real> first;
         for (const Contact<Real>& contact : departure)
             if (contact.is_crossed() && contact_hit(contact).before(first) &&
@@ -32,13 +33,14 @@ class Searcher {
         if (first.any()) return {first, departure};
 
         Hit<Real> best;
+        best.t = t_most;
         coinciding_.clear();
         for_each_candidate(
             ray, [&] { return best.t; },
             [&](Kind kind, std::uint32_t block) {
                 cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
                     if (!hit.before(best) && !hit.coincides(best)) return;
-                    if (!counts(hit)) return;
+                    if (!(hit.t < t_most) || !counts(hit)) return;
                     coinciding_.push_back(hit);
                     if (hit.before(best)) best = hit;
                 });

@@ -3,6 +3,12 @@
 #include "scenes/errors.hpp"
 #include "scenes/image/float_pictures.hpp"
 
+// Its functions stay in this file: a program that links the library may have them as well.
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STBI_MAX_DIMENSIONS 65535
 #include <stb_image.h>
 
 #include <exception>

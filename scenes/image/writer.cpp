@@ -3,6 +3,9 @@
 #include "core/transfer.hpp"
 #include "scenes/errors.hpp"
 
+// Its functions stay in this file: a program that links the library may have them as well.
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
 
 #include <algorithm>

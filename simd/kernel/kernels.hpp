@@ -58,26 +58,26 @@ struct KernelsOf {
         return Lanes<Arch>::in_range(a, zero<Arch>(), b) & ~Lanes<Arch>::in_range(a, b, b);
     }
 
-    static Rays<Arch> rays_from(const RayStream& stream, std::size_t i) {
+    static Rays<Arch> rays_from(const PacketStream& stream, std::size_t i) {
         return {
             {load(stream.origin[0] + i), load(stream.origin[1] + i), load(stream.origin[2] + i)},
             {load(stream.direction[0] + i), load(stream.direction[1] + i),
              load(stream.direction[2] + i)}};
     }
 
-    static Rays<Arch> broadcast_ray(const RayStream& stream, std::size_t i) {
+    static Rays<Arch> broadcast_ray(const PacketStream& stream, std::size_t i) {
         return {{F(stream.origin[0][i]), F(stream.origin[1][i]), F(stream.origin[2][i])},
                 {F(stream.direction[0][i]), F(stream.direction[1][i]), F(stream.direction[2][i])}};
     }
 
-    static Starts<Arch> starts_from(const F& id, const RayStream& stream, std::size_t i) {
+    static Starts<Arch> starts_from(const F& id, const PacketStream& stream, std::size_t i) {
         return {Lanes<Arch>::in_range(id, load(stream.departed_first + i),
                                       load(stream.departed_last + i)),
                 load(stream.departed_inward + i) > zero<Arch>(), load(stream.departed_face + i)};
     }
 
     /// Empty lanes of a block have the id that stands for no departure; they start nowhere.
-    static Starts<Arch> broadcast_start(const F& ids, const RayStream& stream, std::size_t i) {
+    static Starts<Arch> broadcast_start(const F& ids, const PacketStream& stream, std::size_t i) {
         const F no_id(__builtin_bit_cast(float, ~0U));
         return {
             Lanes<Arch>::in_range(ids, F(stream.departed_first[i]), F(stream.departed_last[i])) &
@@ -107,7 +107,7 @@ struct KernelsOf {
     }
 
     static void intersect_rays(KindNumber kind, const ShapeBlock& block, int lane,
-                               RayStream& stream) {
+                               PacketStream& stream) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Shape shape(BroadcastReader<Arch>(block.values, lane));
             const F id(block.ids[lane]);
@@ -127,7 +127,7 @@ struct KernelsOf {
     }
 
     static void occlude_rays(KindNumber kind, const ShapeBlock& block, int lane,
-                             RayStream& stream) {
+                             PacketStream& stream) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Shape shape(BroadcastReader<Arch>(block.values, lane));
             const F id(block.ids[lane]);
@@ -141,7 +141,7 @@ struct KernelsOf {
         });
     }
 
-    static void intersect_block(KindNumber kind, const ShapeBlock& block, RayStream& stream,
+    static void intersect_block(KindNumber kind, const ShapeBlock& block, PacketStream& stream,
                                 std::size_t ray) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Rays<Arch> rays = broadcast_ray(stream, ray);
@@ -158,7 +158,7 @@ struct KernelsOf {
         });
     }
 
-    static void occlude_block(KindNumber kind, const ShapeBlock& block, RayStream& stream,
+    static void occlude_block(KindNumber kind, const ShapeBlock& block, PacketStream& stream,
                               std::size_t ray) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Rays<Arch> rays = broadcast_ray(stream, ray);
@@ -173,7 +173,7 @@ struct KernelsOf {
     }
 
     /// The nearest of the lanes becomes the ray's hit.
-    static void reduce(const Hits& hits, RayStream& stream, std::size_t ray) {
+    static void reduce(const Hits& hits, PacketStream& stream, std::size_t ray) {
         std::uint32_t better = Lanes<Arch>::bits(
             (hits.t < F(stream.t[ray])) |
             ((hits.t == F(stream.t[ray])) & is_lower(hits.shape, F(stream.shape[ray]))));

@@ -77,7 +77,7 @@ struct Stream {
                   nan});
     }
 
-    RayStream view() {
+    PacketStream view() {
         return {rays.size(),
                 {ox.data(), oy.data(), oz.data()},
                 {dx.data(), dy.data(), dz.data()},
@@ -164,7 +164,7 @@ void check_round(const Kernels& kernels, Random& random, int& hits) {
         }
 
     Stream by_rays = round.stream, by_block = round.stream;
-    RayStream view = by_rays.view();
+    PacketStream view = by_rays.view();
     // Against the order of the ids: the tie goes to the lower one all the same.
     for (int lane = block_size - 1; lane >= 0; --lane)
         if (round.block.ids[lane] != no_shape)
@@ -181,7 +181,7 @@ void check_round(const Kernels& kernels, Random& random, int& hits) {
         far.t[i] = far_by_block.t[i] =
             hit ? std::nextafter(expected[i].t, std::numeric_limits<float>::infinity()) : 1e30F;
     }
-    RayStream near_view = near.view(), far_view = far.view(), block_view = far_by_block.view();
+    PacketStream near_view = near.view(), far_view = far.view(), block_view = far_by_block.view();
     for (int lane = 0; lane < block_size && round.block.ids[lane] != no_shape; ++lane) {
         kernels.occlude_rays(kind, round.view(), lane, near_view);
         kernels.occlude_rays(kind, round.view(), lane, far_view);

@@ -88,3 +88,22 @@ TEST_CASE("paths of the greatest depth fit the threads' stacks") {
         CHECK(rendering.film.at(16, 16).x == 1001.0F);
     }
 }
+
+TEST_CASE("a rendering that is stopped begins no more tiles") {
+    const Scene scene = mirrored_ball();
+    simd::Progress progress;
+    simd::RenderOptions options;
+    options.threads = 1;
+    options.tile = 16;
+    options.progress = &progress;
+    int tiles = 0;
+    options.after_tile = [&] { progress.stop = ++tiles == 3; };
+    CHECK(!simd::render(scene, scene.settings(), options).complete);
+    CHECK(tiles == 3);
+    CHECK(progress.pixels <= 3 * 16 * 16);
+    CHECK(progress.pixels < 70 * 50);
+
+    progress.stop = false;
+    options.after_tile = nullptr;
+    CHECK(simd::render(scene, scene.settings(), options).complete);
+}

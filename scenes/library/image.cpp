@@ -1,0 +1,100 @@
+#include "raylane/image.hpp"
+
+#include "scenes/image/writer.hpp"
+#include "scenes/library/convert.hpp"
+#include "scenes/library/internals.hpp"
+#include "scenes/library/translate.hpp"
+#include "simd/render.hpp"
+
+#include <mutex>
+#include <string>
+
+namespace raylane {
+
+using library::converted;
+using library::translated;
+
+namespace {
+
+core::Settings settings_for(const Scene& scene, const RenderOptions& options) {
+    if (!options.settings) return library::Internals::of(scene).settings();
+    return converted<core::Settings>(*options.settings);
+}
+
+simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
+                            const simd::RenderOptions& options) {
+    library::require_threads(options.threads);
+    try {
+        return simd::render(library::Internals::of(scene), settings, options);
+    } catch (const core::InvalidValue& invalid) {
+        throw InvalidValue("settings/" + invalid.field, invalid.expectation);
+    }
+}
+
+Image image_of(const core::Film& film) {
+    Image image{film.width(), film.height(), {}};
+    image.rgb.reserve(3 * film.pixels().size());
+    for (const core::Color& pixel : film.pixels())
+        image.rgb.insert(image.rgb.end(), {pixel.x, pixel.y, pixel.z});
+    return image;
+}
+
+void require_side(const char* field, int pixels) {
+    if (pixels < 1 || pixels > core::Settings::max_size)
+        throw InvalidValue(field, "must be from 1 to " + std::to_string(core::Settings::max_size) +
+                                      ", got " + std::to_string(pixels));
+}
+
+} // namespace
+
+Image render(const Scene& scene, const RenderOptions& options) {
+    simd::RenderOptions inner;
+    inner.threads = options.threads;
+    return image_of(render_with(scene, settings_for(scene, options), inner).film);
+}
+
+std::optional<Image> render(const Scene& scene, const RenderOptions& options,
+                            const ProgressCallback& progress) {
+    if (!progress) return render(scene, options);
+    const core::Settings settings = settings_for(scene, options);
+    const std::int64_t total = std::int64_t{settings.width} * settings.height;
+    simd::Progress made;
+    std::mutex calling;
+    bool has_ended = false; // by the callback's answer or by what it throws
+    simd::RenderOptions inner;
+    inner.threads = options.threads;
+    inner.progress = &made;
+    inner.after_tile = [&] {
+        const std::lock_guard lock(calling);
+        if (has_ended) return;
+        has_ended = true;
+        has_ended = !progress({made.pixels, total, made.rays});
+        made.stop = has_ended;
+    };
+    const simd::Rendering rendering = render_with(scene, settings, inner);
+    if (!rendering.complete) return std::nullopt;
+    return image_of(rendering.film);
+}
+
+void write_image(const std::filesystem::path& path, const Image& image, Transfer transfer) {
+    require_side("width", image.width);
+    require_side("height", image.height);
+    if (image.rgb.size() != std::size_t{3} * image.width * image.height)
+        throw InvalidValue("rgb", "must be 3 components for each of " +
+                                      std::to_string(image.width) + " x " +
+                                      std::to_string(image.height) + " pixels, got " +
+                                      std::to_string(image.rgb.size()));
+    translated([&] {
+        scenes::OutputFile file(path);
+        core::Film film(image.width, image.height);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const Color pixel = image.at(x, y);
+                film.at(x, y) = {pixel.x, pixel.y, pixel.z};
+            }
+        file.reserve(image.width, image.height);
+        file.commit(film, converted<core::Transfer>(transfer));
+    });
+}
+
+} // namespace raylane

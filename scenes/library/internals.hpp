@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/scene.hpp"
+#include "raylane/scene.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace raylane::library {
+
+/// What a Scene hides from its users.
+struct Internals {
+    static Scene scene(std::shared_ptr<const core::Scene> scene) { return Scene(std::move(scene)); }
+    static const core::Scene& of(const Scene& scene) { return *scene.scene_; }
+};
+
+} // namespace raylane::library

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "raylane/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace raylane {
+
+/// A picture in linear float RGB. Components are >= 0 and may exceed 1.
+struct Image {
+    int width = 0;          ///< pixels
+    int height = 0;         ///< pixels
+    std::vector<float> rgb; ///< height x width x 3: rows from the top down, pixels left to right
+
+    /// The pixel in column x from the left, row y from the top.
+    Color at(int x, int y) const {
+        const float* pixel = rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x);
+        return {pixel[0], pixel[1], pixel[2]};
+    }
+};
+
+struct RenderOptions {
+    std::optional<Settings> settings{}; ///< in place of the scene's
+    int threads = 0;                    ///< at most, 1 to 4096; 0: all that the machine has
+};
+
+/// How far a rendering has come.
+struct Progress {
+    std::int64_t pixels = 0;       ///< done
+    std::int64_t total_pixels = 0; ///< of the picture
+    std::uint64_t rays = 0;        ///< traced, of all kinds
+};
+
+/// Hears of progress, and answers whether to continue.
+using ProgressCallback = std::function<bool(const Progress&)>;
+
+/// The picture of a scene. The same scene and settings give the same bits, whatever the threads and
+/// the processor. May be called by several threads at a time. Throws InvalidValue for options that
+/// are none (fields "settings/width", ..., "threads"), and std::bad_alloc.
+Image render(const Scene& scene, const RenderOptions& options = {});
+
+/// The same, with a callback: called after every tile of some hundred pixels or more, by whichever
+/// thread has drawn it, never by two at a time, so it should be quick. Once it returns false it is
+/// not called again, the tiles under way are finished, and there is no picture. What it throws
+/// comes out.
+std::optional<Image> render(const Scene& scene, const RenderOptions& options,
+                            const ProgressCallback& progress);
+
+/// Writes a picture; the file's ending tells the format: .png (8 bits through the transfer curve),
+/// .hdr (Radiance) or .pfm (the floats unchanged). The file appears whole or not at all. Throws
+/// InvalidValue for an image whose size is not that of its pixels, BadInput for another ending, and
+/// SystemRefused.
+void write_image(const std::filesystem::path& path, const Image& image,
+                 Transfer transfer = Transfer::srgb);
+
+} // namespace raylane

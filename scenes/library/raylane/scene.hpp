@@ -1,0 +1,117 @@
+#pragma once
+
+#include "raylane/material.hpp"
+#include "raylane/shapes.hpp"
+#include "raylane/surroundings.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raylane {
+
+namespace core {
+class Scene;
+class SceneBuilder;
+} // namespace core
+namespace library {
+struct Internals;
+}
+
+/// A validated scene that never changes. Cheap to copy: the copies are one scene, which lives as
+/// long as any of them, or a Tracer of it. May be read by any number of threads at a time.
+class Scene {
+  public:
+    std::size_t shape_count() const;
+    std::size_t material_count() const;
+    /// Throws InvalidValue for an id that is no shape's.
+    MaterialIndex material_of(ShapeId shape) const;
+    /// Throws InvalidValue for an index that is no material's.
+    Material material(MaterialIndex index) const;
+    std::vector<Light> lights() const;
+    Fog fog() const;
+    Camera camera() const;
+    Color background() const;
+    Settings settings() const;
+
+    // Without a move, no scene is ever empty.
+    Scene(const Scene&) = default;
+    Scene& operator=(const Scene&) = default;
+    ~Scene() = default;
+
+  private:
+    friend struct library::Internals;
+    explicit Scene(std::shared_ptr<const core::Scene> scene);
+
+    std::shared_ptr<const core::Scene> scene_;
+};
+
+/// Collects a scene, in any order, and checks each value as it comes. All functions throw
+/// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was;
+/// and std::bad_alloc. To be used by one thread at a time.
+class SceneBuilder {
+  public:
+    Camera camera; ///< checked by build(), field "camera/..."
+    Color
+        background; ///< what rays see that hit nothing; checked by build(), field "background/..."
+    Fog fog;        ///< checked by build(), field "fog/..."
+    Settings settings; ///< checked by build(), field "settings/..."
+
+    SceneBuilder();
+    ~SceneBuilder();
+    SceneBuilder(SceneBuilder&&) noexcept;
+    SceneBuilder& operator=(SceneBuilder&&) noexcept;
+
+    /// The index by which shapes refer to it.
+    MaterialIndex add_material(const Material& material);
+    void add_light(const Light& light);
+
+    /// The id of the new shape: 0, 1, 2, ... `material` is an index that add_material returned.
+    ShapeId add(const Sphere& shape, MaterialIndex material);
+    ShapeId add(const Plane& shape, MaterialIndex material);
+    ShapeId add(const Disc& shape, MaterialIndex material);
+    ShapeId add(const Triangle& shape, MaterialIndex material);
+    ShapeId add(const SmoothTriangle& shape, MaterialIndex material);
+    ShapeId add(const Box& shape, MaterialIndex material);
+    ShapeId add(const OpenCylinder& shape, MaterialIndex material);
+    ShapeId add(const CappedCylinder& shape, MaterialIndex material);
+    ShapeId add(const OpenCone& shape, MaterialIndex material);
+    ShapeId add(const CappedCone& shape, MaterialIndex material);
+    ShapeId add(const Quadric& shape, MaterialIndex material);
+
+    /// One or more triangles that tile one flat polygon: no reflection or shadow of one of them
+    /// falls on another. Returns the first id; the others follow.
+    ShapeId add_polygon(std::span<const Triangle> triangles, MaterialIndex material);
+    ShapeId add_polygon(std::span<const SmoothTriangle> triangles, MaterialIndex material);
+
+    std::size_t shape_count() const;
+
+    /// Checks what concerns the scene as a whole (fields are those above, and
+    /// "lights/0/position", ...), builds the hierarchy, and hands the scene over. The builder is
+    /// new then, whether this succeeds or throws. A scene without lights shows ambient terms,
+    /// reflections and refractions alone.
+    Scene build();
+
+  private:
+    template <class CoreShape, class Shape>
+    ShapeId add_as(const Shape& shape, MaterialIndex material);
+    template <class CoreShape, class Shape>
+    ShapeId add_polygon_as(std::span<const Shape> triangles, MaterialIndex material);
+
+    std::unique_ptr<core::SceneBuilder> builder_;
+};
+
+/// Reads a scene from a file, JSON (scenes/raylane-scene.schema.json describes it) or NFF. The
+/// format follows the file's ending (.json, .nff) or else its content. Throws BadInput for what is
+/// malformed, SystemRefused, and std::bad_alloc.
+Scene load(const std::filesystem::path& path);
+
+/// The same for a scene in memory. `name` is what messages call it; the format follows its ending,
+/// or else the content.
+Scene parse(std::string_view text, const std::string& name = "scene");
+
+} // namespace raylane

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "raylane/vector.hpp"
+
+#include <cstdint>
+
+/// What is in a scene besides its shapes: lights, fog, the camera, and the settings of the picture.
+namespace raylane {
+
+enum class LightKind : std::uint8_t { point, directional };
+
+/// A light has no size and does not fade with distance. It casts shadows.
+struct Light {
+    LightKind kind = LightKind::point;
+    Vec3 position{};                   ///< point: where it is; not on a surface
+    Vec3 direction{0.0F, -1.0F, 0.0F}; ///< directional: where the light travels to, not zero
+    Color color{1.0F, 1.0F, 1.0F};     ///< >= 0
+};
+
+enum class FogKind : std::uint8_t {
+    none,
+    linear_z,    ///< by world z: none at z = start, all at z = end
+    linear,      ///< by the distance along the ray: none at `start`, all at `end`
+    exponential, ///< 1 - exp(-density * distance)
+};
+
+/// With f the fraction of fog in [0, 1], a segment shows (1 - f) * colour + f * fog colour. It acts
+/// on every segment outside of a transmissive object, secondary rays included. A ray that hits
+/// nothing is infinitely long.
+struct Fog {
+    FogKind kind = FogKind::none;
+    Color color{1.0F, 1.0F, 1.0F}; ///< >= 0
+    float start = 0.0F;            ///< in units of length
+    float end = 1.0F;              ///< differs from start; for linear, 0 <= start < end
+    float density = 0.0F;          ///< per unit of length, > 0
+};
+
+enum class Projection : std::uint8_t { perspective, orthographic };
+
+struct Camera {
+    Projection projection = Projection::perspective;
+    Vec3 from{0.0F, 0.0F, 5.0F};
+    Vec3 at{};                 ///< differs from `from`
+    Vec3 up{0.0F, 1.0F, 0.0F}; ///< not along the line of sight
+    /// perspective: degrees from the picture's lower to its upper edge, in (0, 180)
+    float field_of_view = 45.0F;
+    float height = 2.0F; ///< orthographic: of the picture, > 0, in units of length
+};
+
+/// From linear RGB to the 8 bits of a PNG file: the curve of IEC 61966-2-1, or none.
+enum class Transfer : std::uint8_t { srgb, linear };
+
+enum class SamplePattern : std::uint8_t {
+    regular,    ///< the centres of the cells
+    stratified, ///< a point in each cell, by a hash of pixel and sample
+};
+
+/// What a scene wants its picture to be.
+struct Settings {
+    int width = 512;  ///< pixels, 1 to 65535; the picture has at most 2^28
+    int height = 512; ///< pixels, 1 to 65535
+    int grid = 1;     ///< samples per pixel: grid x grid, 1 to 256
+    SamplePattern samples = SamplePattern::regular;
+    Transfer transfer = Transfer::srgb; ///< for write_image
+    int max_depth = 8;                  ///< reflections and refractions on one path, 0 to 1000
+    float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
+};
+
+} // namespace raylane

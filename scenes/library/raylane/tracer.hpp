@@ -1,0 +1,78 @@
+#pragma once
+
+#include "raylane/scene.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace raylane {
+
+namespace simd {
+class StreamTracer;
+}
+
+/// n rays, structure of arrays: ray i is the points origin + t direction with
+/// t_min < t <= t_max. n is the length of origin_x; the other five have it too, the limits have it
+/// or are empty. The arrays are the caller's and are only read.
+struct RaySpan {
+    std::span<const float> origin_x{}, origin_y{}, origin_z{};
+    /// Of any length but zero; t counts in units of that length.
+    std::span<const float> direction_x{}, direction_y{}, direction_z{};
+    std::span<const float> t_min{}; ///< empty: 0. Less than 0 is 0.
+    std::span<const float> t_max{}; ///< empty: infinity
+};
+
+/// What n rays hit, structure of arrays, for the tracer to fill. A span of length 0 is not wanted;
+/// the others have length n. None may overlap another or a ray's.
+struct HitSpan {
+    std::span<float> t{}; ///< > 0 and finite; infinity where nothing is hit
+    /// Unit length, perpendicular to the surface on its outside (front), whichever side is hit; 0
+    /// where nothing is. A ray enters where normal . direction < 0. A smooth triangle's is the flat
+    /// one's.
+    std::span<float> normal_x{}, normal_y{}, normal_z{};
+    std::span<ShapeId> shape{}; ///< no_shape where nothing is hit
+};
+
+struct TracerOptions {
+    int threads = 0; ///< at most, 1 to 4096; 0: all that the machine has
+};
+
+/// Asks rays about a scene. Cheap to copy. All functions may be called by any number of threads at
+/// a time on one Tracer; long spans are shared out among threads of its own. What a ray hits
+/// depends on the scene and that ray alone.
+///
+/// Which surface a ray crosses, and which first, is decided as real arithmetic decides it for
+/// exactly the floats given, as far as 106 bits can tell; t is rounded from within a relative 2^-27
+/// of its true value. The limits compare with t as it is answered: rounded to float, and where that
+/// would be 0 or infinite, the nearest float that is neither. So each t, given back as t_min, leads
+/// on to the next crossing.
+///
+/// - Where surfaces coincide, one that the ray enters comes before one that it leaves, and then the
+///   lower id.
+/// - Sides that Material::visible hides are not hit. Glass is: any surface occludes.
+/// - A crossing at the origin itself (t = 0) is none. But an origin that was computed is seldom
+///   exactly on its surface: give such rays a small t_min.
+/// - A ray of which a component is infinite or NaN, or its direction 0, or a limit NaN, hits
+///   nothing.
+class Tracer {
+  public:
+    /// Throws InvalidValue for options that are none.
+    explicit Tracer(const Scene& scene, const TracerOptions& options = {});
+
+    const Scene& scene() const { return scene_; }
+
+    /// The nearest crossing of each ray. Throws InvalidValue, which is a std::invalid_argument,
+    /// where a span has another length; its field is the span's name. Throws std::bad_alloc.
+    void intersect(const RaySpan& rays, const HitSpan& hits) const;
+
+    /// 1 where a ray has a crossing, 0 where it has none: for the same rays, where intersect would
+    /// find a shape. `occluded` has length n. Throws as intersect does.
+    void occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) const;
+
+  private:
+    Scene scene_;
+    std::shared_ptr<const simd::StreamTracer> tracer_;
+};
+
+} // namespace raylane

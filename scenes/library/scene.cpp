@@ -1,0 +1,169 @@
+#include "core/scene.hpp"
+
+#include "raylane/scene.hpp"
+#include "scenes/library/convert.hpp"
+#include "scenes/library/internals.hpp"
+#include "scenes/library/translate.hpp"
+#include "scenes/scene_file.hpp"
+
+#include <string>
+#include <utility>
+
+namespace raylane {
+
+using library::converted;
+using library::translated;
+
+namespace {
+
+void require_index(std::size_t index, std::size_t count, const char* what) {
+    if (index >= count)
+        throw InvalidValue("", "must be one of " + std::to_string(count) + " " + what + ", got " +
+                                   std::to_string(index));
+}
+
+Scene owning(core::Scene&& scene) {
+    return library::Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
+}
+
+} // namespace
+
+Scene::Scene(std::shared_ptr<const core::Scene> scene) : scene_(std::move(scene)) {}
+
+std::size_t Scene::shape_count() const {
+    return scene_->shape_count();
+}
+
+std::size_t Scene::material_count() const {
+    return scene_->materials().size();
+}
+
+MaterialIndex Scene::material_of(ShapeId shape) const {
+    require_index(shape, shape_count(), "shapes");
+    return scene_->material_index_of(shape);
+}
+
+Material Scene::material(MaterialIndex index) const {
+    require_index(index, material_count(), "materials");
+    return converted<Material>(scene_->materials()[index]);
+}
+
+std::vector<Light> Scene::lights() const {
+    std::vector<Light> lights;
+    for (const core::Light& light : scene_->lights())
+        lights.push_back(converted<Light>(light));
+    return lights;
+}
+
+Fog Scene::fog() const {
+    return converted<Fog>(scene_->fog());
+}
+
+Camera Scene::camera() const {
+    return converted<Camera>(scene_->camera());
+}
+
+Color Scene::background() const {
+    return converted<Color>(scene_->background());
+}
+
+Settings Scene::settings() const {
+    return converted<Settings>(scene_->settings());
+}
+
+SceneBuilder::SceneBuilder() : builder_(std::make_unique<core::SceneBuilder>()) {}
+SceneBuilder::~SceneBuilder() = default;
+SceneBuilder::SceneBuilder(SceneBuilder&&) noexcept = default;
+SceneBuilder& SceneBuilder::operator=(SceneBuilder&&) noexcept = default;
+
+MaterialIndex SceneBuilder::add_material(const Material& material) {
+    return translated([&] { return builder_->add_material(converted<core::Material>(material)); });
+}
+
+void SceneBuilder::add_light(const Light& light) {
+    translated([&] { builder_->add_light(converted<core::Light>(light)); });
+}
+
+template <class CoreShape, class Shape>
+ShapeId SceneBuilder::add_as(const Shape& shape, MaterialIndex material) {
+    return translated(
+        [&] { return builder_->add(library::core_shape<CoreShape>(shape), material); });
+}
+
+ShapeId SceneBuilder::add(const Sphere& shape, MaterialIndex material) {
+    return add_as<core::Sphere>(shape, material);
+}
+ShapeId SceneBuilder::add(const Plane& shape, MaterialIndex material) {
+    return add_as<core::Plane>(shape, material);
+}
+ShapeId SceneBuilder::add(const Disc& shape, MaterialIndex material) {
+    return add_as<core::Disc>(shape, material);
+}
+ShapeId SceneBuilder::add(const Triangle& shape, MaterialIndex material) {
+    return add_as<core::Triangle>(shape, material);
+}
+ShapeId SceneBuilder::add(const SmoothTriangle& shape, MaterialIndex material) {
+    return add_as<core::SmoothTriangle>(shape, material);
+}
+ShapeId SceneBuilder::add(const Box& shape, MaterialIndex material) {
+    return add_as<core::Box>(shape, material);
+}
+ShapeId SceneBuilder::add(const OpenCylinder& shape, MaterialIndex material) {
+    return add_as<core::OpenCylinder>(shape, material);
+}
+ShapeId SceneBuilder::add(const CappedCylinder& shape, MaterialIndex material) {
+    return add_as<core::CappedCylinder>(shape, material);
+}
+ShapeId SceneBuilder::add(const OpenCone& shape, MaterialIndex material) {
+    return add_as<core::OpenCone>(shape, material);
+}
+ShapeId SceneBuilder::add(const CappedCone& shape, MaterialIndex material) {
+    return add_as<core::CappedCone>(shape, material);
+}
+ShapeId SceneBuilder::add(const Quadric& shape, MaterialIndex material) {
+    return add_as<core::Quadric>(shape, material);
+}
+
+template <class CoreShape, class Shape>
+ShapeId SceneBuilder::add_polygon_as(std::span<const Shape> triangles, MaterialIndex material) {
+    std::vector<CoreShape> converted_triangles;
+    converted_triangles.reserve(triangles.size());
+    for (const Shape& triangle : triangles)
+        converted_triangles.push_back(library::core_shape<CoreShape>(triangle));
+    return translated([&] {
+        return builder_->add_polygon(std::span<const CoreShape>(converted_triangles), material);
+    });
+}
+
+ShapeId SceneBuilder::add_polygon(std::span<const Triangle> triangles, MaterialIndex material) {
+    return add_polygon_as<core::Triangle>(triangles, material);
+}
+ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle> triangles,
+                                  MaterialIndex material) {
+    return add_polygon_as<core::SmoothTriangle>(triangles, material);
+}
+
+std::size_t SceneBuilder::shape_count() const {
+    return builder_->shape_count();
+}
+
+Scene SceneBuilder::build() {
+    const SceneBuilder taken = std::exchange(*this, SceneBuilder());
+    core::SceneBuilder& builder = *taken.builder_;
+    library::copy(taken.camera, builder.camera);
+    library::copy(taken.background, builder.background);
+    library::copy(taken.fog, builder.fog);
+    library::copy(taken.settings, builder.settings);
+    builder.wants_light = false;
+    return translated([&] { return owning(std::move(builder).build()); });
+}
+
+Scene load(const std::filesystem::path& path) {
+    return translated([&] { return owning(scenes::load_scene(path)); });
+}
+
+Scene parse(std::string_view text, const std::string& name) {
+    return translated([&] { return owning(scenes::parse_scene(name, text)); });
+}
+
+} // namespace raylane

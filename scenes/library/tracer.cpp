@@ -1,0 +1,74 @@
+#include "raylane/tracer.hpp"
+
+#include "scenes/library/internals.hpp"
+#include "scenes/library/translate.hpp"
+#include "simd/stream_tracer.hpp"
+#include "simd/threads.hpp"
+
+#include <string>
+
+namespace raylane {
+
+namespace {
+
+void require_length(const char* name, std::size_t length, std::size_t count) {
+    if (length != count)
+        throw InvalidValue(name, "must have one element for each of " + std::to_string(count) +
+                                     " rays, got " + std::to_string(length));
+}
+
+/// The elements of a span that may be left out, or null.
+template <class Element>
+Element* optional(const char* name, std::span<Element> span, std::size_t count) {
+    if (span.empty()) return nullptr;
+    require_length(name, span.size(), count);
+    return span.data();
+}
+
+simd::RayStream stream_of(const RaySpan& rays) {
+    const std::size_t count = rays.origin_x.size();
+    require_length("origin_y", rays.origin_y.size(), count);
+    require_length("origin_z", rays.origin_z.size(), count);
+    require_length("direction_x", rays.direction_x.size(), count);
+    require_length("direction_y", rays.direction_y.size(), count);
+    require_length("direction_z", rays.direction_z.size(), count);
+    return {count,
+            {rays.origin_x.data(), rays.origin_y.data(), rays.origin_z.data()},
+            {rays.direction_x.data(), rays.direction_y.data(), rays.direction_z.data()},
+            optional("t_min", rays.t_min, count),
+            optional("t_max", rays.t_max, count)};
+}
+
+simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
+    return {optional("t", hits.t, count),
+            {optional("normal_x", hits.normal_x, count), optional("normal_y", hits.normal_y, count),
+             optional("normal_z", hits.normal_z, count)},
+            optional("shape", hits.shape, count)};
+}
+
+} // namespace
+
+void library::require_threads(int threads) {
+    if (threads < 0 || threads > simd::max_threads)
+        throw InvalidValue("threads", "must be from 0 to " + std::to_string(simd::max_threads) +
+                                          ", got " + std::to_string(threads));
+}
+
+Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene) {
+    library::require_threads(options.threads);
+    tracer_ =
+        std::make_shared<const simd::StreamTracer>(library::Internals::of(scene_), options.threads);
+}
+
+void Tracer::intersect(const RaySpan& rays, const HitSpan& hits) const {
+    const simd::RayStream stream = stream_of(rays);
+    tracer_->nearest(stream, stream_of(hits, stream.count));
+}
+
+void Tracer::occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) const {
+    const simd::RayStream stream = stream_of(rays);
+    require_length("occluded", occluded.size(), stream.count);
+    tracer_->occluded(stream, occluded.data());
+}
+
+} // namespace raylane

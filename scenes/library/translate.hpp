@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/invalid_value.hpp"
+#include "raylane/errors.hpp"
+#include "scenes/errors.hpp"
+
+namespace raylane::library {
+
+/// Calls f(), and throws the library's own errors in place of those inside.
+template <class F>
+decltype(auto) translated(const F& f) {
+    try {
+        return f();
+    } catch (const core::InvalidValue& invalid) {
+        throw InvalidValue(invalid.field, invalid.expectation);
+    } catch (const scenes::BadInput& error) {
+        throw BadInput(error.what());
+    } catch (const scenes::SystemRefused& error) {
+        throw SystemRefused(error.what());
+    }
+}
+
+/// Throws InvalidValue, field "threads".
+void require_threads(int threads);
+
+} // namespace raylane::library

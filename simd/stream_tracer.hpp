@@ -1,0 +1,51 @@
+#pragma once
+
+#include "core/scene.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace raylane::simd {
+
+/// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
+/// Component a of ray i is origin[a][i]. Directions may have any length but zero.
+struct RayStream {
+    std::size_t count = 0;
+    const float* origin[3] = {};
+    const float* direction[3] = {};
+    const float* t_min = nullptr; ///< null: 0; what is negative is 0
+    const float* t_max = nullptr; ///< null: infinity
+};
+
+/// What rays hit, by ray, as far as it is wanted. Null: not wanted.
+struct HitStream {
+    float* t = nullptr;             ///< infinity: nothing
+    float* normal[3] = {};          ///< unit, on the outside (the front); 0: nothing
+    core::ShapeId* shape = nullptr; ///< no_shape: nothing
+};
+
+/// Answers streams of rays about one scene, which must outlive it. May be called by any number of
+/// threads at a time. The answer to a ray depends on the scene and that ray alone.
+///
+/// A crossing counts by its t as it is answered: rounded to float, but never to 0 or infinity. What
+/// its material's `visible` says cannot be seen from there does not count. A ray with a component
+/// that is not finite, a direction of 0 or a limit that is NaN hits nothing.
+class StreamTracer {
+  public:
+    /// `threads`: 0 is default_threads().
+    explicit StreamTracer(const core::Scene& scene, int threads = 0)
+        : scene_(scene), threads_(threads) {}
+
+    /// The nearest crossing. Of several that no arithmetic in double can tell apart, one that is
+    /// entered comes before one that is left, then the lower id.
+    void nearest(const RayStream& rays, const HitStream& hits) const;
+
+    /// 1 where there is any crossing, 0 elsewhere.
+    void occluded(const RayStream& rays, std::uint8_t* occluded) const;
+
+  private:
+    const core::Scene& scene_;
+    int threads_;
+};
+
+} // namespace raylane::simd

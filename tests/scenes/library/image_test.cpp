@@ -1,0 +1,196 @@
+#include "raylane/raylane.hpp"
+#include "scenes/image/reader.hpp"
+#include "scenes/library/internals.hpp"
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <atomic>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+using namespace raylane;
+
+namespace {
+
+Scene mirrored_ball() {
+    SceneBuilder builder;
+    builder.settings.width = 70;
+    builder.settings.height = 50;
+    builder.background = {0.25F, 0.5F, 0.75F};
+    builder.add_light({.position = {4, 6, 5}});
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({.reflectivity = 0.5F}));
+    return builder.build();
+}
+
+std::vector<float> inner_pixels(const Scene& scene) {
+    const core::Scene& inner = library::Internals::of(scene);
+    const simd::Rendering rendering = simd::render(inner, inner.settings(), {});
+    std::vector<float> rgb;
+    for (const core::Color& pixel : rendering.film.pixels())
+        rgb.insert(rgb.end(), {pixel.x, pixel.y, pixel.z});
+    return rgb;
+}
+
+std::string message_of(const auto& act) {
+    try {
+        act();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+} // namespace
+
+TEST_CASE("a picture is the tool's") {
+    const Scene scene = mirrored_ball();
+    const Image image = render(scene);
+    CHECK(image.width == 70);
+    CHECK(image.height == 50);
+    CHECK(image.rgb == inner_pixels(scene));
+    CHECK(image.at(0, 0) == Color{0.25F, 0.5F, 0.75F});
+    const std::size_t pixel = 3 * (20 * 70 + 30);
+    CHECK(image.at(30, 20) == Color{image.rgb[pixel], image.rgb[pixel + 1], image.rgb[pixel + 2]});
+    CHECK(render(scene, {.threads = 3}).rgb == image.rgb);
+}
+
+TEST_CASE("settings can be others than the scene's") {
+    const Scene scene = mirrored_ball();
+    Settings settings = scene.settings();
+    settings.width = 7;
+    settings.height = 5;
+    const Image image = render(scene, {.settings = settings});
+    CHECK(image.rgb.size() == 7 * 5 * 3);
+    settings.grid = 0;
+    CHECK(message_of([&] { render(scene, {.settings = settings}); }) ==
+          "settings/grid: must be from 1 to 256, got 0");
+    CHECK_THROWS_AS(render(scene, {.settings = settings}), InvalidValue);
+    CHECK(message_of([&] { render(scene, {.threads = -1}); }) ==
+          "threads: must be from 0 to 4096, got -1");
+}
+
+TEST_CASE("a scene without light shows what is ambient") {
+    SceneBuilder builder;
+    builder.settings.width = builder.settings.height = 9;
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({.ambient = 0.5F}));
+    CHECK(render(builder.build()).at(4, 4) == Color{0.5F, 0.5F, 0.5F});
+}
+
+TEST_CASE("progress is told in order, to the end") {
+    const Scene scene = mirrored_ball();
+    Progress last;
+    int calls = 0;
+    std::atomic<int> inside = 0;
+    const auto image = render(scene, {.threads = 4}, [&](const Progress& progress) {
+        CHECK(++inside == 1);
+        CHECK(progress.pixels >= last.pixels);
+        CHECK(progress.rays >= last.rays);
+        CHECK(progress.total_pixels == 70 * 50);
+        last = progress;
+        ++calls;
+        --inside;
+        return true;
+    });
+    REQUIRE(image.has_value());
+    CHECK(image->rgb == render(scene).rgb);
+    CHECK(last.pixels == 70 * 50);
+    CHECK(last.rays > 70 * 50);
+    CHECK(calls > 1);
+    CHECK(render(scene, {}, ProgressCallback())->rgb == image->rgb);
+}
+
+TEST_CASE("a rendering can be cancelled") {
+    const Scene scene = mirrored_ball();
+    int tiles = 0;
+    render(scene, {}, [&](const Progress&) { return ++tiles > 0; });
+    for (const int after : {1, 2, tiles})
+        for (const int threads : {1, 4}) {
+            int calls = 0;
+            const auto image = render(scene, {.threads = threads},
+                                      [&](const Progress&) { return ++calls < after; });
+            CHECK(!image);
+            CHECK(calls == after);
+        }
+}
+
+TEST_CASE("a cancelled rendering ends soon") {
+    const Scene scene = mirrored_ball();
+    Settings settings = scene.settings();
+    settings.width = settings.height = 1024; // takes minutes
+    settings.grid = 64;
+    CHECK(!render(scene, {.settings = settings}, [](const Progress&) { return false; }));
+}
+
+TEST_CASE("what the callback throws comes out") {
+    const Scene scene = mirrored_ball();
+    int calls = 0;
+    CHECK_THROWS_AS(render(scene, {.threads = 4},
+                           [&](const Progress&) -> bool {
+                               ++calls;
+                               throw std::out_of_range("enough");
+                           }),
+                    std::out_of_range);
+    CHECK(calls == 1);
+}
+
+TEST_CASE("a callback may use the library itself") {
+    const Scene scene = mirrored_ball();
+    const Tracer tracer(scene);
+    const std::vector<float> zero(5000, 0.0F), five(5000, 5.0F), back(5000, -1.0F);
+    const auto image = render(scene, {.threads = 3}, [&](const Progress&) {
+        std::vector<std::uint8_t> hit(zero.size());
+        tracer.occluded({zero, zero, five, zero, zero, back}, hit);
+        return hit.front() == 1 && hit.back() == 1;
+    });
+    CHECK(image.has_value());
+}
+
+TEST_CASE("several pictures can be made at a time") {
+    const Scene scene = mirrored_ball();
+    const Image image = render(scene);
+    std::vector<Image> images(4);
+    {
+        std::vector<std::jthread> threads;
+        for (Image& own : images)
+            threads.emplace_back([&] { own = render(scene, {.threads = 2}); });
+    }
+    for (const Image& own : images)
+        CHECK(own.rgb == image.rgb);
+}
+
+TEST_CASE("pictures are written, in the format of the ending") {
+    const tests::TemporaryDirectory directory;
+    const Image image = render(mirrored_ball());
+    for (const std::string name : {"a.pfm", "a.hdr", "a.png"}) {
+        write_image(directory.path() / name, image);
+        const scenes::Image read = scenes::read_image(directory.path() / name);
+        CHECK(read.width == 70);
+        CHECK(read.height == 50);
+        if (name == "a.pfm") CHECK(read.rgb == image.rgb);
+        if (name == "a.png") CHECK(read.rgb[0] * 255.0F == Approx(137.0F)); // 0.25 in sRGB
+    }
+    write_image(directory.path() / "linear.png", image, Transfer::linear);
+    CHECK(scenes::read_image(directory.path() / "linear.png").rgb[0] * 255.0F == Approx(64.0F));
+}
+
+TEST_CASE("pictures that cannot be written leave no file") {
+    const tests::TemporaryDirectory directory;
+    const Image image = render(mirrored_ball());
+    const std::string folder = directory.path().string();
+    CHECK_THROWS_AS(write_image(folder + "/a.gif", image), BadInput);
+    CHECK(message_of([&] { write_image(folder + "/a.gif", image); }) ==
+          folder + "/a.gif: must end in .png, .hdr or .pfm, got \".gif\"");
+    CHECK_THROWS_AS(write_image(folder + "/none/a.png", image), SystemRefused);
+    Image lacking = image;
+    lacking.rgb.pop_back();
+    CHECK(message_of([&] { write_image(folder + "/a.png", lacking); }) ==
+          "rgb: must be 3 components for each of 70 x 50 pixels, got 10499");
+    CHECK(message_of([&] { write_image(folder + "/a.png", Image{}); }) ==
+          "width: must be from 1 to 65535, got 0");
+    CHECK(message_of([&] {
+              write_image(folder + "/a.png", Image{1, -1, {}});
+          }) == "height: must be from 1 to 65535, got -1");
+    CHECK(directory.file_count() == 0);
+}

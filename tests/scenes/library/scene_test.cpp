@@ -1,0 +1,380 @@
+#include "raylane/raylane.hpp"
+#include "scenes/library/internals.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+using namespace raylane;
+using library::Internals;
+
+namespace {
+
+const std::string around = R"({"camera": {"from": [0, 0, 90], "at": [0, 0, 0]},
+    "lights": [{"type": "directional", "direction": [0, -1, 0]}], "materials": {"m": {}},
+    "objects": [)";
+
+std::string with_objects(const std::string& objects) {
+    return around + objects + "]}";
+}
+
+bool same_shapes(const core::Scene& a, const core::Scene& b) {
+    bool same = true;
+    core::for_each_table(a.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+        const auto& other = std::get<core::Table<Shape>>(b.shapes());
+        same &= table.size() == 1 && other.size() == 1;
+        if (!same) return;
+        const auto &block = table.blocks()[0], &other_block = other.blocks()[0];
+        same &= core::floats_of(block.get(0)) == core::floats_of(other_block.get(0)) &&
+                block.ids[0] == other_block.ids[0];
+    });
+    return same;
+}
+
+template <class Error, class Act>
+std::string message_of(const Act& act) {
+    try {
+        act();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no such error";
+}
+
+Scene ball() {
+    SceneBuilder builder;
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    return builder.build();
+}
+
+} // namespace
+
+TEST_CASE("every kind of shape has its fields in a file's order") {
+    SceneBuilder builder;
+    const MaterialIndex m = builder.add_material({});
+    CHECK(builder.add(Sphere{.center = {1, 2, 3}, .radius = 4}, m) == 0);
+    CHECK(builder.add(Plane{.point = {1, 2, 3}, .normal = {4, 5, 6}}, m) == 1);
+    CHECK(builder.add(Disc{.center = {1, 2, 3}, .normal = {4, 5, 6}, .radius = 7}, m) == 2);
+    CHECK(builder.add(Triangle{.a = {1, 2, 3}, .b = {4, 5, 7}, .c = {8, 9, 0}}, m) == 3);
+    CHECK(builder.add(SmoothTriangle{.a = {1, 2, 3},
+                                     .b = {4, 5, 7},
+                                     .c = {8, 9, 0},
+                                     .normal_a = {1, 0, 2},
+                                     .normal_b = {3, 1, 4},
+                                     .normal_c = {1, 5, 9}},
+                      m) == 4);
+    CHECK(
+        builder.add(
+            Box{.corner = {1, 2, 3}, .edge_u = {4, 0, 1}, .edge_v = {0, 5, 0}, .edge_w = {1, 0, 6}},
+            m) == 5);
+    CHECK(builder.add(OpenCylinder{.base = {1, 2, 3}, .axis = {4, 5, 6}, .radius = 7}, m) == 6);
+    CHECK(builder.add(CappedCylinder{.base = {1, 2, 3}, .axis = {4, 5, 6}, .radius = 8}, m) == 7);
+    CHECK(builder.add(
+              OpenCone{.base = {1, 2, 3}, .axis = {4, 5, 6}, .base_radius = 7, .top_radius = 8},
+              m) == 8);
+    CHECK(builder.add(CappedCone{.base = {1, 2, 3}, .axis = {4, 5, 6}, .base_radius = 9}, m) == 9);
+    CHECK(builder.add(Quadric{.center = {1, 2, 3},
+                              .xx = 1,
+                              .yy = 2,
+                              .zz = 3,
+                              .xy = 4,
+                              .xz = 5,
+                              .yz = 6,
+                              .x = 7,
+                              .y = 8,
+                              .z = 9,
+                              .one = 10,
+                              .lower = {-1, -2, -3},
+                              .upper = {4, 5, 6}},
+                      m) == 10);
+    CHECK(builder.shape_count() == 11);
+    const Scene built = builder.build();
+    const Scene parsed = parse(with_objects(R"(
+        {"type": "sphere", "material": "m", "center": [1, 2, 3], "radius": 4},
+        {"type": "plane", "material": "m", "point": [1, 2, 3], "normal": [4, 5, 6]},
+        {"type": "disc", "material": "m", "center": [1, 2, 3], "normal": [4, 5, 6], "radius": 7},
+        {"type": "triangle", "material": "m", "a": [1, 2, 3], "b": [4, 5, 7], "c": [8, 9, 0]},
+        {"type": "triangle", "material": "m", "a": [1, 2, 3], "b": [4, 5, 7], "c": [8, 9, 0],
+         "normals": [[1, 0, 2], [3, 1, 4], [1, 5, 9]]},
+        {"type": "box", "material": "m", "corner": [1, 2, 3],
+         "edges": [[4, 0, 1], [0, 5, 0], [1, 0, 6]]},
+        {"type": "cylinder", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "radius": 7,
+         "capped": false},
+        {"type": "cylinder", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "radius": 8},
+        {"type": "cone", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "base_radius": 7,
+         "top_radius": 8, "capped": false},
+        {"type": "cone", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "base_radius": 9},
+        {"type": "quadric", "material": "m", "center": [1, 2, 3],
+         "matrix": [[1, 4, 5, 7], [4, 2, 6, 8], [5, 6, 3, 9], [7, 8, 9, 10]],
+         "lower": [-1, -2, -3], "upper": [4, 5, 6]})"));
+    CHECK(same_shapes(Internals::of(built), Internals::of(parsed)));
+}
+
+TEST_CASE("everything else comes back as it was given") {
+    SceneBuilder builder;
+    builder.camera = {.projection = Projection::orthographic,
+                      .from = {1, 2, 3},
+                      .at = {4, 5, 6.5F},
+                      .up = {0, 0, 2},
+                      .field_of_view = 30,
+                      .height = 3.5F};
+    builder.background = {0.1F, 0.2F, 0.3F};
+    builder.fog = {
+        .kind = FogKind::linear_z, .color = {0.4F, 0.5F, 0.6F}, .start = 7, .end = 8, .density = 9};
+    builder.settings = {.width = 30,
+                        .height = 40,
+                        .grid = 2,
+                        .samples = SamplePattern::stratified,
+                        .transfer = Transfer::linear,
+                        .max_depth = 5,
+                        .min_weight = 0.25F};
+    builder.add_light({.position = {1, 2, 3}, .color = {4, 5, 6}});
+    builder.add_light({.kind = LightKind::directional, .direction = {7, 8, 9}});
+    builder.add_material({});
+    const MaterialIndex m = builder.add_material({.pattern = {.kind = PatternKind::gradient,
+                                                              .colors = {{{1, 2, 3}, {4, 5, 6}}},
+                                                              .size = 7,
+                                                              .axes = 2,
+                                                              .direction = {8, 9, 10},
+                                                              .from = {11, 12, 13},
+                                                              .to = {14, 15, 16}},
+                                                  .ambient = 17,
+                                                  .diffuse = 18,
+                                                  .specular = 19,
+                                                  .exponent = 20,
+                                                  .reflection = Reflection::dielectric,
+                                                  .reflectivity = 0.21F,
+                                                  .transmission = 0.22F,
+                                                  .index = 23,
+                                                  .absorption = {24, 25, 26},
+                                                  .visible = Visible::inside});
+    builder.add(Sphere{{0, 0, 0}, 1}, m);
+    const Scene scene = builder.build();
+
+    const Camera camera = scene.camera();
+    CHECK(camera.projection == Projection::orthographic);
+    CHECK(camera.from == Vec3{1, 2, 3});
+    CHECK(camera.at == Vec3{4, 5, 6.5F});
+    CHECK(camera.up == Vec3{0, 0, 2});
+    CHECK(camera.field_of_view == 30);
+    CHECK(camera.height == 3.5F);
+    CHECK(scene.background() == Vec3{0.1F, 0.2F, 0.3F});
+    const Fog fog = scene.fog();
+    CHECK(fog.kind == FogKind::linear_z);
+    CHECK(fog.color == Vec3{0.4F, 0.5F, 0.6F});
+    CHECK((fog.start == 7 && fog.end == 8 && fog.density == 9));
+    const Settings settings = scene.settings();
+    CHECK((settings.width == 30 && settings.height == 40 && settings.grid == 2));
+    CHECK(settings.samples == SamplePattern::stratified);
+    CHECK(settings.transfer == Transfer::linear);
+    CHECK((settings.max_depth == 5 && settings.min_weight == 0.25F));
+
+    const std::vector<Light> lights = scene.lights();
+    REQUIRE(lights.size() == 2);
+    CHECK(lights[0].kind == LightKind::point);
+    CHECK(lights[0].position == Vec3{1, 2, 3});
+    CHECK(lights[0].color == Vec3{4, 5, 6});
+    CHECK(lights[1].kind == LightKind::directional);
+    CHECK(lights[1].direction == Vec3{7, 8, 9});
+
+    REQUIRE(scene.material_count() == 2);
+    CHECK(scene.material_of(0) == m);
+    const Material material = scene.material(m);
+    CHECK(material.pattern.kind == PatternKind::gradient);
+    CHECK(material.pattern.colors[0] == Vec3{1, 2, 3});
+    CHECK(material.pattern.colors[1] == Vec3{4, 5, 6});
+    CHECK((material.pattern.size == 7 && material.pattern.axes == 2));
+    CHECK(material.pattern.direction == Vec3{8, 9, 10});
+    CHECK(material.pattern.from == Vec3{11, 12, 13});
+    CHECK(material.pattern.to == Vec3{14, 15, 16});
+    CHECK((material.ambient == 17 && material.diffuse == 18));
+    CHECK((material.specular == 19 && material.exponent == 20));
+    CHECK(material.reflection == Reflection::dielectric);
+    CHECK((material.reflectivity == 0.21F && material.transmission == 0.22F));
+    CHECK(material.index == 23);
+    CHECK(material.absorption == Vec3{24, 25, 26});
+    CHECK(material.visible == Visible::inside);
+}
+
+TEST_CASE("what is not set is as in a file") {
+    SceneBuilder builder;
+    builder.camera.from = {0, 0, 90};
+    builder.add_light({.kind = LightKind::directional});
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    const Scene built = builder.build();
+    const Scene parsed = parse(
+        with_objects(R"({"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": 1})"));
+    const core::Material &a = Internals::of(built).materials()[0],
+                         &b = Internals::of(parsed).materials()[0];
+    CHECK(a.pattern.kind == b.pattern.kind);
+    CHECK(a.pattern.colors == b.pattern.colors);
+    CHECK((a.ambient == b.ambient && a.diffuse == b.diffuse && a.specular == b.specular));
+    CHECK((a.exponent == b.exponent && a.reflection == b.reflection && a.index == b.index));
+    CHECK((a.reflectivity == b.reflectivity && a.transmission == b.transmission));
+    CHECK((a.absorption == b.absorption && a.visible == b.visible));
+    CHECK(built.camera().field_of_view == parsed.camera().field_of_view);
+    CHECK(built.settings().max_depth == parsed.settings().max_depth);
+    CHECK(built.settings().width == parsed.settings().width);
+    CHECK(built.background() == parsed.background());
+}
+
+TEST_CASE("each enumerator is the one of that name inside") {
+    const auto same = [](auto ours, auto theirs) {
+        return static_cast<int>(ours) == static_cast<int>(theirs);
+    };
+    CHECK(same(PatternKind::checker, core::PatternKind::checker));
+    CHECK(same(PatternKind::stripes, core::PatternKind::stripes));
+    CHECK(same(PatternKind::gradient, core::PatternKind::gradient));
+    CHECK(same(PatternKind::back_plane, core::PatternKind::back_plane));
+    CHECK(same(Reflection::schlick, core::Reflection::schlick));
+    CHECK(same(Reflection::dielectric, core::Reflection::dielectric));
+    CHECK(same(Visible::outside, core::Visible::outside));
+    CHECK(same(Visible::inside, core::Visible::inside));
+    CHECK(same(LightKind::directional, core::LightKind::directional));
+    CHECK(same(FogKind::linear_z, core::FogKind::linear_z));
+    CHECK(same(FogKind::linear, core::FogKind::linear));
+    CHECK(same(FogKind::exponential, core::FogKind::exponential));
+    CHECK(same(Projection::orthographic, core::Projection::orthographic));
+    CHECK(same(Transfer::linear, core::Transfer::linear));
+    CHECK(same(SamplePattern::stratified, core::SamplePattern::stratified));
+    CHECK(no_shape == core::no_shape);
+}
+
+TEST_CASE("a value that no scene may hold is refused, and the builder stays") {
+    SceneBuilder builder;
+    const MaterialIndex m = builder.add_material({});
+    try {
+        builder.add(Sphere{{0, 0, 0}, -1}, m);
+        FAIL("not refused");
+    } catch (const InvalidValue& invalid) {
+        CHECK(invalid.field == "radius");
+        CHECK(invalid.expectation == "must be positive, got -1");
+        CHECK(std::string(invalid.what()) == "radius: must be positive, got -1");
+    }
+    const auto message = [](const auto& act) { return message_of<InvalidValue>(act); };
+    CHECK(message([&] { builder.add(Sphere{}, m); }) == "radius: must be positive, got 0");
+    CHECK(message([&] { builder.add(Plane{}, m); }) ==
+          "normal: must not be the zero vector, got [0, 0, 0]");
+    CHECK(message([&] {
+              builder.add(Sphere{{0, 0, 0}, 1}, m + 1);
+          }) == "material: must be the index of a material, got 1");
+    CHECK(message([&] {
+              builder.add_material({.pattern = {.colors = {{{0, -1, 0}, {}}}}});
+          }) == "pattern/colors/0/1: must not be negative, got -1");
+    CHECK(message([&] { builder.add_light({.kind = LightKind::directional, .direction = {}}); }) ==
+          "direction: must not be the zero vector, got [0, 0, 0]");
+    CHECK(message([&] { builder.add_polygon(std::span<const Triangle>(), m); }) ==
+          "must have at least one triangle, got none");
+    CHECK(builder.shape_count() == 0);
+    CHECK(builder.add(Sphere{{0, 0, 0}, 1}, m) == 0);
+    CHECK(builder.build().shape_count() == 1);
+}
+
+TEST_CASE("polygons are numbered and known as such") {
+    SceneBuilder builder;
+    const MaterialIndex m = builder.add_material({});
+    const std::array<Triangle, 2> halves = {
+        {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}}};
+    const Vec3 up{0, 0, 1};
+    const std::array<SmoothTriangle, 2> smooth = {{{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, up, up, up},
+                                                   {{0, 0, 2}, {1, 1, 2}, {0, 1, 2}, up, up, up}}};
+    CHECK(builder.add(Sphere{{0, 0, 0}, 1}, m) == 0);
+    CHECK(builder.add_polygon(halves, m) == 1);
+    CHECK(builder.add_polygon(smooth, m) == 3);
+    const Scene scene = builder.build();
+    CHECK(scene.shape_count() == 5);
+    CHECK(Internals::of(scene).coplanar_with(2).first == 1);
+    CHECK(Internals::of(scene).coplanar_with(3).last == 4);
+}
+
+TEST_CASE("what concerns the whole scene is checked at the end, and a new one begins") {
+    const auto message = [](const auto& act) { return message_of<InvalidValue>(act); };
+    SceneBuilder builder;
+    builder.camera.at = builder.camera.from;
+    CHECK(message([&] { builder.build(); }) ==
+          "camera/at: must differ from \"from\", got [0, 0, 5]");
+    CHECK(builder.build().shape_count() == 0);
+
+    builder.background = {-1, 0, 0};
+    CHECK(message([&] { builder.build(); }) == "background/0: must not be negative, got -1");
+    builder.settings.grid = 0;
+    CHECK(message([&] { builder.build(); }) == "settings/grid: must be from 1 to 256, got 0");
+
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    builder.add_light({.position = {0, 0, 1}});
+    CHECK(message([&] { builder.build(); }) ==
+          "lights/0/position: must not be on a surface, got a point of shape 0");
+    CHECK(builder.shape_count() == 0);
+    CHECK(builder.build().material_count() == 0);
+}
+
+TEST_CASE("builders and scenes can be handed on") {
+    SceneBuilder builder;
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    SceneBuilder other = std::move(builder);
+    Scene scene = other.build();
+    Scene copy = scene;
+    const Scene moved = std::move(scene);
+    CHECK(moved.shape_count() == 1);
+    CHECK(scene.shape_count() == 1); // NOLINT: a scene is never empty
+    copy = SceneBuilder().build();
+    CHECK(copy.shape_count() == 0);
+    CHECK(moved.shape_count() == 1);
+}
+
+TEST_CASE("there is nothing behind the last shape or material") {
+    const Scene scene = ball();
+    CHECK(message_of<InvalidValue>([&] { scene.material_of(1); }) ==
+          "must be one of 1 shapes, got 1");
+    CHECK_THROWS_AS(scene.material_of(no_shape), InvalidValue);
+    CHECK_THROWS_AS(scene.material(1), InvalidValue);
+}
+
+TEST_CASE("scenes are loaded from files, and mistakes cost one line") {
+    CHECK(load(RAYLANE_SOURCE_DIR "/scenes/sphere.json").shape_count() > 0);
+    const tests::TemporaryDirectory directory;
+    const auto message = [&](const std::string& name) {
+        return message_of<BadInput>([&] { load(directory.path() / name); });
+    };
+    const std::string folder = directory.path().string() + "/";
+    CHECK(message("none.json") == folder + "none.json: no such file");
+    CHECK(message("") == folder + ": must be a file, got a directory");
+    directory.write(
+        "a.json",
+        with_objects(R"({"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": -1})"));
+    CHECK(message("a.json") == folder + "a.json: /objects/0/radius: must be positive, got -1");
+}
+
+TEST_CASE("scenes are parsed from text") {
+    const std::string nff =
+        "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 9\n"
+        "l 0 9 9\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n";
+    CHECK(parse(nff).shape_count() == 1);
+    CHECK(parse(nff, "x.nff").settings().height == 9);
+    const auto message = [](const std::string& text, const std::string& name) {
+        return message_of<BadInput>([&] { parse(text, name); });
+    };
+    CHECK(message("", "x") == "x: must be a scene, got an empty file");
+    CHECK(message(nff, "x.json").starts_with("x.json: line 1, column 1: "));
+    CHECK(message(nff + "s 0 0 0\n", "x").starts_with("x: line 11: "));
+    CHECK(message("{}", "x") == "x: must have the key \"camera\"");
+    CHECK(message_of<BadInput>([] { parse("\x01"); }) ==
+          "scene: must be a scene in JSON or NFF, got a binary file");
+    // Longer than what is looked at to tell the format.
+    const std::string blank(200'000, ' ');
+    CHECK(parse(blank + with_objects("") + blank, "x.json").shape_count() == 0);
+    // A light on a surface is found at the end, and its object looked up in the text once more.
+    CHECK(message(nff + std::string(100'000, '\n') + "l 0 0 1\n", "x").find("line 10") !=
+          std::string::npos);
+}
+
+TEST_CASE("the README's program is the one that is tested") {
+    const std::string program =
+        tests::content_of(RAYLANE_SOURCE_DIR "/tests/scenes/library/consumer/main.cpp");
+    REQUIRE(!program.empty());
+    const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
+    CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
+}
