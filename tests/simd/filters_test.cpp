@@ -423,7 +423,7 @@ double climb(const FilterChecks& checks, bool slack, Random& random, int steps) 
     return most;
 }
 
-Isa best_isa() {
+Isa widest_isa() {
     Isa best = Isa::sse42;
     for (const Isa isa : all_isas)
         if (is_available(isa)) best = isa;
@@ -453,7 +453,7 @@ TEMPLATE_TEST_CASE("no search finds a ray that breaks the filters' bounds", "",
     Random random(29);
     double most = 0.0, most_with_slack = 0.0;
     for (int start = 0; start < std::max(1, rounds() / 5); ++start) {
-        const FilterChecks checks = checks_of(start % 4 == 0 ? Isa::sse42 : best_isa());
+        const FilterChecks checks = checks_of(start % 4 == 0 ? Isa::sse42 : widest_isa());
         most = std::max(most, climb<TestType>(checks, false, random, 200));
         most_with_slack = std::max(most_with_slack, climb<TestType>(checks, true, random, 100));
     }
@@ -516,7 +516,7 @@ Tightness tightness(Set set) {
             stream.add(rays.back());
         }
         const FilterStream view = stream.view();
-        checks_of(best_isa())
+        checks_of(widest_isa())
             .bound_rays(static_cast<KindNumber>(kind_of<Shape>), view_of(block), 0, view);
         for (std::size_t i = 0; i < rays.size(); ++i)
             result.add(stream.answer(i), first_crossing(shape, rays[i].ray),
