@@ -185,7 +185,7 @@ class Finish {
         const F bits = xsimd::select(
             finished.certain,
             finished.face + xsimd::select(finished.entering, F(double{hit_entering}), zero<D>()),
-            F(double{hit_doubtful}));
+            xsimd::select(finished.misses, F(double{hit_none}), F(double{hit_doubtful})));
         if (active == all_lanes) {
             Lanes<D>::to_numbers(found_.hit + i, bits);
             return;

@@ -29,13 +29,15 @@ struct ConeProfile : ConeLanes<Arch, capped> {
 /// A ray along and across the axis, as in solvers/axial.hpp: F(s) = |across|^2 - width^2 is 0 on
 /// the body, with width = W + s M.
 ///
-/// Errors, with P = local.error_at(s) for the position: across errs by P, of which 12 u (|start| +
-/// |s|) come from taking the axis out. With k = |top - base| / |axis|, width errs by k P + 4 u
-/// widest. So with `spread` >= 1 + k, both together err by T = spread P + 8 u widest, and
-///   F by 2 T (1 + 1/8) width + T^2 + 8 u width^2     where |F| < width^2 / 4,
-///   half F' = across . across_direction - width M, by spread (T + 64 u width) there,
+/// Errors: let P be that of the position at s, and L = |start| + |s|. Taking the axis out of it
+/// errs by 11 u L along the axis and 2 u L across. Along the axis matters at second order alone:
+/// squared, by 2^-98 L^2, or times the like. So across errs by P and 3 u L as if nothing went
+/// wrong along the axis. With k = |top - base| / |axis|, width errs by k (P + 12 u L) + 4 u widest.
+/// Let T be the sum of both and `spread` >= 1 + k. Then
+///   F errs by 2 (1 + 1/8) width T + T^2 + 2^-98 L^2 + 8 u width^2  where |F| < width^2 / 4,
+///   half F' = across . across_direction - width M, by spread (T + 32 u width) there,
 ///   A = |across_direction|^2 - M^2, by 64 u spread^2,
-///   the height above the base, by |axis| P, and the other end's by 3 u |axis|^2 more.
+///   the height above the base, by |axis| (P + 8 u L), the other end's by 3 u |axis|^2 more.
 template <class Arch, class Profile>
 struct AxialLine {
     using F = Floats<Arch>;
@@ -87,11 +89,11 @@ struct AxialLine {
         const F s = quadratic.root_where(leaves);
         const V across = across_at(s);
         const F width = width_at(s), square = width * width, width_size = xsimd::abs(width);
-        const F off = together(local.error_at(s));
+        const F off = together(s), along = local.rounding(16.0, s);
         const F value = squared_length(across) - square;
         const Residual<Arch> residual = {
-            value, (F(3.0) * width_size + off) * off + F(0x1p-49) * square, rise(across, width),
-            spread * (off + F(0x1p-47) * width_size)};
+            value, (F(3.0) * width_size + off) * off + along * along + F(0x1p-49) * square,
+            rise(across, width), spread * (off + F(0x1p-48) * width_size)};
         Passage<Arch> result;
         result.root = quadratic.refine(s, residual, leaves);
         result.root.certain = result.root.certain & (xsimd::abs(value) < F(0.25) * square);
@@ -102,11 +104,13 @@ struct AxialLine {
     }
 
     /// Leaving after a start on the body: t = 0 is one root, so the other is twice the vertex,
-    /// where F' = 0. Half F' errs there by spread^2 (P + 16 u (|start| + |s| + widest)).
+    /// where F' = 0. Half F' errs there by spread^2 (P + 12 u (|start| + |s|) + 16 u widest), where
+    /// the last is for the tapering alone.
     Passage<Arch> from_surface(const Starts<Arch>& starts) const {
         const F vertex = negated(quadratic.B) / quadratic.A;
-        const F size = local.size + xsimd::abs(vertex) + widest;
-        const F rise_error = (spread * spread) * (local.error_at(vertex) + F(0x1p-48) * size);
+        F rise_error = local.error_at(vertex, Profile::tapers ? 32.0 : 16.0);
+        if constexpr (Profile::tapers)
+            rise_error = (spread * spread) * (rise_error + F(0x1p-48) * widest);
         const F rise_there = rise(across_at(vertex), width_at(vertex));
         const F vertex_error = F(1.25) * (xsimd::abs(rise_there) + rise_error) / quadratic.A;
         const F half = local.shift + vertex;
@@ -126,7 +130,7 @@ struct AxialLine {
     V across_at(const F& s) const { return mul_add<Arch>(s, across_direction, across_start); }
     /// How far the height is off at an s that is off by `error_s`.
     F height_error(const F& s, const F& error_s) const {
-        return F(2.0) * axis_size * (local.error_at(s) + error_s) + F(0x1p-49) * axis_squared;
+        return F(2.0) * axis_size * (local.error_at(s, 10.0) + error_s) + F(0x1p-49) * axis_squared;
     }
 
   private:
@@ -137,12 +141,14 @@ struct AxialLine {
             return base_width;
     }
 
-    /// T for P
-    F together(const F& position_error) const {
+    /// T
+    F together(const F& s) const {
+        const F across_error = local.error_at(s, 6.0);
         if constexpr (Profile::tapers)
-            return spread * position_error + F(0x1p-50) * widest;
+            return across_error + (spread - F(1.0)) * (across_error + local.rounding(8.0, s)) +
+                   F(0x1p-50) * widest;
         else
-            return position_error;
+            return across_error;
     }
 
     F rise(const V& across, const F& width) const {
@@ -222,7 +228,7 @@ struct CappedFinisher {
         const F width = xsimd::select(at_top, line.top_width, line.base_width);
         const F s = (cap_height - line.height_start) * inverse;
         const F error_s = line.height_error(s, zero<Arch>()) * xsimd::abs(inverse);
-        const F off = local.error_at(s) + error_s;
+        const F off = local.error_at(s, 12.0) + error_s;
         const F within = width * width - squared_length(line.across_at(s));
         const M meets_plane = xsimd::abs(line.height_slope) > F(0x1p-44) * line.axis_size;
         M by_cap = meets_plane & (within > width * (F(3.0) * off + F(0x1p-49) * width));

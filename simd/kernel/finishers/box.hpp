@@ -9,8 +9,9 @@ namespace raylane::simd {
 /// in each direction; so where it crosses the plane of a face in one direction, certainly within
 /// the other two slabs, that is where it enters, or leaves.
 ///
-/// With N = |v|_1 |w|_1 >= |v x w|, normal . at(s) errs by less than N error_at(s), normal .
-/// direction by 8 u N, the volume by 12 u |u|_1 |v|_1 |w|_1.
+/// With N = |v|_1 |w|_1 >= |v x w|, normal . at(s) errs by N times the error of the position and 10
+/// u
+/// (|start| + |s|), normal . direction by 8 u N, the volume by 12 u |u|_1 |v|_1 |w|_1.
 template <class Arch>
 struct BoxFinisher {
     BoxLanes<Arch> box;
@@ -89,7 +90,7 @@ struct BoxFinisher {
             chosen[1] = chosen[1] & ~chosen[2];
             chosen[0] = chosen[0] & ~chosen[1] & ~chosen[2];
 
-            const F position_error = local.error_at(s);
+            const F position_error = local.error_at(s, 16.0);
             const F error_s =
                 F(1.25) * (best_size * position_error + volume_error) / xsimd::abs(best_slope);
             M within = any_yet;

@@ -28,6 +28,7 @@ struct Finished {
     Floats<Arch> face;
     Mask<Arch> entering;
     Vectors<Arch> normal; ///< unit, outward
+    Mask<Arch> misses = none<Arch>(); ///< where not certain: certainly crosses nowhere
 };
 
 /// The relative accuracy that a t must have, as core::needed_accuracy.
@@ -38,7 +39,8 @@ template <class Arch>
 Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a, const Finished<Arch>& b) {
     return {(mask & a.certain) | (~mask & b.certain),   xsimd::select(mask, a.t, b.t),
             xsimd::select(mask, a.error, b.error),      xsimd::select(mask, a.face, b.face),
-            (mask & a.entering) | (~mask & b.entering), select(mask, a.normal, b.normal)};
+            (mask & a.entering) | (~mask & b.entering), select(mask, a.normal, b.normal),
+            (mask & a.misses) | (~mask & b.misses)};
 }
 
 /// Accurate, and ahead of the ray.
@@ -89,15 +91,19 @@ struct LocalRays {
         size = sum_of_sizes(start);
         // The operands of each rounding: u (|from_anchor| + |shift| |direction| + |start|), and
         // |from_anchor| <= |shift| |direction| + |start|.
-        error = Floats<Arch>(0x1p-51) * (xsimd::abs(shift) + size);
+        error = Floats<Arch>(0x1.2p-52) * (xsimd::abs(shift) + size);
     }
 
     Vectors<Arch> at(const Floats<Arch>& s) const { return mul_add<Arch>(s, direction, start); }
 
-    /// Bounds the error of at(s), u (|s| |direction| + |at(s)|) beside that of the start, and 14 u
-    /// (|start| + |s|) more, for what is computed from them.
-    Floats<Arch> error_at(const Floats<Arch>& s) const {
-        return error + Floats<Arch>(0x1p-49) * (size + xsimd::abs(s));
+    /// u (|start| + |s|), `count` times: rounding errors of what is at s.
+    Floats<Arch> rounding(double count, const Floats<Arch>& s) const {
+        return Floats<Arch>(count * 0x1.2p-53) * (size + xsimd::abs(s));
+    }
+
+    /// What the position at(s) errs by, and `count` roundings.
+    Floats<Arch> error_at(const Floats<Arch>& s, double count = 2.0) const {
+        return error + rounding(count, s);
     }
 
     /// The error of t = shift + s for an s that is off by `error_s`, of which the last rounding is

@@ -46,9 +46,9 @@ struct PlaneFinisher {
     }
 };
 
-/// With N >= |normal|, normal . (at(s) - true at(s)) is at most N error_at(s), as are the roundings
-/// of both products; so s errs by that, divided by |approach|, if approach itself is certain within
-/// a fifth: it errs by 5 u N.
+/// With N >= |normal|, normal . at(s) is off by N times the error of the position and 6 u (|start|
+/// + |s|) for the products; so s errs by that, divided by |approach|, if approach itself is certain
+/// within a fifth: it errs by 5 u N.
 template <class Arch>
 struct DiscFinisher {
     DiscLanes<Arch> disc;
@@ -64,7 +64,7 @@ struct DiscFinisher {
         const F approach = dot(disc.normal, local.direction);
         const F inverse = F(1.0) / approach;
         const F s = negated(dot(disc.normal, local.start)) * inverse;
-        const F position_error = local.error_at(s);
+        const F position_error = local.error_at(s, 8.0);
         const F error_s = F(1.25) * N * position_error * xsimd::abs(inverse);
 
         // |p| <= radius: p is off by `off`, so |p|^2 by 2 radius off + off^2, and 6 u radius^2.
@@ -80,8 +80,9 @@ struct DiscFinisher {
 
 /// Barycentric coordinates, times normal . direction, from one cross product of start and
 /// direction (Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997).
-/// With U >= |b - a|, V >= |c - a|: the determinant errs by less than 16 u U V; the coordinates by
-/// U or V times error + 10 u |start|, twice for the roundings of the products.
+/// With U >= |b - a|, V >= |c - a|: the normal errs by 5 u U V, its products with vectors by 10 u U
+/// V times their lengths; the coordinates by U or V times that of the start and 10 u |start|, with
+/// room for 1.74^2, as the components of a cross product have each their own error.
 template <class Arch>
 struct TriangleFinisher {
     TriangleLanes<Arch> triangle;
@@ -98,12 +99,12 @@ struct TriangleFinisher {
         const F determinant = dot(normal, local.direction);
         const F inverse = F(1.0) / determinant;
         const F s = negated(dot(normal, local.start)) * inverse;
-        const F error_s = F(1.25) * (U * V) * local.error_at(s) * xsimd::abs(inverse);
+        const F error_s = F(1.25) * (U * V) * local.error_at(s, 12.0) * xsimd::abs(inverse);
 
         const Vectors<Arch> moment = cross(local.start, local.direction);
         const F sign = xsimd::select(determinant < zero<Arch>(), F(-1.0), F(1.0));
         const F at_c = sign * dot(moment, to_b), at_b = negated(sign * dot(moment, to_c));
-        const F moment_error = F(2.0) * local.error_at(zero<Arch>());
+        const F moment_error = F(2.0) * local.error_at(zero<Arch>(), 12.0);
         const F b_error = V * moment_error, c_error = U * moment_error;
         const F size = xsimd::abs(determinant);
         const Mask<Arch> inside = (at_b > b_error) & (at_c > c_error) &

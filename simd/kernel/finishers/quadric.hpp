@@ -57,7 +57,7 @@ struct QuadricFinisher {
             const F steepest = largest * size + linear_size;
             const Residual<Arch> residual = {
                 dot(p, half_gradient + form.linear) + form.one,
-                F(0x1p-49) * ((steepest + linear_size) * size + xsimd::abs(form.one)) +
+                F(0x1.4p-50) * ((steepest + linear_size) * size + xsimd::abs(form.one)) +
                     (F(4.0) * steepest + F(3.0) * largest * position_error) * position_error,
                 dot(half_gradient, local.direction), rise_error(steepest, position_error)};
             Passage<Arch> result;
@@ -102,7 +102,7 @@ struct QuadricFinisher {
 
       private:
         F rise_error(const F& steepest, const F& position_error) const {
-            return F(0x1p-48) * steepest + F(4.0) * largest * position_error;
+            return F(0x1.8p-49) * steepest + F(4.0) * largest * position_error;
         }
 
         /// The rest of the passage at root.s.

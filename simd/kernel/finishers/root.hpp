@@ -109,6 +109,7 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
         const Passage<Arch> onward = surface.from_surface(starts);
         result = select<Arch>(starts.on_surface, onward.finished(onward.counts(), ~starts.inward),
                               result);
+        result.misses = starts.on_surface & onward.does_not_count();
     }
     return result;
 }

@@ -16,7 +16,8 @@ namespace raylane::simd {
 ///   2^-91 |f|^2                           from along, where |foot|^2 is at its least,
 ///   6 u r^2                               from its own roundings,
 /// so by less than H (16 u r + 2^-90 H). Its root errs by that, divided by it; and t further by
-/// 2^-46 |f| and 2^-47 |root|, so by 2^-45 H. A start on the surface has t = 2 shift.
+/// 2^-46 |f| and 2^-47 |root|, so by 2^-45 H. A start on the surface has t = 2 shift, which errs by
+/// 10 u |f| and, as |direction|^2 is not 1, by 2^-47 of itself.
 template <class Arch>
 struct SphereFinisher {
     SphereLanes<Arch> sphere;
@@ -36,15 +37,19 @@ struct SphereFinisher {
         const F root = xsimd::sqrt(discriminant);
 
         const F inverse = F(1.0) / (radius * root);
-        const F error = F(0x1p-45) * H + discriminant_error * (inverse * radius);
+        const F crossing_error = F(0x1p-45) * H + discriminant_error * (inverse * radius);
         const F entry = shift - root;
         const Mask<Arch> entering = (entry > zero<Arch>()) & ~starts.on_surface;
         const F from_foot =
             xsimd::select(starts.on_surface, shift, xsimd::select(entering, negated(root), root));
         const F t = shift + from_foot;
-        const Mask<Arch> one_ahead = (starts.on_surface & starts.inward) |
-                                     (~starts.on_surface & (xsimd::abs(entry) > error));
-        return {(discriminant > discriminant_error) & one_ahead & is_result<Arch>(t, error),
+        const F error =
+            xsimd::select(starts.on_surface, F(0x1p-49) * H + F(0x1p-46) * t, crossing_error);
+        const Mask<Arch> one_ahead = (starts.on_surface & starts.inward &
+                                      (squared_length(foot) < F(2.0) * (radius * radius))) |
+                                     (~starts.on_surface & (discriminant > discriminant_error) &
+                                      (xsimd::abs(entry) > crossing_error));
+        return {one_ahead & is_result<Arch>(t, error),
                 t,
                 error,
                 zero<Arch>(),
