@@ -1,9 +1,9 @@
 #pragma once
 
+#include "core/elementary.hpp"
 #include "core/ray.hpp"
 #include "core/surroundings.hpp"
 
-#include <cmath>
 #include <cstdint>
 
 namespace raylane::core {
@@ -45,9 +45,9 @@ class CameraRays {
         const Vec3d up = cross(right, forward);
         // Half of the picture's height, in the plane at distance 1 or, orthographic, anywhere.
         constexpr double degree = 3.14159265358979323846 / 180.0;
-        const double half =
-            orthographic_ ? 0.5 * static_cast<double>(camera.height)
-                          : std::tan(0.5 * degree * static_cast<double>(camera.field_of_view));
+        const double half_view = 0.5 * degree * static_cast<double>(camera.field_of_view);
+        const double half = orthographic_ ? 0.5 * static_cast<double>(camera.height)
+                                          : core::sin(half_view) / core::cos(half_view);
         const double per_half_pixel = half / settings.height;
         from_ = convert<Real>(from);
         forward_ = convert<Real>(forward);

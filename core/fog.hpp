@@ -1,9 +1,9 @@
 #pragma once
 
+#include "core/elementary.hpp"
 #include "core/surroundings.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace raylane::core {
 
@@ -19,7 +19,7 @@ Real fog_fraction(const Fog& fog, Real distance, Real z) {
     case FogKind::linear:
         return std::clamp((distance - start) / (end - start), Real(0), Real(1));
     case FogKind::exponential:
-        return -std::expm1(-Real(fog.density) * distance);
+        return Real(0) - core::expm1(-Real(fog.density) * distance);
     }
     return Real(0);
 }

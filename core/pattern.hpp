@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/elementary.hpp"
 #include "core/material.hpp"
 
 #include <algorithm>
@@ -25,9 +26,9 @@ Vec3<Real> back_plane(Real x, Real y) {
     }
     if (y >= Real(0)) {
         const Real root = std::sqrt(y);
-        return {std::abs(std::cos(x)), std::abs(std::sin(root)), std::abs(std::cos(root))};
+        return {std::abs(core::cos(x)), std::abs(core::sin(root)), std::abs(core::cos(root))};
     }
-    return {Real(0), Real(0), std::abs(std::cos(y))};
+    return {Real(0), Real(0), std::abs(core::cos(y))};
 }
 
 } // namespace detail

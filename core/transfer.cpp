@@ -1,6 +1,6 @@
 #include "core/transfer.hpp"
 
-#include <cmath>
+#include "core/elementary.hpp"
 
 namespace raylane::core {
 
@@ -9,7 +9,7 @@ std::uint8_t encode(float linear, Transfer transfer) {
     if (linear >= 1.0F) return 255;
     auto value = static_cast<double>(linear);
     if (transfer == Transfer::srgb)
-        value = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
+        value = value <= 0.0031308 ? 12.92 * value : 1.055 * core::pow(value, 1.0 / 2.4) - 0.055;
     return static_cast<std::uint8_t>(255.0 * value + 0.5);
 }
 

@@ -1,12 +1,12 @@
 #include "core/reference/tracer.hpp"
 
+#include "core/elementary.hpp"
 #include "core/fog.hpp"
 #include "core/optics.hpp"
 #include "core/pattern.hpp"
 #include "core/reference/enclosing.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace raylane::core {
 
@@ -166,7 +166,7 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
         Vector share = Real(material.diffuse) * cos_light * own;
         if (material.specular > 0.0F && squared_length(halfway) > Real(0)) {
             const Real cos_halfway = std::max(dot(surface.normal, normalized(halfway)), Real(0));
-            share += Real(material.specular) * std::pow(cos_halfway, Real(material.exponent));
+            share += Real(material.specular) * core::pow(cos_halfway, Real(material.exponent));
         }
         if (share == Vector(0)) continue;
         color += light_let_through({surface.point, to_light},
@@ -324,7 +324,7 @@ Vec3<Real> ReferenceTracer<Real>::absorbed(MaterialIndex medium, Real distance) 
     const Vec3f& absorption = scene_.materials()[medium].absorption;
     for (int channel = 0; channel < 3; ++channel)
         if (absorption[channel] > 0.0F)
-            share[channel] = std::exp(-Real(absorption[channel]) * distance);
+            share[channel] = core::exp(-Real(absorption[channel]) * distance);
     return share;
 }
 

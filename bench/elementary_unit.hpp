@@ -1,0 +1,41 @@
+#pragma once
+
+#include "simd/kernel/elementary.hpp"
+
+namespace raylane::bench {
+
+/// The elementary functions of arrays of `count` doubles, a multiple of 8. What has one argument
+/// leaves y alone.
+struct ElementaryUnit {
+    using Function = void (*)(const double* x, const double* y, double* out, int count);
+    Function exp, expm1, pow, sin;
+};
+
+template <class Arch>
+struct ElementaryArrays {
+    using Number = xsimd::batch<double, Arch>;
+    using Functions = core::Elementary<Number>;
+    static constexpr int lanes = static_cast<int>(Number::size);
+
+    template <Number (*function)(const Number&)>
+    static void of_one(const double* x, const double*, double* out, int count) {
+        for (int i = 0; i < count; i += lanes)
+            function(Number::load_unaligned(x + i)).store_unaligned(out + i);
+    }
+
+    template <Number (*function)(const Number&, const Number&)>
+    static void of_two(const double* x, const double* y, double* out, int count) {
+        for (int i = 0; i < count; i += lanes)
+            function(Number::load_unaligned(x + i), Number::load_unaligned(y + i))
+                .store_unaligned(out + i);
+    }
+
+    static constexpr ElementaryUnit unit = {of_one<Functions::exp>, of_one<Functions::expm1>,
+                                            of_two<Functions::pow>, of_one<Functions::sin>};
+};
+
+ElementaryUnit elementary_sse42();
+ElementaryUnit elementary_avx2();
+ElementaryUnit elementary_avx512();
+
+} // namespace raylane::bench

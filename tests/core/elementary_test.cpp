@@ -1,0 +1,204 @@
+#include "core/elementary.hpp"
+#include "tests/catch.hpp"
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+using namespace raylane;
+
+namespace {
+
+namespace mp = boost::multiprecision;
+using Number = mp::number<mp::cpp_bin_float<256, mp::digit_base_2>, mp::et_off>;
+/// Holds the digits of pi that the reduction of the largest doubles needs.
+using LongNumber = mp::number<mp::cpp_bin_float<1400, mp::digit_base_2>, mp::et_off>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+#ifdef RAYLANE_FEW_RAYS
+constexpr int rounds = 1000;
+#else
+constexpr int rounds = 20000;
+#endif
+
+class Random {
+  public:
+    double uniform(double low, double high) {
+        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+    }
+    double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
+
+  private:
+    std::mt19937_64 engine_{1};
+};
+
+/// Errors in ulps of the exact result.
+class Errors {
+  public:
+    void add(double computed, const Number& exact) {
+        if (exact == 0) {
+            ulps_.push_back(computed == 0.0 ? 0.0 : infinity);
+            return;
+        }
+        const Number ulp = mp::ldexp(Number(1), mp::ilogb(exact) - 52);
+        const Number error = mp::abs((Number(computed) - exact) / ulp);
+        ulps_.push_back(static_cast<double>(error));
+    }
+
+    void check(const std::string& name, double most) {
+        std::sort(ulps_.begin(), ulps_.end());
+        const auto at = [&](double part) {
+            return ulps_[static_cast<std::size_t>(part * static_cast<double>(ulps_.size() - 1))];
+        };
+        const std::string report = name + ": ulps median " + std::to_string(at(0.5)) +
+                                   ", 99th percentile " + std::to_string(at(0.99)) + ", largest " +
+                                   std::to_string(at(1.0));
+        INFO(report);
+        CHECK(at(1.0) <= most);
+        CHECK(at(0.5) <= 0.3);
+        if (std::getenv("RAYLANE_TEST_REPORT") != nullptr) WARN(report);
+    }
+
+  private:
+    std::vector<double> ulps_;
+};
+
+struct SineCosine {
+    Number sine, cosine;
+};
+
+SineCosine exact_sin_cos(double x) {
+    const LongNumber half_pi = boost::math::constants::half_pi<LongNumber>();
+    const LongNumber quadrants = mp::floor(LongNumber(x) / half_pi + 0.5);
+    const Number rest(LongNumber(LongNumber(x) - quadrants * half_pi));
+    const Number s = mp::sin(rest), c = mp::cos(rest);
+    const LongNumber turns = mp::floor(quadrants / 4);
+    switch (static_cast<int>(LongNumber(quadrants - 4 * turns))) {
+    case 0:
+        return {s, c};
+    case 1:
+        return {c, -s};
+    case 2:
+        return {-s, -c};
+    default:
+        return {-c, s};
+    }
+}
+
+void check_sin_cos(const std::string& name, const std::vector<double>& xs) {
+    Errors sines, cosines;
+    for (const double x : xs) {
+        const SineCosine exact = exact_sin_cos(x);
+        sines.add(core::sin(x), exact.sine);
+        cosines.add(core::cos(x), exact.cosine);
+    }
+    sines.check("sin " + name, 0.85);
+    cosines.check("cos " + name, 0.85);
+}
+
+} // namespace
+
+TEST_CASE("exp is within an ulp") {
+    Random random;
+    Errors small, large;
+    for (int i = 0; i < rounds; ++i) {
+        const double x = random.uniform(-3.0, 0.0), y = random.uniform(-707.7, 709.7);
+        small.add(core::exp(x), mp::exp(Number(x)));
+        large.add(core::exp(y), mp::exp(Number(y)));
+        // Where a power of two changes to the next.
+        const double edge = (std::floor(random.uniform(-1020, 1023)) + 0.5) * 0.69314718055994531;
+        large.add(core::exp(edge), mp::exp(Number(edge)));
+    }
+    small.check("exp", 1.0);
+    large.check("exp, all sizes", 1.0);
+}
+
+TEST_CASE("expm1 is within two ulps, however small its argument") {
+    Random random;
+    Errors fog, small, positive;
+    for (int i = 0; i < rounds; ++i) {
+        const double x = random.uniform(-3.0, 0.0), y = random.uniform(0.0, 3.0);
+        const double tiny = random.sign() * std::exp(random.uniform(-700.0, 0.0));
+        fog.add(core::expm1(x), mp::expm1(Number(x)));
+        small.add(core::expm1(tiny), mp::expm1(Number(tiny)));
+        positive.add(core::expm1(y), mp::expm1(Number(y)));
+    }
+    fog.check("expm1", 1.0);
+    small.check("expm1 near 0", 1.0);
+    positive.check("expm1 above 0", 2.0);
+}
+
+TEST_CASE("pow is within two ulps") {
+    Random random;
+    Errors usual, near_one, deep;
+    for (int i = 0; i < rounds; ++i) {
+        // Powers down to 2^-30, 2^-126 and 2^-1020.
+        const auto add = [&](Errors& errors, double x, double least) {
+            const double y = random.uniform(0.0, least) / std::log2(x);
+            errors.add(core::pow(x, y), mp::pow(Number(x), Number(y)));
+        };
+        add(usual, random.uniform(0.0, 1.0), -30.0);
+        add(near_one, 1.0 - std::exp(random.uniform(-36.0, -0.1)), -126.0);
+        add(deep, random.uniform(0.0, 1.0), -1020.0);
+        add(deep, random.uniform(0.68, 0.73), -1020.0); // where the logarithm's reduction changes
+    }
+    usual.check("pow", 1.5);
+    near_one.check("pow near 1", 1.5);
+    deep.check("pow, least results", 2.0);
+}
+
+TEST_CASE("sin and cos are within an ulp for all angles") {
+    Random random;
+    std::vector<double> small, moderate, quarters, huge;
+    for (int i = 0; i < rounds / 4; ++i) {
+        small.push_back(random.uniform(-10.0, 10.0));
+        moderate.push_back(random.uniform(-0x1p20, 0x1p20));
+        quarters.push_back(std::floor(random.uniform(-600000.0, 600000.0)) * 1.5707963267948966);
+        quarters.push_back(std::floor(random.uniform(-100.0, 100.0)) * 1.5707963267948966);
+        huge.push_back(random.sign() * std::ldexp(random.uniform(1.0, 2.0),
+                                                  static_cast<int>(random.uniform(20, 1024))));
+        huge.push_back(std::floor(random.uniform(-1e12, 1e12)) * 1.5707963267948966);
+    }
+    // The double nearest to a multiple of pi/2 (Muller, "Elementary Functions", 11.3).
+    huge.push_back(std::ldexp(6381956970095103.0, 797));
+    huge.push_back(std::numeric_limits<double>::max());
+    huge.push_back(std::nextafter(0x1p20, infinity));
+    check_sin_cos("small", small);
+    check_sin_cos("moderate", moderate);
+    check_sin_cos("near quarter turns", quarters);
+    check_sin_cos("huge", huge);
+}
+
+TEST_CASE("elementary functions at the ends of their domains") {
+    CHECK(core::exp(0.0) == 1.0);
+    CHECK(core::exp(-0.0) == 1.0);
+    CHECK(core::exp(-infinity) == 0.0);
+    CHECK(core::exp(-800.0) == 0.0);
+    CHECK(core::exp(-1e308) == 0.0);
+    CHECK(core::exp(710.0) == infinity);
+    CHECK(core::expm1(0.0) == 0.0);
+    CHECK(core::expm1(-infinity) == -1.0);
+    CHECK(core::expm1(-1e308) == -1.0);
+    CHECK(core::expm1(1e308) == infinity);
+    CHECK(core::expm1(0x1p-1000) == 0x1p-1000);
+    CHECK(core::pow(0.0, 0.0) == 1.0);
+    CHECK(core::pow(0.0, 1e-300) == 0.0);
+    CHECK(core::pow(0.0, 1e300) == 0.0);
+    CHECK(core::pow(0.5, 0.0) == 1.0);
+    CHECK(core::pow(1.0, 1e308) == 1.0);
+    CHECK(core::pow(0.5, 3.0) == 0.125);
+    CHECK(core::pow(1.0 - 0x1p-53, 1e308) == 0.0);
+    CHECK(core::pow(1.0 + 0x1p-52, 1e308) == infinity);
+    CHECK(core::pow(0x1p-1074, 0.5) == 0x1p-537);
+    CHECK(core::sin(0.0) == 0.0);
+    CHECK(core::cos(0.0) == 1.0);
+    CHECK(core::pow(0.25F, 1.5F) == 0.125F);
+    CHECK(core::exp(-1.0F) == static_cast<float>(core::exp(-1.0)));
+}
