@@ -13,10 +13,10 @@ struct Counters {
     std::uint64_t nodes = 0;     ///< wide nodes visited
     std::uint64_t shapes = 0;    ///< rays tested against one shape
     std::uint64_t widened = 0;   ///< of these, tests that had to be repeated in more than double
-    /// Rays that the vector engine has left to the reference to decide:
-    std::uint64_t doubtful_hits = 0;    ///< which shape is the nearest
-    std::uint64_t doubtful_shadows = 0; ///< what of a light comes through
-    std::uint64_t contacts = 0;         ///< all that follows, where several surfaces meet
+    std::uint64_t walked = 0;    ///< shadow rays that had to be followed from surface to surface
+    /// What the vector engine has left to the reference to decide:
+    std::uint64_t doubtful = 0; ///< rays: which shape is the nearest
+    std::uint64_t contacts = 0; ///< rays where several surfaces meet: all that follows
 
     std::uint64_t rays() const { return primary + reflected + refracted + shadow; }
 
@@ -28,8 +28,8 @@ struct Counters {
         nodes += other.nodes;
         shapes += other.shapes;
         widened += other.widened;
-        doubtful_hits += other.doubtful_hits;
-        doubtful_shadows += other.doubtful_shadows;
+        walked += other.walked;
+        doubtful += other.doubtful;
         contacts += other.contacts;
         return *this;
     }

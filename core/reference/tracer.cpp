@@ -64,17 +64,12 @@ const Media& ReferenceTracer<Real>::media_around(const Vector& origin) {
     return *start_media_;
 }
 
-template <class Real>
-Encounter<Real> ReferenceTracer<Real>::nearest_visible(const Ray<Real>& ray,
-                                                       const Departure<Real>& departure) {
-    return searcher_.nearest(ray, departure,
-                             [&](const Hit<Real>& candidate) { return is_visible(candidate); });
-}
-
 /// The nearest visible surface, behind whatever fills the space in between.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::color_along(const Path& path) {
-    const Encounter<Real> encounter = nearest_visible(path.ray, path.departure);
+    const Encounter<Real> encounter =
+        searcher_.nearest(path.ray, path.departure,
+                          [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
     if (!hit.any()) return color_at_infinity(path);
 
@@ -222,7 +217,8 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
     Real reached = 0;
     for (const Hit<Real>& hit : crossings_) {
         share *= absorbed(medium_before(hit, media), hit.t - reached);
-        share *= let_through(hit, ray, media);
+        const Vector point = mul_add(hit.t, ray.direction, ray.origin);
+        share *= let_through(hit, ray.direction, searcher_.outward_normal_at(hit, point), media);
         media = media_behind(hit, media);
         reached = hit.t;
     }
@@ -260,15 +256,13 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure
 /// one on the rarer side: a light is never shut out by total reflection in a body that it has to
 /// enter first.
 template <class Real>
-Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
-                                        const Media& media) const {
-    const Vector point = mul_add(hit.t, ray.direction, ray.origin);
-    const Vector outward = searcher_.outward_normal_at(hit, point);
+Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Vector& direction,
+                                        const Vector& outward, const Media& media) const {
     const auto [before, behind] = indices_at(hit, media);
     const Real rarer = std::min(before, behind), denser = std::max(before, behind);
     const Material& material = scene_.material_of(hit.shape);
     const Refraction<Real> refraction =
-        refract(ray.direction, hit.entering ? outward : Vector(-outward), rarer, denser);
+        refract(direction, hit.entering ? outward : Vector(-outward), rarer, denser);
     return (Real(1) - reflectance(material, refraction, rarer, denser)) *
            Real(material.transmission);
 }

@@ -44,8 +44,10 @@ class ReferenceTracer {
     /// The linear RGB colour seen along a path, not yet weighted by its throughput.
     Vector color_along(const Path& path);
 
-    /// The first surface that can be seen along a ray, and what it touches there.
-    Encounter<Real> nearest_visible(const Ray<Real>& ray, const Departure<Real>& departure);
+    /// The first surface along a ray, whether it can be seen or not, and what it touches there.
+    Encounter<Real> nearest(const Ray<Real>& ray, const Departure<Real>& departure) {
+        return searcher_.nearest(ray, departure, [](const Hit<Real>&) { return true; });
+    }
 
     /// What of a light reaches the origin of a ray towards it: nothing through an opaque surface;
     /// through transmissive ones, on a straight line, what they transmit and do not absorb.
@@ -54,6 +56,14 @@ class ReferenceTracer {
 
     /// What a ray from the camera starts in.
     const Media& media_around(const Vector& origin);
+
+    /// The share of light that one surface lets through. `outward`: its normal where it is hit.
+    Real let_through(const Hit<Real>& hit, const Vector& direction, const Vector& outward,
+                     const Media& media) const;
+    /// What of light is left behind some distance in a medium.
+    Vector absorbed(MaterialIndex medium, Real distance) const;
+    MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
+    Media media_behind(const Hit<Real>& hit, Media media) const;
 
     const Searcher<Real>& searcher() const { return searcher_; }
 
@@ -87,14 +97,10 @@ class ReferenceTracer {
     Vector transmitted_color(const Path& path, const Surface& surface, Real weight,
                              const Vector& direction);
     bool find_crossings(const Ray<Real>& ray, const Departure<Real>& departure, Real distance);
-    Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Media& media) const;
 
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
     Indices indices_at(const Hit<Real>& hit, const Media& media) const;
-    Media media_behind(const Hit<Real>& hit, Media media) const;
-    MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
-    Vector absorbed(MaterialIndex medium, Real distance) const;
 
     const Scene& scene_;
     Settings settings_;

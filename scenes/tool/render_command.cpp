@@ -114,9 +114,9 @@ simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
 
 simd::RenderOptions options_of(const RenderArguments& arguments) {
     simd::RenderOptions options;
-    options.engine = choice_argument<simd::Engine>("--engine", *arguments.engine,
-                                                   {{"vector", simd::Engine::vector},
-                                                    {"reference", simd::Engine::reference}});
+    options.engine = choice_argument<simd::Engine>(
+        "--engine", *arguments.engine,
+        {{"vector", simd::Engine::vector}, {"reference", simd::Engine::reference}});
     if (arguments.real) {
         if (options.engine != simd::Engine::reference)
             throw BadInput("--real", "", "goes with --engine reference");
@@ -137,33 +137,32 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
                                 const core::Settings& settings, int threads,
                                 const core::Counters& counters, const Times& times) {
     const auto count = static_cast<double>(counters.rays());
-    return {{"version", RAYLANE_VERSION},
-            {"scene", printable(*arguments.scene, 4096)},
-            {"engine", *arguments.engine},
-            {"real", arguments.real.value_or("double")},
-            {"threads", threads},
-            {"width", settings.width},
-            {"height", settings.height},
-            {"samples_per_pixel", settings.grid * settings.grid},
-            {"max_depth", settings.max_depth},
-            {"min_weight", as_printed(settings.min_weight)},
-            {"shapes", scene.shape_count()},
-            {"scene_bytes", scene.bytes()},
-            {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},
-            {"rays",
-             {{"primary", counters.primary},
-              {"reflected", counters.reflected},
-              {"refracted", counters.refracted},
-              {"shadow", counters.shadow},
-              {"total", counters.rays()}}},
-            {"rays_per_second", count / times.render},
-            {"nodes_visited", counters.nodes},
-            {"shapes_tested", counters.shapes},
-            {"tests_beyond_double", counters.widened},
-            {"left_to_the_reference",
-             {{"hits", counters.doubtful_hits},
-              {"shadows", counters.doubtful_shadows},
-              {"contacts", counters.contacts}}}};
+    return {
+        {"version", RAYLANE_VERSION},
+        {"scene", printable(*arguments.scene, 4096)},
+        {"engine", *arguments.engine},
+        {"real", arguments.real.value_or("double")},
+        {"threads", threads},
+        {"width", settings.width},
+        {"height", settings.height},
+        {"samples_per_pixel", settings.grid * settings.grid},
+        {"max_depth", settings.max_depth},
+        {"min_weight", as_printed(settings.min_weight)},
+        {"shapes", scene.shape_count()},
+        {"scene_bytes", scene.bytes()},
+        {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},
+        {"rays",
+         {{"primary", counters.primary},
+          {"reflected", counters.reflected},
+          {"refracted", counters.refracted},
+          {"shadow", counters.shadow},
+          {"total", counters.rays()}}},
+        {"rays_per_second", count / times.render},
+        {"nodes_visited", counters.nodes},
+        {"shapes_tested", counters.shapes},
+        {"tests_beyond_double", counters.widened},
+        {"shadow_rays_walked", counters.walked},
+        {"left_to_the_reference", {{"hits", counters.doubtful}, {"contacts", counters.contacts}}}};
 }
 
 int render(const RenderArguments& arguments) {

@@ -50,16 +50,6 @@ xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
 #endif
 }
 
-/// The same bits as lanes of another type of the same size.
-template <class To, class From, class Arch>
-xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
-#if XSIMD_VERSION_MAJOR < 9
-    return xsimd::bitwise_cast<xsimd::batch<To, Arch>>(from);
-#else
-    return xsimd::bitwise_cast<To>(from);
-#endif
-}
-
 /// By loops over memory: what the native forms below are tested against, and what other processors
 /// can use.
 namespace generic {

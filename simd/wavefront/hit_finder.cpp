@@ -10,7 +10,7 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-void take(Arena& arena, Hits& hits, std::size_t capacity, bool smooth) {
+void take_hits(Arena& arena, Hits& hits, std::size_t capacity, bool smooth) {
     hits.slot = arena.take<std::uint32_t>(capacity);
     hits.t = arena.take<double>(capacity);
     hits.error = arena.take<double>(capacity);
@@ -92,8 +92,11 @@ core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
 }
 
 HitFinder::HitFinder(const SceneData& scene, const Kernels& kernels,
-                     core::ReferenceTracer<double>& reference)
-    : scene_(scene), kernels_(kernels), reference_(reference) {}
+                     core::ReferenceTracer<double>& reference, int level)
+    : scene_(scene), kernels_(kernels), reference_(reference) {
+    if (scene.one_sided() && level == 0)
+        onward_ = std::make_unique<HitFinder>(scene, kernels, reference, 1);
+}
 
 void HitFinder::take_from(Arena& arena, std::size_t capacity) {
     arena.take(rounded_.origin, capacity);
@@ -102,12 +105,16 @@ void HitFinder::take_from(Arena& arena, std::size_t capacity) {
     candidates_.first = arena.take<float>(capacity);
     candidates_.second = arena.take<float>(capacity);
     pending_ = pending_for(scene_, arena);
-    take(arena, hits_, capacity, scene_.smooth());
+    take_hits(arena, hits_, capacity, scene_.smooth());
     doubtful_ = arena.take<std::uint8_t>(capacity);
     contacts_ = arena.take<std::uint32_t>(capacity);
     gathered_.take_from(arena, capacity, false);
-    take(arena, gathered_hits_, capacity, scene_.smooth());
+    take_hits(arena, gathered_hits_, capacity, scene_.smooth());
     lanes_ = arena.take<std::uint32_t>(capacity);
+    if (onward_ == nullptr) return;
+    onward_->take_from(arena, capacity);
+    onward_paths_.take_from(arena, capacity, false);
+    passed_ = arena.take<double>(capacity);
 }
 
 void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& counters) {
@@ -133,6 +140,67 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
     kernels_.finish(scene_.view(), found_in(paths, hits_, paths.count));
     certify(paths);
     ask_reference(paths, counters);
+    if (onward_ != nullptr) look_through(paths, bundle, counters);
+}
+
+/// Rays pass a surface that cannot be seen from where they come as if it were not there.
+void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Counters& counters) {
+    for (const std::uint32_t lane : contacts())
+        hits_.slot[lane] = no_slot; // the reference goes on
+    onward_paths_.count = 0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        if (is_visible(hits_, lane)) continue;
+        const std::size_t to = onward_paths_.count++;
+        onward_paths_.copy(paths, lane, to);
+        onward_paths_.sample[to] = static_cast<std::uint32_t>(lane);
+        passed_[to] = 0.0;
+        move_on(hits_, lane, to);
+    }
+    // They no longer start at one point.
+    if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = nullptr;
+    while (onward_paths_.count != 0) {
+        onward_->find(onward_paths_, bundle, counters);
+        const Hits& found = onward_->hits();
+        for (const std::uint32_t i : onward_->contacts()) {
+            contacts_[contact_count_++] = onward_paths_.sample[i];
+            onward_paths_.sample[i] = no_slot;
+        }
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < onward_paths_.count; ++i) {
+            const std::uint32_t lane = onward_paths_.sample[i];
+            if (lane == no_slot) continue;
+            if (is_visible(found, i)) {
+                take(found, i, lane);
+                hits_.t[lane] += passed_[i];
+                continue;
+            }
+            onward_paths_.copy(onward_paths_, i, kept);
+            passed_[kept] = passed_[i];
+            move_on(found, i, kept++);
+        }
+        onward_paths_.count = kept;
+    }
+}
+
+bool HitFinder::is_visible(const Hits& hits, std::size_t lane) const {
+    if (hits.slot[lane] == no_slot) return true;
+    const core::Visible visible = scene_.scene().material_of(scene_.id_of(hits.slot[lane])).visible;
+    const bool entering = (hits.hit[lane] & hit_entering) != 0;
+    return visible == core::Visible::both || (visible == core::Visible::outside) == entering;
+}
+
+/// Starts a ray anew behind what it has hit.
+void HitFinder::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
+    const double t = hits.t[lane];
+    passed_[to] += t;
+    for (int axis = 0; axis < 3; ++axis)
+        onward_paths_.origin[axis][to] += t * onward_paths_.direction[axis][to];
+    const core::IdRange range = scene_.scene().coplanar_with(scene_.id_of(hits.slot[lane]));
+    onward_paths_.departed_first[to] = range.first;
+    onward_paths_.departed_last[to] = range.last;
+    onward_paths_.departed_slot[to] = hits.slot[lane];
+    onward_paths_.departure[to] =
+        (hits.hit[lane] & hit_face) | ((hits.hit[lane] & hit_entering) != 0 ? departure_inward : 0);
 }
 
 void HitFinder::start(const Paths& paths) {
@@ -185,15 +253,6 @@ void HitFinder::certify(const Paths& paths) {
         if ((hits_.hit[lane] & (hit_doubtful | hit_none)) != 0 || !(last <= most))
             doubtful_[lane] = 1;
     }
-    if (!scene_.one_sided()) return;
-    for (std::size_t lane = 0; lane < paths.count; ++lane) {
-        if (hits_.slot[lane] == no_slot) continue;
-        const core::Visible visible =
-            scene_.scene().material_of(scene_.id_of(hits_.slot[lane])).visible;
-        const bool entering = (hits_.hit[lane] & hit_entering) != 0;
-        if (visible != core::Visible::both && (visible == core::Visible::outside) != entering)
-            doubtful_[lane] = 1;
-    }
 }
 
 /// The reference says which shape it is. The numbers are then those that the kernel has for it, so
@@ -202,10 +261,10 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
     contact_count_ = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         if (doubtful_[lane] == 0) continue;
-        ++counters.doubtful_hits;
+        ++counters.doubtful;
         const core::Ray<double> ray = ray_of(paths, lane);
         const core::Encounter<double> encounter =
-            reference_.nearest_visible(ray, departure_of(scene_, paths, lane));
+            reference_.nearest(ray, departure_of(scene_, paths, lane));
         if (!encounter.hit.any()) {
             hits_.slot[lane] = no_slot;
             continue;
@@ -223,7 +282,7 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
         kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));
         const std::uint32_t bits = hit.face | (hit.entering ? hit_entering : 0);
         if (gathered_hits_.hit[0] == bits) {
-            take_gathered(0, lane);
+            take(gathered_hits_, 0, lane);
             continue;
         }
         hits_.hit[lane] = bits;
@@ -242,14 +301,14 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
     }
 }
 
-void HitFinder::take_gathered(std::size_t from, std::size_t lane) {
-    hits_.hit[lane] = gathered_hits_.hit[from];
-    hits_.t[lane] = gathered_hits_.t[from];
-    hits_.error[lane] = gathered_hits_.error[from];
+void HitFinder::take(const Hits& hits, std::size_t from, std::size_t lane) {
+    hits_.slot[lane] = hits.slot[from];
+    hits_.hit[lane] = hits.hit[from];
+    hits_.t[lane] = hits.t[from];
+    hits_.error[lane] = hits.error[from];
     for (int axis = 0; axis < 3; ++axis) {
-        hits_.normal[axis][lane] = gathered_hits_.normal[axis][from];
-        if (scene_.smooth())
-            hits_.shading_normal[axis][lane] = gathered_hits_.shading_normal[axis][from];
+        hits_.normal[axis][lane] = hits.normal[axis][from];
+        if (scene_.smooth()) hits_.shading_normal[axis][lane] = hits.shading_normal[axis][from];
     }
 }
 

@@ -5,6 +5,7 @@
 #include "simd/wavefront/paths.hpp"
 #include "simd/wavefront/scene_data.hpp"
 
+#include <memory>
 #include <span>
 
 namespace raylane::simd {
@@ -25,12 +26,16 @@ struct Hits {
 class HitFinder {
   public:
     HitFinder(const SceneData& scene, const Kernels& kernels,
-              core::ReferenceTracer<double>& reference);
+              core::ReferenceTracer<double>& reference)
+        : HitFinder(scene, kernels, reference, 0) {}
+    HitFinder(const SceneData& scene, const Kernels& kernels,
+              core::ReferenceTracer<double>& reference, int level);
 
     /// Arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// `bundle` may be null: the rays have nothing in common.
+    /// Surfaces that cannot be seen from where the rays come are none, but at level 1, which looks
+    /// behind them. `bundle` may be null: the rays have nothing in common.
     void find(const Paths& paths, const Bundle* bundle, core::Counters& counters);
 
     const Hits& hits() const { return hits_; }
@@ -42,7 +47,10 @@ class HitFinder {
     void find_own_exits(const Paths& paths);
     void certify(const Paths& paths);
     void ask_reference(const Paths& paths, core::Counters& counters);
-    void take_gathered(std::size_t from, std::size_t lane);
+    void look_through(const Paths& paths, const Bundle* bundle, core::Counters& counters);
+    bool is_visible(const Hits& hits, std::size_t lane) const;
+    void move_on(const Hits& hits, std::size_t lane, std::size_t to);
+    void take(const Hits& hits, std::size_t from, std::size_t lane);
 
     const SceneData& scene_;
     const Kernels& kernels_;
@@ -60,6 +68,11 @@ class HitFinder {
     Paths gathered_{};
     Hits gathered_hits_{};
     std::uint32_t* lanes_ = nullptr;
+
+    // Where surfaces are visible from one side only: what is behind the other side.
+    std::unique_ptr<HitFinder> onward_;
+    Paths onward_paths_{}; // sample: the lane
+    double* passed_ = nullptr;
 };
 
 /// How core sees the departure of a lane.

@@ -66,7 +66,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     : scene_(scene), settings_(settings), kernels_(kernels),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
-      reference_(scene.scene(), settings), finder_(scene, kernels, reference_) {
+      reference_(scene.scene(), settings), finder_(scene, kernels, reference_),
+      walker_(scene, kernels, reference_) {
     Arena measure;
     take_from(measure);
     arena_ = Arena(measure.used());
@@ -108,6 +109,9 @@ void Wavefront::take_from(Arena& arena) {
     occlusions_.t_most = shadow_t_most_;
     occlusions_.state = arena.take<std::uint8_t>(wave_rays);
     shadow_pending_ = pending_for(scene_, arena);
+    walker_.take_from(arena, wave_rays);
+    walk_.take_from(arena, wave_rays, with_media_);
+    walk_distance_ = arena.take<double>(wave_rays);
     deferred_.take_from(arena, deferred_rays, with_media_); // last: rarely touched
 }
 
@@ -359,37 +363,105 @@ void Wavefront::trace_shadows(const LightView& light) {
     const TraceKernels& trace = kernels_.trace;
     trace.round_rays(count, shadows_.origin, shadows_.direction, shadow_rounded_);
     TraceCounters traced{};
-    trace.occluded_in_bundle(scene_.view(), scene_.listed_kinds(), bundle_of(light), count,
-                             shadow_rounded_, occlusions_, shadow_pending_, traced);
+    const Bundle bundle = bundle_of(light);
+    trace.occluded_in_bundle(scene_.view(), scene_.listed_kinds(), bundle, count, shadow_rounded_,
+                             occlusions_, shadow_pending_, traced);
     counters_.nodes += traced.nodes;
     counters_.shapes += traced.shapes;
 
-    for (std::size_t k = 0; k < count; ++k) {
-        if (occlusions_.state[k] == blocked) continue;
-        const std::uint32_t lane = order_[static_cast<std::size_t>(shadows_.parent[k])];
-        core::Vec3d weight(shadows_.weight[0][k], shadows_.weight[1][k], shadows_.weight[2][k]);
-        if (occlusions_.state[k] == doubtful) {
-            ++counters_.doubtful_shadows;
-            const std::uint32_t slot = hits.slot[lane];
-            const bool inward = (hits.hit[lane] & hit_entering) == 0;
-            core::Hit<double> hit;
-            hit.shape = scene_.id_of(slot);
-            hit.face = static_cast<core::Face>(hits.hit[lane] & hit_face);
-            hit.kind = scene_.kind_of(slot);
-            hit.slot = scene_.place_of(slot);
-            core::Departure<double> departure;
-            departure.add({hit,
-                           {shadow_paths_.departed_first[k], shadow_paths_.departed_last[k]},
-                           core::Vec3d(0.0),
-                           inward,
-                           inward});
-            weight *= reference_.light_let_through(
-                {{shadows_.origin[0][k], shadows_.origin[1][k], shadows_.origin[2][k]},
-                 {shadows_.direction[0][k], shadows_.direction[1][k], shadows_.direction[2][k]}},
-                departure, paths_.media_at(lane), shadows_.distance[k]);
-        }
-        add(paths_.sample[lane], weight.x, weight.y, weight.z);
+    walk_.count = 0;
+    for (std::size_t k = 0; k < count; ++k)
+        if (occlusions_.state[k] == doubtful) start_walk(k);
+    if (walk_.count != 0) walk_shadows(bundle);
+
+    for (std::size_t k = 0; k < count; ++k)
+        if (occlusions_.state[k] != blocked)
+            add(paths_.sample[order_[static_cast<std::size_t>(shadows_.parent[k])]],
+                shadows_.weight[0][k], shadows_.weight[1][k], shadows_.weight[2][k]);
+}
+
+void Wavefront::start_walk(std::size_t shadow) {
+    ++counters_.walked;
+    const std::uint32_t lane = order_[static_cast<std::size_t>(shadows_.parent[shadow])];
+    const std::uint32_t hit = finder_.hits().hit[lane];
+    const std::size_t to = walk_.count++;
+    for (int axis = 0; axis < 3; ++axis) {
+        walk_.origin[axis][to] = shadows_.origin[axis][shadow];
+        walk_.direction[axis][to] = shadows_.direction[axis][shadow];
+        walk_.throughput[axis][to] = shadows_.weight[axis][shadow];
     }
+    walk_.sample[to] = static_cast<std::uint32_t>(shadow);
+    walk_.departed_first[to] = shadow_paths_.departed_first[shadow];
+    walk_.departed_last[to] = shadow_paths_.departed_last[shadow];
+    walk_.departed_slot[to] = finder_.hits().slot[lane];
+    walk_.departure[to] = (hit & hit_face) | ((hit & hit_entering) != 0 ? 0 : departure_inward);
+    walk_.set_media(to, paths_.media_at(lane));
+    walk_distance_[to] = shadows_.distance[shadow];
+}
+
+/// From surface to surface, until the light or something opaque. As
+/// core::ReferenceTracer::light_let_through has it.
+void Wavefront::walk_shadows(const Bundle& bundle) {
+    while (walk_.count != 0) {
+        walker_.find(walk_, &bundle, counters_);
+        for (const std::uint32_t lane : walker_.contacts()) {
+            ++counters_.contacts;
+            const core::Vec3d share =
+                reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
+                                             walk_.media_at(lane), walk_distance_[lane]);
+            for (int channel = 0; channel < 3; ++channel)
+                shadows_.weight[channel][walk_.sample[lane]] =
+                    walk_.throughput[channel][lane] * share[channel];
+            walk_distance_[lane] = -1.0; // done
+        }
+        std::size_t kept = 0;
+        for (std::size_t lane = 0; lane < walk_.count; ++lane) {
+            double distance = walk_distance_[lane];
+            if (distance < 0.0 || !step(lane, distance)) continue;
+            walk_.copy(walk_, lane, kept);
+            walk_distance_[kept++] = distance;
+        }
+        walk_.count = kept;
+    }
+}
+
+/// Takes a walk through the surface that it has found. False if it is over.
+bool Wavefront::step(std::size_t lane, double& distance) {
+    const Hits& found = walker_.hits();
+    const std::uint32_t shadow = walk_.sample[lane], slot = found.slot[lane];
+    const core::Media media = walk_.media_at(lane);
+    const auto weaken = [&](const core::Vec3d& share) {
+        for (int channel = 0; channel < 3; ++channel)
+            walk_.throughput[channel][lane] *= share[channel];
+    };
+    if (slot == no_slot || !(found.t[lane] < distance)) {
+        weaken(reference_.absorbed(media.top(), distance));
+        for (int channel = 0; channel < 3; ++channel)
+            shadows_.weight[channel][shadow] = walk_.throughput[channel][lane];
+        return false;
+    }
+    core::Hit<double> hit;
+    hit.shape = scene_.id_of(slot);
+    hit.entering = (found.hit[lane] & hit_entering) != 0;
+    if (!scene_.scene().material_of(hit.shape).transmits()) {
+        occlusions_.state[shadow] = blocked;
+        return false;
+    }
+    const double t = found.t[lane];
+    const core::Ray<double> ray = ray_of(walk_, lane);
+    const core::Vec3d normal(found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]);
+    weaken(reference_.absorbed(reference_.medium_before(hit, media), t) *
+           reference_.let_through(hit, ray.direction, normal, media));
+    for (int axis = 0; axis < 3; ++axis)
+        walk_.origin[axis][lane] += t * ray.direction[axis];
+    const core::IdRange range = scene_.scene().coplanar_with(hit.shape);
+    walk_.departed_first[lane] = range.first;
+    walk_.departed_last[lane] = range.last;
+    walk_.departed_slot[lane] = slot;
+    walk_.departure[lane] = (found.hit[lane] & hit_face) | (hit.entering ? departure_inward : 0);
+    walk_.set_media(lane, reference_.media_behind(hit, media));
+    distance -= t;
+    return true;
 }
 
 void Wavefront::spawn(int) {

@@ -51,6 +51,9 @@ class Wavefront {
     void fill_media();
     void add_lights();
     void trace_shadows(const LightView& light);
+    void walk_shadows(const Bundle& bundle);
+    void start_walk(std::size_t shadow);
+    bool step(std::size_t lane, double& distance);
     void spawn(int depth);
     void add_to_next(const SpawnedRays& spawned, bool through);
     void split_next(int depth);
@@ -94,6 +97,11 @@ class Wavefront {
     Occlusions occlusions_{};
     float* shadow_t_most_ = nullptr;
     Pending shadow_pending_{};
+
+    // Shadow rays that some surface may let through, or that may cross again what they start on.
+    HitFinder walker_;
+    Paths walk_{}; // throughput: what is left of the weight; sample: the shadow ray
+    double* walk_distance_ = nullptr;
 };
 
 } // namespace raylane::simd

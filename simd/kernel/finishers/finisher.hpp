@@ -27,7 +27,7 @@ struct Finished {
     Floats<Arch> error; ///< |t - true t|
     Floats<Arch> face;
     Mask<Arch> entering;
-    Vectors<Arch> normal; ///< unit, outward
+    Vectors<Arch> normal;             ///< unit, outward
     Mask<Arch> misses = none<Arch>(); ///< where not certain: certainly crosses nowhere
 };
 

@@ -26,6 +26,7 @@ struct Quadratic {
     Floats<Arch> A_error;
 
     Mask<Arch> opens_up() const { return A > A_error; }
+    Mask<Arch> opens_down() const { return A < negated(A_error); }
     Floats<Arch> most_A() const { return xsimd::abs(A) + A_error; }
 
     /// Where F rises (the ray leaves), or else falls. Neither form cancels.
@@ -109,7 +110,10 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
         const Passage<Arch> onward = surface.from_surface(starts);
         result = select<Arch>(starts.on_surface, onward.finished(onward.counts(), ~starts.inward),
                               result);
-        result.misses = starts.on_surface & onward.does_not_count();
+        // Where the surface curves away from it, the other root is behind the ray.
+        const M behind = (starts.inward & surface.quadratic.opens_down()) |
+                         (~starts.inward & surface.quadratic.opens_up());
+        result.misses = starts.on_surface & (behind | onward.does_not_count());
     }
     return result;
 }

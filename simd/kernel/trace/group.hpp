@@ -55,8 +55,11 @@ struct Group : Streams<Arch> {
 
         fastest = 0.0F;
         least_w = bundle.towards ? 0.0F : __builtin_inff();
-        greatest_w = bundle.towards ? 0.0F : __builtin_inff();
-        latest_start = bundle.parallel ? -__builtin_inff() : 0.0F;
+        greatest_w = bundle.towards && t_most != nullptr ? 0.0F : __builtin_inff();
+        // Towards the apex, what is far from it is near.
+        latest_start = bundle.parallel  ? -__builtin_inff()
+                       : bundle.towards ? __builtin_inff()
+                                        : 0.0F;
         if (!bundle.towards && !bundle.parallel) least_w = 0.0F;
         float slowest = 1.0F;
         for (int side = 0; side < 2; ++side) {
@@ -119,7 +122,8 @@ struct Group : Streams<Arch> {
                 least_w = least(least_w, Lanes<Arch>::least(starts_low));
                 latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
             }
-            if (bundle.towards) greatest_w = greatest(greatest_w, Lanes<Arch>::greatest(ends_high));
+            if (bundle.towards && t_most != nullptr)
+                greatest_w = greatest(greatest_w, Lanes<Arch>::greatest(ends_high));
             for (int side = 0; side < 2; ++side) {
                 const float low = Lanes<Arch>::least(low_slope[side]);
                 const float high = Lanes<Arch>::greatest(high_slope[side]);
