@@ -182,7 +182,7 @@ struct OpenFinisher {
     Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         const AxialLine<Arch, Profile> line(shape, rays);
         Finished<Arch> result = first_passage<Arch>(line, starts);
-        result.normal = normalized(result.normal);
+        result.normal = unit<Arch>(result.normal);
         return result;
     }
 };
@@ -205,7 +205,7 @@ struct CappedFinisher {
             result = select<Arch>(behind, pass(line, starts.on_surface | behind, starts), result);
         result.certain = result.certain & (~starts.on_surface | starts.inward) &
                          is_result<Arch>(result.t, result.error);
-        result.normal = normalized(result.normal);
+        result.normal = unit<Arch>(result.normal);
         return result;
     }
 

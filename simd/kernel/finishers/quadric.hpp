@@ -22,8 +22,7 @@ struct QuadricFinisher {
 
     Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         Finished<Arch> result = first_passage<Arch>(Line(quadric, rays), starts);
-        const F square = squared_length(result.normal);
-        result.normal = result.normal / xsimd::sqrt(square);
+        result.normal = unit<Arch>(result.normal);
         return result;
     }
 
