@@ -17,7 +17,7 @@ namespace {
 using namespace raylane;
 using namespace raylane::core;
 
-constexpr std::size_t ray_count = 256; // a few tiles' worth of packets, in the first-level cache
+constexpr std::size_t ray_count = 256; // fits the first-level cache with its hits
 constexpr int shape_count = 64;
 
 class Random {

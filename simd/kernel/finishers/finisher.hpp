@@ -35,7 +35,8 @@ inline constexpr double needed_accuracy = 0x1p-27;
 
 /// a where mask, else b.
 template <class Arch>
-Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a, const Finished<Arch>& b) {
+[[gnu::always_inline]] inline Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a,
+                                                    const Finished<Arch>& b) {
     return {(mask & a.certain) | (~mask & b.certain),   xsimd::select(mask, a.t, b.t),
             xsimd::select(mask, a.error, b.error),      xsimd::select(mask, a.face, b.face),
             (mask & a.entering) | (~mask & b.entering), select(mask, a.normal, b.normal)};

@@ -29,7 +29,8 @@ struct PlaneFinisher {
     template <class Reader>
     explicit PlaneFinisher(Reader reader) : plane(reader) {}
 
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F inverse = F(1.0) / dot(plane.normal, rays.direction);
         const Vectors<Arch> to_point = plane.point - rays.origin;
@@ -56,7 +57,8 @@ struct DiscFinisher {
     template <class Reader>
     explicit DiscFinisher(Reader reader) : disc(reader) {}
 
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F radius = disc.radius;
         const LocalRays<Arch> local(rays, disc.center);
@@ -90,7 +92,8 @@ struct TriangleFinisher {
     template <class Reader>
     explicit TriangleFinisher(Reader reader) : triangle(reader) {}
 
-    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const LocalRays<Arch> local(rays, triangle.a);
         const Vectors<Arch> to_b = triangle.b - triangle.a, to_c = triangle.c - triangle.a;
