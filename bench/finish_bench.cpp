@@ -17,7 +17,7 @@ namespace {
 using namespace raylane;
 using namespace raylane::core;
 
-constexpr std::size_t ray_count = 1024; // fits the first-level cache, but for the hits
+constexpr std::size_t ray_count = 256; // fits the first-level cache with its hits
 constexpr int shape_count = 64;
 
 class Random {

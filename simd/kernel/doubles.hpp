@@ -172,8 +172,12 @@ struct DoubleLanes<Avx512> {
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), _mm512_cvttpd_epi32(values));
     }
     static F gather(const Spots<Avx512>& spots, int row) {
-        const __m512i offsets = _mm512_loadu_si512(spots.offsets);
-        return F(_mm512_cvtps_pd(_mm512_i64gather_ps(offsets, spots.base + row, 4)));
+        // Faster than the gather instruction where that is microcode.
+        const float* const from = spots.base + row;
+        const long long* const at = spots.offsets;
+        return F(
+            _mm512_cvtps_pd(_mm256_setr_ps(from[at[0]], from[at[1]], from[at[2]], from[at[3]],
+                                           from[at[4]], from[at[5]], from[at[6]], from[at[7]])));
     }
 
     static void compress_store(double* out, const F& values, std::uint32_t wanted) {

@@ -77,21 +77,18 @@ class Finish {
     Finish(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
 
     void all_rays() const {
-        for (std::size_t i = 0; i < found_.count; i += width) {
-            const std::size_t rest = found_.count - i;
-            const std::uint32_t in_use = rest < width ? (1U << rest) - 1 : all_lanes;
-            std::uint32_t left = in_use & ~in_range(found_.slot + i, no_slot, no_slot);
+        for (std::size_t i = 0; i < found_.count;) {
+            std::uint32_t left = in_use(i) & ~in_range(found_.slot + i, no_slot, no_slot);
+            std::size_t next = i + width;
             while (left != 0) {
-                const std::uint32_t slot = found_.slot[i + first_of(left)];
-                const int kind = kind_of(slot);
+                const int kind = kind_of(found_.slot[i + first_of(left)]);
                 const TableView& table = scene_.tables[kind];
-                const std::uint32_t last = table.first_slot + 16 * table.block_count - 1;
-                const std::uint32_t alike =
-                    left & in_range(found_.slot + i, table.first_slot, last);
+                const std::uint32_t alike = left & in_table(table, i);
                 with_finisher<Arch>(
-                    kind, [&]<class Finisher>() { finish_packet<Finisher>(table, i, alike); });
+                    kind, [&]<class Finisher>() { next = finish_run<Finisher>(table, i, alike); });
                 left &= ~alike;
             }
+            i = next;
         }
     }
 
@@ -118,9 +115,32 @@ class Finish {
         return kind;
     }
 
-    /// The lanes `active` of a packet, which all found shapes of one table.
+    std::uint32_t in_use(std::size_t i) const {
+        const std::size_t rest = found_.count - i;
+        return rest < width ? (1U << rest) - 1 : all_lanes;
+    }
+
+    std::uint32_t in_table(const TableView& table, std::size_t i) const {
+        return in_range(found_.slot + i, table.first_slot,
+                        table.first_slot + 16 * table.block_count - 1);
+    }
+
+    /// The lanes `active` of packet i, which all found shapes of one table; and where these are all
+    /// lanes, the packets behind it for which that is so, too. Where the rest starts.
     template <class Finisher>
-    void finish_packet(const TableView& table, std::size_t i, std::uint32_t active) const {
+    std::size_t finish_run(const TableView& table, std::size_t i, std::uint32_t active) const {
+        while (true) {
+            finish_packet<Finisher>(table, i, active);
+            i += width;
+            if (active != all_lanes || i + width > found_.count || in_table(table, i) != all_lanes)
+                return i;
+        }
+    }
+
+    /// One packet of finish_run.
+    template <class Finisher>
+    [[gnu::always_inline]] void finish_packet(const TableView& table, std::size_t i,
+                                              std::uint32_t active) const {
         const std::uint32_t slot = found_.slot[i + first_of(active)];
         const bool one_shape = (active & ~in_range(found_.slot + i, slot, slot)) == 0;
         Spots<Arch> spots;
@@ -137,8 +157,9 @@ class Finish {
                       : Finisher(GatherReader<Arch>(spots));
 
         const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
-        const Finished<D> finished =
-            finisher.finish(rays, starts(table, spots, one_shape, i, active));
+        const Finished<D> finished = finisher.finish(
+            rays, leaves_any(i, active) ? starts(table, spots, one_shape, i)
+                                        : Starts<D>{none<D>(), none<D>(), zero<D>()});
         store(finished, i, active);
         if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
             if (found_.shading_normal[0] != nullptr)
@@ -150,35 +171,39 @@ class Finish {
         }
     }
 
-    static long long offset(const TableView& table, std::uint32_t slot) {
+    [[gnu::always_inline]] static long long offset(const TableView& table, std::uint32_t slot) {
         const std::uint32_t place = slot - table.first_slot;
         return static_cast<long long>(place / 16) * table.block_floats + place % 16;
     }
 
-    Starts<D> starts(const TableView& table, const Spots<Arch>& spots, bool one_shape,
-                     std::size_t i, std::uint32_t active) const {
-        Starts<D> starts = {none<D>(), none<D>(), zero<D>()};
-        const std::uint32_t* const first = found_.departed_first + i;
+    bool leaves_any(std::size_t i, std::uint32_t active) const {
         const std::uint32_t no_shape = ~0U;
-        if ((active & ~in_range(first, no_shape, no_shape)) == 0) return starts;
+        return (active & ~in_range(found_.departed_first + i, no_shape, no_shape)) != 0;
+    }
 
+    Starts<D> starts(const TableView& table, const Spots<Arch>& spots, bool one_shape,
+                     std::size_t i) const {
         const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
+        Starts<D> starts;
         std::uint32_t id[width];
         for (unsigned lane = 0; lane < width; ++lane)
             id[lane] = __builtin_bit_cast(std::uint32_t, ids[spots.offsets[one_shape ? 0 : lane]]);
-        starts.on_surface = Lanes<D>::in_range(id, first, found_.departed_last + i);
+        starts.on_surface =
+            Lanes<D>::in_range(id, found_.departed_first + i, found_.departed_last + i);
         starts.inward = Lanes<D>::from_numbers(found_.departure + i, departure_inward) > zero<D>();
         starts.face = Lanes<D>::from_numbers(found_.departure + i, departure_face);
         return starts;
     }
 
-    static F load(const double* from) { return F::load_unaligned(from); }
+    [[gnu::always_inline]] static F load(const double* from) { return F::load_unaligned(from); }
 
-    static Vectors<D> load_vector(const double* const from[3], std::size_t i) {
+    [[gnu::always_inline]] static Vectors<D> load_vector(const double* const from[3],
+                                                         std::size_t i) {
         return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
     }
 
-    void store(const Finished<D>& finished, std::size_t i, std::uint32_t active) const {
+    [[gnu::always_inline]] void store(const Finished<D>& finished, std::size_t i,
+                                      std::uint32_t active) const {
         store(finished.t, found_.t + i, active);
         store(finished.error, found_.error + i, active);
         store(finished.normal, found_.normal, i, active);
@@ -196,14 +221,14 @@ class Finish {
             if ((active >> lane & 1) != 0) found_.hit[i + lane] = numbers[lane];
     }
 
-    static void store(const Vectors<D>& values, double* const out[3], std::size_t i,
-                      std::uint32_t active) {
+    [[gnu::always_inline]] static void store(const Vectors<D>& values, double* const out[3],
+                                             std::size_t i, std::uint32_t active) {
         store(values.x, out[0] + i, active);
         store(values.y, out[1] + i, active);
         store(values.z, out[2] + i, active);
     }
 
-    static void store(const F& values, double* out, std::uint32_t active) {
+    [[gnu::always_inline]] static void store(const F& values, double* out, std::uint32_t active) {
         if (active == all_lanes)
             values.store_unaligned(out);
         else

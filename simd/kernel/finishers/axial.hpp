@@ -54,7 +54,7 @@ struct AxialLine {
     F spread;
     Quadratic<Arch> quadratic;
 
-    AxialLine(const Profile& shape, const Rays<Arch>& rays)
+    [[gnu::always_inline]] AxialLine(const Profile& shape, const Rays<Arch>& rays)
         : local(rays, shape.base), axis(shape.axis), base_width(shape.base_width()),
           top_width(shape.top_width()) {
         axis_size = sum_of_sizes(axis);
@@ -85,7 +85,7 @@ struct AxialLine {
     }
 
     /// Where F rises, or else falls.
-    Passage<Arch> passage(const M& leaves) const {
+    [[gnu::always_inline]] Passage<Arch> passage(const M& leaves) const {
         const F s = quadratic.root_where(leaves);
         const V across = across_at(s);
         const F width = width_at(s), square = width * width, width_size = xsimd::abs(width);
@@ -106,7 +106,7 @@ struct AxialLine {
     /// Leaving after a start on the body: t = 0 is one root, so the other is twice the vertex,
     /// where F' = 0. Half F' errs there by spread^2 (P + 12 u (|start| + |s|) + 16 u widest), where
     /// the last is for the tapering alone.
-    Passage<Arch> from_surface(const Starts<Arch>& starts) const {
+    [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
         const F vertex = negated(quadratic.B) / quadratic.A;
         F rise_error = local.error_at(vertex, Profile::tapers ? 32.0 : 16.0);
         if constexpr (Profile::tapers)
@@ -159,7 +159,7 @@ struct AxialLine {
     }
 
     /// The rest of the passage at root.s. The normal is half the gradient of F.
-    void clip(Passage<Arch>& passage) const {
+    [[gnu::always_inline]] void clip(Passage<Arch>& passage) const {
         const F s = passage.root.s;
         const F height = height_at(s), above = axis_squared - height;
         const F margin = height_error(s, passage.root.error);
@@ -179,10 +179,11 @@ struct OpenFinisher {
     template <class Reader>
     explicit OpenFinisher(Reader reader) : shape(reader) {}
 
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         const AxialLine<Arch, Profile> line(shape, rays);
         Finished<Arch> result = first_passage<Arch>(line, starts);
-        result.normal = normalized(result.normal);
+        result.normal = unit<Arch>(result.normal);
         return result;
     }
 };
@@ -197,15 +198,15 @@ struct CappedFinisher {
     template <class Reader>
     explicit CappedFinisher(Reader reader) : shape(reader) {}
 
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         const Line line(shape, rays);
         Finished<Arch> result = pass(line, starts.on_surface, starts);
         const M behind = result.certain & ~starts.on_surface & (result.t < negated(result.error));
-        if (any<Arch>(behind))
-            result = select<Arch>(behind, pass(line, starts.on_surface | behind, starts), result);
+        if (any<Arch>(behind)) leave(result, behind, line, starts);
         result.certain = result.certain & (~starts.on_surface | starts.inward) &
                          is_result<Arch>(result.t, result.error);
-        result.normal = normalized(result.normal);
+        result.normal = unit<Arch>(result.normal);
         return result;
     }
 
@@ -214,8 +215,15 @@ struct CappedFinisher {
     using M = Mask<Arch>;
     using Line = AxialLine<Arch, Profile>;
 
+    /// Seldom needed, so kept out of the way.
+    [[gnu::noinline]] static void leave(Finished<Arch>& result, const M& lanes, const Line& line,
+                                        const Starts<Arch>& starts) {
+        result = select<Arch>(lanes, pass(line, starts.on_surface | lanes, starts), result);
+    }
+
     /// Where the ray leaves the solid, or else enters it.
-    static Finished<Arch> pass(const Line& line, const M& leaves, const Starts<Arch>& starts) {
+    [[gnu::always_inline]] static Finished<Arch> pass(const Line& line, const M& leaves,
+                                                      const Starts<Arch>& starts) {
         const LocalRays<Arch>& local = line.local;
         const M rises = line.height_slope > zero<Arch>();
         const M at_top = (rises & leaves) | (~rises & ~leaves);

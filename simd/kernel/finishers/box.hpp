@@ -106,7 +106,7 @@ struct BoxFinisher {
                     local.error_of_t(t, s, error_s),
                     face,
                     ~leaves,
-                    normalized(normal)};
+                    unit<Arch>(normal)};
         }
     };
 };

@@ -36,7 +36,8 @@ inline constexpr double needed_accuracy = 0x1p-27;
 
 /// a where mask, else b.
 template <class Arch>
-Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a, const Finished<Arch>& b) {
+[[gnu::always_inline]] inline Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a,
+                                                    const Finished<Arch>& b) {
     return {(mask & a.certain) | (~mask & b.certain),   xsimd::select(mask, a.t, b.t),
             xsimd::select(mask, a.error, b.error),      xsimd::select(mask, a.face, b.face),
             (mask & a.entering) | (~mask & b.entering), select(mask, a.normal, b.normal),
@@ -63,6 +64,12 @@ Floats<Arch> sum_of_sizes(const Vectors<Arch>& v) {
 template <class Arch>
 Vectors<Arch> scaled(const Floats<Arch>& s, const Vectors<Arch>& v) {
     return {s * v.x, s * v.y, s * v.z};
+}
+
+/// v / |v|, with one division.
+template <class Arch>
+Vectors<Arch> unit(const Vectors<Arch>& v) {
+    return scaled<Arch>(Floats<Arch>(1.0) / xsimd::sqrt(squared_length(v)), v);
 }
 
 /// v with the sign of each lane's components turned where `mask`.

@@ -29,7 +29,8 @@ struct PlaneFinisher {
     template <class Reader>
     explicit PlaneFinisher(Reader reader) : plane(reader) {}
 
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F inverse = F(1.0) / dot(plane.normal, rays.direction);
         const Vectors<Arch> to_point = plane.point - rays.origin;
@@ -37,7 +38,7 @@ struct PlaneFinisher {
         const F error = F(0x1p-50) * xsimd::abs(inverse) *
                         (sum_of_terms(plane.normal, to_point) +
                          xsimd::abs(t) * sum_of_terms(plane.normal, rays.direction));
-        return finish_flat<Arch>(all<Arch>(), t, error, inverse, normalized(plane.normal), starts);
+        return finish_flat<Arch>(all<Arch>(), t, error, inverse, unit<Arch>(plane.normal), starts);
     }
 
   private:
@@ -56,7 +57,8 @@ struct DiscFinisher {
     template <class Reader>
     explicit DiscFinisher(Reader reader) : disc(reader) {}
 
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F radius = disc.radius;
         const LocalRays<Arch> local(rays, disc.center);
@@ -74,7 +76,7 @@ struct DiscFinisher {
                                    (inside > radius * (F(3.0) * off + F(0x1p-49) * radius));
         const F t = local.shift + s;
         return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), approach,
-                                 normalized(disc.normal), starts);
+                                 unit<Arch>(disc.normal), starts);
     }
 };
 
@@ -90,7 +92,8 @@ struct TriangleFinisher {
     template <class Reader>
     explicit TriangleFinisher(Reader reader) : triangle(reader) {}
 
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const LocalRays<Arch> local(rays, triangle.a);
         const Vectors<Arch> to_b = triangle.b - triangle.a, to_c = triangle.c - triangle.a;
@@ -112,7 +115,7 @@ struct TriangleFinisher {
         const Mask<Arch> certain = inside & (size > F(0x1p-44) * (U * V));
         const F t = local.shift + s;
         return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), determinant,
-                                 normalized(normal), starts);
+                                 unit<Arch>(normal), starts);
     }
 };
 
@@ -129,9 +132,9 @@ struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
     Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
         const Vectors<Arch> a = this->triangle.a - point, b = this->triangle.b - point,
                             c = this->triangle.c - point;
-        const Vectors<Arch> sum = scaled<Arch>(dot(unit_flat, cross(b, c)), normalized(normal_a)) +
-                                  scaled<Arch>(dot(unit_flat, cross(c, a)), normalized(normal_b)) +
-                                  scaled<Arch>(dot(unit_flat, cross(a, b)), normalized(normal_c));
+        const Vectors<Arch> sum = scaled<Arch>(dot(unit_flat, cross(b, c)), unit<Arch>(normal_a)) +
+                                  scaled<Arch>(dot(unit_flat, cross(c, a)), unit<Arch>(normal_b)) +
+                                  scaled<Arch>(dot(unit_flat, cross(a, b)), unit<Arch>(normal_c));
         const Floats<Arch> square = squared_length(sum);
         return select<Arch>(square > zero<Arch>(), sum / xsimd::sqrt(square), unit_flat);
     }

@@ -22,8 +22,7 @@ struct QuadricFinisher {
 
     Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         Finished<Arch> result = first_passage<Arch>(Line(quadric, rays), starts);
-        const F square = squared_length(result.normal);
-        result.normal = result.normal / xsimd::sqrt(square);
+        result.normal = unit<Arch>(result.normal);
         return result;
     }
 
@@ -49,7 +48,7 @@ struct QuadricFinisher {
             quadratic.C = dot(local.start, half_gradient + quadric.linear) + quadric.one;
         }
 
-        Passage<Arch> passage(const M& leaves) const {
+        [[gnu::always_inline]] Passage<Arch> passage(const M& leaves) const {
             const F s = quadratic.root_where(leaves);
             const V p = local.at(s);
             const V half_gradient = form.half_gradient(p);
@@ -70,7 +69,7 @@ struct QuadricFinisher {
 
         /// t = 0 is one root, so the other is twice the vertex, where F' = 0: ahead if the ray
         /// first falls inside and the form rises again, or the reverse.
-        Passage<Arch> from_surface(const Starts<Arch>& starts) const {
+        [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
             const F vertex = negated(quadratic.B) / quadratic.A;
             const V p = local.at(vertex);
             const F error =
@@ -106,7 +105,7 @@ struct QuadricFinisher {
         }
 
         /// The rest of the passage at root.s.
-        void clip(Passage<Arch>& passage) const {
+        [[gnu::always_inline]] void clip(Passage<Arch>& passage) const {
             const V p = local.at(passage.root.s);
             const F margin = local.error_at(passage.root.s) + F(1.0625) * passage.root.error;
             const auto least = [&](const F& a, const F& b) { return xsimd::select(a < b, a, b); };

@@ -30,7 +30,7 @@ struct Quadratic {
     Floats<Arch> most_A() const { return xsimd::abs(A) + A_error; }
 
     /// Where F rises (the ray leaves), or else falls. Neither form cancels.
-    Floats<Arch> root_where(const Mask<Arch>& rises) const {
+    [[gnu::always_inline]] Floats<Arch> root_where(const Mask<Arch>& rises) const {
         const Floats<Arch> root = xsimd::sqrt(B * B - A * C);
         const Mask<Arch> falling = B < zero<Arch>();
         const Floats<Arch> q = xsimd::select(falling, root - B, negated(root + B));
@@ -42,8 +42,8 @@ struct Quadratic {
     ///   |F| <= value_error + |h| (2 rise_error + |A h| + roundings)
     /// and half F' is still three quarters of `rise`, if both its error and A h are below an
     /// eighth. Then, where A |F| <= (F' / 2)^2, F changes its sign within |F| / (|F'| / 2).
-    Root<Arch> refine(const Floats<Arch>& s, const Residual<Arch>& residual,
-                      const Mask<Arch>& rises) const {
+    [[gnu::always_inline]] Root<Arch> refine(const Floats<Arch>& s, const Residual<Arch>& residual,
+                                             const Mask<Arch>& rises) const {
         using F = Floats<Arch>;
         const F inverse = F(1.0) / residual.rise;
         const F step = F(0.5) * residual.value * inverse;
@@ -78,7 +78,8 @@ struct Passage {
     Mask<Arch> does_not_count() const { return root.certain & (outside | (t < negated(error))); }
     Mask<Arch> is_before(const Passage& other) const { return t + error < other.t - other.error; }
 
-    Finished<Arch> finished(const Mask<Arch>& certain, const Mask<Arch>& entering) const {
+    [[gnu::always_inline]] Finished<Arch> finished(const Mask<Arch>& certain,
+                                                   const Mask<Arch>& entering) const {
         return {certain, t, error, zero<Arch>(), entering, normal};
     }
 };

@@ -25,7 +25,8 @@ struct SphereFinisher {
     template <class Reader>
     explicit SphereFinisher(Reader reader) : sphere(reader) {}
 
-    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F radius = sphere.radius;
         const Vectors<Arch> from_center = rays.origin - sphere.center;
