@@ -135,7 +135,7 @@ TEST_CASE("everything else comes back as it was given") {
     builder.add_light({.kind = LightKind::directional, .direction = {7, 8, 9}});
     builder.add_material({});
     const MaterialIndex m = builder.add_material({.pattern = {.kind = PatternKind::gradient,
-                                                              .colors = {{{1, 2, 3}, {4, 5, 6}}},
+                                                              .colors = {{1, 2, 3}, {4, 5, 6}},
                                                               .size = 7,
                                                               .axes = 2,
                                                               .direction = {8, 9, 10},
@@ -262,7 +262,7 @@ TEST_CASE("a value that no scene may hold is refused, and the builder stays") {
               builder.add(Sphere{{0, 0, 0}, 1}, m + 1);
           }) == "material: must be the index of a material, got 1");
     CHECK(message([&] {
-              builder.add_material({.pattern = {.colors = {{{0, -1, 0}, {}}}}});
+              builder.add_material({.pattern = {.colors = {{0, -1, 0}, {}}}});
           }) == "pattern/colors/0/1: must not be negative, got -1");
     CHECK(message([&] { builder.add_light({.kind = LightKind::directional, .direction = {}}); }) ==
           "direction: must not be the zero vector, got [0, 0, 0]");
