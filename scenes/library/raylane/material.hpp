@@ -2,7 +2,6 @@
 
 #include "raylane/vector.hpp"
 
-#include <array>
 #include <cstdint>
 
 namespace raylane {
@@ -14,7 +13,7 @@ struct Pattern {
     PatternKind kind = PatternKind::solid;
     /// solid: the first. checker, stripes: alternating, the first in the cell that begins at the
     /// origin. gradient: at `from` and at `to`. back_plane: not used. >= 0
-    std::array<Color, 2> colors = {Color{1.0F, 1.0F, 1.0F}, Color{1.0F, 1.0F, 1.0F}};
+    Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};
     /// checker: the cells' edge; stripes: their width. > 0
     float size = 1.0F;
     /// checker: which axes count, as bits (1 = x, 2 = y, 4 = z), at least one. A floor wants x and

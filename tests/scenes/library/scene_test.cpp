@@ -1,8 +1,6 @@
 #include "raylane/raylane.hpp"
 #include "scenes/library/internals.hpp"
-#include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/temporary_directory.hpp"
 
 #include <array>
 #include <string>
@@ -135,7 +133,7 @@ TEST_CASE("everything else comes back as it was given") {
     builder.add_light({.kind = LightKind::directional, .direction = {7, 8, 9}});
     builder.add_material({});
     const MaterialIndex m = builder.add_material({.pattern = {.kind = PatternKind::gradient,
-                                                              .colors = {{{1, 2, 3}, {4, 5, 6}}},
+                                                              .colors = {{1, 2, 3}, {4, 5, 6}},
                                                               .size = 7,
                                                               .axes = 2,
                                                               .direction = {8, 9, 10},
@@ -262,7 +260,7 @@ TEST_CASE("a value that no scene may hold is refused, and the builder stays") {
               builder.add(Sphere{{0, 0, 0}, 1}, m + 1);
           }) == "material: must be the index of a material, got 1");
     CHECK(message([&] {
-              builder.add_material({.pattern = {.colors = {{{0, -1, 0}, {}}}}});
+              builder.add_material({.pattern = {.colors = {{0, -1, 0}, {}}}});
           }) == "pattern/colors/0/1: must not be negative, got -1");
     CHECK(message([&] { builder.add_light({.kind = LightKind::directional, .direction = {}}); }) ==
           "direction: must not be the zero vector, got [0, 0, 0]");
@@ -331,50 +329,4 @@ TEST_CASE("there is nothing behind the last shape or material") {
           "must be one of 1 shapes, got 1");
     CHECK_THROWS_AS(scene.material_of(no_shape), InvalidValue);
     CHECK_THROWS_AS(scene.material(1), InvalidValue);
-}
-
-TEST_CASE("scenes are loaded from files, and mistakes cost one line") {
-    CHECK(load(RAYLANE_SOURCE_DIR "/scenes/sphere.json").shape_count() > 0);
-    const tests::TemporaryDirectory directory;
-    const auto message = [&](const std::string& name) {
-        return message_of<BadInput>([&] { load(directory.path() / name); });
-    };
-    const std::string folder = directory.path().string() + "/";
-    CHECK(message("none.json") == folder + "none.json: no such file");
-    CHECK(message("") == folder + ": must be a file, got a directory");
-    directory.write(
-        "a.json",
-        with_objects(R"({"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": -1})"));
-    CHECK(message("a.json") == folder + "a.json: /objects/0/radius: must be positive, got -1");
-}
-
-TEST_CASE("scenes are parsed from text") {
-    const std::string nff =
-        "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 9\n"
-        "l 0 9 9\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n";
-    CHECK(parse(nff).shape_count() == 1);
-    CHECK(parse(nff, "x.nff").settings().height == 9);
-    const auto message = [](const std::string& text, const std::string& name) {
-        return message_of<BadInput>([&] { parse(text, name); });
-    };
-    CHECK(message("", "x") == "x: must be a scene, got an empty file");
-    CHECK(message(nff, "x.json").starts_with("x.json: line 1, column 1: "));
-    CHECK(message(nff + "s 0 0 0\n", "x").starts_with("x: line 11: "));
-    CHECK(message("{}", "x") == "x: must have the key \"camera\"");
-    CHECK(message_of<BadInput>([] { parse("\x01"); }) ==
-          "scene: must be a scene in JSON or NFF, got a binary file");
-    // Longer than what is looked at to tell the format.
-    const std::string blank(200'000, ' ');
-    CHECK(parse(blank + with_objects("") + blank, "x.json").shape_count() == 0);
-    // A light on a surface is found at the end, and its object looked up in the text once more.
-    CHECK(message(nff + std::string(100'000, '\n') + "l 0 0 1\n", "x").find("line 10") !=
-          std::string::npos);
-}
-
-TEST_CASE("the README's program is the one that is tested") {
-    const std::string program =
-        tests::content_of(RAYLANE_SOURCE_DIR "/tests/scenes/library/consumer/main.cpp");
-    REQUIRE(!program.empty());
-    const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
-    CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
 }

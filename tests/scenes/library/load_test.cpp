@@ -1,0 +1,73 @@
+#include "raylane/raylane.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <string>
+
+using namespace raylane;
+
+namespace {
+
+std::string with_objects(const std::string& objects) {
+    return R"({"camera": {"from": [0, 0, 90], "at": [0, 0, 0]},
+        "lights": [{"type": "directional", "direction": [0, -1, 0]}], "materials": {"m": {}},
+        "objects": [)" +
+           objects + "]}";
+}
+
+std::string refusal_of(const auto& act) {
+    try {
+        act();
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+    return "no such error";
+}
+
+} // namespace
+
+TEST_CASE("scenes are loaded from files, and mistakes cost one line") {
+    CHECK(load(RAYLANE_SOURCE_DIR "/scenes/sphere.json").shape_count() > 0);
+    const tests::TemporaryDirectory directory;
+    const auto message = [&](const std::string& name) {
+        return refusal_of([&] { load(directory.path() / name); });
+    };
+    const std::string folder = directory.path().string() + "/";
+    CHECK(message("none.json") == folder + "none.json: no such file");
+    CHECK(message("") == folder + ": must be a file, got a directory");
+    directory.write(
+        "a.json",
+        with_objects(R"({"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": -1})"));
+    CHECK(message("a.json") == folder + "a.json: /objects/0/radius: must be positive, got -1");
+}
+
+TEST_CASE("scenes are parsed from text") {
+    const std::string nff =
+        "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 9\n"
+        "l 0 9 9\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n";
+    CHECK(parse(nff).shape_count() == 1);
+    CHECK(parse(nff, "x.nff").settings().height == 9);
+    const auto message = [](const std::string& text, const std::string& name) {
+        return refusal_of([&] { parse(text, name); });
+    };
+    CHECK(message("", "x") == "x: must be a scene, got an empty file");
+    CHECK(message(nff, "x.json").starts_with("x.json: line 1, column 1: "));
+    CHECK(message(nff + "s 0 0 0\n", "x").starts_with("x: line 11: "));
+    CHECK(message("{}", "x") == "x: must have the key \"camera\"");
+    CHECK(refusal_of([] { parse("\x01"); }) ==
+          "scene: must be a scene in JSON or NFF, got a binary file");
+    // Longer than what is looked at to tell the format.
+    const std::string blank(200'000, ' ');
+    CHECK(parse(blank + with_objects("") + blank, "x.json").shape_count() == 0);
+    // A light on a surface is found at the end, and its object looked up in the text once more.
+    CHECK(message(nff + std::string(100'000, '\n') + "l 0 0 1\n", "x").find("line 10") !=
+          std::string::npos);
+}
+
+TEST_CASE("the README's program is the one that is tested") {
+    const std::string program =
+        tests::content_of(RAYLANE_SOURCE_DIR "/tests/scenes/library/consumer/main.cpp");
+    REQUIRE(!program.empty());
+    const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
+    CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
+}
