@@ -200,6 +200,10 @@ void check(const Rays& rays, std::size_t i, bool adverse, Share& share) {
     if ((hit & hit_doubtful) != 0) return;
     CAPTURE(i, rays.slot[i], rays.departure[i], rays.first[i] != no_shape, rays.t[i], rays.error[i],
             hit);
+    if (hit == hit_none) {
+        if (truth.crossing) FAIL("certain of a miss where there is a hit");
+        return;
+    }
     if (!truth.crossing) FAIL("certain of a hit where there is none");
     CAPTURE(truth.crossing->t, truth.crossing->error, int{truth.crossing->face},
             truth.crossing->entering);
