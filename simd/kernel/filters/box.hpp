@@ -33,14 +33,14 @@ struct BoxFilter {
                                           fast_dot(normal_sizes[0], absolute(u)), tiny);
     }
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
         const Vectors<Arch> from_corner = rays.origin - corner;
         const Vectors<Arch> error = error_of<Arch>(10 * half_ulp, from_corner, rays.slack);
         const Vectors<Arch> slope_error =
             error_of<Arch>(7 * half_ulp, rays.direction, F(underflow));
-        const auto stay_between = [&](int i) {
+        const auto stay_between = [&](int i) __attribute__((always_inline)) {
             return cross_slab<Arch>(fast_dot(normals[i], from_corner) - middle, xsimd::abs(middle),
                                     fast_dot(normal_sizes[i], error, middle_error),
                                     fast_dot(normals[i], rays.direction),

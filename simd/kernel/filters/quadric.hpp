@@ -45,7 +45,7 @@ struct QuadricFilter {
         linear_size = size.x + size.y + size.z;
     }
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const Vectors<Arch> from_center = rays.origin - center, d = rays.direction;
         const Vectors<Arch> slope_error = error_of<Arch>(2 * half_ulp, d, F(0x1p-126F));
         // u for each rounding of f, middle and half, and 3 u of the position as cross_slab() has

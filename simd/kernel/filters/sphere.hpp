@@ -23,7 +23,7 @@ struct SphereFilter {
     explicit SphereFilter(Reader reader)
         : center(next_vector<Arch>(reader)), radius(reader.next()) {}
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
         const Vectors<Arch> from_center = rays.origin - center;

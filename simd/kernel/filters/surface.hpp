@@ -16,8 +16,9 @@ struct FirstCrossing {
     Mask<Arch> outside;     ///< C > 0, surely
     Mask<Arch> inside;      ///< C < 0, surely
 
-    FirstCrossing(const Floats<Arch>& B, const Floats<Arch>& B_error, const Floats<Arch>& C,
-                  const Floats<Arch>& C_error, const Floats<Arch>& D, const Floats<Arch>& D_error) {
+    [[gnu::always_inline]] FirstCrossing(const Floats<Arch>& B, const Floats<Arch>& B_error,
+                                         const Floats<Arch>& C, const Floats<Arch>& C_error,
+                                         const Floats<Arch>& D, const Floats<Arch>& D_error) {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
         const F size = xsimd::abs(C), away = B ^ sign_bit<Arch>(C);
@@ -40,8 +41,9 @@ struct FirstCrossing {
 /// Of a surface that ends where `ends` does, seen from a point at t = `start` that is not behind
 /// its first crossing.
 template <class Arch>
-Bounds<Arch> surface_bounds(const Mask<Arch>& is_shape, const Stay<Arch>& ends,
-                            const Floats<Arch>& start, const FirstCrossing<Arch>& crossing) {
+[[gnu::always_inline]] inline Bounds<Arch>
+surface_bounds(const Mask<Arch>& is_shape, const Stay<Arch>& ends, const Floats<Arch>& start,
+               const FirstCrossing<Arch>& crossing) {
     using F = Floats<Arch>;
     const F lower = (start + crossing.low) * F(1 - 4 * half_ulp);
     const F upper = (start + crossing.high) * F(1 + 4 * half_ulp);
