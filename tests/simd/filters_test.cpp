@@ -292,6 +292,7 @@ Shape make_shape(Random& random, bool lattice) {
         if (lattice) return shape;
         if (random.integer(0, 3) == 0) shape = extreme(shape, random);
         if (random.integer(0, 3) == 0) shape = scaled(shape, random.log_uniform(1e-8, 1e8));
+        if (random.integer(0, 15) == 0) shape = scaled(shape, random.log_uniform(1e-15, 1e15));
         if (is_shape(shape)) return shape;
     }
 }

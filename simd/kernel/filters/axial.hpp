@@ -138,7 +138,7 @@ struct AxialFilter {
         const Mask<Arch> inside = within & ends.inside & (crossing.start == o);
         const F entry = xsimd::select(body.outside, body_low, crossing.start);
         const F leaves = xsimd::select(body.none, F(__builtin_inff()), body_low);
-        const F exit = xsimd::min(leaves, positive_part<Arch>(ends.out_low));
+        const F exit = xsimd::min(positive_part<Arch>(ends.out_low), leaves); // or NaN of these
         const Mask<Arch> missed = (body.none & body.outside) | (ends.out_high < crossing.start) |
                                   (body.outside & (ends.out_high < body_low));
 

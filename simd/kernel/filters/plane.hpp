@@ -49,12 +49,14 @@ template <class Arch>
                                                              const FilterRays<Arch>& rays) {
     using F = Floats<Arch>;
     const Vectors<Arch> n = absolute(normal);
-    const F reach = n.x + n.y + n.z;
-    const Vectors<Arch> height_error = error_of<Arch>(5 * half_ulp, to_point, rays.slack);
-    const Vectors<Arch> approach_error = error_of<Arch>(5 * half_ulp, rays.direction, F(underflow));
-    const F none_smaller = fast_mul_add<Arch>(F(underflow), reach, F(underflow));
-    return {fast_dot(normal, to_point), fast_dot(n, height_error, none_smaller),
-            fast_dot(normal, rays.direction), fast_dot(n, approach_error, none_smaller)};
+    const F relative(5 * half_ulp), reach = n.x + n.y + n.z;
+    const F least_error = fast_mul_add<Arch>(F(underflow), reach, F(underflow));
+    const F height_error = fast_mul_add<Arch>(relative, fast_dot(n, absolute(to_point)),
+                                              fast_mul_add<Arch>(reach, rays.slack, least_error));
+    const F approach_error =
+        fast_mul_add<Arch>(relative, fast_dot(n, absolute(rays.direction)), least_error);
+    return {fast_dot(normal, to_point), height_error, fast_dot(normal, rays.direction),
+            approach_error};
 }
 
 template <class Arch>

@@ -29,23 +29,29 @@ struct TriangleFilter {
         using F = Floats<Arch>;
         const F tiny(underflow);
         const Vectors<Arch> to_a = a - rays.origin;
+        const F relative(11 * half_ulp);
         const F height = fast_dot(normal, to_a);
-        const F height_error =
-            fast_dot(normal_size, error_of<Arch>(11 * half_ulp, to_a, rays.slack), tiny);
+        const F height_error = fast_mul_add<Arch>(
+            relative, fast_dot(normal_size, absolute(to_a)),
+            fast_mul_add<Arch>(normal_size.x + normal_size.y + normal_size.z, rays.slack, tiny));
         const F approach = fast_dot(normal, rays.direction);
         const F approach_error =
-            fast_dot(normal_size, error_of<Arch>(11 * half_ulp, rays.direction, tiny), tiny);
+            fast_mul_add<Arch>(relative, fast_dot(normal_size, absolute(rays.direction)), tiny);
         const FlatCrossing<Arch> crossing(height, height_error, approach, approach_error);
 
         // v, w and 1 - v - w, times |approach|.
         const Vectors<Arch> moment = fast_cross(to_a, rays.direction);
-        const Vectors<Arch> moment_error = error_of<Arch>(
-            11 * half_ulp, absolute_cross(to_a, rays.direction, zero<Arch>()), rays.slack);
+        const Vectors<Arch> moment_size = absolute_cross(to_a, rays.direction, zero<Arch>());
+        const auto error_along = [&](const Vectors<Arch>& edge) __attribute__((always_inline)) {
+            const Vectors<Arch> e = absolute(edge);
+            return fast_mul_add<Arch>(relative, fast_dot(e, moment_size),
+                                      fast_mul_add<Arch>(e.x + e.y + e.z, rays.slack, tiny));
+        };
         const F flip = sign_bit<Arch>(approach);
         const F v = fast_dot(edge_g, moment) ^ flip;
         const F w = negated(fast_dot(edge_e, moment)) ^ flip;
-        const F v_error = fast_dot(absolute(edge_g), moment_error, tiny);
-        const F w_error = fast_dot(absolute(edge_e), moment_error, tiny);
+        const F v_error = error_along(edge_g);
+        const F w_error = error_along(edge_e);
         const F steepness = xsimd::abs(approach);
         const F beyond = (v + w) - steepness;
         const F beyond_error = v_error + w_error + approach_error;
