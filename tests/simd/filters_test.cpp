@@ -63,10 +63,12 @@ struct Doubled {
     }
 };
 
-/// The first crossing with t > 0, and what t may be off by.
+/// The first crossing with t > 0, and what t may be off by. Not known where one of the crossings
+/// may be anywhere, even in double-double: at a line that touches a cone's extension, say.
 struct First {
     double t = infinity;
     double error = 0.0;
+    bool known = true;
     bool exists() const { return t < infinity; }
 };
 
@@ -74,8 +76,12 @@ template <class Shape>
 First first_crossing(const Shape& shape, const Ray<double>& ray) {
     std::uint64_t widened = 0;
     First first;
-    for (const core::Crossing<double>& crossing : solve(shape, ray, Start{}, widened))
-        if (crossing.t > 0.0 && crossing.t < first.t) first = {crossing.t, crossing.error};
+    for (const core::Crossing<double>& crossing : solve(shape, ray, Start{}, widened)) {
+        first.known = first.known && crossing.error < infinity;
+        if (!(crossing.t > 0.0 && crossing.t < first.t)) continue;
+        first.t = crossing.t;
+        first.error = crossing.error;
+    }
     return first;
 }
 
@@ -136,6 +142,7 @@ ShapeBlock view_of(const Block<Shape>& block) {
 
 /// What is wrong with an answer; null if nothing.
 const char* lie(const Answer& answer, const First& truth) {
+    if (!truth.known) return nullptr;
     if (truth.exists() && !answer.possible) return "a crossing was said to be impossible";
     if (truth.exists() && !(answer.lower <= truth.t + truth.error)) return "lower is too high";
     if (answer.possible && !(answer.lower >= 0.0)) return "lower is negative";
@@ -285,6 +292,7 @@ Shape make_shape(Random& random, bool lattice) {
         if (lattice) return shape;
         if (random.integer(0, 3) == 0) shape = extreme(shape, random);
         if (random.integer(0, 3) == 0) shape = scaled(shape, random.log_uniform(1e-8, 1e8));
+        if (random.integer(0, 15) == 0) shape = scaled(shape, random.log_uniform(1e-15, 1e15));
         if (is_shape(shape)) return shape;
     }
 }
@@ -370,7 +378,7 @@ struct Attempt {
 template <class Shape>
 double use_of_bounds(const FilterChecks& checks, const Attempt<Shape>& attempt) {
     const First truth = first_crossing(attempt.shape, attempt.ray);
-    if (!truth.exists()) return -1.0;
+    if (!truth.exists() || !truth.known) return -1.0;
     Block<Shape> block;
     block.set(0, attempt.shape, 0);
     Stream stream;

@@ -64,7 +64,7 @@ struct AxialFilter {
         Mask<Arch> nappe; ///< W > 0
     };
 
-    Crossing cross(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Crossing cross(const FilterRays<Arch>& rays) const {
         const Vectors<Arch> from_base = rays.origin - base;
         const F closest = negated(fast_dot(from_base, rays.direction));
 
@@ -102,9 +102,8 @@ struct AxialFilter {
             g_squared = fast_dot(g, g);
             g_length = root_above<Arch>(g_squared);
         } else {
-            const F n_squared = fast_dot(n, n);
-            g_squared = base_radius * base_radius * n_squared;
-            g_length = base_radius * root_above<Arch>(n_squared);
+            g_squared = base_radius * base_radius * fast_dot(n, n);
+            g_length = base_radius; // |n| <= 1; the rest of it is within the error
         }
         const F C = fast_mul_add<Arch>(negated(W), W, m_squared);
         const F C_error = (body + body) * (m_length + xsimd::abs(W) + body);
@@ -118,14 +117,14 @@ struct AxialFilter {
                 (W > zero<Arch>())};
     }
 
-    Bounds<Arch> open_bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> open_bounds(const FilterRays<Arch>& rays) const {
         const Crossing crossing = cross(rays);
         const Bounds<Arch> bounds = surface_bounds<Arch>(crossing.is_shape, crossing.between_ends,
                                                          crossing.start, crossing.body);
         return sure(crossing, bounds);
     }
 
-    Bounds<Arch> capped_bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> capped_bounds(const FilterRays<Arch>& rays) const {
         const Crossing crossing = cross(rays);
         const Stay<Arch>& ends = crossing.between_ends;
         const FirstCrossing<Arch>& body = crossing.body;
@@ -138,7 +137,8 @@ struct AxialFilter {
         const Mask<Arch> within = body.inside & crossing.nappe & crossing.near;
         const Mask<Arch> inside = within & ends.inside & (crossing.start == o);
         const F entry = xsimd::select(body.outside, body_low, crossing.start);
-        const F exit = xsimd::min(body_low, positive_part<Arch>(ends.out_low));
+        const F leaves = xsimd::select(body.none, F(__builtin_inff()), body_low);
+        const F exit = xsimd::min(positive_part<Arch>(ends.out_low), leaves); // or NaN of these
         const Mask<Arch> missed = (body.none & body.outside) | (ends.out_high < crossing.start) |
                                   (body.outside & (ends.out_high < body_low));
 
@@ -147,7 +147,7 @@ struct AxialFilter {
         const Mask<Arch> by_body =
             body.outside & body.definite & (body_low >= ends.in_high) & (body_high <= ends.out_low);
         const Mask<Arch> by_end = within & (ends.in_low > o) & (crossing.start <= ends.in_high) &
-                                  (ends.in_high <= body_low) & (ends.in_high <= ends.out_low);
+                                  (ends.in_high <= leaves) & (ends.in_high <= ends.out_low);
         const F exit_high =
             xsimd::select(body.definite, xsimd::min(body_high, ends.out_high), ends.out_high);
         return sure(crossing,
@@ -159,7 +159,8 @@ struct AxialFilter {
     }
 
   private:
-    Bounds<Arch> sure(const Crossing& crossing, const Bounds<Arch>& bounds) const {
+    [[gnu::always_inline]] Bounds<Arch> sure(const Crossing& crossing,
+                                             const Bounds<Arch>& bounds) const {
         return {crossing.is_shape & (bounds.possible | ~ordinary),
                 xsimd::select(ordinary, bounds.lower, zero<Arch>()),
                 bounds.certain & ordinary & crossing.near, bounds.upper};

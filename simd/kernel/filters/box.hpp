@@ -10,7 +10,7 @@ namespace raylane::simd {
 /// A normal is off by 2 u of absolute_cross(), n . f by 6 u of the sum of the absolute products,
 /// half the volume by 5 u of its own, twice: in the position and in the width. What cross_slab()
 /// wants paid for and the sum's rounding add 3 u of n . f and 5 u of half the volume. n . d is off
-/// by 6 u.
+/// by 6 u. Sums are doubled, or taken eightfold, to overflow in time.
 template <class Arch>
 struct BoxFilter {
     Vectors<Arch> corner;
@@ -29,22 +29,27 @@ struct BoxFilter {
         normal_sizes[1] = absolute_cross(w, u, tiny);
         normal_sizes[2] = absolute_cross(u, v, tiny);
         middle = Floats<Arch>(0.5F) * fast_dot(normals[0], u);
-        middle_error = fast_mul_add<Arch>(Floats<Arch>(10 * half_ulp),
-                                          fast_dot(normal_sizes[0], absolute(u)), tiny);
+        const Floats<Arch> size = fast_dot(normal_sizes[0], absolute(u));
+        middle_error =
+            fast_mul_add<Arch>(Floats<Arch>(0.75F * half_ulp), Floats<Arch>(8.0F) * size, tiny);
     }
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
         const Vectors<Arch> from_corner = rays.origin - corner;
-        const Vectors<Arch> error = error_of<Arch>(10 * half_ulp, from_corner, rays.slack);
-        const Vectors<Arch> slope_error =
-            error_of<Arch>(7 * half_ulp, rays.direction, F(underflow));
-        const auto stay_between = [&](int i) {
-            return cross_slab<Arch>(fast_dot(normals[i], from_corner) - middle, xsimd::abs(middle),
-                                    fast_dot(normal_sizes[i], error, middle_error),
-                                    fast_dot(normals[i], rays.direction),
-                                    fast_dot(normal_sizes[i], slope_error, F(underflow)));
+        const Vectors<Arch> doubled = absolute(from_corner + from_corner),
+                            d = absolute(rays.direction);
+        const F middle_size = xsimd::abs(middle);
+        const auto stay_between = [&](int i) __attribute__((always_inline)) {
+            const Vectors<Arch>& size = normal_sizes[i];
+            const F error = fast_mul_add<Arch>(
+                F(5 * half_ulp), fast_dot(size, doubled, middle_size),
+                fast_mul_add<Arch>(size.x + size.y + size.z, rays.slack, middle_error));
+            const F slope_error =
+                fast_mul_add<Arch>(F(7 * half_ulp), fast_dot(size, d), F(underflow));
+            return cross_slab<Arch>(fast_dot(normals[i], from_corner) - middle, middle_size, error,
+                                    fast_dot(normals[i], rays.direction), slope_error);
         };
         const Stay<Arch> stay = stay_between(0) & stay_between(1) & stay_between(2);
         const F lower = positive_part<Arch>(stay.in_low);

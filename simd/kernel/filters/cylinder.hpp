@@ -11,7 +11,7 @@ struct CylinderFilter {
     template <class Reader>
     explicit CylinderFilter(Reader reader) : axial(read(reader)) {}
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         if constexpr (capped)
             return axial.capped_bounds(rays);
         else

@@ -18,7 +18,7 @@ struct DiscFilter {
         : center(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)),
           radius(reader.next()) {}
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const Vectors<Arch> to_center = center - rays.origin;
         const FlatCrossing<Arch> crossing = cross_plane(to_center, normal, rays);

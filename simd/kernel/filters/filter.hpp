@@ -13,8 +13,9 @@
 /// stated errors.
 ///
 /// In the derivations u = half_ulp, terms in u^2 go into what constants are rounded up by, and |v|
-/// is a vector's length. To be safe from overflow each decision is the negation of what is sure:
-/// NaN then decides nothing.
+/// is a vector's length. To be safe from overflow, errors are made of sums that overflow before
+/// what they are the errors of does, and each decision is the negation of what is sure: infinite
+/// errors and NaN then decide nothing.
 namespace raylane::simd {
 
 /// Rays that were rounded to float. The ray meant has a direction of length 1 +- 2^-40 and is

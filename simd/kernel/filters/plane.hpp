@@ -20,8 +20,10 @@ struct FlatCrossing {
     ///   (h - e) / (a + f) <= h' / a' <= (h + e) / (a - f),
     /// and one division serves both: (a + f) / (a - f) = 1 / (1 - x) <= 1 + 2 x for
     /// x = 2 f / (a + f) <= 1/2.
-    FlatCrossing(const Floats<Arch>& height, const Floats<Arch>& height_error,
-                 const Floats<Arch>& approach, const Floats<Arch>& approach_error) {
+    [[gnu::always_inline]] FlatCrossing(const Floats<Arch>& height,
+                                        const Floats<Arch>& height_error,
+                                        const Floats<Arch>& approach,
+                                        const Floats<Arch>& approach_error) {
         using F = Floats<Arch>;
         const F one(1.0F);
         const F signed_height = height ^ sign_bit<Arch>(approach);
@@ -42,16 +44,19 @@ struct FlatCrossing {
 /// height and approach are sums of three products: off by 3 u of the sum of their absolute values,
 /// by u more for the rounded difference or direction, and the height by |n| slack.
 template <class Arch>
-FlatCrossing<Arch> cross_plane(const Vectors<Arch>& to_point, const Vectors<Arch>& normal,
-                               const FilterRays<Arch>& rays) {
+[[gnu::always_inline]] inline FlatCrossing<Arch> cross_plane(const Vectors<Arch>& to_point,
+                                                             const Vectors<Arch>& normal,
+                                                             const FilterRays<Arch>& rays) {
     using F = Floats<Arch>;
     const Vectors<Arch> n = absolute(normal);
-    const F reach = n.x + n.y + n.z;
-    const Vectors<Arch> height_error = error_of<Arch>(5 * half_ulp, to_point, rays.slack);
-    const Vectors<Arch> approach_error = error_of<Arch>(5 * half_ulp, rays.direction, F(underflow));
-    const F none_smaller = F(underflow) + F(0x1p-149F) * reach;
-    return {fast_dot(normal, to_point), fast_dot(n, height_error, none_smaller),
-            fast_dot(normal, rays.direction), fast_dot(n, approach_error, none_smaller)};
+    const F relative(5 * half_ulp), reach = n.x + n.y + n.z;
+    const F least_error = fast_mul_add<Arch>(F(underflow), reach, F(underflow));
+    const F height_error = fast_mul_add<Arch>(relative, fast_dot(n, absolute(to_point)),
+                                              fast_mul_add<Arch>(reach, rays.slack, least_error));
+    const F approach_error =
+        fast_mul_add<Arch>(relative, fast_dot(n, absolute(rays.direction)), least_error);
+    return {fast_dot(normal, to_point), height_error, fast_dot(normal, rays.direction),
+            approach_error};
 }
 
 template <class Arch>
@@ -62,7 +67,7 @@ struct PlaneFilter {
     explicit PlaneFilter(Reader reader)
         : point(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)) {}
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const Vectors<Arch> to_point = point - rays.origin;
         const FlatCrossing<Arch> crossing = cross_plane(to_point, normal, rays);
         return {is_number<Arch>(to_point.x) & ~crossing.behind, positive_part<Arch>(crossing.lower),

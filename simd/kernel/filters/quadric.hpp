@@ -14,7 +14,7 @@ namespace raylane::simd {
 ///   B = d . (M f + linear) by K (slack + u (3 start + 10 |f|)) + 6 u k,
 ///   C = f . (M f + 2 linear) + one by 2 (K |f| + k) (slack + u (3 start + 6 |f|)) + u |one|
 /// and some of the error's square: below 16 u K, K e + 12 u k and 2 (K (|f| + e) + k) e + 2 u
-/// |one|, with room for the roundings of B^2 - A C and of what FirstCrossing wants paid for.
+/// |one|, and the discriminant adds 2 u of B^2 and of A C.
 template <class Arch>
 struct QuadricFilter {
     using F = Floats<Arch>;
@@ -45,7 +45,7 @@ struct QuadricFilter {
         linear_size = size.x + size.y + size.z;
     }
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const Vectors<Arch> from_center = rays.origin - center, d = rays.direction;
         const Vectors<Arch> slope_error = error_of<Arch>(2 * half_ulp, d, F(0x1p-126F));
         // u for each rounding of f, middle and half, and 3 u of the position as cross_slab() has
@@ -72,14 +72,17 @@ struct QuadricFilter {
         const F reach = fast_mul_add<Arch>(matrix_size, distance + e, linear_size);
         const F C_error = fast_mul_add<Arch>(
             reach + reach, e, fast_mul_add<Arch>(F(2 * half_ulp), xsimd::abs(one), F(underflow)));
-        const F D = fast_mul_add<Arch>(B, B, negated(A * C));
+        const F BB = B * B, AC = A * C;
         const F D_error = fast_mul_add<Arch>(
             B_error, xsimd::abs(B + B) + B_error,
-            fast_mul_add<Arch>(A_error, xsimd::abs(C) + C_error,
-                               fast_mul_add<Arch>(xsimd::abs(A), C_error, F(underflow))));
+            fast_mul_add<Arch>(
+                A_error, xsimd::abs(C) + C_error,
+                fast_mul_add<Arch>(
+                    xsimd::abs(A), C_error,
+                    fast_mul_add<Arch>(F(2 * half_ulp), BB + xsimd::abs(AC), F(underflow)))));
         Bounds<Arch> result =
             surface_bounds<Arch>(is_number<Arch>(from_center.x), stay, start,
-                                 FirstCrossing<Arch>(B, B_error, C, C_error, D, D_error));
+                                 FirstCrossing<Arch>(B, B_error, C, C_error, BB - AC, D_error));
         result.possible = result.possible & ~(stay.out_high < start);
         return result;
     }

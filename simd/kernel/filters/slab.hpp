@@ -20,9 +20,9 @@ struct Stay {
 ///
 /// Coming closer by c = -position sign(slope), one division serves all bounds as in FlatCrossing.
 template <class Arch>
-Stay<Arch> cross_slab(const Floats<Arch>& position, const Floats<Arch>& half,
-                      const Floats<Arch>& error, const Floats<Arch>& slope,
-                      const Floats<Arch>& slope_error) {
+[[gnu::always_inline]] inline Stay<Arch>
+cross_slab(const Floats<Arch>& position, const Floats<Arch>& half, const Floats<Arch>& error,
+           const Floats<Arch>& slope, const Floats<Arch>& slope_error) {
     using F = Floats<Arch>;
     const F one(1.0F), infinity(__builtin_inff());
     const F closer = negated(position) ^ sign_bit<Arch>(slope);
@@ -46,7 +46,7 @@ Stay<Arch> cross_slab(const Floats<Arch>& position, const Floats<Arch>& half,
 
 /// Inside both.
 template <class Arch>
-Stay<Arch> operator&(const Stay<Arch>& a, const Stay<Arch>& b) {
+[[gnu::always_inline]] inline Stay<Arch> operator&(const Stay<Arch>& a, const Stay<Arch>& b) {
     return {xsimd::max(a.in_low, b.in_low),   xsimd::min(a.out_high, b.out_high),
             xsimd::max(a.in_high, b.in_high), xsimd::min(a.out_low, b.out_low),
             a.definite & b.definite,          a.inside & b.inside};

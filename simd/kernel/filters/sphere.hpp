@@ -23,7 +23,7 @@ struct SphereFilter {
     explicit SphereFilter(Reader reader)
         : center(next_vector<Arch>(reader)), radius(reader.next()) {}
 
-    Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
         const Vectors<Arch> from_center = rays.origin - center;
@@ -34,13 +34,13 @@ struct SphereFilter {
         const F error = rounding + rays.slack;
 
         const F outer = radius + error, inner = radius - error;
-        const F outer_chord = fast_mul_add<Arch>(outer, outer, negated(foot_squared));
+        const F outer_chord = outer * outer - foot_squared; // not fused: both overflow, or none
         const F outer_half = xsimd::sqrt(outer_chord);
         const F entry = tau - outer_half - rounding;
         const F exit = tau + outer_half + rounding;
         const Mask<Arch> missed = (outer_chord < o) | (exit < o);
 
-        const F inner_chord = fast_mul_add<Arch>(inner, inner, negated(foot_squared));
+        const F inner_chord = inner * inner - foot_squared;
         const F inner_half = xsimd::sqrt(inner_chord);
         const Mask<Arch> meets = (inner > o) & (inner_chord > o), ahead = entry > o;
         Bounds<Arch> result{is_number<Arch>(from_center.x) & ~missed, positive_part<Arch>(entry),
@@ -51,7 +51,9 @@ struct SphereFilter {
             (inner > o) & (fast_mul_add<Arch>(tau, tau, foot_squared) < inner * inner);
         if (Lanes<Arch>::bits(inside) != 0) [[unlikely]] {
             const F least = tau + inner_half - rounding;
-            result.lower = xsimd::select(inside, positive_part<Arch>(least), result.lower);
+            // The chord of a huge sphere overflows.
+            const Mask<Arch> known = (least > o) & (least < F(__builtin_inff()));
+            result.lower = xsimd::select(inside, xsimd::select(known, least, o), result.lower);
             result.certain = result.certain | inside;
             result.upper = xsimd::select(inside, exit, result.upper);
         }

@@ -16,22 +16,21 @@ struct FirstCrossing {
     Mask<Arch> outside;     ///< C > 0, surely
     Mask<Arch> inside;      ///< C < 0, surely
 
-    FirstCrossing(const Floats<Arch>& B, const Floats<Arch>& B_error, const Floats<Arch>& C,
-                  const Floats<Arch>& C_error, const Floats<Arch>& D, const Floats<Arch>& D_error) {
+    [[gnu::always_inline]] FirstCrossing(const Floats<Arch>& B, const Floats<Arch>& B_error,
+                                         const Floats<Arch>& C, const Floats<Arch>& C_error,
+                                         const Floats<Arch>& D, const Floats<Arch>& D_error) {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
         const F size = xsimd::abs(C), away = B ^ sign_bit<Arch>(C);
         const F most = D + D_error, least = D - D_error;
-        const F divisor =
-            xsimd::sqrt(positive_part<Arch>(most)) * F(1 + 4 * half_ulp) - away + B_error;
+        const F divisor = xsimd::sqrt(most) * F(1 + 4 * half_ulp) - away + B_error;
         const Mask<Arch> apart = size > C_error;
         outside = apart & (C > o);
         inside = apart & (C < o);
         none = (most < o) | (apart & (divisor < o));
         low = xsimd::select(apart, (size - C_error) / divisor * F(1 - 4 * half_ulp), o);
 
-        const F least_divisor =
-            xsimd::sqrt(positive_part<Arch>(least)) * F(1 - 4 * half_ulp) - away - B_error;
+        const F least_divisor = xsimd::sqrt(least) * F(1 - 4 * half_ulp) - away - B_error;
         definite = apart & (least > o) & (least_divisor > o);
         high = (size + C_error) / least_divisor * F(1 + 4 * half_ulp);
     }
@@ -40,8 +39,9 @@ struct FirstCrossing {
 /// Of a surface that ends where `ends` does, seen from a point at t = `start` that is not behind
 /// its first crossing.
 template <class Arch>
-Bounds<Arch> surface_bounds(const Mask<Arch>& is_shape, const Stay<Arch>& ends,
-                            const Floats<Arch>& start, const FirstCrossing<Arch>& crossing) {
+[[gnu::always_inline]] inline Bounds<Arch>
+surface_bounds(const Mask<Arch>& is_shape, const Stay<Arch>& ends, const Floats<Arch>& start,
+               const FirstCrossing<Arch>& crossing) {
     using F = Floats<Arch>;
     const F lower = (start + crossing.low) * F(1 - 4 * half_ulp);
     const F upper = (start + crossing.high) * F(1 + 4 * half_ulp);
