@@ -46,8 +46,8 @@ struct Prepare : Streams<Arch> {
                 sum = sum + xsimd::abs(o);
                 Lanes<Arch>::narrow(direction[axis] + i).store_unaligned(rays.direction[axis] + i);
             }
-            // Half an ulp of each coordinate; the factor is for the rounding of the sum.
-            (sum * F(half_ulp * (1 + 8 * half_ulp))).store_unaligned(rays.slack + i);
+            // Half an ulp of each coordinate, and what FilterRays asks for.
+            (sum * F(half_ulp * (1 + 0x1p-15F)) + F(slack_floor)).store_unaligned(rays.slack + i);
         }
     }
 
