@@ -47,10 +47,12 @@ struct Numbers {
 void report(benchmark::State& state, const Case& c, const Numbers& numbers) {
     std::vector<double> ulps;
     for (std::size_t i = 0; i < count; ++i) {
-        const long double truth = c.truth(numbers.x[i], numbers.y[i]);
+        const long double truth =
+            c.truth(static_cast<long double>(numbers.x[i]), static_cast<long double>(numbers.y[i]));
         if (std::abs(static_cast<double>(truth)) < 0x1p-1000) continue;
         const long double ulp = std::ldexp(1.0L, std::ilogb(truth) - 52);
-        ulps.push_back(static_cast<double>(std::abs(numbers.out[i] - truth) / ulp));
+        ulps.push_back(
+            static_cast<double>(std::abs(static_cast<long double>(numbers.out[i]) - truth) / ulp));
     }
     std::sort(ulps.begin(), ulps.end());
     state.SetItemsProcessed(state.iterations() * count);

@@ -227,14 +227,12 @@ typename Elementary<Number>::Logarithm Elementary<Number>::log2(const Number& x)
 template <class Number>
 Number Elementary<Number>::pow(const Number& x, const Number& y) {
     const Logarithm log2_x = log2(x);
-    // Larger ones change nothing: log2(x) is 0 or at least 2^-53.
-    const Number exponent = P::select(y > Number(0x1p100), Number(0x1p100), y);
-    const Number product = exponent * log2_x.value;
+    const Number product = y * log2_x.value;
     const Whole n = nearest_whole(product);
 
-    const Number exponent_head = head(exponent);
-    const Number high = exponent_head * log2_x.head; // exact
-    const Number low = (exponent - exponent_head) * log2_x.head + exponent * log2_x.rest;
+    const Number y_head = head(y);
+    const Number high = y_head * log2_x.head; // exact
+    const Number low = (y - y_head) * log2_x.head + y * log2_x.rest;
     const Number t = ((high - n.value) + low) * Number(0x1.62e42fefa39efp-1);
     const Number result = scaled(Number(1.0) + expm1_near_zero(t, Number(0.0)), n);
 

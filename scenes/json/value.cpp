@@ -1,5 +1,7 @@
 #include "scenes/json/value.hpp"
 
+#include "core/elementary.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -12,7 +14,7 @@ namespace {
 /// The linear component for an 8-bit sRGB code (IEC 61966-2-1).
 float linear_of_srgb(int code) {
     const double c = code / 255.0;
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : core::pow((c + 0.055) / 1.055, 2.4));
 }
 
 std::string in_quotes(std::string_view text) {

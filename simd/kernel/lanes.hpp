@@ -43,7 +43,7 @@ using Mask = typename Registers<Arch>::Mask;
 /// The same bits as lanes of another type of the same size.
 template <class To, class From, class Arch>
 xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
-#if XSIMD_VERSION_MAJOR < 9
+#if XSIMD_VERSION_MAJOR < 11
     return xsimd::bitwise_cast<xsimd::batch<To, Arch>>(from);
 #else
     return xsimd::bitwise_cast<To>(from);

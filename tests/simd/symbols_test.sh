@@ -3,14 +3,14 @@
 # linker keeps for all, with instructions that an older processor does not have. So each symbol that
 # the linker may merge must carry the unit's instruction set in its name.
 #
-# usage: symbols_test.sh OBJECT...   those not called *kernels_* are passed over
+# usage: symbols_test.sh OBJECT...   those not called *_sse42, *_avx2 or *_avx512 are passed over
 set -eu
 units=0
 for object in "$@"; do
     case "$object" in
-    *kernels_sse42*) tag=6sse4_2 ;;
-    *kernels_avx2*) tag=4fma3I ;;
-    *kernels_avx512*) tag=7avx512f ;;
+    *_sse42.cpp*) tag=6sse4_2 ;;
+    *_avx2.cpp*) tag=4fma3I ;;
+    *_avx512.cpp*) tag=7avx512f ;;
     *) continue ;;
     esac
     units=$((units + 1))
@@ -21,4 +21,4 @@ for object in "$@"; do
         exit 1
     fi
 done
-[ "$units" -eq 3 ] || { echo "expected 3 kernel units, got $units"; exit 1; }
+[ "$units" -ge 3 ] || { echo "expected 3 kernel units or more, got $units"; exit 1; }
