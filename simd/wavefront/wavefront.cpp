@@ -192,6 +192,7 @@ void Wavefront::trace() {
 }
 
 void Wavefront::trace_wave(int depth) {
+    coherent_ = depth == 0;
     finder_.find(paths_, depth == 0 ? &camera_bundle_ : nullptr, counters_);
     follow_contacts(depth);
     sort_hits();
@@ -364,8 +365,16 @@ void Wavefront::trace_shadows(const LightView& light) {
     trace.round_rays(count, shadows_.origin, shadows_.direction, shadow_rounded_);
     TraceCounters traced{};
     const Bundle bundle = bundle_of(light);
-    trace.occluded_in_bundle(scene_.view(), scene_.listed_kinds(), bundle, count, shadow_rounded_,
-                             occlusions_, shadow_pending_, traced);
+    if (coherent_ || !scene_.has_tree()) {
+        trace.occluded_in_bundle(scene_.view(), scene_.listed_kinds(), bundle, count,
+                                 shadow_rounded_, occlusions_, shadow_pending_, traced);
+    } else {
+        if (scene_.listed_kinds() != 0)
+            trace.occluded_by_all(scene_.view(), scene_.listed_kinds(), count, shadow_rounded_,
+                                  occlusions_, traced);
+        trace.occluded_in_tree(scene_.view(), count, shadow_rounded_, occlusions_, shadow_pending_,
+                               traced);
+    }
     counters_.nodes += traced.nodes;
     counters_.shapes += traced.shapes;
 

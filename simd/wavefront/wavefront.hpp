@@ -87,6 +87,7 @@ class Wavefront {
     std::uint32_t* order_ = nullptr;
     std::uint32_t* scratch_ = nullptr;
     std::size_t hit_count_ = 0;
+    bool coherent_ = false; ///< it was hit by rays from the camera
     std::vector<Run> runs_;
     Surfaces surfaces_{};
     MediumColumns media_{};
