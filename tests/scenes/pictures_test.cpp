@@ -26,8 +26,8 @@ core::Settings test_settings(const core::Scene& scene) {
     return settings;
 }
 
-core::Film render(const core::Scene& scene, const core::Settings& settings,
-                  const simd::RenderOptions& options) {
+core::Film picture_of(const core::Scene& scene, const core::Settings& settings,
+                      const simd::RenderOptions& options) {
     return simd::render(scene, settings, options).film;
 }
 
@@ -56,8 +56,8 @@ void check(const std::filesystem::path& path) {
 
     simd::RenderOptions reference;
     reference.engine = simd::Engine::reference;
-    const core::Film expected = render(scene, settings, reference);
-    const core::Film film = render(scene, settings, {});
+    const core::Film expected = picture_of(scene, settings, reference);
+    const core::Film film = picture_of(scene, settings, {});
 
     int differing = 0;
     for (int y = 0; y < settings.height; ++y)
@@ -75,14 +75,14 @@ void check(const std::filesystem::path& path) {
         options.isa = isa;
         options.threads = 1;
         CAPTURE(simd::name_of(isa));
-        CHECK(render(scene, settings, options).pixels() == film.pixels());
+        CHECK(picture_of(scene, settings, options).pixels() == film.pixels());
     }
     for (const int tile : {8, 23, 64}) {
         simd::RenderOptions options;
         options.tile = tile;
         options.threads = 2;
         CAPTURE(tile);
-        CHECK(render(scene, settings, options).pixels() == film.pixels());
+        CHECK(picture_of(scene, settings, options).pixels() == film.pixels());
     }
 }
 
