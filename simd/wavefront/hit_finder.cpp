@@ -195,7 +195,7 @@ void HitFinder::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
     passed_[to] += t;
     for (int axis = 0; axis < 3; ++axis)
         onward_paths_.origin[axis][to] += t * onward_paths_.direction[axis][to];
-    const core::IdRange range = scene_.scene().coplanar_with(scene_.id_of(hits.slot[lane]));
+    const core::IdRange range = scene_.occupant_of(hits.slot[lane]).coplanar;
     onward_paths_.departed_first[to] = range.first;
     onward_paths_.departed_last[to] = range.last;
     onward_paths_.departed_slot[to] = hits.slot[lane];
@@ -224,7 +224,7 @@ void HitFinder::find_own_exits(const Paths& paths) {
         if (slot == no_slot ||
             !may_return(scene_.kind_of(slot), (paths.departure[lane] & departure_inward) != 0))
             continue;
-        gathered_.copy(paths, lane, count);
+        gathered_.copy_ray(paths, lane, count);
         gathered_hits_.slot[count] = slot;
         lanes_[count++] = static_cast<std::uint32_t>(lane);
     }
@@ -276,7 +276,7 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
         const core::Hit<double>& hit = encounter.hit;
         const std::uint32_t slot = scene_.slot_of(hit.kind, hit.slot);
         hits_.slot[lane] = slot;
-        gathered_.copy(paths, lane, 0);
+        gathered_.copy_ray(paths, lane, 0);
         gathered_hits_.slot[0] = slot;
         std::fill_n(gathered_hits_.slot + 1, 15, no_slot);
         kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));

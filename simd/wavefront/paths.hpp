@@ -57,19 +57,25 @@ struct Paths {
 
     /// Lane `from` of `other` to lane `to`.
     void copy(const Paths& other, std::size_t from, std::size_t to) const {
+        copy_ray(other, from, to);
+        for (int channel = 0; channel < 3; ++channel)
+            throughput[channel][to] = other.throughput[channel][from];
+        sample[to] = other.sample[from];
+        if (media[0] == nullptr) return;
+        for (int i = 0; i < core::Media::depth; ++i)
+            media[i][to] = other.media[i][from];
+    }
+
+    /// The ray alone, and what it leaves.
+    void copy_ray(const Paths& other, std::size_t from, std::size_t to) const {
         for (int axis = 0; axis < 3; ++axis) {
             origin[axis][to] = other.origin[axis][from];
             direction[axis][to] = other.direction[axis][from];
-            throughput[axis][to] = other.throughput[axis][from];
         }
-        sample[to] = other.sample[from];
         departed_first[to] = other.departed_first[from];
         departed_last[to] = other.departed_last[from];
         departed_slot[to] = other.departed_slot[from];
         departure[to] = other.departure[from];
-        if (media[0] == nullptr) return;
-        for (int i = 0; i < core::Media::depth; ++i)
-            media[i][to] = other.media[i][from];
     }
 };
 

@@ -9,6 +9,9 @@ namespace {
 /// With so many shapes or fewer, testing all of them costs less than the hierarchy.
 constexpr std::size_t few_shapes = 24;
 
+/// Up to so many slots, what is in them is looked up rather than found: it fits in the cache.
+constexpr std::uint32_t table_slots = 1U << 15;
+
 MaterialView view_of(const core::Material& material) {
     MaterialView view{};
     view.ambient = static_cast<double>(material.ambient);
@@ -88,6 +91,12 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
         slots += static_cast<std::uint32_t>(table.blocks().size()) * core::block_size;
         if (table.size() != 0) present |= 1U << kind;
     });
+    if (slots <= table_slots) {
+        std::vector<Occupant> occupants;
+        for (std::uint32_t slot = 0; slot < slots; ++slot)
+            occupants.push_back(find_occupant(slot));
+        occupants_ = std::move(occupants);
+    }
     const std::uint32_t planes = 1U << static_cast<int>(core::Kind::plane);
     const std::vector<core::WideNode>& nodes = scene.hierarchy().nodes;
     has_tree_ = scene.shape_count() > few_shapes && !nodes.empty();
@@ -118,24 +127,24 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
     view_.plain_lanes = plain_lanes_.data();
 }
 
-core::Kind SceneData::kind_of(std::uint32_t slot) const {
+SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
     int kind = kinds - 1;
     while (slot < view_.tables[kind].first_slot)
         --kind;
-    return static_cast<core::Kind>(kind);
+    const TableView& table = view_.tables[kind];
+    const std::uint32_t place = slot - table.first_slot;
+    const float* block =
+        table.blocks + std::size_t{table.block_floats} * (place / core::block_size);
+    const core::ShapeId id = reinterpret_cast<const core::ShapeId*>(
+        block + std::size_t{core::block_size} * table.values)[place % core::block_size];
+    if (id == core::no_shape) return {id, {id, id}, 0, static_cast<core::Kind>(kind)};
+    return {id, scene_.coplanar_with(id), scene_.material_index_of(id),
+            static_cast<core::Kind>(kind)};
 }
 
 core::Slot SceneData::place_of(std::uint32_t slot) const {
-    const std::uint32_t offset = slot - view_.tables[static_cast<int>(kind_of(slot))].first_slot;
-    return {offset / core::block_size, static_cast<std::uint8_t>(offset % core::block_size)};
-}
-
-core::ShapeId SceneData::id_of(std::uint32_t slot) const {
-    const TableView& table = view_.tables[static_cast<int>(kind_of(slot))];
-    const std::uint32_t offset = slot - table.first_slot;
-    const float* block = table.blocks + std::size_t{table.block_floats} * (offset / 16);
-    return reinterpret_cast<const core::ShapeId*>(block +
-                                                  std::size_t{16} * table.values)[offset % 16];
+    const std::uint32_t place = slot - view_.tables[static_cast<int>(kind_of(slot))].first_slot;
+    return {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)};
 }
 
 std::uint32_t SceneData::slot_of(core::Kind kind, core::Slot place) const {

@@ -30,14 +30,27 @@ class SceneData {
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }
 
-    core::Kind kind_of(std::uint32_t slot) const;
+    /// What is in a slot.
+    struct Occupant {
+        core::ShapeId id;
+        core::IdRange coplanar;
+        core::MaterialIndex material;
+        core::Kind kind;
+    };
+    Occupant occupant_of(std::uint32_t slot) const {
+        return occupants_.empty() ? find_occupant(slot) : occupants_[slot];
+    }
+    core::Kind kind_of(std::uint32_t slot) const { return occupant_of(slot).kind; }
+    core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
     core::Slot place_of(std::uint32_t slot) const;
-    core::ShapeId id_of(std::uint32_t slot) const;
     std::uint32_t slot_of(core::Kind kind, core::Slot place) const;
 
   private:
+    Occupant find_occupant(std::uint32_t slot) const;
+
     const core::Scene& scene_;
     SceneView view_{};
+    std::vector<Occupant> occupants_; // by slot, in scenes that are not large
     std::vector<std::uint16_t> plain_lanes_;
     std::vector<MaterialView> materials_;
     std::vector<LightView> lights_;

@@ -24,12 +24,26 @@ void take(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
 }
 
 /// Every second bit of a Morton code.
-int even_bits(unsigned code) {
+constexpr int even_bits(unsigned code) {
     int result = 0;
     for (int bit = 0; bit < 8; ++bit)
         result |= static_cast<int>(code >> 2 * bit & 1U) << bit;
     return result;
 }
+
+/// The pixels of a region in the order of their Morton codes: neighbours in the picture are
+/// neighbours in a packet.
+constexpr auto pixel_order = [] {
+    struct Pixel {
+        std::uint8_t x, y;
+    };
+    constexpr unsigned codes = Wavefront::max_region * Wavefront::max_region;
+    std::array<Pixel, codes> order{};
+    for (unsigned code = 0; code < codes; ++code)
+        order[code] = {static_cast<std::uint8_t>(even_bits(code)),
+                       static_cast<std::uint8_t>(even_bits(code >> 1))};
+    return order;
+}();
 
 CameraView view_of(const core::CameraRays<double>& rays) {
     CameraView view{};
@@ -130,10 +144,8 @@ void Wavefront::render(const core::Region& region, core::Film& film) {
         }
         samples_.clear();
     };
-    // Neighbours in the picture are neighbours in a packet.
-    constexpr unsigned codes = max_region * max_region;
-    for (unsigned code = 0; code < codes; ++code) {
-        const int x = region.x0 + even_bits(code), y = region.y0 + even_bits(code >> 1);
+    for (const auto& pixel : pixel_order) {
+        const int x = region.x0 + pixel.x, y = region.y0 + pixel.y;
         if (x >= region.x1 || y >= region.y1) continue;
         for (int number = 0; number < samples; ++number) {
             samples_.push_back({x, y, number});
@@ -163,10 +175,12 @@ void Wavefront::start(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         paths_.sample[i] = static_cast<std::uint32_t>(i);
         paths_.depart_from_nothing(i);
-        if (with_media_)
-            paths_.set_media(i, reference_.media_around({paths_.origin[0][i], paths_.origin[1][i],
-                                                         paths_.origin[2][i]}));
     }
+    if (with_media_)
+        for (std::size_t i = 0; i < count; ++i)
+            paths_.set_media(i, camera_.orthographic || i == 0
+                                    ? reference_.media_around(ray_of(paths_, i).origin)
+                                    : paths_.media_at(0));
     counters_.primary += count;
 }
 
@@ -218,11 +232,9 @@ void Wavefront::follow_contacts(int depth) {
 void Wavefront::sort_hits() {
     const auto materials = static_cast<std::uint32_t>(scene_.materials().size());
     const Hits& hits = finder_.hits();
-    const core::Scene& scene = scene_.scene();
     for (std::size_t lane = 0; lane < paths_.count; ++lane)
-        keys_[lane] = hits.slot[lane] == no_slot
-                          ? materials
-                          : scene.material_index_of(scene_.id_of(hits.slot[lane]));
+        keys_[lane] =
+            hits.slot[lane] == no_slot ? materials : scene_.occupant_of(hits.slot[lane]).material;
     const std::uint32_t taken = materials + 1;
     for (const std::uint32_t lane : finder_.contacts())
         keys_[lane] = taken;
@@ -349,14 +361,12 @@ void Wavefront::trace_shadows(const LightView& light) {
     counters_.shadow += count;
     for (std::size_t k = 0; k < count; ++k) {
         const std::uint32_t lane = order_[static_cast<std::size_t>(shadows_.parent[k])];
-        const std::uint32_t slot = hits.slot[lane];
-        const core::IdRange range = scene_.scene().coplanar_with(scene_.id_of(slot));
-        shadow_paths_.departed_first[k] = range.first;
-        shadow_paths_.departed_last[k] = range.last;
+        const SceneData::Occupant shape = scene_.occupant_of(hits.slot[lane]);
+        shadow_paths_.departed_first[k] = shape.coplanar.first;
+        shadow_paths_.departed_last[k] = shape.coplanar.last;
         const bool inward = (hits.hit[lane] & hit_entering) == 0;
         const bool in_medium = with_media_ && paths_.media[0][lane] != core::Media::none;
-        occlusions_.state[k] =
-            in_medium || may_return(scene_.kind_of(slot), inward) ? doubtful : open;
+        occlusions_.state[k] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
         shadow_t_most_[k] = static_cast<float>(shadows_.distance[k]);
     }
     shadow_rounded_.departed_first = shadow_paths_.departed_first;
@@ -463,7 +473,7 @@ bool Wavefront::step(std::size_t lane, double& distance) {
            reference_.let_through(hit, ray.direction, normal, media));
     for (int axis = 0; axis < 3; ++axis)
         walk_.origin[axis][lane] += t * ray.direction[axis];
-    const core::IdRange range = scene_.scene().coplanar_with(hit.shape);
+    const core::IdRange range = scene_.occupant_of(slot).coplanar;
     walk_.departed_first[lane] = range.first;
     walk_.departed_last[lane] = range.last;
     walk_.departed_slot[lane] = slot;
@@ -509,7 +519,7 @@ void Wavefront::add_to_next(const SpawnedRays& spawned, bool through) {
         const std::uint32_t lane = order_[static_cast<std::size_t>(spawned.parent[k])];
         const std::size_t to = next_.count++;
         const std::uint32_t slot = hits.slot[lane], hit = hits.hit[lane];
-        const core::IdRange range = scene_.scene().coplanar_with(scene_.id_of(slot));
+        const core::IdRange range = scene_.occupant_of(slot).coplanar;
         const bool entering = (hit & hit_entering) != 0;
         next_.sample[to] = paths_.sample[lane];
         next_.departed_first[to] = range.first;

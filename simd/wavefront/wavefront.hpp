@@ -27,7 +27,7 @@ class Wavefront {
 
   private:
     /// Samples in a chunk, and rays in a wave: so that all arrays fit in the second-level cache.
-    static constexpr std::size_t chunk_samples = 2048;
+    static constexpr std::size_t chunk_samples = 1024;
     static constexpr std::size_t wave_rays = chunk_samples;
     static constexpr std::size_t deferred_rays = 12 * 2 * wave_rays;
 
