@@ -55,30 +55,40 @@ class CameraRays {
         up_ = convert<Real>(up * per_half_pixel);
     }
 
-    /// Where a sample lies in the picture, from its middle to the right and upwards, in halves of a
+    /// Where a sample lies in its pixel, from its upper left corner, in [0, 1)^2.
+    struct InPixel {
+        Real column;
+        Real row;
+    };
+    /// Sample 0 <= sample < grid^2 of pixel (x, y); y counts from the top. The same for all pixels
+    /// if the samples are regular.
+    InPixel in_pixel(int x, int y, int sample) const {
+        const SamplePoint point =
+            sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                         static_cast<std::uint32_t>(sample));
+        return {(Real(sample % grid_) + Real(point.x)) / Real(grid_),
+                (Real(sample / grid_) + Real(point.y)) / Real(grid_)};
+    }
+
+    /// Where that is in the picture, from its middle to the right and upwards, in halves of a
     /// pixel.
     struct Place {
         Real across;
         Real upward;
     };
-
-    /// Sample 0 <= sample < grid^2 of pixel (x, y); y counts from the top.
-    Place place(int x, int y, int sample) const {
-        const SamplePoint point =
-            sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
-                         static_cast<std::uint32_t>(sample));
-        const Real column = Real(x) + (Real(sample % grid_) + Real(point.x)) / Real(grid_);
-        const Real row = Real(y) + (Real(sample / grid_) + Real(point.y)) / Real(grid_);
-        return {Real(2) * column - Real(width_), Real(height_) - Real(2) * row};
+    Place place(int x, int y, const InPixel& in_pixel) const {
+        return {Real(2) * (Real(x) + in_pixel.column) - Real(width_),
+                Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
     }
 
     Ray<Real> ray(int x, int y, int sample) const {
-        const Place at = place(x, y, sample);
+        const Place at = place(x, y, in_pixel(x, y, sample));
         const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
         if (orthographic_) return {from_ + offset, forward_};
         return {from_, normalized(Vec3<Real>(forward_ + offset))};
     }
 
+    bool regular() const { return pattern_ == SamplePattern::regular; }
     bool orthographic() const { return orthographic_; }
     const Vec3<Real>& from() const { return from_; }
     const Vec3<Real>& forward() const { return forward_; }

@@ -218,6 +218,7 @@ void HitFinder::start(const Paths& paths) {
 /// Where a ray starts on a shape that it may cross again, no filter can tell 0 from that crossing.
 /// It is solved before, and bounds what else can be nearest.
 void HitFinder::find_own_exits(const Paths& paths) {
+    if (paths.count == 0 || paths.departed_slot[0] == no_slot) return; // from the camera, all
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         const std::uint32_t slot = paths.departed_slot[lane];
@@ -243,15 +244,17 @@ void HitFinder::find_own_exits(const Paths& paths) {
     }
 }
 
-/// What remains in doubt: lanes_[0 ... ), and doubtful_.
+/// Lists the lanes that remain in doubt.
 void HitFinder::certify(const Paths& paths) {
+    lane_count_ = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
-        if (hits_.slot[lane] == no_slot) continue;
         const double last = hits_.t[lane] + hits_.error[lane];
         const double most = static_cast<double>(
             std::min(candidates_.second[lane], candidates_.first[lane] * culling_slack));
-        if ((hits_.hit[lane] & (hit_doubtful | hit_none)) != 0 || !(last <= most))
-            doubtful_[lane] = 1;
+        const bool solved = (hits_.hit[lane] & (hit_doubtful | hit_none)) == 0;
+        const bool certain = (hits_.slot[lane] == no_slot) | (solved & (last <= most));
+        lanes_[lane_count_] = static_cast<std::uint32_t>(lane);
+        lane_count_ += static_cast<std::size_t>(!certain | (doubtful_[lane] != 0));
     }
 }
 
@@ -259,8 +262,7 @@ void HitFinder::certify(const Paths& paths) {
 /// that they do not depend on what was in doubt.
 void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
     contact_count_ = 0;
-    for (std::size_t lane = 0; lane < paths.count; ++lane) {
-        if (doubtful_[lane] == 0) continue;
+    for (const std::uint32_t lane : std::span(lanes_, lane_count_)) {
         ++counters.doubtful;
         const core::Ray<double> ray = ray_of(paths, lane);
         const core::Encounter<double> encounter =

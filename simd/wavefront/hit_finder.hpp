@@ -68,6 +68,7 @@ class HitFinder {
     Paths gathered_{};
     Hits gathered_hits_{};
     std::uint32_t* lanes_ = nullptr;
+    std::size_t lane_count_ = 0;
 
     // Where surfaces are visible from one side only: what is behind the other side.
     std::unique_ptr<HitFinder> onward_;

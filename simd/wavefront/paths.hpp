@@ -50,11 +50,6 @@ struct Paths {
             media[i][lane] = values.at(i);
     }
 
-    void depart_from_nothing(std::size_t lane) const {
-        departed_first[lane] = departed_last[lane] = departed_slot[lane] = no_slot;
-        departure[lane] = 0;
-    }
-
     /// Lane `from` of `other` to lane `to`.
     void copy(const Paths& other, std::size_t from, std::size_t to) const {
         copy_ray(other, from, to);

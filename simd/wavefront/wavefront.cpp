@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace raylane::simd {
 
@@ -89,6 +90,9 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     samples_.reserve(chunk_samples);
     runs_.reserve(wave_rays);
     pending_.reserve(64);
+    if (camera_rays_.regular())
+        for (int number = 0; number < settings.grid * settings.grid; ++number)
+            cells_.push_back(camera_rays_.in_pixel(0, 0, number));
     sums_.reserve(static_cast<std::size_t>(max_region) * max_region);
 }
 
@@ -134,25 +138,34 @@ void Wavefront::render(const core::Region& region, core::Film& film) {
     const int samples = settings_.grid * settings_.grid;
     sums_.assign(static_cast<std::size_t>(width) * height, core::Vec3d(0.0));
 
+    std::size_t filled = 0;
     const auto flush = [&] {
-        start(samples_.size());
+        start(filled);
         trace();
-        for (std::size_t i = 0; i < samples_.size(); ++i) {
-            const Sample& sample = samples_[i];
-            sums_[static_cast<std::size_t>(sample.y - region.y0) * width + sample.x - region.x0] +=
-                core::Vec3d(radiance_[0][i], radiance_[1][i], radiance_[2][i]);
+        std::size_t i = 0;
+        for (const Samples& some : samples_) {
+            core::Vec3d& total =
+                sums_[static_cast<std::size_t>(some.y - region.y0) * width + some.x - region.x0];
+            core::Vec3d sum = total;
+            for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
+                sum += core::Vec3d(radiance_[0][i], radiance_[1][i], radiance_[2][i]);
+            total = sum;
         }
         samples_.clear();
+        filled = 0;
     };
     for (const auto& pixel : pixel_order) {
         const int x = region.x0 + pixel.x, y = region.y0 + pixel.y;
         if (x >= region.x1 || y >= region.y1) continue;
-        for (int number = 0; number < samples; ++number) {
-            samples_.push_back({x, y, number});
-            if (samples_.size() == chunk_samples) flush();
+        for (int first = 0; first < samples;) {
+            const int count = std::min(samples - first, static_cast<int>(chunk_samples - filled));
+            samples_.push_back({x, y, first, count});
+            filled += static_cast<std::size_t>(count);
+            first += count;
+            if (filled == chunk_samples) flush();
         }
     }
-    if (!samples_.empty()) flush();
+    if (filled != 0) flush();
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             film.at(region.x0 + x, region.y0 + y) = core::convert<float>(
@@ -160,27 +173,35 @@ void Wavefront::render(const core::Region& region, core::Film& film) {
 }
 
 void Wavefront::start(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const Sample& sample = samples_[i];
-        const auto place = camera_rays_.place(sample.x, sample.y, sample.number);
-        across_[i] = place.across;
-        upward_[i] = place.upward;
-    }
+    std::size_t filled = 0;
+    for (const Samples& some : samples_)
+        for (int number = some.first; number < some.first + some.count; ++number) {
+            const auto place = camera_rays_.place(
+                some.x, some.y,
+                camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]
+                                       : camera_rays_.in_pixel(some.x, some.y, number));
+            across_[filled] = place.across;
+            upward_[filled++] = place.upward;
+        }
     for (double* channel : radiance_)
         std::fill_n(channel, count, 0.0);
     paths_.count = count;
     kernels_.trace.camera_rays(camera_, count, across_, upward_, paths_.origin, paths_.direction);
     for (double* channel : paths_.throughput)
         std::fill_n(channel, count, 1.0);
-    for (std::size_t i = 0; i < count; ++i) {
-        paths_.sample[i] = static_cast<std::uint32_t>(i);
-        paths_.depart_from_nothing(i);
-    }
-    if (with_media_)
+    std::iota(paths_.sample, paths_.sample + count, 0U);
+    for (std::uint32_t* column :
+         {paths_.departed_first, paths_.departed_last, paths_.departed_slot})
+        std::fill_n(column, count, no_slot);
+    std::fill_n(paths_.departure, count, 0U);
+    if (with_media_ && camera_.orthographic)
         for (std::size_t i = 0; i < count; ++i)
-            paths_.set_media(i, camera_.orthographic || i == 0
-                                    ? reference_.media_around(ray_of(paths_, i).origin)
-                                    : paths_.media_at(0));
+            paths_.set_media(i, reference_.media_around(ray_of(paths_, i).origin));
+    else if (with_media_) {
+        const core::Media& media = reference_.media_around(ray_of(paths_, 0).origin);
+        for (int k = 0; k < core::Media::depth; ++k)
+            std::fill_n(paths_.media[k], count, media.at(k));
+    }
     counters_.primary += count;
 }
 

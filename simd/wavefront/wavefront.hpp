@@ -31,8 +31,9 @@ class Wavefront {
     static constexpr std::size_t wave_rays = chunk_samples;
     static constexpr std::size_t deferred_rays = 12 * 2 * wave_rays;
 
-    struct Sample {
-        int x, y, number;
+    /// Consecutive samples of a pixel.
+    struct Samples {
+        int x, y, first, count;
     };
     struct Deferred {
         std::size_t begin;
@@ -76,7 +77,8 @@ class Wavefront {
     Paths paths_{}, next_{}, deferred_{};
     std::vector<Deferred> pending_;
 
-    std::vector<Sample> samples_;
+    std::vector<Samples> samples_;                         // of the chunk
+    std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if they are regular
     double* across_ = nullptr;
     double* upward_ = nullptr;
     double* radiance_[3] = {};      // by sample
