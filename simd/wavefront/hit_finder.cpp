@@ -39,10 +39,9 @@ Found found_in(const Paths& paths, const Hits& hits, std::size_t count) {
     return found;
 }
 
-/// A float that is not above.
+/// A float that is not above a value >= 0, nor far below it.
 float rounded_down(double value) {
-    const auto nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, -infinity);
+    return static_cast<float>(value) * (1.0F - 0x1p-22F);
 }
 
 } // namespace

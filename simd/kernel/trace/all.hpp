@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/trace/rays.hpp"
+#include "simd/kernel/trace/spheres_around.hpp"
 
 namespace raylane::simd {
 
@@ -12,20 +13,76 @@ struct TraceAll : Streams<Arch> {
     using typename S::F;
     using typename S::M;
 
-    /// Calls visit(filter, id, slot) for each shape of the kinds.
+    /// Spheres around the shapes whose filters cost most, so that packets which pass them by need
+    /// not be tested further. By block, in the order of the kinds; what has no room has no sphere.
+    struct Spheres {
+        static constexpr int most_blocks = 12;
+        float values[most_blocks][4][16];
+        int blocks = 0;
+
+        Spheres(const SceneView& scene, std::uint32_t kind_bits) {
+            for (kind_bits &= costly_kinds; kind_bits != 0; kind_bits &= kind_bits - 1) {
+                const int kind = __builtin_ctz(kind_bits);
+                const TableView& table = scene.tables[kind];
+                for (std::uint32_t b = 0; b < table.block_count && blocks < most_blocks; ++b)
+                    add(kind, S::rows_of(S::block_of(table, b)));
+            }
+        }
+
+        void add(int kind, typename S::Rows rows) {
+            for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+                const SphereAround<Arch> sphere =
+                    sphere_around<Arch>(kind, BlockReader<Arch>(rows, from));
+                sphere.center.x.store_unaligned(values[blocks][0] + from);
+                sphere.center.y.store_unaligned(values[blocks][1] + from);
+                sphere.center.z.store_unaligned(values[blocks][2] + from);
+                sphere.radius.store_unaligned(values[blocks][3] + from);
+            }
+            ++blocks;
+        }
+
+        /// Whether a ray may meet the sphere before t_most. The roundings are some 20 u of the
+        /// distance, squared or not; `grace` is 32 u.
+        bool may_meet(int block, int lane, const FilterRays<Arch>& rays, const F& t_most) const {
+            if (block >= blocks) return true;
+            const F grace(32 * half_ulp), o = zero<Arch>();
+            const float(&v)[4][16] = values[block];
+            const Vectors<Arch> to_center =
+                Vectors<Arch>{F(v[0][lane]), F(v[1][lane]), F(v[2][lane])} - rays.origin;
+            const F tau = fast_dot(to_center, rays.direction);
+            const F squared = fast_dot(to_center, to_center);
+            const F radius = fast_mul_add<Arch>(
+                grace, xsimd::abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, F(v[3][lane])));
+            const M meets = (squared - tau * tau - grace * squared <= radius * radius) &
+                            (tau + radius >= o) & (tau - radius <= t_most * F(culling_slack));
+            return Lanes<Arch>::bits(meets) != 0;
+        }
+
+        /// Boxes, cylinders, cones and quadrics.
+        static constexpr std::uint32_t costly_kinds = 0x7E0;
+    };
+
+    /// Calls visit(filter, id, slot) for each shape of the kinds that some of the rays may meet.
+    /// `t_most` may change underway.
     template <class Visit>
     static void for_each_shape(const SceneView& scene, std::uint32_t kind_bits,
-                               const Visit& visit) {
+                               const Spheres& spheres, const FilterRays<Arch>& rays,
+                               const F& t_most, const Visit& visit) {
+        int sphere_block = 0;
         for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
             const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
             const TableView& table = scene.tables[kind];
+            const bool costly = (Spheres::costly_kinds >> kind & 1) != 0;
             with_filter<Arch>(kind, [&]<class Filter>() {
                 for (std::uint32_t b = 0; b < table.block_count; ++b) {
                     const float* block = S::block_of(table, b);
                     const std::uint32_t* ids = S::ids_of(table, block);
-                    for (int lane = 0; lane < 16 && ids[lane] != no_slot; ++lane)
+                    for (int lane = 0; lane < 16 && ids[lane] != no_slot; ++lane) {
+                        if (costly && !spheres.may_meet(sphere_block, lane, rays, t_most)) continue;
                         visit(Filter(BroadcastReader<Arch>(S::rows_of(block), lane)), ids[lane],
                               table.first_slot + 16 * b + static_cast<std::uint32_t>(lane));
+                    }
+                    if (costly) ++sphere_block;
                 }
             });
         }
@@ -34,6 +91,7 @@ struct TraceAll : Streams<Arch> {
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
                         const RoundedRays& stream, const Candidates& candidates,
                         TraceCounters& counters) {
+        const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
             const FilterRays<Arch> rays = S::packet(stream, i);
@@ -41,7 +99,7 @@ struct TraceAll : Streams<Arch> {
             const F departed_last = S::load_bits(stream.departed_last + i);
             F first = S::load(candidates.first + i), second = S::load(candidates.second + i);
             F slot = S::load_bits(candidates.slot + i);
-            for_each_shape(scene, kind_bits,
+            for_each_shape(scene, kind_bits, spheres, rays, first,
                            [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
                                const Bounds<Arch> bounds = filter.bounds(rays);
                                const M counts =
@@ -65,6 +123,7 @@ struct TraceAll : Streams<Arch> {
     static void occluded(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
                          const RoundedRays& stream, const Occlusions& occlusions,
                          TraceCounters& counters) {
+        const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
             const FilterRays<Arch> rays = S::packet(stream, i);
@@ -74,7 +133,7 @@ struct TraceAll : Streams<Arch> {
             const F surely_before = t_most * F(1 - 4 * half_ulp);
             const F perhaps_before = t_most * F(1 + 4 * half_ulp);
             std::uint32_t some = 0, sure = 0;
-            for_each_shape(scene, kind_bits,
+            for_each_shape(scene, kind_bits, spheres, rays, t_most,
                            [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
                                const Bounds<Arch> bounds = filter.bounds(rays);
                                const M elsewhere = ~Lanes<Arch>::in_range(
