@@ -2,13 +2,13 @@
 
 #include "core/reference/search.hpp"
 #include "simd/threads.hpp"
+#include "simd/wavefront/hit_finder.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace raylane::simd {
@@ -18,22 +18,6 @@ namespace {
 using core::Hit;
 using core::Vec3d;
 using Searcher = core::Searcher<double>;
-
-/// Rays to a task. Fewer are not worth a second thread.
-constexpr std::size_t chunk_size = 512;
-
-/// Calls visit(first, last) for ranges that together are all rays.
-void for_each_chunk(std::size_t count, int threads,
-                    const std::function<void(std::size_t, std::size_t)>& visit) {
-    if (count <= chunk_size || threads == 1) {
-        if (count > 0) visit(0, count);
-        return;
-    }
-    on_threads(threads, [&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, chunk_size),
-                          [&](const auto& range) { visit(range.begin(), range.end()); });
-    });
-}
 
 bool is_finite(const Vec3d& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -59,15 +43,19 @@ class Query {
     }
 
     bool is_ray() const { return is_ray_; }
+    float t_min() const { return t_min_; }
+    float t_max() const { return t_max_; }
+    /// What the direction was multiplied by.
+    double scale() const { return scale_; }
     const core::Ray<double>& ray() const { return ray_; }
     /// No crossing counts from here on.
     double t_most() const { return t_most_; }
 
     /// A crossing's t for the caller.
-    float t_of(const Hit<double>& hit) const {
+    float t_of(const Hit<double>& hit) const { return rounded(hit.t * scale_); }
+    static float rounded(double t) {
         constexpr auto least = static_cast<double>(std::numeric_limits<float>::denorm_min());
-        return static_cast<float>(
-            std::clamp(hit.t * scale_, least, static_cast<double>(largest_t)));
+        return static_cast<float>(std::clamp(t, least, static_cast<double>(largest_t)));
     }
     bool contains(const Hit<double>& hit) const {
         const float t = t_of(hit);
@@ -103,6 +91,10 @@ void store(const HitStream& hits, std::size_t i, float t, const Vec3d& normal,
     if (hits.shape != nullptr) hits.shape[i] = shape;
 }
 
+void store_none(const HitStream& hits, std::size_t i) {
+    store(hits, i, std::numeric_limits<float>::infinity(), Vec3d(0.0), core::no_shape);
+}
+
 void find_nearest(const core::Scene& scene, Searcher& searcher, const Query& query,
                   const HitStream& hits, std::size_t i) {
     Hit<double> hit;
@@ -116,7 +108,7 @@ void find_nearest(const core::Scene& scene, Searcher& searcher, const Query& que
                       query.t_most())
                   .hit;
     if (!hit.any()) {
-        store(hits, i, std::numeric_limits<float>::infinity(), Vec3d(0.0), core::no_shape);
+        store_none(hits, i);
         return;
     }
     const Vec3d point = core::mul_add(hit.t, query.ray().direction, query.ray().origin);
@@ -133,21 +125,212 @@ bool is_occluded(const core::Scene& scene, Searcher& searcher, const Query& quer
     return found;
 }
 
+core::Vec3d vector_at(double* const (&columns)[3], std::size_t lane) {
+    return {columns[0][lane], columns[1][lane], columns[2][lane]};
+}
+
 } // namespace
 
-void StreamTracer::nearest(const RayStream& rays, const HitStream& hits) const {
-    for_each_chunk(rays.count, threads_, [&](std::size_t first, std::size_t last) {
-        Searcher searcher(scene_, core::Search::hierarchy);
+/// Answers up to `capacity` rays at a time, for one thread.
+class StreamTracer::Worker {
+  public:
+    static constexpr std::size_t capacity = 1024;
+
+    Worker(const core::Scene& scene, const SceneData* data, const Kernels* kernels)
+        : scene_(scene), data_(data), kernels_(kernels), searcher_(scene, core::Search::hierarchy) {
+        if (data == nullptr) return;
+        finder_.emplace(*data, *kernels, nullptr);
+        Arena measure;
+        take_from(measure);
+        arena_ = Arena(measure.used());
+        take_from(arena_);
+    }
+
+    void nearest(const RayStream& rays, std::size_t first, std::size_t last,
+                 const HitStream& hits) {
+        if (!finder_) {
+            for (std::size_t i = first; i < last; ++i)
+                find_nearest(scene_, searcher_, Query(rays, i), hits, i);
+            return;
+        }
         for (std::size_t i = first; i < last; ++i)
-            find_nearest(scene_, searcher, Query(rays, i), hits, i);
+            store_none(hits, i);
+        start(rays, first, last);
+        core::Counters counters;
+        finder_->find(paths_, nullptr, counters);
+        const Hits& found = finder_->hits();
+        for (const std::uint32_t lane : finder_->left_open())
+            is_open_[lane] = 1;
+        for (std::size_t lane = 0; lane < paths_.count; ++lane) {
+            const std::size_t i = first + paths_.sample[lane];
+            const Query query(rays, i);
+            const std::uint32_t slot = found.slot[lane];
+            if (is_open_[lane] != 0) {
+                find_nearest(scene_, searcher_, query, hits, i);
+            } else if (slot != no_slot) {
+                const float t = Query::rounded(found.t[lane] * per_unit_[lane]);
+                if (t <= query.t_min())
+                    find_nearest(scene_, searcher_, query, hits, i);
+                else if (t <= query.t_max())
+                    store(hits, i, t, vector_at(found.normal, lane), data_->id_of(slot));
+            }
+        }
+    }
+
+    void occluded(const RayStream& rays, std::size_t first, std::size_t last,
+                  std::uint8_t* occluded) {
+        for (std::size_t i = first; i < last; ++i)
+            occluded[i] = 0;
+        if (!finder_) {
+            for (std::size_t i = first; i < last; ++i)
+                occluded[i] = is_occluded(scene_, searcher_, Query(rays, i)) ? 1 : 0;
+            return;
+        }
+        start(rays, first, last);
+        const std::size_t count = paths_.count;
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const Query query(rays, first + paths_.sample[lane]);
+            t_most_[lane] =
+                static_cast<float>(static_cast<double>(query.t_max()) / per_unit_[lane]);
+            // A limit from below is no matter for bounds.
+            state_[lane] = query.t_min() > 0.0F ? doubtful : open;
+        }
+        rounded_.departed_first = paths_.departed_first;
+        rounded_.departed_last = paths_.departed_last;
+        const TraceKernels& trace = kernels_->trace;
+        trace.round_rays(count, paths_.origin, paths_.direction, rounded_);
+        const Occlusions occlusions{t_most_, state_};
+        TraceCounters counters{};
+        if (data_->listed_kinds() != 0)
+            trace.occluded_by_all(data_->view(), data_->listed_kinds(), count, rounded_, occlusions,
+                                  counters);
+        if (data_->has_tree())
+            trace.occluded_in_tree(data_->view(), count, rounded_, occlusions, pending_, counters);
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            const std::size_t i = first + paths_.sample[lane];
+            const Query query(rays, i);
+            // What bounds call blocked says nothing of a limit from below; and what light may pass
+            // blocks a ray here.
+            occluded[i] = state_[lane] == blocked && query.t_min() <= 0.0F ? 1
+                          : state_[lane] == open                           ? 0
+                                                 : (is_occluded(scene_, searcher_, query) ? 1 : 0);
+        }
+    }
+
+  private:
+    void take_from(Arena& arena) {
+        finder_->take_from(arena, capacity);
+        paths_.take_from(arena, capacity, false);
+        per_unit_ = arena.take<double>(capacity);
+        is_open_ = arena.take<std::uint8_t>(capacity);
+        arena.take(rounded_.origin, capacity);
+        arena.take(rounded_.direction, capacity);
+        rounded_.slack = arena.take<float>(capacity);
+        t_most_ = arena.take<float>(capacity);
+        state_ = arena.take<std::uint8_t>(capacity);
+        pending_ = pending_for(*data_, arena);
+    }
+
+    /// The rays that are any, with unit directions.
+    void start(const RayStream& rays, std::size_t first, std::size_t last) {
+        paths_.count = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            const Query query(rays, i);
+            if (!query.is_ray()) continue;
+            const std::size_t lane = paths_.count++;
+            const double length = core::length(query.ray().direction);
+            for (int axis = 0; axis < 3; ++axis) {
+                paths_.origin[axis][lane] = query.ray().origin[axis];
+                paths_.direction[axis][lane] = query.ray().direction[axis] / length;
+            }
+            per_unit_[lane] = query.scale() / length;
+            paths_.sample[lane] = static_cast<std::uint32_t>(i - first);
+            paths_.departed_first[lane] = paths_.departed_last[lane] = core::no_shape;
+            paths_.departed_slot[lane] = no_slot;
+            paths_.departure[lane] = 0;
+            is_open_[lane] = 0;
+        }
+    }
+
+    const core::Scene& scene_;
+    const SceneData* data_;
+    const Kernels* kernels_;
+    Searcher searcher_;
+    std::optional<HitFinder> finder_;
+    Arena arena_;
+    Paths paths_{};              // sample: the ray's number in the stream
+    double* per_unit_ = nullptr; // of the caller's t, per unit of length
+    std::uint8_t* is_open_ = nullptr;
+    RoundedRays rounded_{};
+    float* t_most_ = nullptr;
+    std::uint8_t* state_ = nullptr;
+    Pending pending_{};
+};
+
+/// A worker as long as it is used.
+class StreamTracer::Lease {
+  public:
+    explicit Lease(const StreamTracer& tracer) : tracer_(tracer) {
+        {
+            const std::lock_guard lock(tracer.mutex_);
+            if (!tracer.idle_.empty()) {
+                worker_ = std::move(tracer.idle_.back());
+                tracer.idle_.pop_back();
+            }
+        }
+        if (worker_ == nullptr)
+            worker_ = std::make_unique<Worker>(tracer.scene_, tracer.data_.get(), tracer.kernels_);
+    }
+    ~Lease() {
+        const std::lock_guard lock(tracer_.mutex_);
+        tracer_.idle_.push_back(std::move(worker_));
+    }
+    Lease(const Lease&) = delete;
+    Lease& operator=(const Lease&) = delete;
+
+    Worker& operator*() const { return *worker_; }
+
+  private:
+    const StreamTracer& tracer_;
+    std::unique_ptr<Worker> worker_;
+};
+
+StreamTracer::StreamTracer(const core::Scene& scene, int threads, std::optional<Isa> isa)
+    : scene_(scene), threads_(threads) {
+    if (!isa) return;
+    data_ = std::make_unique<const SceneData>(scene);
+    kernels_ = &kernels_of(*isa);
+}
+
+StreamTracer::~StreamTracer() = default;
+
+/// Calls answer(worker, first, last) for ranges that together are all rays.
+template <class Answer>
+void StreamTracer::answer(std::size_t count, const Answer& answer) const {
+    const auto answer_range = [&](std::size_t first, std::size_t last) {
+        const Lease worker(*this);
+        for (; first < last; first += Worker::capacity)
+            answer(*worker, first, std::min(last, first + Worker::capacity));
+    };
+    if (count <= Worker::capacity || threads_ == 1) {
+        if (count > 0) answer_range(0, count);
+        return;
+    }
+    on_threads(threads_, [&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, Worker::capacity),
+                          [&](const auto& range) { answer_range(range.begin(), range.end()); });
+    });
+}
+
+void StreamTracer::nearest(const RayStream& rays, const HitStream& hits) const {
+    answer(rays.count, [&](Worker& worker, std::size_t first, std::size_t last) {
+        worker.nearest(rays, first, last, hits);
     });
 }
 
 void StreamTracer::occluded(const RayStream& rays, std::uint8_t* occluded) const {
-    for_each_chunk(rays.count, threads_, [&](std::size_t first, std::size_t last) {
-        Searcher searcher(scene_, core::Search::hierarchy);
-        for (std::size_t i = first; i < last; ++i)
-            occluded[i] = is_occluded(scene_, searcher, Query(rays, i)) ? 1 : 0;
+    answer(rays.count, [&](Worker& worker, std::size_t first, std::size_t last) {
+        worker.occluded(rays, first, last, occluded);
     });
 }
 

@@ -1,11 +1,18 @@
 #pragma once
 
 #include "core/scene.hpp"
+#include "simd/isa.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
 
 namespace raylane::simd {
+
+class SceneData;
 
 /// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
 /// Component a of ray i is origin[a][i]. Directions may have any length but zero.
@@ -32,9 +39,10 @@ struct HitStream {
 /// that is not finite, a direction of 0 or a limit that is NaN hits nothing.
 class StreamTracer {
   public:
-    /// `threads`: 0 is default_threads().
-    explicit StreamTracer(const core::Scene& scene, int threads = 0)
-        : scene_(scene), threads_(threads) {}
+    /// `threads`: 0 is default_threads(). `isa`: an available one; default: the best.
+    explicit StreamTracer(const core::Scene& scene, int threads = 0,
+                          std::optional<Isa> isa = best_isa());
+    ~StreamTracer();
 
     /// The nearest crossing. Of several that no arithmetic in double can tell apart, one that is
     /// entered comes before one that is left, then the lower id.
@@ -44,8 +52,20 @@ class StreamTracer {
     void occluded(const RayStream& rays, std::uint8_t* occluded) const;
 
   private:
+    class Worker;
+    class Lease;
+
+    template <class Answer>
+    void answer(std::size_t count, const Answer& answer) const;
+
     const core::Scene& scene_;
     int threads_;
+    std::unique_ptr<const SceneData> data_; ///< null where the processor has no vectors for us
+    const Kernels* kernels_ = nullptr;
+
+    // Workers that nobody uses now: their memory is made once.
+    mutable std::mutex mutex_;
+    mutable std::vector<std::unique_ptr<Worker>> idle_;
 };
 
 } // namespace raylane::simd

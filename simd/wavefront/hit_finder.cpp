@@ -91,7 +91,7 @@ core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
 }
 
 HitFinder::HitFinder(const SceneData& scene, const Kernels& kernels,
-                     core::ReferenceTracer<double>& reference, int level)
+                     core::ReferenceTracer<double>* reference, int level)
     : scene_(scene), kernels_(kernels), reference_(reference) {
     if (scene.one_sided() && level == 0)
         onward_ = std::make_unique<HitFinder>(scene, kernels, reference, 1);
@@ -106,7 +106,7 @@ void HitFinder::take_from(Arena& arena, std::size_t capacity) {
     pending_ = pending_for(scene_, arena);
     take_hits(arena, hits_, capacity, scene_.smooth());
     doubtful_ = arena.take<std::uint8_t>(capacity);
-    contacts_ = arena.take<std::uint32_t>(capacity);
+    open_ = arena.take<std::uint32_t>(capacity);
     gathered_.take_from(arena, capacity, false);
     take_hits(arena, gathered_hits_, capacity, scene_.smooth());
     lanes_ = arena.take<std::uint32_t>(capacity);
@@ -144,7 +144,7 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
 
 /// Rays pass a surface that cannot be seen from where they come as if it were not there.
 void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Counters& counters) {
-    for (const std::uint32_t lane : contacts())
+    for (const std::uint32_t lane : left_open())
         hits_.slot[lane] = no_slot; // the reference goes on
     onward_paths_.count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
@@ -160,8 +160,8 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
     while (onward_paths_.count != 0) {
         onward_->find(onward_paths_, bundle, counters);
         const Hits& found = onward_->hits();
-        for (const std::uint32_t i : onward_->contacts()) {
-            contacts_[contact_count_++] = onward_paths_.sample[i];
+        for (const std::uint32_t i : onward_->left_open()) {
+            open_[open_count_++] = onward_paths_.sample[i];
             onward_paths_.sample[i] = no_slot;
         }
         std::size_t kept = 0;
@@ -260,18 +260,23 @@ void HitFinder::certify(const Paths& paths) {
 /// The reference says which shape it is. The numbers are then those that the kernel has for it, so
 /// that they do not depend on what was in doubt.
 void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
-    contact_count_ = 0;
+    open_count_ = 0;
+    counters.doubtful += lane_count_;
+    if (reference_ == nullptr) {
+        std::copy_n(lanes_, lane_count_, open_);
+        open_count_ = lane_count_;
+        return;
+    }
     for (const std::uint32_t lane : std::span(lanes_, lane_count_)) {
-        ++counters.doubtful;
         const core::Ray<double> ray = ray_of(paths, lane);
         const core::Encounter<double> encounter =
-            reference_.nearest(ray, departure_of(scene_, paths, lane));
+            reference_->nearest(ray, departure_of(scene_, paths, lane));
         if (!encounter.hit.any()) {
             hits_.slot[lane] = no_slot;
             continue;
         }
         if (encounter.contacts.end() - encounter.contacts.begin() > 1) {
-            contacts_[contact_count_++] = static_cast<std::uint32_t>(lane);
+            open_[open_count_++] = static_cast<std::uint32_t>(lane);
             continue;
         }
         const core::Hit<double>& hit = encounter.hit;
@@ -289,7 +294,7 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
         hits_.hit[lane] = bits;
         hits_.t[lane] = hit.t;
         const core::Vec3d point = core::mul_add(hit.t, ray.direction, ray.origin);
-        const core::Vec3d normal = reference_.searcher().outward_normal_at(hit, point);
+        const core::Vec3d normal = reference_->searcher().outward_normal_at(hit, point);
         core::Vec3d shading = normal;
         if (hit.kind == core::Kind::smooth_triangle)
             shading = core::shading_normal(

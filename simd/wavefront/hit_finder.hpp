@@ -22,14 +22,14 @@ struct Hits {
 
 /// Finds the first surfaces that rays hit, as core::ReferenceTracer<double> would. In float, shapes
 /// are bounded; in double, the one that may be nearest is solved; where that is not certain, the
-/// reference is asked.
+/// reference is asked, or, if there is none, the ray left open.
 class HitFinder {
   public:
     HitFinder(const SceneData& scene, const Kernels& kernels,
-              core::ReferenceTracer<double>& reference)
+              core::ReferenceTracer<double>* reference)
         : HitFinder(scene, kernels, reference, 0) {}
     HitFinder(const SceneData& scene, const Kernels& kernels,
-              core::ReferenceTracer<double>& reference, int level);
+              core::ReferenceTracer<double>* reference, int level);
 
     /// Arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
@@ -39,8 +39,9 @@ class HitFinder {
     void find(const Paths& paths, const Bundle* bundle, core::Counters& counters);
 
     const Hits& hits() const { return hits_; }
-    /// Lanes that meet several surfaces at one point, which only the reference can follow.
-    std::span<const std::uint32_t> contacts() const { return {contacts_, contact_count_}; }
+    /// Lanes that are left open: those which meet several surfaces at one point, where only the
+    /// reference can go on.
+    std::span<const std::uint32_t> left_open() const { return {open_, open_count_}; }
 
   private:
     void start(const Paths& paths);
@@ -54,15 +55,15 @@ class HitFinder {
 
     const SceneData& scene_;
     const Kernels& kernels_;
-    core::ReferenceTracer<double>& reference_;
+    core::ReferenceTracer<double>* reference_;
 
     RoundedRays rounded_{};
     Candidates candidates_{};
     Pending pending_{};
     Hits hits_{};
     std::uint8_t* doubtful_ = nullptr;
-    std::uint32_t* contacts_ = nullptr;
-    std::size_t contact_count_ = 0;
+    std::uint32_t* open_ = nullptr;
+    std::size_t open_count_ = 0;
 
     // Some of the rays, put together.
     Paths gathered_{};

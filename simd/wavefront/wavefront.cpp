@@ -81,8 +81,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     : scene_(scene), settings_(settings), kernels_(kernels),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
-      reference_(scene.scene(), settings), finder_(scene, kernels, reference_),
-      walker_(scene, kernels, reference_) {
+      reference_(scene.scene(), settings), finder_(scene, kernels, &reference_),
+      walker_(scene, kernels, &reference_) {
     Arena measure;
     take_from(measure);
     arena_ = Arena(measure.used());
@@ -237,7 +237,7 @@ void Wavefront::trace_wave(int depth) {
 
 /// Where several surfaces meet, the reference goes on.
 void Wavefront::follow_contacts(int depth) {
-    for (const std::uint32_t lane : finder_.contacts()) {
+    for (const std::uint32_t lane : finder_.left_open()) {
         ++counters_.contacts;
         const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                      paths_.throughput[2][lane]);
@@ -257,7 +257,7 @@ void Wavefront::sort_hits() {
         keys_[lane] =
             hits.slot[lane] == no_slot ? materials : scene_.occupant_of(hits.slot[lane]).material;
     const std::uint32_t taken = materials + 1;
-    for (const std::uint32_t lane : finder_.contacts())
+    for (const std::uint32_t lane : finder_.left_open())
         keys_[lane] = taken;
 
     for (std::size_t i = 0; i < paths_.count; ++i)
@@ -444,7 +444,7 @@ void Wavefront::start_walk(std::size_t shadow) {
 void Wavefront::walk_shadows(const Bundle& bundle) {
     while (walk_.count != 0) {
         walker_.find(walk_, &bundle, counters_);
-        for (const std::uint32_t lane : walker_.contacts()) {
+        for (const std::uint32_t lane : walker_.left_open()) {
             ++counters_.contacts;
             const core::Vec3d share =
                 reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
