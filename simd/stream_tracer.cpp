@@ -190,10 +190,11 @@ class StreamTracer::Worker {
         const std::size_t count = paths_.count;
         for (std::size_t lane = 0; lane < count; ++lane) {
             const Query query(rays, first + paths_.sample[lane]);
-            t_most_[lane] =
-                static_cast<float>(static_cast<double>(query.t_max()) / per_unit_[lane]);
-            // A limit from below is no matter for bounds.
-            state_[lane] = query.t_min() > 0.0F ? doubtful : open;
+            t_most_[lane] = static_cast<float>(query.t_most() * query.scale() / per_unit_[lane]);
+            // A limit from below is no matter for bounds, nor is a t that is none until rounded.
+            const bool simple = query.t_min() <= 0.0F &&
+                                query.t_max() >= std::numeric_limits<float>::min() * 0x1p24F;
+            state_[lane] = simple ? open : doubtful;
         }
         rounded_.departed_first = paths_.departed_first;
         rounded_.departed_last = paths_.departed_last;
