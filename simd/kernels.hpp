@@ -95,7 +95,10 @@ struct Kernels {
     void (*finish)(const SceneView& scene, const Found& found);
 
     TraceKernels trace;
-    ShadeKernels shade;
+    /// shade[media][fog]: for scenes without and with transmissive materials, and fog. Four, as
+    /// both are asked of every lane; what concerns one material, or all lanes alike, is asked per
+    /// run or wave and costs nothing where it is absent.
+    ShadeKernels shade[2][2];
 };
 
 const Kernels& kernels_sse42();

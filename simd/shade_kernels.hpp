@@ -84,7 +84,8 @@ struct SpawnedRays {
 };
 
 struct ShadeKernels {
-    /// Surfaces begin to end from the lanes with these numbers. `media` may be null.
+    /// Surfaces begin to end from the lanes with these numbers. `media`: null where the kernels are
+    /// for scenes without.
     void (*surfaces)(const Run& run, const std::uint32_t* lanes, const HitPaths& paths,
                      const FogView& fog, const MediumColumns* media, const Surfaces& surfaces);
 
@@ -93,7 +94,7 @@ struct ShadeKernels {
                   SpawnedRays& shadows);
 
     /// Reflected rays, and transmitted ones where the material transmits. What weighs less than
-    /// `min_weight` is dropped. `media` may be null.
+    /// `min_weight` is dropped. `media` as above.
     void (*spawn)(const Run& run, double min_weight, const MediumColumns* media,
                   const Surfaces& surfaces, SpawnedRays& reflected, SpawnedRays& transmitted);
 };

@@ -220,7 +220,10 @@ struct KernelsOf {
                 outward_normals,
                 finish<Arch>,
                 Prepare<Arch>::table(),
-                Shading<Double<Arch>>::table()};
+                {{Shading<Double<Arch>, false, false>::table(),
+                  Shading<Double<Arch>, false, true>::table()},
+                 {Shading<Double<Arch>, true, false>::table(),
+                  Shading<Double<Arch>, true, true>::table()}}};
     }
 };
 

@@ -81,6 +81,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     : scene_(scene), settings_(settings), kernels_(kernels),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
+      shade_(kernels.shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
       reference_(scene.scene(), settings), finder_(scene, kernels, &reference_),
       walker_(scene, kernels, &reference_) {
     Arena measure;
@@ -357,8 +358,8 @@ void Wavefront::shade(int depth) {
     hit_paths.t = hits.t;
     hit_paths.hit = hits.hit;
     for (const Run& run : runs_)
-        kernels_.shade.surfaces(run, order_, hit_paths, scene_.fog(),
-                                with_media_ ? &media_ : nullptr, surfaces_);
+        shade_.surfaces(run, order_, hit_paths, scene_.fog(), with_media_ ? &media_ : nullptr,
+                        surfaces_);
     for (std::size_t i = 0; i < hit_count_; ++i)
         add(paths_.sample[order_[i]], surfaces_.radiance[0][i], surfaces_.radiance[1][i],
             surfaces_.radiance[2][i]);
@@ -371,7 +372,7 @@ void Wavefront::add_lights() {
         shadows_.count = 0;
         for (const Run& run : runs_)
             if (run.material->diffuse > 0.0 || run.material->specular > 0.0)
-                kernels_.shade.light(run, light, surfaces_, shadows_);
+                shade_.light(run, light, surfaces_, shadows_);
         if (shadows_.count != 0) trace_shadows(light);
     }
 }
@@ -515,9 +516,8 @@ void Wavefront::spawn(int) {
     transmitted_.count = 0;
     for (const Run& run : runs_)
         if (run.material->reflects || run.material->transmits)
-            kernels_.shade.spawn(run, static_cast<double>(settings_.min_weight),
-                                 with_media_ ? &media_ : nullptr, surfaces_, reflected,
-                                 transmitted_);
+            shade_.spawn(run, static_cast<double>(settings_.min_weight),
+                         with_media_ ? &media_ : nullptr, surfaces_, reflected, transmitted_);
     counters_.reflected += reflected.count;
     counters_.refracted += transmitted_.count;
     add_to_next(reflected, /*through=*/false);

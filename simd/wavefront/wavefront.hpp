@@ -69,6 +69,7 @@ class Wavefront {
     CameraView camera_{};
     Bundle camera_bundle_{};
     bool with_media_;
+    ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;
     HitFinder finder_;
     core::Counters counters_;

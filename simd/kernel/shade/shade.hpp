@@ -7,8 +7,8 @@
 namespace raylane::simd {
 
 /// The shading formula at core::Material, for packets of surfaces of one material. `Arch` is one
-/// of double lanes.
-template <class Arch>
+/// of double lanes. There is code for media and for fog only where a scene has them.
+template <class Arch, bool with_media, bool with_fog>
 struct Shading {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
@@ -54,7 +54,8 @@ struct Shading {
     };
 
     static void surfaces(const Run& run, const std::uint32_t* numbers, const HitPaths& paths,
-                         const FogView& fog, const MediumColumns* media, const Surfaces& surfaces) {
+                         [[maybe_unused]] const FogView& fog,
+                         [[maybe_unused]] const MediumColumns* media, const Surfaces& surfaces) {
         const MaterialView& material = *run.material;
         for (std::size_t i = run.begin; i < run.end; i += lanes) {
             const Gather gather(numbers + i, run.end - i);
@@ -78,15 +79,14 @@ struct Shading {
             normal = select<Arch>(beside, -direction, normal);
 
             V throughput = gather(paths.throughput);
-            F fogged(0.0);
-            if (fog.kind != 0) fogged = fog_fraction(fog, t, point.z);
-            if (media != nullptr) {
-                fogged = xsimd::select(load(media->inside + i) > F(0.0), F(0.0), fogged);
+            if constexpr (with_media)
                 throughput = product(throughput, let_through(load(media->absorption, i), t));
-            }
             const V own = Patterns<Arch>::color_at(material, point);
             V radiance = scaled(F(material.ambient), own);
-            if (fog.kind != 0) {
+            if constexpr (with_fog) {
+                F fogged = fog_fraction(fog, t, point.z);
+                if constexpr (with_media)
+                    fogged = xsimd::select(load(media->inside + i) > F(0.0), F(0.0), fogged);
                 const V before = throughput;
                 throughput = scaled(F(1.0) - fogged, before);
                 radiance = product(throughput, radiance) +
@@ -198,8 +198,9 @@ struct Shading {
         return mul_add<Arch>(F(-2.0) * dot<Arch>(incident, normal), normal, incident);
     }
 
-    static void spawn(const Run& run, double min_weight, const MediumColumns* media,
-                      const Surfaces& surfaces, SpawnedRays& reflected, SpawnedRays& transmitted) {
+    static void spawn(const Run& run, double min_weight,
+                      [[maybe_unused]] const MediumColumns* media, const Surfaces& surfaces,
+                      SpawnedRays& reflected, SpawnedRays& transmitted) {
         const MaterialView& material = *run.material;
         const F zero(0.0), one(1.0);
         const bool fresnel = material.reflection != 0;
@@ -213,7 +214,7 @@ struct Shading {
             F share(material.reflectivity);
             if (fresnel || material.transmits) {
                 F before(1.0), behind(material.index);
-                if (media != nullptr) {
+                if constexpr (with_media) {
                     before = load(media->index_before + i);
                     behind = load(media->index_behind + i);
                 }
@@ -250,7 +251,11 @@ struct Shading {
         return (most > F(0.0)) & (most >= F(min_weight));
     }
 
-    static constexpr ShadeKernels table() { return {surfaces, light, spawn}; }
+    /// What does not depend on media or fog is made once.
+    static constexpr ShadeKernels table() {
+        return {surfaces, Shading<Arch, false, false>::light,
+                Shading<Arch, with_media, false>::spawn};
+    }
 };
 
 } // namespace raylane::simd
