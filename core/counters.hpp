@@ -14,9 +14,10 @@ struct Counters {
     std::uint64_t shapes = 0;    ///< rays tested against one shape
     std::uint64_t widened = 0;   ///< of these, tests that had to be repeated in more than double
     std::uint64_t walked = 0;    ///< shadow rays that had to be followed from surface to surface
-    /// What the vector engine has left to the reference to decide:
-    std::uint64_t doubtful = 0; ///< rays: which shape is the nearest
-    std::uint64_t contacts = 0; ///< rays where several surfaces meet: all that follows
+    std::uint64_t deferred = 0;  ///< paths put off, as a wave had become too long
+    /// What the vector engine has left to the reference:
+    std::uint64_t doubtful = 0; ///< rays: to decide which shape is the nearest
+    std::uint64_t followed = 0; ///< paths: to follow, where surfaces meet or waves grow too long
 
     std::uint64_t rays() const { return primary + reflected + refracted + shadow; }
 
@@ -30,7 +31,8 @@ struct Counters {
         widened += other.widened;
         walked += other.walked;
         doubtful += other.doubtful;
-        contacts += other.contacts;
+        deferred += other.deferred;
+        followed += other.followed;
         return *this;
     }
 };

@@ -8,6 +8,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace raylane::simd {
@@ -51,7 +52,7 @@ Rendering render_vector(const core::Scene& scene, const core::Settings& settings
                         const RenderOptions& options, Isa isa) {
     const Kernels& kernels = kernels_of(isa);
     const SceneData data(scene);
-    const int tile = options.tile != 0 ? options.tile : 32;
+    const int tile = options.tile != 0 ? std::clamp(options.tile, 1, Wavefront::max_region) : 32;
     return render_by<Wavefront>([&] { return Wavefront(data, settings, kernels); }, tile, settings,
                                 options);
 }

@@ -95,18 +95,22 @@ void store_none(const HitStream& hits, std::size_t i) {
     store(hits, i, std::numeric_limits<float>::infinity(), Vec3d(0.0), core::no_shape);
 }
 
+/// The nearest crossing between a ray's limits, or none.
+Hit<double> nearest_of(const core::Scene& scene, Searcher& searcher, const Query& query) {
+    if (!query.is_ray()) return {};
+    return searcher
+        .nearest(
+            query.ray(), {},
+            [&](const Hit<double>& candidate) {
+                return query.contains(candidate) && is_visible(scene, candidate);
+            },
+            query.t_most())
+        .hit;
+}
+
 void find_nearest(const core::Scene& scene, Searcher& searcher, const Query& query,
                   const HitStream& hits, std::size_t i) {
-    Hit<double> hit;
-    if (query.is_ray())
-        hit = searcher
-                  .nearest(
-                      query.ray(), {},
-                      [&](const Hit<double>& candidate) {
-                          return query.contains(candidate) && is_visible(scene, candidate);
-                      },
-                      query.t_most())
-                  .hit;
+    const Hit<double> hit = nearest_of(scene, searcher, query);
     if (!hit.any()) {
         store_none(hits, i);
         return;
@@ -158,22 +162,26 @@ class StreamTracer::Worker {
         start(rays, first, last);
         core::Counters counters;
         finder_->find(paths_, nullptr, counters);
-        const Hits& found = finder_->hits();
         for (const std::uint32_t lane : finder_->left_open())
             is_open_[lane] = 1;
+        const Hits& found = finder_->hits();
         for (std::size_t lane = 0; lane < paths_.count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
             const Query query(rays, i);
-            const std::uint32_t slot = found.slot[lane];
-            if (is_open_[lane] != 0) {
-                find_nearest(scene_, searcher_, query, hits, i);
-            } else if (slot != no_slot) {
-                const float t = Query::rounded(found.t[lane] * per_unit_[lane]);
-                if (t <= query.t_min())
-                    find_nearest(scene_, searcher_, query, hits, i);
-                else if (t <= query.t_max())
-                    store(hits, i, t, vector_at(found.normal, lane), data_->id_of(slot));
+            bool any = found.slot[lane] != no_slot;
+            float t = any ? t_at(lane) : 0.0F;
+            // Which shape it is the caller's own ray decides, whose direction was not rounded.
+            if (is_open_[lane] != 0 || (any && t <= query.t_min())) {
+                Hit<double> hit = nearest_of(scene_, searcher_, query);
+                any = hit.any();
+                if (any) {
+                    hit.t *= query.scale() / per_unit_[lane];
+                    finder_->settle(paths_, lane, hit);
+                    t = t_at(lane);
+                }
             }
+            if (any && query.t_min() < t && t <= query.t_max())
+                store(hits, i, t, vector_at(found.normal, lane), data_->id_of(found.slot[lane]));
         }
     }
 
@@ -219,6 +227,11 @@ class StreamTracer::Worker {
     }
 
   private:
+    /// Of the lane's hit, for the caller.
+    float t_at(std::size_t lane) const {
+        return Query::rounded(finder_->hits().t[lane] * per_unit_[lane]);
+    }
+
     void take_from(Arena& arena) {
         finder_->take_from(arena, capacity);
         paths_.take_from(arena, capacity, false);
@@ -284,7 +297,10 @@ class StreamTracer::Lease {
     }
     ~Lease() {
         const std::lock_guard lock(tracer_.mutex_);
-        tracer_.idle_.push_back(std::move(worker_));
+        try {
+            tracer_.idle_.push_back(std::move(worker_));
+        } catch (const std::bad_alloc&) { // one less to keep
+        }
     }
     Lease(const Lease&) = delete;
     Lease& operator=(const Lease&) = delete;

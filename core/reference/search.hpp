@@ -18,7 +18,10 @@ enum class Search : std::uint8_t { hierarchy, every_shape };
 template <class Real>
 class Searcher {
   public:
-    Searcher(const Scene& scene, Search search) : scene_(scene), search_(search) {}
+    Searcher(const Scene& scene, Search search) : scene_(scene), search_(search) {
+        pending_.reserve(512);
+        coinciding_.reserve(64);
+    }
 
     /// The first crossing with t < t_most that `counts(hit)`. Its t is infinite if there is none.
     template <class Counts>

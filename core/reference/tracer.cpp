@@ -30,7 +30,9 @@ constexpr Real infinity = std::numeric_limits<Real>::infinity();
 template <class Real>
 ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& settings, Search search)
     : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
-      searcher_(scene, search) {}
+      searcher_(scene, search) {
+    crossings_.reserve(64);
+}
 
 template <class Real>
 void ReferenceTracer<Real>::render(const Region& region, Film& film) {
@@ -246,7 +248,9 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure
         const auto end = std::find_if(first, crossings_.end(), [&](const Hit<Real>& hit) {
             return !hit.coincides(*first) || hit.at_start != first->at_start;
         });
-        std::stable_partition(first, end, [](const Hit<Real>& hit) { return hit.entering; });
+        // std::stable_partition would ask for memory.
+        for (auto next = first, place = first; next != end; ++next)
+            if (next->entering) std::rotate(place++, next, std::next(next));
         first = end;
     }
     return true;

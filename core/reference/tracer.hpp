@@ -65,8 +65,6 @@ class ReferenceTracer {
     MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
     Media media_behind(const Hit<Real>& hit, Media media) const;
 
-    const Searcher<Real>& searcher() const { return searcher_; }
-
   private:
     /// The surface that a path has hit, seen from the side that it came from.
     struct Surface {

@@ -133,36 +133,41 @@ simd::RenderOptions options_of(const RenderArguments& arguments) {
     return options;
 }
 
+std::string isa_in_use(const std::string& engine) {
+    const std::optional<simd::Isa> best = simd::best_isa();
+    return engine == "vector" && best ? std::string(simd::name_of(*best)) : "none";
+}
+
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
                                 const core::Settings& settings, int threads,
                                 const core::Counters& counters, const Times& times) {
     const auto count = static_cast<double>(counters.rays());
-    return {
-        {"version", RAYLANE_VERSION},
-        {"scene", printable(*arguments.scene, 4096)},
-        {"engine", *arguments.engine},
-        {"real", arguments.real.value_or("double")},
-        {"threads", threads},
-        {"width", settings.width},
-        {"height", settings.height},
-        {"samples_per_pixel", settings.grid * settings.grid},
-        {"max_depth", settings.max_depth},
-        {"min_weight", as_printed(settings.min_weight)},
-        {"shapes", scene.shape_count()},
-        {"scene_bytes", scene.bytes()},
-        {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},
-        {"rays",
-         {{"primary", counters.primary},
-          {"reflected", counters.reflected},
-          {"refracted", counters.refracted},
-          {"shadow", counters.shadow},
-          {"total", counters.rays()}}},
-        {"rays_per_second", count / times.render},
-        {"nodes_visited", counters.nodes},
-        {"shapes_tested", counters.shapes},
-        {"tests_beyond_double", counters.widened},
-        {"shadow_rays_walked", counters.walked},
-        {"left_to_the_reference", {{"hits", counters.doubtful}, {"contacts", counters.contacts}}}};
+    return {{"version", RAYLANE_VERSION},
+            {"scene", printable(*arguments.scene, 4096)},
+            {"engine", *arguments.engine},
+            {"isa", arguments.isa.value_or(isa_in_use(*arguments.engine))},
+            {"real", arguments.real.value_or("double")},
+            {"threads", threads},
+            {"width", settings.width},
+            {"height", settings.height},
+            {"samples_per_pixel", settings.grid * settings.grid},
+            {"max_depth", settings.max_depth},
+            {"min_weight", as_printed(settings.min_weight)},
+            {"shapes", scene.shape_count()},
+            {"scene_bytes", scene.bytes()},
+            {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},
+            {"rays",
+             {{"primary", counters.primary},
+              {"reflected", counters.reflected},
+              {"refracted", counters.refracted},
+              {"shadow", counters.shadow},
+              {"total", counters.rays()}}},
+            {"rays_per_second", count / times.render},
+            {"nodes_visited", counters.nodes},
+            {"shapes_tested", counters.shapes},
+            {"tests_beyond_double", counters.widened},
+            {"shadow_rays_walked", counters.walked},
+            {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
 }
 
 int render(const RenderArguments& arguments) {

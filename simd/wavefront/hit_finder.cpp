@@ -229,7 +229,6 @@ void HitFinder::find_own_exits(const Paths& paths) {
         lanes_[count++] = static_cast<std::uint32_t>(lane);
     }
     if (count == 0) return;
-    std::fill_n(gathered_hits_.slot + count, 15, no_slot);
     kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, count));
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
@@ -257,8 +256,7 @@ void HitFinder::certify(const Paths& paths) {
     }
 }
 
-/// The reference says which shape it is. The numbers are then those that the kernel has for it, so
-/// that they do not depend on what was in doubt.
+/// The reference says which shape it is.
 void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
     open_count_ = 0;
     counters.doubtful += lane_count_;
@@ -279,32 +277,38 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
             open_[open_count_++] = static_cast<std::uint32_t>(lane);
             continue;
         }
-        const core::Hit<double>& hit = encounter.hit;
-        const std::uint32_t slot = scene_.slot_of(hit.kind, hit.slot);
-        hits_.slot[lane] = slot;
-        gathered_.copy_ray(paths, lane, 0);
-        gathered_hits_.slot[0] = slot;
-        std::fill_n(gathered_hits_.slot + 1, 15, no_slot);
-        kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));
-        const std::uint32_t bits = hit.face | (hit.entering ? hit_entering : 0);
-        if (gathered_hits_.hit[0] == bits) {
-            take(gathered_hits_, 0, lane);
-            continue;
-        }
-        hits_.hit[lane] = bits;
-        hits_.t[lane] = hit.t;
-        const core::Vec3d point = core::mul_add(hit.t, ray.direction, ray.origin);
-        const core::Vec3d normal = reference_->searcher().outward_normal_at(hit, point);
-        core::Vec3d shading = normal;
-        if (hit.kind == core::Kind::smooth_triangle)
-            shading = core::shading_normal(
-                std::get<core::Table<core::SmoothTriangle>>(scene_.scene().shapes()).get(hit.slot),
-                point);
-        for (int axis = 0; axis < 3; ++axis) {
-            hits_.normal[axis][lane] = normal[axis];
-            if (scene_.smooth()) hits_.shading_normal[axis][lane] = shading[axis];
-        }
+        settle(paths, lane, encounter.hit);
     }
+}
+
+/// The shape is decided. The numbers are those that the kernel has for it, so that they do not
+/// depend on what was in doubt, or, where these are not certain, the reference's.
+void HitFinder::settle(const Paths& paths, std::size_t lane, const core::Hit<double>& hit) {
+    const std::uint32_t slot = scene_.slot_of(hit.kind, hit.slot);
+    hits_.slot[lane] = slot;
+    gathered_.copy_ray(paths, lane, 0);
+    gathered_hits_.slot[0] = slot;
+    kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));
+    const std::uint32_t bits = hit.face | (hit.entering ? hit_entering : 0);
+    if (gathered_hits_.hit[0] == bits) {
+        take(gathered_hits_, 0, lane);
+        return;
+    }
+    const core::Ray<double> ray = ray_of(paths, lane);
+    hits_.hit[lane] = bits;
+    hits_.t[lane] = hit.t;
+    const core::Vec3d point = core::mul_add(hit.t, ray.direction, ray.origin);
+    core::with_table(
+        scene_.scene().shapes(), hit.kind, [&]<class Shape>(const core::Table<Shape>& table) {
+            const core::Vec3d normal = core::outward_normal(table.get(hit.slot), point, hit.face);
+            core::Vec3d shading = normal;
+            if constexpr (core::kind_of<Shape> == core::Kind::smooth_triangle)
+                shading = core::shading_normal(table.get(hit.slot), point);
+            for (int axis = 0; axis < 3; ++axis) {
+                hits_.normal[axis][lane] = normal[axis];
+                if (scene_.smooth()) hits_.shading_normal[axis][lane] = shading[axis];
+            }
+        });
 }
 
 void HitFinder::take(const Hits& hits, std::size_t from, std::size_t lane) {

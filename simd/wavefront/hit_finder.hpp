@@ -39,6 +39,10 @@ class HitFinder {
     void find(const Paths& paths, const Bundle* bundle, core::Counters& counters);
 
     const Hits& hits() const { return hits_; }
+    /// Gives a lane a hit that its caller has decided on. Its t is per unit of the path's
+    /// direction.
+    void settle(const Paths& paths, std::size_t lane, const core::Hit<double>& hit);
+
     /// Lanes that are left open: those which meet several surfaces at one point, where only the
     /// reference can go on.
     std::span<const std::uint32_t> left_open() const { return {open_, open_count_}; }
@@ -55,7 +59,7 @@ class HitFinder {
 
     const SceneData& scene_;
     const Kernels& kernels_;
-    core::ReferenceTracer<double>* reference_;
+    core::ReferenceTracer<double>* reference_; // may be null
 
     RoundedRays rounded_{};
     Candidates candidates_{};

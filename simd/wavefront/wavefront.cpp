@@ -134,6 +134,13 @@ void Wavefront::take_from(Arena& arena) {
     deferred_.take_from(arena, deferred_rays, with_media_); // last: rarely touched
 }
 
+core::Counters Wavefront::counters() const {
+    core::Counters all = counters_;
+    all += reference_.counters();
+    all.shadow -= counted_twice_;
+    return all;
+}
+
 void Wavefront::render(const core::Region& region, core::Film& film) {
     const int width = region.x1 - region.x0, height = region.y1 - region.y0;
     const int samples = settings_.grid * settings_.grid;
@@ -239,7 +246,7 @@ void Wavefront::trace_wave(int depth) {
 /// Where several surfaces meet, the reference goes on.
 void Wavefront::follow_contacts(int depth) {
     for (const std::uint32_t lane : finder_.left_open()) {
-        ++counters_.contacts;
+        ++counters_.followed;
         const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                      paths_.throughput[2][lane]);
         const core::Vec3d color =
@@ -364,7 +371,7 @@ void Wavefront::shade(int depth) {
         add(paths_.sample[order_[i]], surfaces_.radiance[0][i], surfaces_.radiance[1][i],
             surfaces_.radiance[2][i]);
     add_lights();
-    if (depth < settings_.max_depth) spawn(depth);
+    if (depth < settings_.max_depth) spawn();
 }
 
 void Wavefront::add_lights() {
@@ -446,7 +453,7 @@ void Wavefront::walk_shadows(const Bundle& bundle) {
     while (walk_.count != 0) {
         walker_.find(walk_, &bundle, counters_);
         for (const std::uint32_t lane : walker_.left_open()) {
-            ++counters_.contacts;
+            ++counters_.followed;
             const core::Vec3d share =
                 reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
                                              walk_.media_at(lane), walk_distance_[lane]);
@@ -505,7 +512,7 @@ bool Wavefront::step(std::size_t lane, double& distance) {
     return true;
 }
 
-void Wavefront::spawn(int) {
+void Wavefront::spawn() {
     SpawnedRays reflected{};
     for (int axis = 0; axis < 3; ++axis) {
         reflected.origin[axis] = next_.origin[axis];
@@ -566,6 +573,7 @@ void Wavefront::split_next(int depth) {
         const auto [least, most] = std::minmax_element(paths_.sample, paths_.sample + paths_.count);
         const std::uint32_t first = *least, last = *most;
         if (first == last) {
+            counters_.followed += paths_.count;
             for (std::size_t lane = 0; lane < paths_.count; ++lane) {
                 const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                              paths_.throughput[2][lane]);
@@ -588,6 +596,7 @@ void Wavefront::split_next(int depth) {
             else
                 deferred_.copy(paths_, lane, deferred_.count++);
         pending_.push_back({begin, deferred_.count - begin, depth});
+        counters_.deferred += deferred_.count - begin;
         paths_.count = kept;
     }
 }

@@ -20,13 +20,17 @@ class Wavefront {
 
     void render(const core::Region& region, core::Film& film);
 
-    const core::Counters& counters() const { return counters_; }
+    Wavefront(const Wavefront&) = delete; // parts of it refer to others
+    Wavefront& operator=(const Wavefront&) = delete;
+
+    core::Counters counters() const;
 
     /// Pixels on a region's side, at most.
     static constexpr int max_region = 64;
 
   private:
-    /// Samples in a chunk, and rays in a wave: so that all arrays fit in the second-level cache.
+    /// Samples in a chunk, and rays in a wave: some 2 KiB each in all arrays. Half and twice as
+    /// many take as long.
     static constexpr std::size_t chunk_samples = 1024;
     static constexpr std::size_t wave_rays = chunk_samples;
     static constexpr std::size_t deferred_rays = 12 * 2 * wave_rays;
@@ -55,7 +59,7 @@ class Wavefront {
     void walk_shadows(const Bundle& bundle);
     void start_walk(std::size_t shadow);
     bool step(std::size_t lane, double& distance);
-    void spawn(int depth);
+    void spawn();
     void add_to_next(const SpawnedRays& spawned, bool through);
     void split_next(int depth);
     void take_deferred(int& depth);
@@ -73,6 +77,7 @@ class Wavefront {
     core::ReferenceTracer<double> reference_;
     HitFinder finder_;
     core::Counters counters_;
+    std::uint64_t counted_twice_ = 0; ///< shadow rays, here and by the reference
 
     Arena arena_;
     Paths paths_{}, next_{}, deferred_{};

@@ -60,6 +60,13 @@ TEST_CASE("nothing is allocated inside the wavefront loop") {
                           i % 3 == 0 ? glass(1.5F, Reflection::schlick) : shiny);
     }
     builder.add_shape(Plane{{0, -3, 0}, {0, 1, 0}}, shiny);
+    // Three of them meet the plane.
+    for (int i = 0; i < 3; ++i)
+        builder.add_shape(Box{{static_cast<float>(i), -3, 2}, {0.5F, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                          glass(1.3F));
+    Material room = luminous(Color(0.2F));
+    room.visible = Visible::inside;
+    builder.add_shape(Sphere{{0, 0, 0}, 40}, room);
     Light light;
     light.position = {5, 9, 7};
     builder.add_light(light);
@@ -67,10 +74,10 @@ TEST_CASE("nothing is allocated inside the wavefront loop") {
     const simd::SceneData data(scene);
     simd::Wavefront wavefront(data, scene.settings(), simd::kernels_of(*simd::best_isa()));
     Film film(64, 64);
-    // The reference's own lists grow with what they are first asked.
-    wavefront.render({0, 0, 64, 64}, film);
+    wavefront.render({0, 0, 8, 8}, film); // what surrounds the camera is found at first
     const long before = allocations;
     wavefront.render({0, 0, 64, 64}, film);
+    CHECK(wavefront.counters().deferred > 0);
     CHECK(allocations == before);
     CHECK(before > 0);
 }

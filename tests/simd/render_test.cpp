@@ -83,10 +83,12 @@ TEST_CASE("paths of the greatest depth fit the threads' stacks") {
          {simd::Precision::single_precision, simd::Precision::double_precision}) {
         simd::RenderOptions options;
         options.threads = 2;
+        options.engine = simd::Engine::reference;
         options.precision = precision;
         const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
         CHECK(rendering.film.at(16, 16).x == 1001.0F);
     }
+    CHECK(simd::render(scene, scene.settings(), {}).film.at(16, 16).x == 1001.0F);
 }
 
 TEST_CASE("a rendering that is stopped begins no more tiles") {

@@ -97,8 +97,9 @@ struct LocalRays {
         start = mul_add<Arch>(shift, direction, from_anchor);
         size = sum_of_sizes(start);
         // The operands of each rounding: u (|from_anchor| + |shift| |direction| + |start|), and
-        // |from_anchor| <= |shift| |direction| + |start|.
-        error = Floats<Arch>(0x1.2p-52) * (xsimd::abs(shift) + size);
+        // |from_anchor| <= |shift| |direction| + |start|. As much again lets directions be off by
+        // what bringing them to unit length costs.
+        error = Floats<Arch>(0x1p-50) * (xsimd::abs(shift) + size);
     }
 
     Vectors<Arch> at(const Floats<Arch>& s) const { return mul_add<Arch>(s, direction, start); }

@@ -115,8 +115,7 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
         const M behind = (starts.inward & surface.quadratic.opens_down()) |
                          (~starts.inward & surface.quadratic.opens_up());
         // (What rounding alone puts behind the start counts as there: core::not_behind.)
-        const M out_of_bounds =
-            onward.root.certain & onward.outside & (onward.t > onward.error);
+        const M out_of_bounds = onward.root.certain & onward.outside & (onward.t > onward.error);
         result.misses = starts.on_surface & (behind | out_of_bounds);
     }
     return result;

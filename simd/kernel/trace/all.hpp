@@ -53,9 +53,12 @@ struct TraceAll : Streams<Arch> {
             const F squared = fast_dot(to_center, to_center);
             const F radius = fast_mul_add<Arch>(
                 grace, xsimd::abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, F(v[3][lane])));
-            const M meets = (squared - tau * tau - grace * squared <= radius * radius) &
-                            (tau + radius >= o) & (tau - radius <= t_most * F(culling_slack));
-            return Lanes<Arch>::bits(meets) != 0;
+            // What overflows proves nothing.
+            const M beside = (squared < S::infinity()) &
+                             (squared - tau * tau - grace * squared > radius * radius);
+            const M misses =
+                beside | (tau + radius < o) | (tau - radius > t_most * F(culling_slack));
+            return Lanes<Arch>::bits(~misses) != 0;
         }
 
         /// Boxes, cylinders, cones and quadrics.

@@ -20,6 +20,12 @@ struct TraceBundle : Streams<Arch> {
         float t[16];
         float largest;
 
+        explicit Limits(std::size_t bunches) {
+            for (std::size_t which = 0; which < 16; ++which)
+                t[which] = which < bunches ? __builtin_inff() : -1.0F;
+            update();
+        }
+
         void update() {
             largest = t[0];
             for (int i = 1; i < 16; ++i)
@@ -110,10 +116,7 @@ struct TraceBundle : Streams<Arch> {
                                    pending, counters);
                 continue;
             }
-            Limits limits;
-            for (float& t : limits.t)
-                t = __builtin_inff();
-            limits.update();
+            Limits limits(group.bunches);
             walk(scene, kind_bits, has_tree, group, limits, pending, counters,
                  [&](KindNumber kind, std::uint32_t number) {
                      bool changed = false;
@@ -174,10 +177,7 @@ struct TraceBundle : Streams<Arch> {
                                     pending, counters);
                 continue;
             }
-            Limits limits; // -1 once a bunch is blocked
-            for (float& t : limits.t)
-                t = __builtin_inff();
-            limits.update();
+            Limits limits(group.bunches); // -1 once a bunch is blocked
             walk(scene, kind_bits, has_tree, group, limits, pending, counters,
                  [&](KindNumber kind, std::uint32_t number) {
                      bool changed = false;

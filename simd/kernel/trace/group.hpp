@@ -215,7 +215,7 @@ struct Group : Streams<Arch> {
                     (most_below + room >= F(low.offset));
         }
         near = near_t(first_w - grace_k);
-        return Lanes<Arch>::bits(meets & (near <= t_most));
+        return Lanes<Arch>::bits(meets & (near <= t_most)) & S::filled(node, from);
     }
 
     /// From how far along to a lower bound of t.

@@ -41,6 +41,14 @@ struct Streams {
         return load(numbers) < F(static_cast<float>(count < lanes ? count : lanes));
     }
 
+    /// The slots of a node that are not empty, as bits from `from` on. No comparison of their
+    /// bounds says so for rays that are infinitely far.
+    static std::uint32_t filled(const NodeView& node, int from) {
+        const F empty = broadcast_bits(no_child);
+        return Lanes<Arch>::bits(
+            ~Lanes<Arch>::in_range(load_bits(node.children + from), empty, empty));
+    }
+
     static const float* block_of(const TableView& table, std::uint32_t block) {
         return table.blocks + static_cast<std::size_t>(block) * table.block_floats;
     }

@@ -20,16 +20,16 @@ struct TraceTree : Streams<Arch> {
     struct BoxRay {
         F near_origin[3], far_origin[3], inverse[3];
         bool falls[3];
-        float largest_t;
 
         BoxRay(const RoundedRays& rays, std::size_t i) {
             for (int axis = 0; axis < 3; ++axis) {
                 // A component of 0 is as good as one that leads nowhere: no 0 * infinity then.
                 constexpr float tiny = 0x1p-100F;
-                const float d = rays.direction[axis][i], o = rays.origin[axis][i];
+                const float component = rays.direction[axis][i], o = rays.origin[axis][i];
+                const float d = component > tiny || component < -tiny ? component : tiny;
                 falls[axis] = d < 0.0F;
                 const float slack = 2 * rays.slack[i];
-                inverse[axis] = F(1.0F / (d > tiny || d < -tiny ? d : tiny));
+                inverse[axis] = F(1.0F / d);
                 near_origin[axis] = F(falls[axis] ? o - slack : o + slack);
                 far_origin[axis] = F(falls[axis] ? o + slack : o - slack);
             }
@@ -49,7 +49,7 @@ struct TraceTree : Streams<Arch> {
                 near = xsimd::max(at_near, near);
                 far = xsimd::min(at_far, far);
             }
-            return Lanes<Arch>::bits(near <= far * F(allowance));
+            return Lanes<Arch>::bits(near <= far * F(allowance)) & S::filled(node, from);
         }
     };
 

@@ -123,6 +123,7 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(keys == std::vector<std::string>{"version",
                                            "scene",
                                            "engine",
+                                           "isa",
                                            "real",
                                            "threads",
                                            "width",
