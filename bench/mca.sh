@@ -18,8 +18,9 @@ fail() {
     echo "mca.sh: $*" >&2
     exit 2
 }
-[ -x "$build/bin/raylane-bench" ] && [ -f "$build/compile_commands.json" ] ||
-    fail "no raylane-bench and compile_commands.json in $build; cmake --preset release makes them"
+for file in bin/raylane-bench compile_commands.json; do
+    [ -e "$build/$file" ] || fail "no $build/$file; cmake --preset release leads to one"
+done
 grep -q avx512dq /proc/cpuinfo || fail "this processor has no AVX-512"
 
 work=$(mktemp -d)
@@ -64,7 +65,7 @@ fi
 compile=$(sed -n 's/^ *"command": "\(.*\) -o .*\/simd\/kernels_avx512\.cpp",*$/\1/p' \
     "$build/compile_commands.json")
 [ -n "$compile" ] || fail "$build/compile_commands.json does not say how to build the kernels"
-eval "$compile -Wno-missing-declarations -S -o $work/loops.s $work/loops.cpp"
+eval "$compile -S -o $work/loops.s $work/loops.cpp"
 
 # Of function loop_KIND, the longest stretch from a label to a jump back to it without other labels.
 loop_of() {
