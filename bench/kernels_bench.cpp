@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <random>
 #include <string>
@@ -19,7 +20,7 @@ namespace {
 using namespace raylane;
 using namespace raylane::core;
 
-constexpr std::size_t ray_count = 1024; // fits the first-level cache with its hits
+constexpr std::size_t ray_count = 256; // fits the first-level cache with its hits
 
 class Random {
   public:
@@ -58,7 +59,9 @@ Shape make(Random& r) {
 
 /// Rays from all around at the middle: about as many hit as miss.
 struct Rays {
-    std::vector<float> ox, oy, oz, dx, dy, dz, none, zero, t, shape, face, entering;
+    /// Whole lines of the cache, as the wavefront's arena has them.
+    struct alignas(64) Array : std::array<float, ray_count> {};
+    Array ox, oy, oz, dx, dy, dz, none, zero, t, shape, face, entering;
     std::vector<Ray<float>> scalar;
 
     explicit Rays(Random& r) {
@@ -66,23 +69,23 @@ struct Rays {
             const Vec3f origin = 4.0F * normalized(r.cube(1));
             const Vec3f direction = normalized(r.cube(1) - origin);
             scalar.push_back({origin, direction});
-            ox.push_back(origin.x);
-            oy.push_back(origin.y);
-            oz.push_back(origin.z);
-            dx.push_back(direction.x);
-            dy.push_back(direction.y);
-            dz.push_back(direction.z);
+            ox[i] = origin.x;
+            oy[i] = origin.y;
+            oz[i] = origin.z;
+            dx[i] = direction.x;
+            dy[i] = direction.y;
+            dz[i] = direction.z;
         }
-        none.assign(ray_count, std::bit_cast<float>(no_shape));
-        zero.assign(ray_count, 0.0F);
+        none.fill(std::bit_cast<float>(no_shape));
+        zero.fill(0.0F);
         reset();
     }
 
     void reset() {
-        t.assign(ray_count, std::numeric_limits<float>::infinity());
-        shape.assign(ray_count, std::bit_cast<float>(no_shape));
-        face.assign(ray_count, 0.0F);
-        entering.assign(ray_count, 0.0F);
+        t.fill(std::numeric_limits<float>::infinity());
+        shape.fill(std::bit_cast<float>(no_shape));
+        face.fill(0.0F);
+        entering.fill(0.0F);
     }
 
     simd::PacketStream view() {

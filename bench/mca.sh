@@ -1,0 +1,163 @@
+#!/bin/sh
+# How near the AVX-512 solvers come to what the processor could do with their code: the inner loops
+# of intersect_rays, by llvm-mca's model of a processor, against raylane-bench on this one.
+#
+#   bench/mca.sh [BUILD]   BUILD: a Release build with raylane-bench; default build/release
+#
+# Environment: LLVM_MCA, the program (Debian's package llvm; the newest that is found); MCPU, the
+# processor to model (this one if llvm-mca knows its AVX-512 units, else icelake-server);
+# REPETITIONS of each measurement (9), of which the median counts.
+set -eu
+cd "$(dirname "$0")/.."
+build=${1:-build/release}
+repetitions=${REPETITIONS:-9}
+kinds="sphere,plane,disc,triangle,smooth triangle,box,open cylinder,capped cylinder,open cone"
+kinds="$kinds,capped cone,quadric" # core::Kind's order
+
+fail() {
+    echo "mca.sh: $*" >&2
+    exit 2
+}
+for file in bin/raylane-bench compile_commands.json; do
+    [ -e "$build/$file" ] || fail "no $build/$file; cmake --preset release leads to one"
+done
+grep -q avx512dq /proc/cpuinfo || fail "this processor has no AVX-512"
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+mca=${LLVM_MCA:-}
+if [ -z "$mca" ]; then
+    for program in $(seq -f llvm-mca-%.0f 30 -1 14) llvm-mca; do
+        if command -v "$program" >"$work/mca"; then
+            mca=$(cat "$work/mca")
+            break
+        fi
+    done
+fi
+[ -n "$mca" ] || fail "no llvm-mca here; Debian's package llvm has it"
+
+models() { # processor: whether llvm-mca knows its AVX-512 units
+    echo 'vfmadd231ps %zmm0, %zmm1, %zmm2' >"$work/probe.s"
+    "$mca" -mtriple=x86_64 -mcpu="$1" "$work/probe.s" >"$work/probe" 2>&1
+}
+llc=$(echo "$mca" | sed 's/llvm-mca\([^/]*\)$/llc\1/') # of the same package
+mcpu=${MCPU:-$("$llc" --version 2>/dev/null | sed -n 's/.*Host CPU: //p')}
+mcpu=${mcpu:-native}
+if ! models "$mcpu"; then
+    [ -z "${MCPU:-}" ] || fail "$mca: no model of $mcpu with AVX-512"
+    mcpu=icelake-server
+    models $mcpu || fail "$mca is too old"
+fi
+
+# The kernels as the library has them: its own headers, compiler and flags. Each becomes a function
+# with one loop, which has no branches inside.
+{
+    echo '#include "simd/kernel/kernels.hpp"'
+    echo 'using namespace raylane::simd;'
+    for kind in 0 1 2 3 4 5 6 7 8 9 10; do
+        echo "extern \"C\" [[gnu::flatten]] void loop_$kind("
+        echo '    const ShapeBlock& block, int lane, PacketStream& rays) {'
+        echo "    KernelsOf<Avx512>::intersect_rays($kind, block, lane, rays);"
+        echo '}'
+    done
+} >"$work/loops.cpp"
+compile=$(sed -n 's/^ *"command": "\(.*\) -o .*\/simd\/kernels_avx512\.cpp",*$/\1/p' \
+    "$build/compile_commands.json")
+[ -n "$compile" ] || fail "$build/compile_commands.json does not say how to build the kernels"
+eval "$compile -S -o $work/loops.s $work/loops.cpp"
+
+# Of function loop_KIND, the longest stretch from a label to a jump back to it without other labels.
+loop_of() {
+    awk -v name="loop_$1" '
+        $1 == name ":" { inside = 1; next }
+        inside && /^\t\.size/ { exit }
+        !inside { next }
+        /^\.L[A-Za-z0-9_]*:/ { label = substr($1, 1, length($1) - 1); n = 0; next }
+        $1 ~ /^j/ {
+            if ($2 == label && n > best) {
+                best = n
+                found = text[1]
+                for (i = 2; i <= n; ++i) found = found "\n" text[i]
+                found = found "\n" $0
+            }
+            label = "" # what follows is no loop from there
+            next
+        }
+        /^\t[a-z]/ { text[++n] = $0 }
+        END { print found }' "$work/loops.s"
+}
+
+: >"$work/cycles"
+for kind in 0 1 2 3 4 5 6 7 8 9 10; do
+    {
+        echo '# LLVM-MCA-BEGIN'
+        loop_of $kind
+        echo '# LLVM-MCA-END'
+    } >"$work/loop.s"
+    grep -q zmm "$work/loop.s" || fail "no loop of whole registers in the code for kind $kind"
+    "$mca" -mtriple=x86_64 -mcpu="$mcpu" -iterations=1000 -resource-pressure=false \
+        -instruction-info=false "$work/loop.s" >"$work/report" 2>"$work/errors" ||
+        fail "$mca: $(cat "$work/errors")"
+    awk '/^Iterations:/ { n = $2 } /^Total Cycles:/ { cycles = $3 }
+         /^Block RThroughput:/ { print $3, cycles / n }' "$work/report" >>"$work/cycles"
+done
+
+# Cycles per second: an addition that waits for the one before takes one cycle.
+cat >"$work/frequency.cpp" <<'END'
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+int main() {
+    using Clock = std::chrono::steady_clock;
+    double best = 0;
+    for (int attempt = 0; attempt < 20; ++attempt) {
+        unsigned long sum = 0, one = 1;
+        const Clock::time_point start = Clock::now();
+        for (int i = 0; i < 1000000; ++i)
+            __asm__ volatile(".rept 100\n\tadd %1, %0\n\t.endr" : "+r"(sum) : "r"(one));
+        const std::chrono::duration<double> seconds = Clock::now() - start;
+        best = std::max(best, 1e8 / seconds.count());
+    }
+    std::printf("%.0f\n", best);
+}
+END
+${CXX:-c++} -std=c++17 -O2 -o "$work/frequency" "$work/frequency.cpp"
+frequency=$("$work/frequency")
+
+"$build/bin/raylane-bench" --benchmark_filter='/(scalar|one_shape/avx512)$' \
+    --benchmark_repetitions="$repetitions" --benchmark_min_time=0.05 \
+    --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=true \
+    --benchmark_format=csv >"$work/measured.csv" 2>"$work/errors" ||
+    fail "raylane-bench: $(cat "$work/errors")"
+again=$("$work/frequency")
+
+echo "model: $("$mca" --version | sed -n 's/.*LLVM version/LLVM/p'), -mcpu=$mcpu" \
+    "(this is: $(sed -n 's/^model name[^:]*: //p;' /proc/cpuinfo | head -n 1)," \
+    "family $(sed -n 's/^cpu family[^:]*: //p' /proc/cpuinfo | head -n 1)," \
+    "model $(sed -n 's/^model\t[^:]*: //p' /proc/cpuinfo | head -n 1))"
+echo "core: $(awk -v a="$frequency" -v b="$again" \
+    'BEGIN { printf "%.2f GHz before, %.2f GHz after", a / 1e9, b / 1e9 }')"
+echo 'Cycles per packet of 16 rays: by the units alone, and with what waits for what. Rates in 10^9'
+echo 'rays x shapes per second; the shares are of the rates that these cycles allow.'
+awk -F, -v kinds="$kinds" -v frequency="$frequency" -v again="$again" '
+    FNR == 1 { ++file }
+    file == 1 { split($0, cycles, " "); units[FNR] = cycles[1]; waits[FNR] = cycles[2]; next }
+    { gsub(/"/, "") }
+    $1 == "name" { for (i = 1; i <= NF; ++i) if ($i == "items_per_second") column = i; next }
+    column && $1 ~ /_median$/ { sub(/_median$/, "", $1); rate[$1] = $column }
+    END {
+        if (again > frequency) frequency = again
+        printf "%-16s %7s %7s %8s %8s %8s %8s %8s %8s\n", "kind", "units", "waits", "bound",
+            "measured", "of units", "of waits", "scalar", "times"
+        n = split(kinds, kind, ",")
+        for (k = 1; k <= n; ++k) {
+            measured = rate[kind[k] "/one_shape/avx512"]
+            scalar = rate[kind[k] "/scalar"]
+            rays = 16 * frequency
+            printf "%-16s %7.1f %7.1f %8.2f %8.2f %7.0f%% %7.0f%% %8.3f %8.1f\n", kind[k],
+                units[k], waits[k], rays / units[k] / 1e9, measured / 1e9,
+                100 * measured * units[k] / rays, 100 * measured * waits[k] / rays, scalar / 1e9,
+                measured / scalar
+        }
+    }' "$work/cycles" "$work/measured.csv"

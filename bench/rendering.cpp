@@ -1,0 +1,59 @@
+#include "bench/rendering.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cstdint>
+
+namespace raylane::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void draw(benchmark::State& state, const core::Scene& scene, const simd::RenderOptions& options) {
+    core::Counters counters;
+    double seconds = 0.0;
+    for (auto _ : state) {
+        const Clock::time_point start = Clock::now();
+        counters += simd::render(scene, scene.settings(), options).counters;
+        seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    // By the wall's clock; the library's own rates are by the processor's.
+    const auto pictures = static_cast<double>(state.iterations());
+    const auto per_picture = [&](std::uint64_t count) {
+        return benchmark::Counter(static_cast<double>(count) / pictures);
+    };
+    state.counters["seconds"] = seconds / pictures;
+    state.counters["rays/s"] = static_cast<double>(counters.rays()) / seconds;
+    state.counters["ns/primary"] = seconds * 1e9 / static_cast<double>(counters.primary);
+    state.counters["primary"] = per_picture(counters.primary);
+    state.counters["reflected"] = per_picture(counters.reflected);
+    state.counters["refracted"] = per_picture(counters.refracted);
+    state.counters["shadow"] = per_picture(counters.shadow);
+}
+
+void add(const std::string& name, const MakeScene& make_scene, simd::RenderOptions options) {
+    options.threads = 1;
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        draw(state, *make_scene(), options);
+    })->Unit(benchmark::kMillisecond);
+}
+
+} // namespace
+
+void add_renderings(const std::string& name, const MakeScene& make_scene) {
+    simd::RenderOptions options;
+    for (const simd::Isa isa : simd::all_isas) {
+        if (!simd::is_available(isa)) continue;
+        options.isa = isa;
+        add(name + "/" + simd::kernels_of(isa).name, make_scene, options);
+    }
+    options.engine = simd::Engine::reference;
+    options.precision = simd::Precision::single_precision;
+    add(name + "/reference_float", make_scene, options);
+    options.precision = simd::Precision::double_precision;
+    add(name + "/reference_double", make_scene, options);
+}
+
+} // namespace raylane::bench

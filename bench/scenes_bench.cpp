@@ -1,0 +1,67 @@
+#include "bench/rendering.hpp"
+#include "scenes/scene_file.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+/// Whole pictures of scene files, of the size and with the samples that they want: by the vector
+/// engine, and by the scalar reference in the same run.
+
+namespace {
+
+using namespace raylane;
+namespace fs = std::filesystem;
+
+/// RAYLANE_SCENES, folders separated by colons; or else the source tree's, and the NFF scenes in
+/// shared/scenes beside the source tree.
+std::vector<fs::path> folders() {
+    const fs::path source = RAYLANE_SOURCE_DIR;
+    const char* given = std::getenv("RAYLANE_SCENES");
+    if (given == nullptr) return {source / "scenes", source.parent_path() / "shared" / "scenes"};
+    std::vector<fs::path> all;
+    std::istringstream list(given);
+    for (std::string folder; std::getline(list, folder, ':');)
+        all.emplace_back(folder);
+    return all;
+}
+
+bool is_scene(const fs::path& path) {
+    if (path.extension() == ".nff") return true;
+    return path.extension() == ".json" && path.stem().extension() != ".schema";
+}
+
+std::vector<fs::path> scene_files() {
+    std::vector<fs::path> files;
+    for (const fs::path& folder : folders()) {
+        std::error_code absent;
+        std::vector<fs::path> here;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder, absent))
+            if (is_scene(entry.path())) here.push_back(entry.path());
+        std::sort(here.begin(), here.end());
+        files.insert(files.end(), here.begin(), here.end());
+    }
+    return files;
+}
+
+/// Loads a file when it is first measured; the next one takes its place.
+std::shared_ptr<const core::Scene> load(const fs::path& path) {
+    static fs::path loaded;
+    static std::shared_ptr<const core::Scene> scene;
+    if (loaded != path) {
+        scene = std::make_shared<const core::Scene>(scenes::load_scene(path));
+        loaded = path;
+    }
+    return scene;
+}
+
+const bool registered = [] {
+    for (const fs::path& path : scene_files()) {
+        bench::add_renderings("scene/" + path.stem().string(), [path] { return load(path); });
+    }
+    return true;
+}();
+
+} // namespace
