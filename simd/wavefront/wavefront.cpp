@@ -16,14 +16,6 @@ bool any_transmits(const core::Scene& scene) {
                        [](const core::Material& material) { return material.transmits(); });
 }
 
-void take(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
-    arena.take(rays.origin, capacity);
-    arena.take(rays.direction, capacity);
-    arena.take(rays.weight, capacity);
-    rays.distance = arena.take<double>(capacity);
-    rays.parent = arena.take<double>(capacity);
-}
-
 /// Every second bit of a Morton code.
 constexpr int even_bits(unsigned code) {
     int result = 0;
@@ -66,15 +58,6 @@ Bundle bundle_of(const CameraView& camera) {
     return bundle;
 }
 
-Bundle bundle_of(const LightView& light) {
-    Bundle bundle{};
-    for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(light.position[axis]);
-    bundle.towards = light.is_point;
-    bundle.parallel = !light.is_point;
-    return bundle;
-}
-
 } // namespace
 
 Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Kernels& kernels)
@@ -83,7 +66,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
       shade_(kernels.shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
       reference_(scene.scene(), settings), finder_(scene, kernels, &reference_),
-      walker_(scene, kernels, &reference_) {
+      shadows_(scene, kernels, reference_) {
     Arena measure;
     take_from(measure);
     arena_ = Arena(measure.used());
@@ -116,28 +99,16 @@ void Wavefront::take_from(Arena& arena) {
         media_.index_behind = arena.take<double>(wave_rays);
         media_.inside = arena.take<double>(wave_rays);
         arena.take(media_.absorption, wave_rays);
-        take(arena, transmitted_, wave_rays);
+        take_spawned(arena, transmitted_, wave_rays);
     }
-    take(arena, shadows_, wave_rays);
-    shadow_paths_.departed_first = arena.take<std::uint32_t>(wave_rays);
-    shadow_paths_.departed_last = arena.take<std::uint32_t>(wave_rays);
-    arena.take(shadow_rounded_.origin, wave_rays);
-    arena.take(shadow_rounded_.direction, wave_rays);
-    shadow_rounded_.slack = arena.take<float>(wave_rays);
-    shadow_t_most_ = arena.take<float>(wave_rays);
-    occlusions_.t_most = shadow_t_most_;
-    occlusions_.state = arena.take<std::uint8_t>(wave_rays);
-    shadow_pending_ = pending_for(scene_, arena);
-    walker_.take_from(arena, wave_rays);
-    walk_.take_from(arena, wave_rays, with_media_);
-    walk_distance_ = arena.take<double>(wave_rays);
+    shadows_.take_from(arena, wave_rays, with_media_);
     deferred_.take_from(arena, deferred_rays, with_media_); // last: rarely touched
 }
 
 core::Counters Wavefront::counters() const {
     core::Counters all = counters_;
     all += reference_.counters();
-    all.shadow -= counted_twice_;
+    all.shadow -= shadows_.counted_twice();
     return all;
 }
 
@@ -376,140 +347,18 @@ void Wavefront::shade(int depth) {
 
 void Wavefront::add_lights() {
     for (const LightView& light : scene_.lights()) {
-        shadows_.count = 0;
+        SpawnedRays& rays = shadows_.rays();
+        rays.count = 0;
         for (const Run& run : runs_)
             if (run.material->diffuse > 0.0 || run.material->specular > 0.0)
-                shade_.light(run, light, surfaces_, shadows_);
-        if (shadows_.count != 0) trace_shadows(light);
+                shade_.light(run, light, surfaces_, rays);
+        if (rays.count == 0) continue;
+        shadows_.trace({paths_, finder_.hits(), order_, coherent_}, light, counters_);
+        for (std::size_t k = 0; k < rays.count; ++k)
+            if (shadows_.arrives(k))
+                add(paths_.sample[order_[static_cast<std::size_t>(rays.parent[k])]],
+                    rays.weight[0][k], rays.weight[1][k], rays.weight[2][k]);
     }
-}
-
-void Wavefront::trace_shadows(const LightView& light) {
-    const Hits& hits = finder_.hits();
-    const std::size_t count = shadows_.count;
-    counters_.shadow += count;
-    for (std::size_t k = 0; k < count; ++k) {
-        const std::uint32_t lane = order_[static_cast<std::size_t>(shadows_.parent[k])];
-        const SceneData::Occupant shape = scene_.occupant_of(hits.slot[lane]);
-        shadow_paths_.departed_first[k] = shape.coplanar.first;
-        shadow_paths_.departed_last[k] = shape.coplanar.last;
-        const bool inward = (hits.hit[lane] & hit_entering) == 0;
-        const bool in_medium = with_media_ && paths_.media[0][lane] != core::Media::none;
-        occlusions_.state[k] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
-        shadow_t_most_[k] = static_cast<float>(shadows_.distance[k]);
-    }
-    shadow_rounded_.departed_first = shadow_paths_.departed_first;
-    shadow_rounded_.departed_last = shadow_paths_.departed_last;
-    const TraceKernels& trace = kernels_.trace;
-    trace.round_rays(count, shadows_.origin, shadows_.direction, shadow_rounded_);
-    TraceCounters traced{};
-    const Bundle bundle = bundle_of(light);
-    if (coherent_ || !scene_.has_tree()) {
-        trace.occluded_in_bundle(scene_.view(), scene_.listed_kinds(), bundle, count,
-                                 shadow_rounded_, occlusions_, shadow_pending_, traced);
-    } else {
-        if (scene_.listed_kinds() != 0)
-            trace.occluded_by_all(scene_.view(), scene_.listed_kinds(), count, shadow_rounded_,
-                                  occlusions_, traced);
-        trace.occluded_in_tree(scene_.view(), count, shadow_rounded_, occlusions_, shadow_pending_,
-                               traced);
-    }
-    counters_.nodes += traced.nodes;
-    counters_.shapes += traced.shapes;
-
-    walk_.count = 0;
-    for (std::size_t k = 0; k < count; ++k)
-        if (occlusions_.state[k] == doubtful) start_walk(k);
-    if (walk_.count != 0) walk_shadows(bundle);
-
-    for (std::size_t k = 0; k < count; ++k)
-        if (occlusions_.state[k] != blocked)
-            add(paths_.sample[order_[static_cast<std::size_t>(shadows_.parent[k])]],
-                shadows_.weight[0][k], shadows_.weight[1][k], shadows_.weight[2][k]);
-}
-
-void Wavefront::start_walk(std::size_t shadow) {
-    ++counters_.walked;
-    const std::uint32_t lane = order_[static_cast<std::size_t>(shadows_.parent[shadow])];
-    const std::uint32_t hit = finder_.hits().hit[lane];
-    const std::size_t to = walk_.count++;
-    for (int axis = 0; axis < 3; ++axis) {
-        walk_.origin[axis][to] = shadows_.origin[axis][shadow];
-        walk_.direction[axis][to] = shadows_.direction[axis][shadow];
-        walk_.throughput[axis][to] = shadows_.weight[axis][shadow];
-    }
-    walk_.sample[to] = static_cast<std::uint32_t>(shadow);
-    walk_.departed_first[to] = shadow_paths_.departed_first[shadow];
-    walk_.departed_last[to] = shadow_paths_.departed_last[shadow];
-    walk_.departed_slot[to] = finder_.hits().slot[lane];
-    walk_.departure[to] = (hit & hit_face) | ((hit & hit_entering) != 0 ? 0 : departure_inward);
-    walk_.set_media(to, paths_.media_at(lane));
-    walk_distance_[to] = shadows_.distance[shadow];
-}
-
-/// From surface to surface, until the light or something opaque. As
-/// core::ReferenceTracer::light_let_through has it.
-void Wavefront::walk_shadows(const Bundle& bundle) {
-    while (walk_.count != 0) {
-        walker_.find(walk_, &bundle, counters_);
-        for (const std::uint32_t lane : walker_.left_open()) {
-            ++counters_.followed;
-            const core::Vec3d share =
-                reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
-                                             walk_.media_at(lane), walk_distance_[lane]);
-            for (int channel = 0; channel < 3; ++channel)
-                shadows_.weight[channel][walk_.sample[lane]] =
-                    walk_.throughput[channel][lane] * share[channel];
-            walk_distance_[lane] = -1.0; // done
-        }
-        std::size_t kept = 0;
-        for (std::size_t lane = 0; lane < walk_.count; ++lane) {
-            double distance = walk_distance_[lane];
-            if (distance < 0.0 || !step(lane, distance)) continue;
-            walk_.copy(walk_, lane, kept);
-            walk_distance_[kept++] = distance;
-        }
-        walk_.count = kept;
-    }
-}
-
-/// Takes a walk through the surface that it has found. False if it is over.
-bool Wavefront::step(std::size_t lane, double& distance) {
-    const Hits& found = walker_.hits();
-    const std::uint32_t shadow = walk_.sample[lane], slot = found.slot[lane];
-    const core::Media media = walk_.media_at(lane);
-    const auto weaken = [&](const core::Vec3d& share) {
-        for (int channel = 0; channel < 3; ++channel)
-            walk_.throughput[channel][lane] *= share[channel];
-    };
-    if (slot == no_slot || !(found.t[lane] < distance)) {
-        weaken(reference_.absorbed(media.top(), distance));
-        for (int channel = 0; channel < 3; ++channel)
-            shadows_.weight[channel][shadow] = walk_.throughput[channel][lane];
-        return false;
-    }
-    core::Hit<double> hit;
-    hit.shape = scene_.id_of(slot);
-    hit.entering = (found.hit[lane] & hit_entering) != 0;
-    if (!scene_.scene().material_of(hit.shape).transmits()) {
-        occlusions_.state[shadow] = blocked;
-        return false;
-    }
-    const double t = found.t[lane];
-    const core::Ray<double> ray = ray_of(walk_, lane);
-    const core::Vec3d normal(found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]);
-    weaken(reference_.absorbed(reference_.medium_before(hit, media), t) *
-           reference_.let_through(hit, ray.direction, normal, media));
-    for (int axis = 0; axis < 3; ++axis)
-        walk_.origin[axis][lane] += t * ray.direction[axis];
-    const core::IdRange range = scene_.occupant_of(slot).coplanar;
-    walk_.departed_first[lane] = range.first;
-    walk_.departed_last[lane] = range.last;
-    walk_.departed_slot[lane] = slot;
-    walk_.departure[lane] = (found.hit[lane] & hit_face) | (hit.entering ? departure_inward : 0);
-    walk_.set_media(lane, reference_.media_behind(hit, media));
-    distance -= t;
-    return true;
 }
 
 void Wavefront::spawn() {
@@ -519,7 +368,7 @@ void Wavefront::spawn() {
         reflected.direction[axis] = next_.direction[axis];
         reflected.weight[axis] = next_.throughput[axis];
     }
-    reflected.parent = shadows_.parent;
+    reflected.parent = shadows_.rays().parent; // not needed any more
     transmitted_.count = 0;
     for (const Run& run : runs_)
         if (run.material->reflects || run.material->transmits)

@@ -3,7 +3,7 @@
 #include "core/camera_rays.hpp"
 #include "core/film.hpp"
 #include "core/region.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/wavefront/shadow_tracer.hpp"
 
 #include <vector>
 
@@ -55,10 +55,6 @@ class Wavefront {
     void shade(int depth);
     void fill_media();
     void add_lights();
-    void trace_shadows(const LightView& light);
-    void walk_shadows(const Bundle& bundle);
-    void start_walk(std::size_t shadow);
-    bool step(std::size_t lane, double& distance);
     void spawn();
     void add_to_next(const SpawnedRays& spawned, bool through);
     void split_next(int depth);
@@ -76,8 +72,8 @@ class Wavefront {
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;
     HitFinder finder_;
+    ShadowTracer shadows_;
     core::Counters counters_;
-    std::uint64_t counted_twice_ = 0; ///< shadow rays, here and by the reference
 
     Arena arena_;
     Paths paths_{}, next_{}, deferred_{};
@@ -100,17 +96,6 @@ class Wavefront {
     Surfaces surfaces_{};
     MediumColumns media_{};
     SpawnedRays transmitted_{};
-    SpawnedRays shadows_{};
-    Paths shadow_paths_{};
-    RoundedRays shadow_rounded_{};
-    Occlusions occlusions_{};
-    float* shadow_t_most_ = nullptr;
-    Pending shadow_pending_{};
-
-    // Shadow rays that some surface may let through, or that may cross again what they start on.
-    HitFinder walker_;
-    Paths walk_{}; // throughput: what is left of the weight; sample: the shadow ray
-    double* walk_distance_ = nullptr;
 };
 
 } // namespace raylane::simd

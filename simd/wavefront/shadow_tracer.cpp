@@ -1,0 +1,179 @@
+#include "simd/wavefront/shadow_tracer.hpp"
+
+namespace raylane::simd {
+
+namespace {
+
+Bundle bundle_of(const LightView& light) {
+    Bundle bundle{};
+    for (int axis = 0; axis < 3; ++axis)
+        bundle.apex[axis] = static_cast<float>(light.position[axis]);
+    bundle.towards = light.is_point;
+    bundle.parallel = !light.is_point;
+    return bundle;
+}
+
+} // namespace
+
+void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
+    arena.take(rays.origin, capacity);
+    arena.take(rays.direction, capacity);
+    arena.take(rays.weight, capacity);
+    rays.distance = arena.take<double>(capacity);
+    rays.parent = arena.take<double>(capacity);
+}
+
+ShadowTracer::ShadowTracer(const SceneData& scene, const Kernels& kernels,
+                           core::ReferenceTracer<double>& reference)
+    : scene_(scene), kernels_(kernels), reference_(reference), walker_(scene, kernels, &reference) {
+}
+
+void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media) {
+    take_spawned(arena, rays_, capacity);
+    departed_first_ = arena.take<std::uint32_t>(capacity);
+    departed_last_ = arena.take<std::uint32_t>(capacity);
+    arena.take(rounded_.origin, capacity);
+    arena.take(rounded_.direction, capacity);
+    rounded_.slack = arena.take<float>(capacity);
+    rounded_.departed_first = departed_first_;
+    rounded_.departed_last = departed_last_;
+    t_most_ = arena.take<float>(capacity);
+    occlusions_.t_most = t_most_;
+    occlusions_.state = arena.take<std::uint8_t>(capacity);
+    pending_ = pending_for(scene_, arena);
+    walker_.take_from(arena, capacity);
+    walk_.take_from(arena, capacity, with_media);
+    walk_distance_ = arena.take<double>(capacity);
+}
+
+void ShadowTracer::trace(const Wave& wave, const LightView& light, core::Counters& counters) {
+    counters.shadow += rays_.count;
+    const Bundle bundle = bundle_of(light);
+    start(wave);
+    find_blocked(wave, bundle, counters);
+
+    walk_.count = 0;
+    for (std::size_t k = 0; k < rays_.count; ++k)
+        if (occlusions_.state[k] == doubtful) start_walk(wave, k);
+    if (walk_.count != 0) walk(bundle, counters);
+}
+
+void ShadowTracer::start(const Wave& wave) {
+    const bool with_media = wave.paths.media[0] != nullptr;
+    for (std::size_t k = 0; k < rays_.count; ++k) {
+        const std::uint32_t lane = wave.order[static_cast<std::size_t>(rays_.parent[k])];
+        const SceneData::Occupant shape = scene_.occupant_of(wave.hits.slot[lane]);
+        departed_first_[k] = shape.coplanar.first;
+        departed_last_[k] = shape.coplanar.last;
+        const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
+        const bool in_medium = with_media && wave.paths.media[0][lane] != core::Media::none;
+        occlusions_.state[k] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
+        t_most_[k] = static_cast<float>(rays_.distance[k]);
+    }
+    kernels_.trace.round_rays(rays_.count, rays_.origin, rays_.direction, rounded_);
+}
+
+void ShadowTracer::find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters) {
+    const TraceKernels& trace = kernels_.trace;
+    const std::size_t count = rays_.count;
+    TraceCounters traced{};
+    // Deeper waves hit here and there: too much is between them and the light.
+    if (wave.coherent || !scene_.has_tree()) {
+        trace.occluded_in_bundle(scene_.view(), scene_.listed_kinds(), bundle, count, rounded_,
+                                 occlusions_, pending_, traced);
+    } else {
+        if (scene_.listed_kinds() != 0)
+            trace.occluded_by_all(scene_.view(), scene_.listed_kinds(), count, rounded_,
+                                  occlusions_, traced);
+        trace.occluded_in_tree(scene_.view(), count, rounded_, occlusions_, pending_, traced);
+    }
+    counters.nodes += traced.nodes;
+    counters.shapes += traced.shapes;
+}
+
+void ShadowTracer::start_walk(const Wave& wave, std::size_t ray) {
+    const std::uint32_t lane = wave.order[static_cast<std::size_t>(rays_.parent[ray])];
+    const std::uint32_t hit = wave.hits.hit[lane];
+    const std::size_t to = walk_.count++;
+    for (int axis = 0; axis < 3; ++axis) {
+        walk_.origin[axis][to] = rays_.origin[axis][ray];
+        walk_.direction[axis][to] = rays_.direction[axis][ray];
+        walk_.throughput[axis][to] = rays_.weight[axis][ray];
+    }
+    walk_.sample[to] = static_cast<std::uint32_t>(ray);
+    walk_.departed_first[to] = departed_first_[ray];
+    walk_.departed_last[to] = departed_last_[ray];
+    walk_.departed_slot[to] = wave.hits.slot[lane];
+    walk_.departure[to] = (hit & hit_face) | ((hit & hit_entering) != 0 ? 0 : departure_inward);
+    walk_.set_media(to, wave.paths.media_at(lane));
+    walk_distance_[to] = rays_.distance[ray];
+}
+
+/// From surface to surface, until the light or something opaque. As
+/// core::ReferenceTracer::light_let_through has it.
+void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
+    counters.walked += walk_.count;
+    while (walk_.count != 0) {
+        walker_.find(walk_, &bundle, counters);
+        for (const std::uint32_t lane : walker_.left_open()) {
+            ++counters.followed;
+            ++counted_twice_;
+            const core::Vec3d share =
+                reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
+                                             walk_.media_at(lane), walk_distance_[lane]);
+            for (int channel = 0; channel < 3; ++channel)
+                rays_.weight[channel][walk_.sample[lane]] =
+                    walk_.throughput[channel][lane] * share[channel];
+            walk_distance_[lane] = -1.0; // done
+        }
+        std::size_t kept = 0;
+        for (std::size_t lane = 0; lane < walk_.count; ++lane) {
+            double distance = walk_distance_[lane];
+            if (distance < 0.0 || !step(lane, distance)) continue;
+            walk_.copy(walk_, lane, kept);
+            walk_distance_[kept++] = distance;
+        }
+        walk_.count = kept;
+    }
+}
+
+/// Takes a walk through the surface that it has found. False if it is over.
+bool ShadowTracer::step(std::size_t lane, double& distance) {
+    const Hits& found = walker_.hits();
+    const std::uint32_t number = walk_.sample[lane], slot = found.slot[lane];
+    const core::Media media = walk_.media_at(lane);
+    const auto weaken = [&](const core::Vec3d& share) {
+        for (int channel = 0; channel < 3; ++channel)
+            walk_.throughput[channel][lane] *= share[channel];
+    };
+    if (slot == no_slot || !(found.t[lane] < distance)) {
+        weaken(reference_.absorbed(media.top(), distance));
+        for (int channel = 0; channel < 3; ++channel)
+            rays_.weight[channel][number] = walk_.throughput[channel][lane];
+        return false;
+    }
+    core::Hit<double> hit;
+    hit.shape = scene_.id_of(slot);
+    hit.entering = (found.hit[lane] & hit_entering) != 0;
+    if (!scene_.scene().material_of(hit.shape).transmits()) {
+        occlusions_.state[number] = blocked;
+        return false;
+    }
+    const double t = found.t[lane];
+    const core::Ray<double> ray = ray_of(walk_, lane);
+    const core::Vec3d normal(found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]);
+    weaken(reference_.absorbed(reference_.medium_before(hit, media), t) *
+           reference_.let_through(hit, ray.direction, normal, media));
+    for (int axis = 0; axis < 3; ++axis)
+        walk_.origin[axis][lane] += t * ray.direction[axis];
+    const core::IdRange range = scene_.occupant_of(slot).coplanar;
+    walk_.departed_first[lane] = range.first;
+    walk_.departed_last[lane] = range.last;
+    walk_.departed_slot[lane] = slot;
+    walk_.departure[lane] = (found.hit[lane] & hit_face) | (hit.entering ? departure_inward : 0);
+    walk_.set_media(lane, reference_.media_behind(hit, media));
+    distance -= t;
+    return true;
+}
+
+} // namespace raylane::simd

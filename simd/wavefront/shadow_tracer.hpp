@@ -1,0 +1,64 @@
+#pragma once
+
+#include "simd/wavefront/hit_finder.hpp"
+
+namespace raylane::simd {
+
+/// Arrays for spawned rays.
+void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity);
+
+/// Finds what of a light reaches the surfaces of a wave.
+class ShadowTracer {
+  public:
+    ShadowTracer(const SceneData& scene, const Kernels& kernels,
+                 core::ReferenceTracer<double>& reference);
+
+    void take_from(Arena& arena, std::size_t capacity, bool with_media);
+
+    /// To be filled: rays to the light, weighted by what arrives if nothing is in the way.
+    SpawnedRays& rays() { return rays_; }
+
+    /// Where they come from: position p of the wave is what lane order[p] has hit.
+    struct Wave {
+        const Paths& paths;
+        const Hits& hits;
+        const std::uint32_t* order;
+        bool coherent; ///< it was hit by rays from the camera
+    };
+
+    /// Weakens the rays' weights by what is in the way, or blocks them.
+    void trace(const Wave& wave, const LightView& light, core::Counters& counters);
+
+    bool arrives(std::size_t ray) const { return occlusions_.state[ray] != blocked; }
+
+    /// Shadow rays that the reference has counted as well.
+    std::uint64_t counted_twice() const { return counted_twice_; }
+
+  private:
+    void start(const Wave& wave);
+    void find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters);
+    void walk(const Bundle& bundle, core::Counters& counters);
+    void start_walk(const Wave& wave, std::size_t ray);
+    bool step(std::size_t lane, double& distance);
+
+    const SceneData& scene_;
+    const Kernels& kernels_;
+    core::ReferenceTracer<double>& reference_;
+
+    SpawnedRays rays_{};
+    std::uint32_t* departed_first_ = nullptr;
+    std::uint32_t* departed_last_ = nullptr;
+    RoundedRays rounded_{};
+    float* t_most_ = nullptr;
+    Occlusions occlusions_{};
+    Pending pending_{};
+
+    // Rays that some surface may let through, or that may cross again what they start on: they walk
+    // from surface to surface.
+    HitFinder walker_;
+    Paths walk_{}; // throughput: what is left of the weight; sample: the ray
+    double* walk_distance_ = nullptr;
+    std::uint64_t counted_twice_ = 0;
+};
+
+} // namespace raylane::simd
