@@ -19,6 +19,7 @@ struct Spots {
 /// in_range: first <= value <= last for unsigned numbers in memory.
 /// from_numbers, to_numbers: numbers below 2^31 in memory.
 /// gather: the floats at some spots, `row` further on.
+/// pick: from[places[lane]].
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
 template <class Arch>
 struct DoubleLanes;
@@ -58,6 +59,9 @@ struct DoubleLanes<Sse42> {
             _mm_cvtps_pd(_mm_setr_ps(from[spots.offsets[0]], from[spots.offsets[1]], 0.0F, 0.0F)));
     }
 
+    static F pick(const double* from, const std::uint32_t* places) {
+        return F(_mm_setr_pd(from[places[0]], from[places[1]]));
+    }
     static void compress_store(double* out, const F& values, std::uint32_t wanted) {
         const __m128d lanes = values;
         _mm_storeu_pd(out, wanted == 2 ? _mm_unpackhi_pd(lanes, lanes) : lanes);
@@ -110,6 +114,10 @@ struct DoubleLanes<Avx2> {
                                              from[spots.offsets[2]], from[spots.offsets[3]])));
     }
 
+    static F pick(const double* from, const std::uint32_t* places) {
+        return F(_mm256_setr_pd(from[places[0]], from[places[1]], from[places[2]],
+                                from[places[3]]));
+    }
     static void compress_store(double* out, const F& values, std::uint32_t wanted) {
         const __m256i order =
             _mm256_load_si256(reinterpret_cast<const __m256i*>(orders[wanted].lanes));
@@ -180,6 +188,9 @@ struct DoubleLanes<Avx512> {
                                            from[at[4]], from[at[5]], from[at[6]], from[at[7]])));
     }
 
+    static F pick(const double* from, const std::uint32_t* places) {
+        return F(_mm512_i32gather_pd(load(places), from, 8));
+    }
     static void compress_store(double* out, const F& values, std::uint32_t wanted) {
         // To memory directly it takes several times as long.
         _mm512_storeu_pd(out, _mm512_maskz_compress_pd(static_cast<__mmask8>(wanted), values));

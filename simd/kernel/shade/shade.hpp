@@ -41,11 +41,7 @@ struct Shading {
         }
 
         F operator()(const double* column) const {
-            if (in_a_row) return load(column + places[0]);
-            double values[lanes];
-            for (std::size_t k = 0; k < lanes; ++k)
-                values[k] = column[places[k]];
-            return load(values);
+            return in_a_row ? load(column + places[0]) : Lanes<Arch>::pick(column, places);
         }
         V operator()(const double* const (&columns)[3]) const {
             const F x = (*this)(columns[0]), y = (*this)(columns[1]), z = (*this)(columns[2]);
