@@ -35,7 +35,7 @@ if [ -z "$mca" ]; then
         fi
     done
 fi
-[ -n "$mca" ] || fail "no llvm-mca here; Debian's package llvm has it"
+command -v "${mca:-llvm-mca}" >"$work/mca" || fail "no llvm-mca here; Debian's package llvm has it"
 
 models() { # processor: whether llvm-mca knows its AVX-512 units
     echo 'vfmadd231ps %zmm0, %zmm1, %zmm2' >"$work/probe.s"
@@ -47,7 +47,7 @@ mcpu=${mcpu:-native}
 if ! models "$mcpu"; then
     [ -z "${MCPU:-}" ] || fail "$mca: no model of $mcpu with AVX-512"
     mcpu=icelake-server
-    models $mcpu || fail "$mca is too old"
+    models $mcpu || fail "$mca cannot model $mcpu: $(head -n 1 "$work/probe")"
 fi
 
 # The kernels by the library's own headers, compiler and flags, with everything inlined: each becomes
