@@ -19,14 +19,16 @@ void draw(benchmark::State& state, const core::Scene& scene, const simd::RenderO
         counters += simd::render(scene, scene.settings(), options).counters;
         seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
-    // By the wall's clock; the library's own rates are by the processor's.
+    using benchmark::Counter;
     const auto pictures = static_cast<double>(state.iterations());
     const auto per_picture = [&](std::uint64_t count) {
-        return benchmark::Counter(static_cast<double>(count) / pictures);
+        return Counter(static_cast<double>(count) / pictures);
     };
     state.counters["seconds"] = seconds / pictures;
-    state.counters["rays/s"] = static_cast<double>(counters.rays()) / seconds;
-    state.counters["ns/primary"] = seconds * 1e9 / static_cast<double>(counters.primary);
+    // By the thread's own time, which other work on the machine disturbs less.
+    state.counters["rays/s"] = Counter(static_cast<double>(counters.rays()), Counter::kIsRate);
+    state.counters["per_primary"] =
+        Counter(static_cast<double>(counters.primary), Counter::kIsRate | Counter::kInvert);
     state.counters["primary"] = per_picture(counters.primary);
     state.counters["reflected"] = per_picture(counters.reflected);
     state.counters["refracted"] = per_picture(counters.refracted);

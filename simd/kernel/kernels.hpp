@@ -106,8 +106,8 @@ struct KernelsOf {
                (ahead(found.second, on_surface) & (found.second.t < t_most));
     }
 
-    static void intersect_rays(KindNumber kind, const ShapeBlock& block, int lane,
-                               PacketStream& stream) {
+    [[gnu::flatten]] static void intersect_rays(KindNumber kind, const ShapeBlock& block, int lane,
+                                                PacketStream& stream) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Shape shape(BroadcastReader<Arch>(block.values, lane));
             const F id(block.ids[lane]);
@@ -126,8 +126,8 @@ struct KernelsOf {
         });
     }
 
-    static void occlude_rays(KindNumber kind, const ShapeBlock& block, int lane,
-                             PacketStream& stream) {
+    [[gnu::flatten]] static void occlude_rays(KindNumber kind, const ShapeBlock& block, int lane,
+                                              PacketStream& stream) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Shape shape(BroadcastReader<Arch>(block.values, lane));
             const F id(block.ids[lane]);
@@ -141,8 +141,8 @@ struct KernelsOf {
         });
     }
 
-    static void intersect_block(KindNumber kind, const ShapeBlock& block, PacketStream& stream,
-                                std::size_t ray) {
+    [[gnu::flatten]] static void intersect_block(KindNumber kind, const ShapeBlock& block,
+                                                 PacketStream& stream, std::size_t ray) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Rays<Arch> rays = broadcast_ray(stream, ray);
             for (int lane = 0; lane < 16; lane += lanes) {
@@ -158,8 +158,8 @@ struct KernelsOf {
         });
     }
 
-    static void occlude_block(KindNumber kind, const ShapeBlock& block, PacketStream& stream,
-                              std::size_t ray) {
+    [[gnu::flatten]] static void occlude_block(KindNumber kind, const ShapeBlock& block,
+                                               PacketStream& stream, std::size_t ray) {
         with_lanes<Arch>(kind, [&]<class Shape>() {
             const Rays<Arch> rays = broadcast_ray(stream, ray);
             const F t(stream.t[ray]);

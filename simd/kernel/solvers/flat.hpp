@@ -16,7 +16,8 @@ Crossing<Arch> cross_plane(const Vectors<Arch>& to_point, const Vectors<Arch>& n
 
 template <class Arch>
 Crossings<Arch> only(const Crossing<Arch>& crossing) {
-    return {crossing, {none<Arch>(), zero<Arch>(), zero<Arch>(), none<Arch>()}};
+    return {{crossing.exists, crossing.t, crossing.face, crossing.entering},
+            {none<Arch>(), zero<Arch>(), zero<Arch>(), none<Arch>()}};
 }
 
 template <class Arch>
