@@ -15,6 +15,10 @@ class Media {
     static constexpr int depth = 4;
     static constexpr MaterialIndex none = std::numeric_limits<MaterialIndex>::max();
 
+    Media() = default;
+    /// The stack, its top first.
+    explicit Media(const std::array<MaterialIndex, depth>& stack) : stack_(stack) {}
+
     MaterialIndex top() const { return stack_[0]; }
     /// Number i from the top.
     MaterialIndex at(int i) const { return stack_[i]; }
@@ -28,13 +32,12 @@ class Media {
 
     /// Takes out the innermost entry of this material, if there is one.
     void leave(MaterialIndex material) {
-        int i = 0;
-        while (i < depth && stack_[i] != material)
-            ++i;
-        if (i == depth) return;
-        for (; i + 1 < depth; ++i)
-            stack_[i] = stack_[i + 1];
-        stack_[depth - 1] = none;
+        bool below = false;
+        for (int i = 0; i < depth; ++i) {
+            below = below || stack_[i] == material;
+            const MaterialIndex next = i + 1 < depth ? stack_[i + 1] : none;
+            stack_[i] = below ? next : stack_[i];
+        }
     }
 
   private:

@@ -67,4 +67,18 @@ Real reflectance(const Material& material, const Refraction<Real>& refraction, R
     return fresnel(refraction.cos_incident, refraction.cos_transmitted, n1, n2);
 }
 
+/// The share of light that a surface lets through on a straight line, at the cosine `cos` of its
+/// angle to the normal. As the line is not bent, its angle is taken for the one on the rarer side:
+/// a light is never shut out by total reflection in a body that it has to enter first.
+template <class Real>
+Real let_straight_through(const Material& material, Real cos, Real n1, Real n2) {
+    const Real rarer = std::min(n1, n2), denser = std::max(n1, n2);
+    const Real sine = rarer / denser;
+    const Real sin_squared = sine * sine * (Real(1) - cos * cos);
+    const Refraction<Real> refraction{
+        false, cos, std::sqrt(std::max(Real(0), Real(1) - sin_squared)), {}};
+    return (Real(1) - reflectance(material, refraction, rarer, denser)) *
+           Real(material.transmission);
+}
+
 } // namespace raylane::core

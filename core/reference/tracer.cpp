@@ -219,8 +219,7 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
     Real reached = 0;
     for (const Hit<Real>& hit : crossings_) {
         share *= absorbed(medium_before(hit, media), hit.t - reached);
-        const Vector point = mul_add(hit.t, ray.direction, ray.origin);
-        share *= let_through(hit, ray.direction, searcher_.outward_normal_at(hit, point), media);
+        share *= let_through(hit, ray, media);
         media = media_behind(hit, media);
         reached = hit.t;
     }
@@ -256,19 +255,15 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure
     return true;
 }
 
-/// The share that one surface lets through. The line is not bent, so its angle is taken for the
-/// one on the rarer side: a light is never shut out by total reflection in a body that it has to
-/// enter first.
+/// The share that one surface lets through.
 template <class Real>
-Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Vector& direction,
-                                        const Vector& outward, const Media& media) const {
+Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
+                                        const Media& media) const {
+    const Vector point = mul_add(hit.t, ray.direction, ray.origin);
+    const Real cos = std::abs(dot(ray.direction, searcher_.outward_normal_at(hit, point)));
     const auto [before, behind] = indices_at(hit, media);
-    const Real rarer = std::min(before, behind), denser = std::max(before, behind);
-    const Material& material = scene_.material_of(hit.shape);
-    const Refraction<Real> refraction =
-        refract(direction, hit.entering ? outward : Vector(-outward), rarer, denser);
-    return (Real(1) - reflectance(material, refraction, rarer, denser)) *
-           Real(material.transmission);
+    return let_straight_through(scene_.material_of(hit.shape), std::min(cos, Real(1)), before,
+                                behind);
 }
 
 template <class Real>

@@ -57,14 +57,6 @@ class ReferenceTracer {
     /// What a ray from the camera starts in.
     const Media& media_around(const Vector& origin);
 
-    /// The share of light that one surface lets through. `outward`: its normal where it is hit.
-    Real let_through(const Hit<Real>& hit, const Vector& direction, const Vector& outward,
-                     const Media& media) const;
-    /// What of light is left behind some distance in a medium.
-    Vector absorbed(MaterialIndex medium, Real distance) const;
-    MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
-    Media media_behind(const Hit<Real>& hit, Media media) const;
-
   private:
     /// The surface that a path has hit, seen from the side that it came from.
     struct Surface {
@@ -99,6 +91,11 @@ class ReferenceTracer {
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
     Indices indices_at(const Hit<Real>& hit, const Media& media) const;
+
+    Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Media& media) const;
+    Media media_behind(const Hit<Real>& hit, Media media) const;
+    MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
+    Vector absorbed(MaterialIndex medium, Real distance) const;
 
     const Scene& scene_;
     Settings settings_;

@@ -37,11 +37,8 @@ struct Paths {
     }
 
     core::Media media_at(std::size_t lane) const {
-        core::Media result;
-        if (media[0] == nullptr) return result;
-        for (int i = core::Media::depth - 1; i >= 0; --i)
-            if (media[i][lane] != core::Media::none) result.enter(media[i][lane]);
-        return result;
+        if (media[0] == nullptr) return {};
+        return core::Media({media[0][lane], media[1][lane], media[2][lane], media[3][lane]});
     }
 
     void set_media(std::size_t lane, const core::Media& values) const {

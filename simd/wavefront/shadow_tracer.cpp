@@ -1,5 +1,11 @@
 #include "simd/wavefront/shadow_tracer.hpp"
 
+#include "core/elementary.hpp"
+#include "core/optics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
 namespace raylane::simd {
 
 namespace {
@@ -141,39 +147,60 @@ void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
 bool ShadowTracer::step(std::size_t lane, double& distance) {
     const Hits& found = walker_.hits();
     const std::uint32_t number = walk_.sample[lane], slot = found.slot[lane];
-    const core::Media media = walk_.media_at(lane);
-    const auto weaken = [&](const core::Vec3d& share) {
-        for (int channel = 0; channel < 3; ++channel)
-            walk_.throughput[channel][lane] *= share[channel];
-    };
+    core::Media media = walk_.media_at(lane);
     if (slot == no_slot || !(found.t[lane] < distance)) {
-        weaken(reference_.absorbed(media.top(), distance));
+        absorb(media.top(), distance, lane);
         for (int channel = 0; channel < 3; ++channel)
             rays_.weight[channel][number] = walk_.throughput[channel][lane];
         return false;
     }
-    core::Hit<double> hit;
-    hit.shape = scene_.id_of(slot);
-    hit.entering = (found.hit[lane] & hit_entering) != 0;
-    if (!scene_.scene().material_of(hit.shape).transmits()) {
+    const SceneData::Occupant shape = scene_.occupant_of(slot);
+    const core::Material& material = scene_.scene().materials()[shape.material];
+    if (!material.transmits()) {
         occlusions_.state[number] = blocked;
         return false;
     }
+    // A ray that leaves a body which it never entered has been inside from its start.
+    const bool entering = (found.hit[lane] & hit_entering) != 0;
+    const core::MaterialIndex before = media.empty() && !entering ? shape.material : media.top();
+    if (entering)
+        media.enter(shape.material);
+    else
+        media.leave(shape.material);
+    const double behind = entering ? static_cast<double>(material.index) : index_of(media.top());
+
     const double t = found.t[lane];
-    const core::Ray<double> ray = ray_of(walk_, lane);
-    const core::Vec3d normal(found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]);
-    weaken(reference_.absorbed(reference_.medium_before(hit, media), t) *
-           reference_.let_through(hit, ray.direction, normal, media));
+    double cos = 0.0;
     for (int axis = 0; axis < 3; ++axis)
-        walk_.origin[axis][lane] += t * ray.direction[axis];
-    const core::IdRange range = scene_.occupant_of(slot).coplanar;
-    walk_.departed_first[lane] = range.first;
-    walk_.departed_last[lane] = range.last;
+        cos += walk_.direction[axis][lane] * found.normal[axis][lane];
+    const double share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
+                                                    index_of(before), behind);
+    absorb(before, t, lane);
+    for (int axis = 0; axis < 3; ++axis) {
+        walk_.throughput[axis][lane] *= share;
+        walk_.origin[axis][lane] += t * walk_.direction[axis][lane];
+    }
+    walk_.departed_first[lane] = shape.coplanar.first;
+    walk_.departed_last[lane] = shape.coplanar.last;
     walk_.departed_slot[lane] = slot;
-    walk_.departure[lane] = (found.hit[lane] & hit_face) | (hit.entering ? departure_inward : 0);
-    walk_.set_media(lane, reference_.media_behind(hit, media));
+    walk_.departure[lane] = (found.hit[lane] & hit_face) | (entering ? departure_inward : 0);
+    walk_.set_media(lane, media);
     distance -= t;
     return true;
+}
+
+double ShadowTracer::index_of(core::MaterialIndex medium) const {
+    return medium == core::Media::none ? 1.0 : scene_.materials()[medium].index;
+}
+
+/// Beer and Lambert's law.
+void ShadowTracer::absorb(core::MaterialIndex medium, double distance, std::size_t lane) {
+    if (medium == core::Media::none) return;
+    const core::Vec3f& absorption = scene_.scene().materials()[medium].absorption;
+    for (int channel = 0; channel < 3; ++channel)
+        if (absorption[channel] > 0.0F)
+            walk_.throughput[channel][lane] *=
+                core::exp(-static_cast<double>(absorption[channel]) * distance);
 }
 
 } // namespace raylane::simd

@@ -40,6 +40,8 @@ class ShadowTracer {
     void walk(const Bundle& bundle, core::Counters& counters);
     void start_walk(const Wave& wave, std::size_t ray);
     bool step(std::size_t lane, double& distance);
+    double index_of(core::MaterialIndex medium) const;
+    void absorb(core::MaterialIndex medium, double distance, std::size_t lane);
 
     const SceneData& scene_;
     const Kernels& kernels_;
