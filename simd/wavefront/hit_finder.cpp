@@ -53,20 +53,6 @@ Pending pending_for(const SceneData& scene, Arena& arena) {
     return {t, arena.take<std::uint32_t>(entries)};
 }
 
-bool may_return(core::Kind kind, bool inward) {
-    switch (kind) {
-    case core::Kind::plane:
-    case core::Kind::disc:
-    case core::Kind::triangle:
-    case core::Kind::smooth_triangle:
-        return false;
-    case core::Kind::quadric:
-        return true;
-    default:
-        return inward;
-    }
-}
-
 core::Ray<double> ray_of(const Paths& paths, std::size_t lane) {
     return {{paths.origin[0][lane], paths.origin[1][lane], paths.origin[2][lane]},
             {paths.direction[0][lane], paths.direction[1][lane], paths.direction[2][lane]}};
@@ -194,7 +180,7 @@ void HitFinder::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
     passed_[to] += t;
     for (int axis = 0; axis < 3; ++axis)
         onward_paths_.origin[axis][to] += t * onward_paths_.direction[axis][to];
-    const core::IdRange range = scene_.occupant_of(hits.slot[lane]).coplanar;
+    const core::IdRange range = scene_.coplanar_with(hits.slot[lane]);
     onward_paths_.departed_first[to] = range.first;
     onward_paths_.departed_last[to] = range.last;
     onward_paths_.departed_slot[to] = hits.slot[lane];

@@ -89,6 +89,9 @@ core::Ray<double> ray_of(const Paths& paths, std::size_t lane);
 Pending pending_for(const SceneData& scene, Arena& arena);
 
 /// Whether a ray that leaves a shape may cross it again.
-bool may_return(core::Kind kind, bool inward);
+inline bool may_return(core::Kind kind, bool inward) {
+    if (kind == core::Kind::quadric) return true;
+    return inward && (kind == core::Kind::sphere || kind >= core::Kind::box);
+}
 
 } // namespace raylane::simd

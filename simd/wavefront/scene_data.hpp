@@ -30,23 +30,30 @@ class SceneData {
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }
 
-    /// What is in a slot.
+    /// Of the shape in a slot.
+    core::ShapeId id_of(std::uint32_t slot) const { return get(&Occupant::id, slot); }
+    core::IdRange coplanar_with(std::uint32_t slot) const { return get(&Occupant::coplanar, slot); }
+    core::MaterialIndex material_of(std::uint32_t slot) const {
+        return get(&Occupant::material, slot);
+    }
+    core::Kind kind_of(std::uint32_t slot) const { return get(&Occupant::kind, slot); }
+    core::Slot place_of(std::uint32_t slot) const;
+    std::uint32_t slot_of(core::Kind kind, core::Slot place) const;
+
+  private:
     struct Occupant {
         core::ShapeId id;
         core::IdRange coplanar;
         core::MaterialIndex material;
         core::Kind kind;
     };
-    Occupant occupant_of(std::uint32_t slot) const {
-        return occupants_.empty() ? find_occupant(slot) : occupants_[slot];
-    }
-    core::Kind kind_of(std::uint32_t slot) const { return occupant_of(slot).kind; }
-    core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
-    core::Slot place_of(std::uint32_t slot) const;
-    std::uint32_t slot_of(core::Kind kind, core::Slot place) const;
-
-  private:
     Occupant find_occupant(std::uint32_t slot) const;
+    template <class Field>
+    Field get(Field Occupant::*member, std::uint32_t slot) const {
+        if (occupants_.empty()) [[unlikely]]
+            return find_occupant(slot).*member;
+        return occupants_[slot].*member;
+    }
 
     const core::Scene& scene_;
     SceneView view_{};

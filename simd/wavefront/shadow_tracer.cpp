@@ -68,12 +68,14 @@ void ShadowTracer::start(const Wave& wave) {
     const bool with_media = wave.paths.media[0] != nullptr;
     for (std::size_t k = 0; k < rays_.count; ++k) {
         const std::uint32_t lane = wave.order[static_cast<std::size_t>(rays_.parent[k])];
-        const SceneData::Occupant shape = scene_.occupant_of(wave.hits.slot[lane]);
-        departed_first_[k] = shape.coplanar.first;
-        departed_last_[k] = shape.coplanar.last;
+        const std::uint32_t slot = wave.hits.slot[lane];
+        const core::IdRange range = scene_.coplanar_with(slot);
+        departed_first_[k] = range.first;
+        departed_last_[k] = range.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
         const bool in_medium = with_media && wave.paths.media[0][lane] != core::Media::none;
-        occlusions_.state[k] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
+        occlusions_.state[k] =
+            in_medium || may_return(scene_.kind_of(slot), inward) ? doubtful : open;
         t_most_[k] = static_cast<float>(rays_.distance[k]);
     }
     kernels_.trace.round_rays(rays_.count, rays_.origin, rays_.direction, rounded_);
@@ -154,19 +156,19 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
             rays_.weight[channel][number] = walk_.throughput[channel][lane];
         return false;
     }
-    const SceneData::Occupant shape = scene_.occupant_of(slot);
-    const core::Material& material = scene_.scene().materials()[shape.material];
+    const core::MaterialIndex index = scene_.material_of(slot);
+    const core::Material& material = scene_.scene().materials()[index];
     if (!material.transmits()) {
         occlusions_.state[number] = blocked;
         return false;
     }
     // A ray that leaves a body which it never entered has been inside from its start.
     const bool entering = (found.hit[lane] & hit_entering) != 0;
-    const core::MaterialIndex before = media.empty() && !entering ? shape.material : media.top();
+    const core::MaterialIndex before = media.empty() && !entering ? index : media.top();
     if (entering)
-        media.enter(shape.material);
+        media.enter(index);
     else
-        media.leave(shape.material);
+        media.leave(index);
     const double behind = entering ? static_cast<double>(material.index) : index_of(media.top());
 
     const double t = found.t[lane];
@@ -180,8 +182,9 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
         walk_.throughput[axis][lane] *= share;
         walk_.origin[axis][lane] += t * walk_.direction[axis][lane];
     }
-    walk_.departed_first[lane] = shape.coplanar.first;
-    walk_.departed_last[lane] = shape.coplanar.last;
+    const core::IdRange range = scene_.coplanar_with(slot);
+    walk_.departed_first[lane] = range.first;
+    walk_.departed_last[lane] = range.last;
     walk_.departed_slot[lane] = slot;
     walk_.departure[lane] = (found.hit[lane] & hit_face) | (entering ? departure_inward : 0);
     walk_.set_media(lane, media);

@@ -233,8 +233,7 @@ void Wavefront::sort_hits() {
     const auto materials = static_cast<std::uint32_t>(scene_.materials().size());
     const Hits& hits = finder_.hits();
     for (std::size_t lane = 0; lane < paths_.count; ++lane)
-        keys_[lane] =
-            hits.slot[lane] == no_slot ? materials : scene_.occupant_of(hits.slot[lane]).material;
+        keys_[lane] = hits.slot[lane] == no_slot ? materials : scene_.material_of(hits.slot[lane]);
     const std::uint32_t taken = materials + 1;
     for (const std::uint32_t lane : finder_.left_open())
         keys_[lane] = taken;
@@ -396,7 +395,7 @@ void Wavefront::add_to_next(const SpawnedRays& spawned, bool through) {
         const std::uint32_t lane = order_[static_cast<std::size_t>(spawned.parent[k])];
         const std::size_t to = next_.count++;
         const std::uint32_t slot = hits.slot[lane], hit = hits.hit[lane];
-        const core::IdRange range = scene_.occupant_of(slot).coplanar;
+        const core::IdRange range = scene_.coplanar_with(slot);
         const bool entering = (hit & hit_entering) != 0;
         next_.sample[to] = paths_.sample[lane];
         next_.departed_first[to] = range.first;
