@@ -43,7 +43,12 @@ enum Occlusion : std::uint8_t {
     blocked = 2,
 };
 
-/// Where in the hierarchy single rays leave what they are still to visit: 16 entries per level.
+/// How many rays are under way in the hierarchy at a time: their state fits in the first-level
+/// cache.
+inline constexpr int in_flight = 32;
+
+/// Where in the hierarchy rays leave what they are still to visit: for each of those in flight, 16
+/// entries per level and 16 more.
 struct Pending {
     float* t;
     std::uint32_t* child;
@@ -93,7 +98,7 @@ struct TraceKernels {
                                const Occlusions& occlusions, const Pending& pending,
                                TraceCounters& counters);
 
-    /// By way of the hierarchy, each ray by itself.
+    /// By way of the hierarchy, each ray by itself, many at a time.
     void (*nearest_in_tree)(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                             const Candidates& candidates, const Pending& pending,
                             TraceCounters& counters);

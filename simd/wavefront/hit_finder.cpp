@@ -48,7 +48,7 @@ float rounded_down(double value) {
 
 Pending pending_for(const SceneData& scene, Arena& arena) {
     if (!scene.has_tree()) return {nullptr, nullptr};
-    const auto entries = static_cast<std::size_t>(16 * (scene.tree_depth() + 1));
+    const auto entries = static_cast<std::size_t>(in_flight * 16 * (scene.tree_depth() + 1));
     float* t = arena.take<float>(entries);
     return {t, arena.take<std::uint32_t>(entries)};
 }

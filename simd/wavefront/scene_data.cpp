@@ -12,6 +12,10 @@ constexpr std::size_t few_shapes = 24;
 /// Up to so many slots, what is in them is looked up rather than found: it fits in the cache.
 constexpr std::uint32_t table_slots = 1U << 15;
 
+/// What a core's own cache holds. Where the tree has more, it is fetched ahead of the rays: 8 % of
+/// their time at a million spheres; where not, that costs up to 4 %.
+constexpr std::size_t core_cache_bytes = std::size_t{2} << 20;
+
 MaterialView view_of(const core::Material& material) {
     MaterialView view{};
     view.ambient = static_cast<double>(material.ambient);
@@ -104,6 +108,10 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
     if (has_tree_) tree_depth_ = depth_below(nodes, 0);
     view_.nodes = reinterpret_cast<const NodeView*>(nodes.data());
     view_.node_count = static_cast<std::uint32_t>(nodes.size());
+    view_.tree_depth = static_cast<std::uint32_t>(tree_depth_);
+    std::size_t bytes = scene.hierarchy().bytes();
+    core::for_each_table(scene.shapes(), [&](const auto& table) { bytes += table.bytes(); });
+    view_.large = bytes > core_cache_bytes;
     smooth_ = (present >> static_cast<int>(core::Kind::smooth_triangle) & 1) != 0;
 
     const auto is_plain = [](const core::Material& material) {

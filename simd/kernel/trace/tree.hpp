@@ -1,210 +1,258 @@
 #pragma once
 
-#include "simd/kernel/trace/rays.hpp"
+#include "simd/kernel/trace/leaf.hpp"
+#include "simd/kernel/trace/queue.hpp"
 
 namespace raylane::simd {
 
-/// One ray at a time through the wide hierarchy: 16 boxes or 16 shapes at once.
-///
-/// The boxes' planes are shifted by the slack of the origin, away from the box; a quotient is then
-/// off by 3 u and the direction by u more, relative to itself, which `allowance` grants.
+/// Many rays at a time through the wide hierarchy, each by itself: while one waits for memory, or
+/// for its own last result, others go on. In a round, all that are at nodes take a step, then all
+/// that are at blocks; what would branch for each ray on its own sorts them into lists.
 template <class Arch>
 struct TraceTree : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
 
-    static constexpr float allowance = 1 + 16 * half_ulp;
+    /// The rays that are at nodes and at blocks, and those that are done.
+    struct Lists {
+        int at_nodes[in_flight], at_blocks[in_flight], done[in_flight];
+        int node_count = 0, block_count = 0, done_count = 0;
 
-    /// What is the same for all boxes.
-    struct BoxRay {
-        F near_origin[3], far_origin[3], inverse[3];
-        bool falls[3];
-
-        BoxRay(const RoundedRays& rays, std::size_t i) {
-            for (int axis = 0; axis < 3; ++axis) {
-                // A component of 0 is as good as one that leads nowhere: no 0 * infinity then.
-                constexpr float tiny = 0x1p-100F;
-                const float component = rays.direction[axis][i], o = rays.origin[axis][i];
-                const float d = component > tiny || component < -tiny ? component : tiny;
-                falls[axis] = d < 0.0F;
-                const float slack = 2 * rays.slack[i];
-                inverse[axis] = F(1.0F / d);
-                near_origin[axis] = F(falls[axis] ? o - slack : o + slack);
-                far_origin[axis] = F(falls[axis] ? o + slack : o - slack);
+        /// Where each of `count` rays is to go.
+        template <class Traveller>
+        void sort(const int* which, int count, const Traveller* rays) {
+            for (int k = 0; k < count; ++k) {
+                const int ray = which[k];
+                const std::uint32_t child = rays[ray].child;
+                at_nodes[node_count] = at_blocks[block_count] = done[done_count] = ray;
+                node_count += static_cast<int>((child & child_is_block) == 0);
+                block_count += static_cast<int>((child & child_is_block) != 0 && child != no_child);
+                done_count += static_cast<int>(child == no_child);
             }
-        }
-
-        /// The boxes that are entered before t_most, as bits, and where.
-        std::uint32_t enter(const NodeView& node, int from, const F& t_most, F& near) const {
-            near = zero<Arch>();
-            F far = t_most;
-            for (int axis = 0; axis < 3; ++axis) {
-                const float* lower = node.lower[axis] + from;
-                const float* upper = node.upper[axis] + from;
-                const F at_near =
-                    (S::load(falls[axis] ? upper : lower) - near_origin[axis]) * inverse[axis];
-                const F at_far =
-                    (S::load(falls[axis] ? lower : upper) - far_origin[axis]) * inverse[axis];
-                near = xsimd::max(at_near, near);
-                far = xsimd::min(at_far, far);
-            }
-            return Lanes<Arch>::bits(near <= far * F(allowance)) & S::filled(node, from);
         }
     };
 
-    struct Best {
-        float first, second;
-        std::uint32_t slot;
+    static KindNumber kind_of(std::uint32_t child) {
+        return static_cast<KindNumber>(child >> 27 & 0xF);
+    }
+
+    static void fetch_ahead(const SceneView& scene, std::uint32_t child) {
+        if (child == no_child) return;
+        const char* from = reinterpret_cast<const char*>(scene.nodes + child);
+        std::size_t bytes = sizeof(NodeView);
+        if ((child & child_is_block) != 0) {
+            const TableView& table = scene.tables[kind_of(child)];
+            from = reinterpret_cast<const char*>(S::block_of(table, child & child_index));
+            bytes = table.block_floats * sizeof(float);
+        }
+        for (std::size_t at = 0; at < bytes; at += 64)
+            __builtin_prefetch(from + at);
+    }
+
+    /// Calls visit.operator()<Filter>(ray, table) for those at blocks, those of a kind in turn.
+    template <class Traveller, class Visit>
+    static void for_each_at_block(const SceneView& scene, const int* which, int count,
+                                  Traveller* rays, const Visit& visit) {
+        for (int k = 0; k < count;) {
+            const KindNumber kind = kind_of(rays[which[k]].child);
+            int end = k + 1;
+            while (end < count && kind_of(rays[which[end]].child) == kind)
+                ++end;
+            with_filter<Arch>(kind, [&]<class Filter>() {
+                for_each_of_kind<Filter>(scene.tables[kind], which + k, end - k, rays, visit);
+            });
+            k = end;
+        }
+    }
+    /// A function to itself: in one for all kinds, compilers run out of patience for inlining.
+    template <class Filter, class Traveller, class Visit>
+    [[gnu::noinline, gnu::flatten]] static void
+    for_each_of_kind(const TableView& table, const int* which, int count, Traveller* rays,
+                     const Visit& visit) {
+        for (int k = 0; k < count; ++k)
+            visit.template operator()<Filter>(rays[which[k]], table);
+    }
+
+    struct Flight {
+        Queue<Arch> queue;
+        BoxRay ray;
+        std::uint32_t child; ///< to visit next
+        std::size_t i;       ///< in the stream
+        Best best;
+        Pending pending;
+        LeafHits hits;
     };
-
-    /// The shapes of a block that the ray does not leave.
-    static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {
-        return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.departed_first[i]),
-                                      S::broadcast_bits(rays.departed_last[i]));
-    }
-
-    static void nearest_in_block(const SceneView& scene, std::uint32_t child,
-                                 const FilterRays<Arch>& ray, const RoundedRays& rays,
-                                 std::size_t i, Best& best) {
-        const auto kind = static_cast<KindNumber>(child >> 27 & 0xF);
-        const TableView& table = scene.tables[kind];
-        const float* block = S::block_of(table, child & child_index);
-        const std::uint32_t* ids = S::ids_of(table, block);
-        with_filter<Arch>(kind, [&]<class Filter>() {
-            for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-                const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
-                const Bounds<Arch> bounds = filter.bounds(ray);
-                const M counts = bounds.possible & elsewhere(ids + from, rays, i) &
-                                 (bounds.lower < F(best.second));
-                std::uint32_t bits = Lanes<Arch>::bits(counts);
-                if (bits == 0) continue;
-                float lower[F::size];
-                bounds.lower.store_unaligned(lower);
-                for (; bits != 0; bits &= bits - 1) {
-                    const int lane = __builtin_ctz(bits);
-                    const float t = lower[lane];
-                    if (t < best.first) {
-                        best.second = best.first;
-                        best.first = t;
-                        best.slot = table.first_slot + 16 * (child & child_index) +
-                                    static_cast<std::uint32_t>(from + lane);
-                    } else if (t < best.second) {
-                        best.second = t;
-                    }
-                }
-            }
-        });
-    }
 
     static void nearest(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                         const Candidates& candidates, const Pending& pending,
                         TraceCounters& counters) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const BoxRay box_ray(rays, i);
-            const FilterRays<Arch> ray = S::broadcast(rays, i);
-            Best best{candidates.first[i], candidates.second[i], candidates.slot[i]};
-            int size = 0;
-            std::uint32_t child = 0; // the root
-            for (;;) {
-                if ((child & child_is_block) != 0) {
-                    nearest_in_block(scene, child, ray, rays, i, best);
-                    counters.shapes += 16;
-                } else {
-                    ++counters.nodes;
-                    const int before = size;
-                    const NodeView& node = scene.nodes[child];
-                    const F t_most(best.first * culling_slack);
-                    for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-                        F near = zero<Arch>();
-                        std::uint32_t bits = box_ray.enter(node, from, t_most, near);
-                        float near_t[F::size];
-                        near.store_unaligned(near_t);
-                        for (; bits != 0; bits &= bits - 1) {
-                            const int slot = __builtin_ctz(bits);
-                            const float t = near_t[slot];
-                            int place = size++;
-                            for (; place > before && pending.t[place - 1] < t; --place) {
-                                pending.t[place] = pending.t[place - 1];
-                                pending.child[place] = pending.child[place - 1];
-                            }
-                            pending.t[place] = t;
-                            pending.child[place] = node.children[from + slot];
-                        }
-                    }
-                }
-                const float t_most = best.first * culling_slack * allowance;
-                while (size > 0 && pending.t[size - 1] > t_most)
-                    --size;
-                if (size == 0) break;
-                child = pending.child[--size];
+        Flight flights[in_flight];
+        BoxRays<Arch> box_rays;
+        Lists lists;
+        std::size_t next = 0;
+        const std::size_t room = std::size_t{16} * (scene.tree_depth + 1);
+        const auto set_out = [&](int which) {
+            if (next == count) return;
+            if (next % 16 == 0) box_rays.load(rays, next);
+            Flight& flight = flights[which];
+            flight.i = next;
+            flight.child = 0;
+            flight.ray = box_rays.get(static_cast<int>(next % 16));
+            flight.queue.clear();
+            flight.best = {candidates.first[next], candidates.second[next], candidates.slot[next]};
+            ++next;
+            lists.at_nodes[lists.node_count++] = which;
+        };
+        for (int which = 0; which < in_flight; ++which) {
+            const std::size_t from = room * static_cast<std::size_t>(which);
+            flights[which].pending = {pending.t + from, pending.child + from};
+            set_out(which);
+        }
+        while (lists.node_count + lists.block_count != 0) {
+            const int at_nodes = lists.node_count;
+            for (int k = 0; k < at_nodes; ++k) {
+                Flight& flight = flights[lists.at_nodes[k]];
+                flight.child = flight.queue.step(scene.nodes[flight.child], flight.ray,
+                                                 flight.best.first, flight.pending);
+                if (scene.large) fetch_ahead(scene, flight.child);
             }
-            candidates.first[i] = best.first;
-            candidates.second[i] = best.second;
-            candidates.slot[i] = best.slot;
+            counters.nodes += static_cast<std::uint64_t>(at_nodes);
+            lists.node_count = 0;
+            lists.sort(lists.at_nodes, at_nodes, flights);
+
+            const int at_blocks = lists.block_count;
+            for_each_at_block(
+                scene, lists.at_blocks, at_blocks, flights,
+                [&]<class Filter>(Flight & flight,
+                                  const TableView& table) __attribute__((always_inline)) {
+                    Leaf<Arch>::template find<Filter>(table, flight.child & child_index, rays,
+                                                      flight.i, flight.best.second, flight.hits);
+                });
+            int hit[in_flight], hit_count = 0;
+            for (int k = 0; k < at_blocks; ++k) {
+                hit[hit_count] = lists.at_blocks[k];
+                hit_count += static_cast<int>(flights[lists.at_blocks[k]].hits.lanes != 0);
+            }
+            for (int k = 0; k < hit_count; ++k) {
+                Flight& flight = flights[hit[k]];
+                const TableView& table = scene.tables[kind_of(flight.child)];
+                Leaf<Arch>::take(flight.hits, table.first_slot + 16 * (flight.child & child_index),
+                                 flight.best);
+            }
+            for (int k = 0; k < at_blocks; ++k) {
+                Flight& flight = flights[lists.at_blocks[k]];
+                flight.child = flight.queue.pop(flight.best.first, flight.pending);
+                if (scene.large) fetch_ahead(scene, flight.child);
+            }
+            counters.shapes += 16 * static_cast<std::uint64_t>(at_blocks);
+            lists.block_count = 0;
+            lists.sort(lists.at_blocks, at_blocks, flights);
+
+            const int done = lists.done_count;
+            lists.done_count = 0;
+            for (int k = 0; k < done; ++k) {
+                const Flight& flight = flights[lists.done[k]];
+                candidates.first[flight.i] = flight.best.first;
+                candidates.second[flight.i] = flight.best.second;
+                candidates.slot[flight.i] = flight.best.slot;
+                set_out(lists.done[k]);
+            }
         }
     }
 
-    static std::uint8_t occluded_in_block(const SceneView& scene, std::uint32_t child,
-                                          const FilterRays<Arch>& ray, const RoundedRays& rays,
-                                          std::size_t i, float t_most) {
-        const auto kind = static_cast<KindNumber>(child >> 27 & 0xF);
-        const TableView& table = scene.tables[kind];
-        const std::uint32_t number = child & child_index;
-        const float* block = S::block_of(table, number);
-        const std::uint32_t* ids = S::ids_of(table, block);
-        const std::uint32_t plain = scene.plain_lanes == nullptr
-                                        ? 0xFFFF
-                                        : scene.plain_lanes[table.first_slot / 16 + number];
-        std::uint8_t state = open;
-        with_filter<Arch>(kind, [&]<class Filter>() {
-            for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-                const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
-                const Bounds<Arch> bounds = filter.bounds(ray);
-                const M possible = bounds.possible & elsewhere(ids + from, rays, i) &
-                                   (bounds.lower < F(t_most * (1 + 4 * half_ulp)));
-                if (Lanes<Arch>::bits(possible) == 0) continue;
-                const M certain =
-                    possible & bounds.certain & (bounds.upper < F(t_most * (1 - 4 * half_ulp)));
-                if ((Lanes<Arch>::bits(certain) & plain >> from) != 0) {
-                    state = blocked;
-                    return;
-                }
-                state = doubtful;
-            }
-        });
-        return state;
-    }
+    struct Shadow {
+        BoxRay ray;
+        std::uint32_t child;
+        std::size_t i;
+        float t_most;
+        std::uint8_t state;
+        std::uint32_t* bottom; ///< no_child
+        std::uint32_t* top;    ///< behind the last of the children that are still to be visited
+
+        void pop() {
+            child = top[-1];
+            --top;
+        }
+    };
 
     static void occluded(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                          const Occlusions& occlusions, const Pending& pending,
                          TraceCounters& counters) {
-        for (std::size_t i = 0; i < count; ++i) {
-            if (occlusions.state[i] == blocked) continue;
-            const BoxRay box_ray(rays, i);
-            const FilterRays<Arch> ray = S::broadcast(rays, i);
-            const F t_most(occlusions.t_most[i]);
-            int size = 0;
-            std::uint32_t child = 0;
-            for (;;) {
-                if ((child & child_is_block) != 0) {
-                    counters.shapes += 16;
-                    const std::uint8_t state =
-                        occluded_in_block(scene, child, ray, rays, i, occlusions.t_most[i]);
-                    if (state > occlusions.state[i]) occlusions.state[i] = state;
-                    if (state == blocked) break;
-                } else {
-                    ++counters.nodes;
-                    const NodeView& node = scene.nodes[child];
-                    for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-                        F near = zero<Arch>();
-                        std::uint32_t bits = box_ray.enter(node, from, t_most, near);
-                        for (; bits != 0; bits &= bits - 1)
-                            pending.child[size++] = node.children[from + __builtin_ctz(bits)];
-                    }
+        Shadow shadows[in_flight];
+        BoxRays<Arch> box_rays;
+        Lists lists;
+        std::size_t next = 0, loaded = ~std::size_t{0};
+        const std::size_t room = std::size_t{16} * (scene.tree_depth + 1);
+        const auto set_out = [&](int which) {
+            while (next < count && occlusions.state[next] == blocked)
+                ++next;
+            if (next >= count) return;
+            if (loaded != next / 16) {
+                loaded = next / 16;
+                box_rays.load(rays, 16 * loaded);
+            }
+            Shadow& shadow = shadows[which];
+            shadow.i = next;
+            shadow.child = 0;
+            shadow.ray = box_rays.get(static_cast<int>(next % 16));
+            shadow.t_most = occlusions.t_most[next];
+            shadow.state = occlusions.state[next];
+            shadow.top = shadow.bottom + 1;
+            ++next;
+            lists.at_nodes[lists.node_count++] = which;
+        };
+        for (int which = 0; which < in_flight; ++which) {
+            shadows[which].bottom = pending.child + room * static_cast<std::size_t>(which);
+            *shadows[which].bottom = no_child;
+            set_out(which);
+        }
+        while (lists.node_count + lists.block_count != 0) {
+            const int at_nodes = lists.node_count;
+            for (int k = 0; k < at_nodes; ++k) {
+                Shadow& shadow = shadows[lists.at_nodes[k]];
+                const NodeView& node = scene.nodes[shadow.child];
+                const F t_most(shadow.t_most);
+                for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+                    F near = zero<Arch>();
+                    const std::uint32_t bits =
+                        shadow.ray.template enter<Arch>(node, from, t_most, near);
+                    Lanes<Arch>::compress_store(reinterpret_cast<float*>(shadow.top),
+                                                S::load_bits(node.children + from), bits);
+                    shadow.top += __builtin_popcount(bits);
                 }
-                if (size == 0) break;
-                child = pending.child[--size];
+                shadow.pop();
+                if (scene.large) fetch_ahead(scene, shadow.child);
+            }
+            counters.nodes += static_cast<std::uint64_t>(at_nodes);
+            lists.node_count = 0;
+            lists.sort(lists.at_nodes, at_nodes, shadows);
+
+            const int at_blocks = lists.block_count;
+            for_each_at_block(
+                scene, lists.at_blocks, at_blocks, shadows,
+                [&]<class Filter>(Shadow & shadow,
+                                  const TableView& table) __attribute__((always_inline)) {
+                    const std::uint8_t state = Leaf<Arch>::template occluded<Filter>(
+                        scene, table, shadow.child & child_index, rays, shadow.i, shadow.t_most);
+                    shadow.state = state > shadow.state ? state : shadow.state;
+                    shadow.top = state == blocked ? shadow.bottom + 1 : shadow.top;
+                });
+            for (int k = 0; k < at_blocks; ++k) {
+                Shadow& shadow = shadows[lists.at_blocks[k]];
+                shadow.pop();
+                if (scene.large) fetch_ahead(scene, shadow.child);
+            }
+            counters.shapes += 16 * static_cast<std::uint64_t>(at_blocks);
+            lists.block_count = 0;
+            lists.sort(lists.at_blocks, at_blocks, shadows);
+
+            const int done = lists.done_count;
+            lists.done_count = 0;
+            for (int k = 0; k < done; ++k) {
+                const Shadow& shadow = shadows[lists.done[k]];
+                occlusions.state[shadow.i] = shadow.state;
+                set_out(lists.done[k]);
             }
         }
     }

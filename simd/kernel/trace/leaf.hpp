@@ -1,0 +1,101 @@
+#pragma once
+
+#include "simd/kernel/trace/rays.hpp"
+
+namespace raylane::simd {
+
+/// What may be the nearest crossing of one ray.
+struct Best {
+    float first, second;
+    std::uint32_t slot;
+};
+
+/// Which of a block's shapes may be crossed, and from where on.
+struct LeafHits {
+    std::uint32_t lanes;
+    alignas(64) float t[16]; ///< infinity in the other lanes, if there are any
+};
+
+/// One ray against the shapes of a block.
+template <class Arch>
+struct Leaf : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    /// The shapes that the ray does not leave.
+    static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {
+        return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.departed_first[i]),
+                                      S::broadcast_bits(rays.departed_last[i]));
+    }
+
+    /// What may be crossed before `second`.
+    template <class Filter>
+    [[gnu::always_inline]] static void find(const TableView& table, std::uint32_t number,
+                                            const RoundedRays& rays, std::size_t i, float second,
+                                            LeafHits& hits) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        const FilterRays<Arch> ray = S::broadcast(rays, i);
+        hits.lanes = 0;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const Bounds<Arch> bounds = filter.bounds(ray);
+            const M counts =
+                bounds.possible & elsewhere(ids + from, rays, i) & (bounds.lower < F(second));
+            hits.lanes |= Lanes<Arch>::bits(counts) << from;
+            xsimd::select(counts, bounds.lower, S::infinity()).store_unaligned(hits.t + from);
+        }
+    }
+
+    /// Takes account of what was found, which is something.
+    [[gnu::always_inline]] static void take(const LeafHits& hits, std::uint32_t first_slot,
+                                            Best& best) {
+        F least = S::load(hits.t);
+        for (std::size_t from = F::size; from < 16; from += F::size)
+            least = xsimd::min(least, S::load(hits.t + from));
+        const float first = Lanes<Arch>::least(least);
+        std::uint32_t at_first = 0;
+        F others = S::infinity();
+        for (std::size_t from = 0; from < 16; from += F::size) {
+            const F t = S::load(hits.t + from);
+            const M is_first = t == F(first);
+            at_first |= Lanes<Arch>::bits(is_first) << from;
+            others = xsimd::min(others, xsimd::select(is_first, S::infinity(), t));
+        }
+        const float next = (at_first & (at_first - 1)) != 0 ? first : Lanes<Arch>::least(others);
+        const bool nearer = first < best.first;
+        const float behind = best.first < next ? best.first : next;
+        best.second = nearer ? behind : first; // less than it was
+        best.slot =
+            nearer ? first_slot + static_cast<std::uint32_t>(__builtin_ctz(at_first)) : best.slot;
+        best.first = nearer ? first : best.first;
+    }
+
+    template <class Filter>
+    [[gnu::always_inline]] static std::uint8_t
+    occluded(const SceneView& scene, const TableView& table, std::uint32_t number,
+             const RoundedRays& rays, std::size_t i, float t_most) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        const FilterRays<Arch> ray = S::broadcast(rays, i);
+        const std::uint32_t plain = scene.plain_lanes == nullptr
+                                        ? 0xFFFF
+                                        : scene.plain_lanes[table.first_slot / 16 + number];
+        std::uint8_t state = open;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const Bounds<Arch> bounds = filter.bounds(ray);
+            const M possible = bounds.possible & elsewhere(ids + from, rays, i) &
+                               (bounds.lower < F(t_most * (1 + 4 * half_ulp)));
+            if (Lanes<Arch>::bits(possible) == 0) continue;
+            const M certain =
+                possible & bounds.certain & (bounds.upper < F(t_most * (1 - 4 * half_ulp)));
+            if ((Lanes<Arch>::bits(certain) & plain >> from) != 0) return blocked;
+            state = doubtful;
+        }
+        return state;
+    }
+};
+
+} // namespace raylane::simd
