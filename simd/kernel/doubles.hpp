@@ -115,8 +115,8 @@ struct DoubleLanes<Avx2> {
     }
 
     static F pick(const double* from, const std::uint32_t* places) {
-        return F(_mm256_setr_pd(from[places[0]], from[places[1]], from[places[2]],
-                                from[places[3]]));
+        return F(
+            _mm256_setr_pd(from[places[0]], from[places[1]], from[places[2]], from[places[3]]));
     }
     static void compress_store(double* out, const F& values, std::uint32_t wanted) {
         const __m256i order =

@@ -24,7 +24,7 @@ namespace {
 /// Fewer where a processor is emulated.
 int rounds() {
     const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 4000;
 }
 
 constexpr std::size_t rays_a_round = 16 * 16 + 5; // the last packet is not full
