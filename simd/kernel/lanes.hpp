@@ -168,6 +168,10 @@ struct Lanes<Sse42> {
         _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(bytes, order));
     }
 
+    /// The solvers need it to have the scalar reference's bits, and so are as slow as that here;
+    /// the engine's filters and its double arithmetic do without fused operations and have the same
+    /// bits in pictures, at half of AVX2's speed.
+    ///
     /// By way of double: the product is exact there. The sum is rounded to odd, so that rounding it
     /// again to float rounds as if once (Boldo and Melquiond, "Emulation of FMA and correctly
     /// rounded sums: proved algorithms using rounding to odd", 2008).

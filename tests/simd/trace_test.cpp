@@ -1,0 +1,181 @@
+#include "core/reference/search.hpp"
+#include "simd/isa.hpp"
+#include "simd/wavefront/scene_data.hpp"
+#include "tests/catch.hpp"
+#include "tests/ray_sets.hpp"
+#include "tests/sanitized.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+using ray_sets::Random;
+
+/// Rays through the hierarchy against all shapes one by one, and against the scalar search.
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+template <class Shape>
+void add(SceneBuilder& builder, Random& random, int count) {
+    for (int i = 0; i < count; ++i)
+        builder.add(ray_sets::Target<Shape>::make(random, false), 0);
+}
+
+/// `overlapping`: spheres around one point, so that rays have all of the tree before them.
+Scene make_scene(bool overlapping) {
+    Random random(5);
+    SceneBuilder builder;
+    builder.wants_light = false;
+    builder.add_material({});
+    if (overlapping) {
+        for (int i = 0; i < 2000; ++i)
+            builder.add(Sphere{ray_sets::rounded(random.cube(1.0)),
+                               static_cast<float>(random.uniform(4.0, 5.0))},
+                        0);
+        return std::move(builder).build();
+    }
+    add<Sphere>(builder, random, 200);
+    add<Disc>(builder, random, 40);
+    add<Triangle>(builder, random, 40);
+    add<SmoothTriangle>(builder, random, 40);
+    add<Box>(builder, random, 40);
+    add<OpenCylinder>(builder, random, 40);
+    add<CappedCylinder>(builder, random, 40);
+    add<OpenCone>(builder, random, 40);
+    add<CappedCone>(builder, random, 40);
+    add<Quadric>(builder, random, 40);
+    return std::move(builder).build();
+}
+
+struct Rays {
+    std::size_t count, padded;
+    std::vector<double> of[6];
+    std::vector<float> rounded[7], t_most;
+    std::vector<std::uint32_t> departed;
+
+    Rays(std::size_t n, double size)
+        : count(n), padded((n + 31) / 16 * 16), t_most(padded), departed(padded, no_slot) {
+        Random random(7);
+        for (std::vector<double>& values : of)
+            values.assign(padded, 1.0);
+        for (std::vector<float>& values : rounded)
+            values.resize(padded);
+        for (std::size_t i = 0; i < n; ++i) {
+            Vec3d origin = random.cube(size), direction = random.direction();
+            if (i % 4 == 1) { // along planes and axes, or all but
+                constexpr double little[] = {0.0, -0.0, 1e-40, -1e-40, 1e-12, -1e-33};
+                for (int axis = random.integer(0, 2), k = 0; k < random.integer(1, 2); ++k)
+                    direction[(axis + k) % 3] = little[random.integer(0, 5)];
+                if (squared_length(direction) < 1e-3) direction.x = 1.0;
+                direction /= std::sqrt(squared_length(direction));
+            }
+            if (i % 8 == 2) origin = 50.0 * origin, direction = normalized(random.cube(3) - origin);
+            if (i % 16 == 3) origin = convert<double>(ray_sets::rounded(origin)) * 0.0;
+            for (int axis = 0; axis < 3; ++axis) {
+                of[axis][i] = origin[axis];
+                of[3 + axis][i] = direction[axis];
+            }
+            t_most[i] = static_cast<float>(random.log_uniform(0.05, 30.0));
+        }
+    }
+
+    RoundedRays round(const Kernels& kernels) {
+        const RoundedRays result = {{rounded[0].data(), rounded[1].data(), rounded[2].data()},
+                                    {rounded[3].data(), rounded[4].data(), rounded[5].data()},
+                                    rounded[6].data(),
+                                    departed.data(),
+                                    departed.data()};
+        const double* const origin[3] = {of[0].data(), of[1].data(), of[2].data()};
+        const double* const direction[3] = {of[3].data(), of[4].data(), of[5].data()};
+        kernels.trace.round_rays(count, origin, direction, result);
+        return result;
+    }
+
+    Ray<double> get(std::size_t i) const {
+        return {{of[0][i], of[1][i], of[2][i]}, {of[3][i], of[4][i], of[5][i]}};
+    }
+};
+
+struct Answers {
+    std::vector<float> first, second;
+    std::vector<std::uint32_t> slot;
+    std::vector<std::uint8_t> state;
+
+    explicit Answers(std::size_t padded)
+        : first(padded, infinity), second(padded, infinity), slot(padded, no_slot),
+          state(padded, open) {}
+    Candidates candidates() { return {first.data(), second.data(), slot.data()}; }
+};
+
+void check(const Kernels& kernels, bool overlapping) {
+    CAPTURE(std::string(kernels.name), overlapping);
+    const Scene scene = make_scene(overlapping);
+    const SceneData data(scene);
+    REQUIRE(data.has_tree());
+    Rays rays(tests::sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
+    const RoundedRays rounded = rays.round(kernels);
+
+    const std::size_t entries = std::size_t{in_flight} * 16 * (data.tree_depth() + 1) + 16;
+    std::vector<float> t(entries);
+    std::vector<std::uint32_t> child(entries);
+    const Pending pending{t.data(), child.data()};
+    TraceCounters counters{};
+    Answers by_all(rays.padded), by_tree(rays.padded);
+    constexpr std::uint32_t all_kinds = (1U << kinds) - 1;
+    kernels.trace.nearest_of_all(data.view(), all_kinds, rays.count, rounded, by_all.candidates(),
+                                 counters);
+    kernels.trace.nearest_in_tree(data.view(), rays.count, rounded, by_tree.candidates(), pending,
+                                  counters);
+    kernels.trace.occluded_by_all(data.view(), all_kinds, rays.count, rounded,
+                                  {rays.t_most.data(), by_all.state.data()}, counters);
+    kernels.trace.occluded_in_tree(data.view(), rays.count, rounded,
+                                   {rays.t_most.data(), by_tree.state.data()}, pending, counters);
+
+    Searcher<double> searcher(scene, Search::hierarchy);
+    int hits = 0, different = 0;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        const Hit<double> hit =
+            searcher.nearest(rays.get(i), {}, [](const Hit<double>&) { return true; }).hit;
+        hits += hit.any() ? 1 : 0;
+        for (const Answers* answers : {&by_all, &by_tree}) {
+            const auto first = static_cast<double>(answers->first[i]);
+            const auto seen_to = static_cast<double>(
+                std::min(answers->second[i], answers->first[i] * culling_slack));
+            CAPTURE(i, answers == &by_tree, hit.t, first, seen_to);
+            if (hit.any() && !(first <= hit.t * (1 + 1e-12))) FAIL("passed the nearest by");
+            if (hit.any() && hit.t < seen_to &&
+                answers->slot[i] != data.slot_of(hit.kind, hit.slot))
+                FAIL("another shape");
+            const std::uint8_t state = answers->state[i];
+            const auto t_most = static_cast<double>(rays.t_most[i]);
+            if (state == blocked && !(hit.any() && hit.t < t_most)) FAIL("nothing blocks it");
+            if (state == open && hit.any() && hit.t < t_most) FAIL("not open");
+        }
+        // What only may be there, the bounds of nodes can rule out: above all along the faces of
+        // boxes.
+        if (i % 4 == 1) continue;
+        const float first = by_all.first[i], limit = first * culling_slack;
+        const float seconds[] = {by_all.second[i], by_tree.second[i]};
+        const bool same = first == by_tree.first[i] && by_all.state[i] == by_tree.state[i] &&
+                          (by_all.slot[i] == by_tree.slot[i] || seconds[0] == first) &&
+                          (seconds[0] == seconds[1] || !(std::min(seconds[0], seconds[1]) < limit));
+        different += same ? 0 : 1;
+    }
+    CAPTURE(different);
+    CHECK(hits > static_cast<int>(rays.count) / 4);
+    CHECK(different <= static_cast<int>(rays.count) / 200);
+}
+
+} // namespace
+
+TEST_CASE("the hierarchy loses nothing of what rays meet") {
+    for (const Isa isa : all_isas) {
+        if (!is_available(isa)) continue;
+        check(kernels_of(isa), false);
+        check(kernels_of(isa), true);
+    }
+}
