@@ -32,7 +32,9 @@ class Random {
         return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
     }
     int integer(int low, int high) {
-        return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+        const std::int64_t count = std::int64_t{high} - low + 1;
+        return static_cast<int>(
+            low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(count)));
     }
     double log_uniform(double low, double high) {
         return std::exp(uniform(std::log(low), std::log(high)));
