@@ -18,6 +18,7 @@ libtbb-dev          threads
 nlohmann-json3-dev  reads JSON scenes
 libcli11-dev        reads the command line
 libstb-dev          reads and writes pictures
+zlib1g-dev          compresses them
 libbenchmark-dev    measures speed
 catch2              runs the tests
 libboost-dev        the tests'"'"' 100-digit oracle

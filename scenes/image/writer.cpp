@@ -3,16 +3,37 @@
 #include "core/transfer.hpp"
 #include "scenes/errors.hpp"
 
-// Its functions stay in this file: a program that links the library may have them as well.
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#include <stb_image_write.h>
-
 #include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
+#include <zlib.h>
+
+namespace {
+
+/// As stb_image_write calls it: the memory is to be freed, and null if there is none. At its lowest
+/// level zlib makes smaller files than stb_image_write alone, in a third of the time.
+unsigned char* compress_for_stb(unsigned char* data, int size, int* compressed_size, int) {
+    uLongf length = compressBound(static_cast<uLong>(size));
+    auto* compressed = static_cast<unsigned char*>(std::malloc(length));
+    if (compressed == nullptr) return nullptr;
+    if (compress2(compressed, &length, data, static_cast<uLong>(size), Z_BEST_SPEED) != Z_OK) {
+        std::free(compressed);
+        return nullptr;
+    }
+    *compressed_size = static_cast<int>(length);
+    return compressed;
+}
+
+} // namespace
+
+// Its functions stay in this file: a program that links the library may have them as well.
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBIW_ZLIB_COMPRESS compress_for_stb
+#include <stb_image_write.h>
 
 namespace raylane::scenes {
 
