@@ -80,7 +80,7 @@ void trace(benchmark::State& state, simd::Isa isa, int spheres, bool shadows) {
     const double* const direction[3] = {setup.of[3].data(), setup.of[4].data(), setup.of[5].data()};
     kernels.round_rays(ray_count, origin, direction, setup.rays(0));
     const std::size_t entries =
-        static_cast<std::size_t>(simd::in_flight * 16 * (setup.data.tree_depth() + 1) + 16);
+        std::size_t{simd::in_flight} * 16 * (setup.data.view().tree_depth + 1) + 16;
     std::vector<float> t(entries), first(wave), second(wave);
     std::vector<std::uint32_t> child(entries), slot(wave);
     std::vector<std::uint8_t> states(wave);

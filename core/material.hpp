@@ -61,6 +61,10 @@ struct Material {
 
     bool transmits() const { return transmission > 0.0F; }
     bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
+    /// By a ray that enters there, or leaves.
+    bool is_seen(bool entering) const {
+        return visible == Visible::both || (visible == Visible::outside) == entering;
+    }
 };
 
 using MaterialIndex = std::uint32_t;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
 namespace raylane::core {
 
@@ -40,8 +41,27 @@ class Media {
         }
     }
 
+    /// Through a surface of this material.
+    void cross(MaterialIndex material, bool entering) {
+        if (entering)
+            enter(material);
+        else
+            leave(material);
+    }
+
+    /// What a ray is inside of that meets a surface of this material. One that leaves a body which
+    /// it never entered has been inside from its start.
+    MaterialIndex before(MaterialIndex material, bool transmits, bool entering) const {
+        return empty() && !entering && transmits ? material : top();
+    }
+
   private:
     std::array<MaterialIndex, depth> stack_ = {none, none, none, none};
 };
+
+/// Of a medium; of empty space 1.
+inline float index_of(const std::vector<Material>& materials, MaterialIndex medium) {
+    return medium == Media::none ? 1.0F : materials[medium].index;
+}
 
 } // namespace raylane::core

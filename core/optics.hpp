@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/elementary.hpp"
 #include "core/material.hpp"
 #include "core/vector.hpp"
 
@@ -65,6 +66,17 @@ Real reflectance(const Material& material, const Refraction<Real>& refraction, R
     const auto fresnel =
         material.reflection == Reflection::schlick ? schlick<Real> : dielectric<Real>;
     return fresnel(refraction.cos_incident, refraction.cos_transmitted, n1, n2);
+}
+
+/// The share of light, linear RGB, that a body's inside lets through over a distance: Beer and
+/// Lambert's law.
+template <class Real>
+Vec3<Real> let_through_medium(const Material& material, Real distance) {
+    Vec3<Real> share(1);
+    for (int channel = 0; channel < 3; ++channel)
+        if (material.absorption[channel] > 0.0F)
+            share[channel] = core::exp(-Real(material.absorption[channel]) * distance);
+    return share;
 }
 
 /// The share of light that a surface lets through on a straight line, at the cosine `cos` of its

@@ -31,9 +31,8 @@ struct NodeView {
 
 struct SceneView {
     TableView tables[kinds];
-    const NodeView* nodes; ///< the root first
-    std::uint32_t node_count;
-    std::uint32_t tree_depth; ///< levels of nodes
+    const NodeView* nodes;    ///< the root first
+    std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
     bool large;               ///< nodes and shapes do not fit in the cache of a core
     /// By slot / 16: which lanes of a block are opaque and seen from both sides, so that whatever
     /// hits them is blocked. Null: all are.

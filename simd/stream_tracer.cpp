@@ -79,8 +79,7 @@ class Query {
 };
 
 bool is_visible(const core::Scene& scene, const Hit<double>& hit) {
-    const core::Visible visible = scene.material_of(hit.shape).visible;
-    return visible == core::Visible::both || (visible == core::Visible::outside) == hit.entering;
+    return scene.material_of(hit.shape).is_seen(hit.entering);
 }
 
 void store(const HitStream& hits, std::size_t i, float t, const Vec3d& normal,
@@ -237,9 +236,7 @@ class StreamTracer::Worker {
         paths_.take_from(arena, capacity, false);
         per_unit_ = arena.take<double>(capacity);
         is_open_ = arena.take<std::uint8_t>(capacity);
-        arena.take(rounded_.origin, capacity);
-        arena.take(rounded_.direction, capacity);
-        rounded_.slack = arena.take<float>(capacity);
+        take_rounded(arena, rounded_, capacity);
         t_most_ = arena.take<float>(capacity);
         state_ = arena.take<std::uint8_t>(capacity);
         pending_ = pending_for(*data_, arena);
@@ -259,11 +256,9 @@ class StreamTracer::Worker {
             }
             per_unit_[lane] = query.scale() / length;
             paths_.sample[lane] = static_cast<std::uint32_t>(i - first);
-            paths_.departed_first[lane] = paths_.departed_last[lane] = core::no_shape;
-            paths_.departed_slot[lane] = no_slot;
-            paths_.departure[lane] = 0;
             is_open_[lane] = 0;
         }
+        paths_.start_in_the_open(0, paths_.count);
     }
 
     const core::Scene& scene_;

@@ -166,6 +166,7 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
             share += Real(material.specular) * core::pow(cos_halfway, Real(material.exponent));
         }
         if (share == Vector(0)) continue;
+        ++searcher_.counters.shadow;
         color += light_let_through({surface.point, to_light},
                                    surface.departure(/*through=*/false, to_light), path.media,
                                    distance) *
@@ -212,7 +213,6 @@ template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
                                                     const Departure<Real>& departure, Media media,
                                                     Real distance) {
-    ++searcher_.counters.shadow;
     if (!find_crossings(ray, departure, distance)) return Vector(0);
 
     Vector share(1);
@@ -274,51 +274,35 @@ bool ReferenceTracer<Real>::is_worth(const Vector& throughput) const {
 
 template <class Real>
 bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
-    const Visible visible = scene_.material_of(hit.shape).visible;
-    return visible == Visible::both || (visible == Visible::outside) == hit.entering;
+    return scene_.material_of(hit.shape).is_seen(hit.entering);
 }
 
 /// A surface that transmits nothing has its own index behind it, from whichever side it is seen.
 template <class Real>
 typename ReferenceTracer<Real>::Indices
 ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, const Media& media) const {
-    const auto index_of = [&](MaterialIndex medium) {
-        return medium == Media::none ? Real(1) : Real(scene_.materials()[medium].index);
-    };
-    const Real before = index_of(medium_before(hit, media));
+    const Real before(index_of(scene_.materials(), medium_before(hit, media)));
     const Material& material = scene_.material_of(hit.shape);
     if (hit.entering || !material.transmits()) return {before, Real(material.index)};
-    return {before, index_of(media_behind(hit, media).top())};
+    return {before, Real(index_of(scene_.materials(), media_behind(hit, media).top()))};
 }
 
 template <class Real>
 Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media) const {
-    const MaterialIndex material = scene_.material_index_of(hit.shape);
-    if (hit.entering)
-        media.enter(material);
-    else
-        media.leave(material);
+    media.cross(scene_.material_index_of(hit.shape), hit.entering);
     return media;
 }
 
-/// A ray that leaves a body which it never entered has been inside from its start.
 template <class Real>
 MaterialIndex ReferenceTracer<Real>::medium_before(const Hit<Real>& hit, const Media& media) const {
-    const bool from_inside =
-        media.empty() && !hit.entering && scene_.material_of(hit.shape).transmits();
-    return from_inside ? scene_.material_index_of(hit.shape) : media.top();
+    const MaterialIndex material = scene_.material_index_of(hit.shape);
+    return media.before(material, scene_.materials()[material].transmits(), hit.entering);
 }
 
-/// Beer and Lambert's law.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::absorbed(MaterialIndex medium, Real distance) const {
-    Vector share(1);
-    if (medium == Media::none) return share;
-    const Vec3f& absorption = scene_.materials()[medium].absorption;
-    for (int channel = 0; channel < 3; ++channel)
-        if (absorption[channel] > 0.0F)
-            share[channel] = core::exp(-Real(absorption[channel]) * distance);
-    return share;
+    if (medium == Media::none) return Vector(1);
+    return let_through_medium(scene_.materials()[medium], distance);
 }
 
 template class ReferenceTracer<float>;

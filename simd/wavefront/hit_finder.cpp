@@ -1,7 +1,6 @@
 #include "simd/wavefront/hit_finder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace raylane::simd {
@@ -46,9 +45,15 @@ float rounded_down(double value) {
 
 } // namespace
 
+void take_rounded(Arena& arena, RoundedRays& rays, std::size_t capacity) {
+    arena.take(rays.origin, capacity);
+    arena.take(rays.direction, capacity);
+    rays.slack = arena.take<float>(capacity);
+}
+
 Pending pending_for(const SceneData& scene, Arena& arena) {
     if (!scene.has_tree()) return {nullptr, nullptr};
-    const auto entries = static_cast<std::size_t>(in_flight * 16 * (scene.tree_depth() + 1));
+    const std::size_t entries = std::size_t{in_flight} * 16 * (scene.view().tree_depth + 1);
     float* t = arena.take<float>(entries);
     return {t, arena.take<std::uint32_t>(entries)};
 }
@@ -63,9 +68,10 @@ core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
     const std::uint32_t slot = paths.departed_slot[lane];
     if (slot == no_slot) return departure;
     core::Hit<double> hit;
-    hit.shape = scene.id_of(slot);
+    const SceneData::Occupant shape = scene.occupant_of(slot);
+    hit.shape = shape.id;
     hit.face = static_cast<core::Face>(paths.departure[lane] & departure_face);
-    hit.kind = scene.kind_of(slot);
+    hit.kind = shape.kind;
     hit.slot = scene.place_of(slot);
     const bool inward = (paths.departure[lane] & departure_inward) != 0;
     departure.add({hit,
@@ -77,16 +83,13 @@ core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
 }
 
 HitFinder::HitFinder(const SceneData& scene, const Kernels& kernels,
-                     core::ReferenceTracer<double>* reference, int level)
+                     core::ReferenceTracer<double>* reference, bool looks_through)
     : scene_(scene), kernels_(kernels), reference_(reference) {
-    if (scene.one_sided() && level == 0)
-        onward_ = std::make_unique<HitFinder>(scene, kernels, reference, 1);
+    if (looks_through) onward_.reset(new HitFinder(scene, kernels, reference, false));
 }
 
 void HitFinder::take_from(Arena& arena, std::size_t capacity) {
-    arena.take(rounded_.origin, capacity);
-    arena.take(rounded_.direction, capacity);
-    rounded_.slack = arena.take<float>(capacity);
+    take_rounded(arena, rounded_, capacity);
     candidates_.first = arena.take<float>(capacity);
     candidates_.second = arena.take<float>(capacity);
     pending_ = pending_for(scene_, arena);
@@ -169,9 +172,8 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
 
 bool HitFinder::is_visible(const Hits& hits, std::size_t lane) const {
     if (hits.slot[lane] == no_slot) return true;
-    const core::Visible visible = scene_.scene().material_of(scene_.id_of(hits.slot[lane])).visible;
-    const bool entering = (hits.hit[lane] & hit_entering) != 0;
-    return visible == core::Visible::both || (visible == core::Visible::outside) == entering;
+    const core::MaterialIndex material = scene_.occupant_of(hits.slot[lane]).material;
+    return scene_.scene().materials()[material].is_seen((hits.hit[lane] & hit_entering) != 0);
 }
 
 /// Starts a ray anew behind what it has hit.
@@ -180,12 +182,8 @@ void HitFinder::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
     passed_[to] += t;
     for (int axis = 0; axis < 3; ++axis)
         onward_paths_.origin[axis][to] += t * onward_paths_.direction[axis][to];
-    const core::IdRange range = scene_.coplanar_with(hits.slot[lane]);
-    onward_paths_.departed_first[to] = range.first;
-    onward_paths_.departed_last[to] = range.last;
-    onward_paths_.departed_slot[to] = hits.slot[lane];
-    onward_paths_.departure[to] =
-        (hits.hit[lane] & hit_face) | ((hits.hit[lane] & hit_entering) != 0 ? departure_inward : 0);
+    const std::uint32_t slot = hits.slot[lane];
+    onward_paths_.start_on(to, slot, scene_.occupant_of(slot), hits.hit[lane], /*through=*/true);
 }
 
 void HitFinder::start(const Paths& paths) {
@@ -206,15 +204,14 @@ void HitFinder::find_own_exits(const Paths& paths) {
     if (paths.count == 0 || paths.departed_slot[0] == no_slot) return; // from the camera, all
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
-        const std::uint32_t slot = paths.departed_slot[lane];
-        if (slot == no_slot ||
-            !may_return(scene_.kind_of(slot), (paths.departure[lane] & departure_inward) != 0))
-            continue;
-        gathered_.copy_ray(paths, lane, count);
-        gathered_hits_.slot[count] = slot;
-        lanes_[count++] = static_cast<std::uint32_t>(lane);
+        lanes_[count] = static_cast<std::uint32_t>(lane);
+        count += static_cast<std::size_t>((paths.departure[lane] & departure_may_return) != 0);
     }
     if (count == 0) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        gathered_.copy_ray(paths, lanes_[i], i);
+        gathered_hits_.slot[i] = paths.departed_slot[lanes_[i]];
+    }
     kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, count));
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];

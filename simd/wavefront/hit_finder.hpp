@@ -27,15 +27,13 @@ class HitFinder {
   public:
     HitFinder(const SceneData& scene, const Kernels& kernels,
               core::ReferenceTracer<double>* reference)
-        : HitFinder(scene, kernels, reference, 0) {}
-    HitFinder(const SceneData& scene, const Kernels& kernels,
-              core::ReferenceTracer<double>* reference, int level);
+        : HitFinder(scene, kernels, reference, scene.one_sided()) {}
 
     /// Arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// Surfaces that cannot be seen from where the rays come are none, but at level 1, which looks
-    /// behind them. `bundle` may be null: the rays have nothing in common.
+    /// Surfaces that cannot be seen from where the rays come are none. `bundle` may be null: the
+    /// rays have nothing in common.
     void find(const Paths& paths, const Bundle* bundle, core::Counters& counters);
 
     const Hits& hits() const { return hits_; }
@@ -48,6 +46,9 @@ class HitFinder {
     std::span<const std::uint32_t> left_open() const { return {open_, open_count_}; }
 
   private:
+    HitFinder(const SceneData& scene, const Kernels& kernels,
+              core::ReferenceTracer<double>* reference, bool looks_through);
+
     void start(const Paths& paths);
     void find_own_exits(const Paths& paths);
     void certify(const Paths& paths);
@@ -75,7 +76,8 @@ class HitFinder {
     std::uint32_t* lanes_ = nullptr;
     std::size_t lane_count_ = 0;
 
-    // Where surfaces are visible from one side only: what is behind the other side.
+    // Where surfaces are visible from one side only, what is behind the other: found as if all
+    // were visible.
     std::unique_ptr<HitFinder> onward_;
     Paths onward_paths_{}; // sample: the lane
     double* passed_ = nullptr;
@@ -85,13 +87,9 @@ class HitFinder {
 core::Departure<double> departure_of(const SceneData& scene, const Paths& paths, std::size_t lane);
 core::Ray<double> ray_of(const Paths& paths, std::size_t lane);
 
+/// Arrays for rounded rays, but what they leave.
+void take_rounded(Arena& arena, RoundedRays& rays, std::size_t capacity);
 /// Room for what a ray is still to visit; null where there is no hierarchy to walk.
 Pending pending_for(const SceneData& scene, Arena& arena);
-
-/// Whether a ray that leaves a shape may cross it again.
-inline bool may_return(core::Kind kind, bool inward) {
-    if (kind == core::Kind::quadric) return true;
-    return inward && (kind == core::Kind::sphere || kind >= core::Kind::box);
-}
 
 } // namespace raylane::simd

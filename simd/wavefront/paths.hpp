@@ -1,12 +1,23 @@
 #pragma once
 
 #include "core/media.hpp"
-#include "simd/scene_view.hpp"
+#include "simd/kernels.hpp"
 #include "simd/wavefront/arena.hpp"
+#include "simd/wavefront/scene_data.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace raylane::simd {
+
+/// Beside the kernels' departure bits: the ray may cross again the shape that it starts on.
+inline constexpr std::uint32_t departure_may_return = 0x10000;
+
+/// Whether a ray that leaves a shape may cross it again.
+inline bool may_return(core::Kind kind, bool inward) {
+    if (kind == core::Kind::quadric) return true;
+    return inward && (kind == core::Kind::sphere || kind >= core::Kind::box);
+}
 
 /// Rays underway, structure of arrays: what core::ReferenceTracer::Path holds, but the depth, which
 /// a whole wave shares.
@@ -45,6 +56,25 @@ struct Paths {
         if (media[0] == nullptr) return;
         for (int i = 0; i < core::Media::depth; ++i)
             media[i][lane] = values.at(i);
+    }
+
+    /// The lane's ray starts on a shape: on that side of it which the ray that hit it there, with
+    /// these hit_bits, goes to if it passes `through`, or else came from.
+    void start_on(std::size_t lane, std::uint32_t slot, const SceneData::Occupant& shape,
+                  std::uint32_t hit, bool through) const {
+        const bool inward = through == ((hit & hit_entering) != 0);
+        departed_first[lane] = shape.coplanar.first;
+        departed_last[lane] = shape.coplanar.last;
+        departed_slot[lane] = slot;
+        departure[lane] = (hit & hit_face) | (inward ? departure_inward : 0) |
+                          (may_return(shape.kind, inward) ? departure_may_return : 0);
+    }
+
+    /// Lanes `begin` to `end` start in the open.
+    void start_in_the_open(std::size_t begin, std::size_t end) const {
+        for (std::uint32_t* column : {departed_first, departed_last, departed_slot})
+            std::fill(column + begin, column + end, no_slot);
+        std::fill(departure + begin, departure + end, 0U);
     }
 
     /// Lane `from` of `other` to lane `to`.

@@ -69,8 +69,8 @@ FogView view_of(const core::Fog& fog) {
     return view;
 }
 
-int depth_below(const std::vector<core::WideNode>& nodes, std::uint32_t index) {
-    int deepest = 0;
+std::uint32_t depth_below(const std::vector<core::WideNode>& nodes, std::uint32_t index) {
+    std::uint32_t deepest = 0;
     for (const core::Child child : nodes[index].children)
         if (!child.empty() && !child.is_block())
             deepest = std::max(deepest, depth_below(nodes, child.index()));
@@ -83,6 +83,13 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
     static_assert(sizeof(NodeView) == sizeof(core::WideNode));
     for (const core::Material& material : scene.materials())
         materials_.push_back(view_of(material));
+    media_.push_back({0.0, 1.0, {0.0, 0.0, 0.0}});
+    for (const core::Material& material : scene.materials())
+        media_.push_back({1.0,
+                          static_cast<double>(material.index),
+                          {static_cast<double>(material.absorption[0]),
+                           static_cast<double>(material.absorption[1]),
+                           static_cast<double>(material.absorption[2])}});
     for (const core::Light& light : scene.lights())
         lights_.push_back(view_of(light));
 
@@ -104,12 +111,10 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
     }
     const std::uint32_t planes = 1U << static_cast<int>(core::Kind::plane);
     const std::vector<core::WideNode>& nodes = scene.hierarchy().nodes;
-    has_tree_ = scene.shape_count() > few_shapes && !nodes.empty();
-    listed_kinds_ = has_tree_ ? present & planes : present;
-    if (has_tree_) tree_depth_ = depth_below(nodes, 0);
+    if (scene.shape_count() > few_shapes && !nodes.empty())
+        view_.tree_depth = depth_below(nodes, 0);
+    listed_kinds_ = has_tree() ? present & planes : present;
     view_.nodes = reinterpret_cast<const NodeView*>(nodes.data());
-    view_.node_count = static_cast<std::uint32_t>(nodes.size());
-    view_.tree_depth = static_cast<std::uint32_t>(tree_depth_);
     std::size_t bytes = scene.hierarchy().bytes();
     core::for_each_table(scene.shapes(), [&](const auto& table) { bytes += table.bytes(); });
     view_.large = bytes > core_cache_bytes;
@@ -152,7 +157,8 @@ SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
 }
 
 core::Slot SceneData::place_of(std::uint32_t slot) const {
-    const std::uint32_t place = slot - view_.tables[static_cast<int>(kind_of(slot))].first_slot;
+    const auto kind = static_cast<int>(occupant_of(slot).kind);
+    const std::uint32_t place = slot - view_.tables[kind].first_slot;
     return {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)};
 }
 

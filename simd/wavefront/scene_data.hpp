@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/features.hpp"
+#include "core/media.hpp"
 #include "core/scene.hpp"
 #include "simd/shade_kernels.hpp"
 #include "simd/trace_kernels.hpp"
@@ -23,50 +23,52 @@ class SceneData {
     /// The kinds that are tested one by one: all in a scene of a few shapes, else the planes.
     std::uint32_t listed_kinds() const { return listed_kinds_; }
     /// Whether the others are found by way of the hierarchy.
-    bool has_tree() const { return has_tree_; }
-    /// Levels of nodes.
-    int tree_depth() const { return tree_depth_; }
+    bool has_tree() const { return view_.tree_depth != 0; }
     /// Whether some surface is visible from one side only.
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }
 
-    /// Of the shape in a slot.
-    core::ShapeId id_of(std::uint32_t slot) const { return get(&Occupant::id, slot); }
-    core::IdRange coplanar_with(std::uint32_t slot) const { return get(&Occupant::coplanar, slot); }
-    core::MaterialIndex material_of(std::uint32_t slot) const {
-        return get(&Occupant::material, slot);
+    /// What a ray is inside of; core::Media::none is empty space.
+    struct Medium {
+        double inside; ///< 1, in empty space 0
+        double index;
+        double absorption[3];
+    };
+    const Medium& medium(core::MaterialIndex material) const {
+        static_assert(core::MaterialIndex(core::Media::none + 1) == 0);
+        return media_[core::MaterialIndex(material + 1)];
     }
-    core::Kind kind_of(std::uint32_t slot) const { return get(&Occupant::kind, slot); }
-    core::Slot place_of(std::uint32_t slot) const;
-    std::uint32_t slot_of(core::Kind kind, core::Slot place) const;
 
-  private:
+    /// The shape in a slot.
     struct Occupant {
         core::ShapeId id;
         core::IdRange coplanar;
         core::MaterialIndex material;
         core::Kind kind;
     };
-    Occupant find_occupant(std::uint32_t slot) const;
-    template <class Field>
-    Field get(Field Occupant::*member, std::uint32_t slot) const {
+    Occupant occupant_of(std::uint32_t slot) const {
         if (occupants_.empty()) [[unlikely]]
-            return find_occupant(slot).*member;
-        return occupants_[slot].*member;
+            return find_occupant(slot);
+        return occupants_[slot];
     }
+    core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
+    core::Slot place_of(std::uint32_t slot) const;
+    std::uint32_t slot_of(core::Kind kind, core::Slot place) const;
+
+  private:
+    Occupant find_occupant(std::uint32_t slot) const;
 
     const core::Scene& scene_;
     SceneView view_{};
     std::vector<Occupant> occupants_; // by slot, in scenes that are not large
     std::vector<std::uint16_t> plain_lanes_;
     std::vector<MaterialView> materials_;
+    std::vector<Medium> media_; // empty space, then what each material is inside
     std::vector<LightView> lights_;
     FogView fog_{};
     std::uint32_t listed_kinds_ = 0;
-    bool has_tree_ = false;
     bool one_sided_ = false;
     bool smooth_ = false;
-    int tree_depth_ = 0;
 };
 
 } // namespace raylane::simd

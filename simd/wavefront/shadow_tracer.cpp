@@ -1,6 +1,5 @@
 #include "simd/wavefront/shadow_tracer.hpp"
 
-#include "core/elementary.hpp"
 #include "core/optics.hpp"
 
 #include <algorithm>
@@ -38,9 +37,7 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
     take_spawned(arena, rays_, capacity);
     departed_first_ = arena.take<std::uint32_t>(capacity);
     departed_last_ = arena.take<std::uint32_t>(capacity);
-    arena.take(rounded_.origin, capacity);
-    arena.take(rounded_.direction, capacity);
-    rounded_.slack = arena.take<float>(capacity);
+    take_rounded(arena, rounded_, capacity);
     rounded_.departed_first = departed_first_;
     rounded_.departed_last = departed_last_;
     t_most_ = arena.take<float>(capacity);
@@ -69,13 +66,12 @@ void ShadowTracer::start(const Wave& wave) {
     for (std::size_t k = 0; k < rays_.count; ++k) {
         const std::uint32_t lane = wave.order[static_cast<std::size_t>(rays_.parent[k])];
         const std::uint32_t slot = wave.hits.slot[lane];
-        const core::IdRange range = scene_.coplanar_with(slot);
-        departed_first_[k] = range.first;
-        departed_last_[k] = range.last;
+        const SceneData::Occupant shape = scene_.occupant_of(slot);
+        departed_first_[k] = shape.coplanar.first;
+        departed_last_[k] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
         const bool in_medium = with_media && wave.paths.media[0][lane] != core::Media::none;
-        occlusions_.state[k] =
-            in_medium || may_return(scene_.kind_of(slot), inward) ? doubtful : open;
+        occlusions_.state[k] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
         t_most_[k] = static_cast<float>(rays_.distance[k]);
     }
     kernels_.trace.round_rays(rays_.count, rays_.origin, rays_.direction, rounded_);
@@ -101,7 +97,7 @@ void ShadowTracer::find_blocked(const Wave& wave, const Bundle& bundle, core::Co
 
 void ShadowTracer::start_walk(const Wave& wave, std::size_t ray) {
     const std::uint32_t lane = wave.order[static_cast<std::size_t>(rays_.parent[ray])];
-    const std::uint32_t hit = wave.hits.hit[lane];
+    const std::uint32_t slot = wave.hits.slot[lane];
     const std::size_t to = walk_.count++;
     for (int axis = 0; axis < 3; ++axis) {
         walk_.origin[axis][to] = rays_.origin[axis][ray];
@@ -109,10 +105,7 @@ void ShadowTracer::start_walk(const Wave& wave, std::size_t ray) {
         walk_.throughput[axis][to] = rays_.weight[axis][ray];
     }
     walk_.sample[to] = static_cast<std::uint32_t>(ray);
-    walk_.departed_first[to] = departed_first_[ray];
-    walk_.departed_last[to] = departed_last_[ray];
-    walk_.departed_slot[to] = wave.hits.slot[lane];
-    walk_.departure[to] = (hit & hit_face) | ((hit & hit_entering) != 0 ? 0 : departure_inward);
+    walk_.start_on(to, slot, scene_.occupant_of(slot), wave.hits.hit[lane], /*through=*/false);
     walk_.set_media(to, wave.paths.media_at(lane));
     walk_distance_[to] = rays_.distance[ray];
 }
@@ -125,7 +118,6 @@ void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
         walker_.find(walk_, &bundle, counters);
         for (const std::uint32_t lane : walker_.left_open()) {
             ++counters.followed;
-            ++counted_twice_;
             const core::Vec3d share =
                 reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
                                              walk_.media_at(lane), walk_distance_[lane]);
@@ -156,54 +148,40 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
             rays_.weight[channel][number] = walk_.throughput[channel][lane];
         return false;
     }
-    const core::MaterialIndex index = scene_.material_of(slot);
-    const core::Material& material = scene_.scene().materials()[index];
+    const SceneData::Occupant shape = scene_.occupant_of(slot);
+    const core::Material& material = scene_.scene().materials()[shape.material];
     if (!material.transmits()) {
         occlusions_.state[number] = blocked;
         return false;
     }
-    // A ray that leaves a body which it never entered has been inside from its start.
     const bool entering = (found.hit[lane] & hit_entering) != 0;
-    const core::MaterialIndex before = media.empty() && !entering ? index : media.top();
-    if (entering)
-        media.enter(index);
-    else
-        media.leave(index);
-    const double behind = entering ? static_cast<double>(material.index) : index_of(media.top());
+    const core::MaterialIndex before = media.before(shape.material, /*transmits=*/true, entering);
+    media.cross(shape.material, entering);
+    const double behind = scene_.medium(media.top()).index;
 
     const double t = found.t[lane];
     double cos = 0.0;
     for (int axis = 0; axis < 3; ++axis)
         cos += walk_.direction[axis][lane] * found.normal[axis][lane];
     const double share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
-                                                    index_of(before), behind);
+                                                    scene_.medium(before).index, behind);
     absorb(before, t, lane);
     for (int axis = 0; axis < 3; ++axis) {
         walk_.throughput[axis][lane] *= share;
         walk_.origin[axis][lane] += t * walk_.direction[axis][lane];
     }
-    const core::IdRange range = scene_.coplanar_with(slot);
-    walk_.departed_first[lane] = range.first;
-    walk_.departed_last[lane] = range.last;
-    walk_.departed_slot[lane] = slot;
-    walk_.departure[lane] = (found.hit[lane] & hit_face) | (entering ? departure_inward : 0);
+    walk_.start_on(lane, slot, shape, found.hit[lane], /*through=*/true);
     walk_.set_media(lane, media);
     distance -= t;
     return true;
 }
 
-double ShadowTracer::index_of(core::MaterialIndex medium) const {
-    return medium == core::Media::none ? 1.0 : scene_.materials()[medium].index;
-}
-
-/// Beer and Lambert's law.
 void ShadowTracer::absorb(core::MaterialIndex medium, double distance, std::size_t lane) {
     if (medium == core::Media::none) return;
-    const core::Vec3f& absorption = scene_.scene().materials()[medium].absorption;
+    const core::Vec3d share =
+        core::let_through_medium(scene_.scene().materials()[medium], distance);
     for (int channel = 0; channel < 3; ++channel)
-        if (absorption[channel] > 0.0F)
-            walk_.throughput[channel][lane] *=
-                core::exp(-static_cast<double>(absorption[channel]) * distance);
+        walk_.throughput[channel][lane] *= share[channel];
 }
 
 } // namespace raylane::simd

@@ -31,16 +31,12 @@ class ShadowTracer {
 
     bool arrives(std::size_t ray) const { return occlusions_.state[ray] != blocked; }
 
-    /// Shadow rays that the reference has counted as well.
-    std::uint64_t counted_twice() const { return counted_twice_; }
-
   private:
     void start(const Wave& wave);
     void find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters);
     void walk(const Bundle& bundle, core::Counters& counters);
     void start_walk(const Wave& wave, std::size_t ray);
     bool step(std::size_t lane, double& distance);
-    double index_of(core::MaterialIndex medium) const;
     void absorb(core::MaterialIndex medium, double distance, std::size_t lane);
 
     const SceneData& scene_;
@@ -60,7 +56,6 @@ class ShadowTracer {
     HitFinder walker_;
     Paths walk_{}; // throughput: what is left of the weight; sample: the ray
     double* walk_distance_ = nullptr;
-    std::uint64_t counted_twice_ = 0;
 };
 
 } // namespace raylane::simd

@@ -1,15 +1,18 @@
 #include "simd/wavefront/wavefront.hpp"
 
 #include "core/fog.hpp"
+#include "core/optics.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace raylane::simd {
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool any_transmits(const core::Scene& scene) {
     return std::any_of(scene.materials().begin(), scene.materials().end(),
@@ -66,13 +69,12 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
       shade_(kernels.shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
       reference_(scene.scene(), settings), finder_(scene, kernels, &reference_),
-      shadows_(scene, kernels, reference_) {
+      shadows_(scene, kernels, reference_), sorted_(scene) {
     Arena measure;
     take_from(measure);
     arena_ = Arena(measure.used());
     take_from(arena_);
     samples_.reserve(chunk_samples);
-    runs_.reserve(wave_rays);
     pending_.reserve(64);
     if (camera_rays_.regular())
         for (int number = 0; number < settings.grid * settings.grid; ++number)
@@ -87,9 +89,7 @@ void Wavefront::take_from(Arena& arena) {
     across_ = arena.take<double>(chunk_samples);
     upward_ = arena.take<double>(chunk_samples);
     arena.take(radiance_, chunk_samples);
-    keys_ = arena.take<std::uint32_t>(wave_rays);
-    order_ = arena.take<std::uint32_t>(wave_rays);
-    scratch_ = arena.take<std::uint32_t>(wave_rays);
+    sorted_.take_from(arena, wave_rays);
     for (auto* columns :
          {&surfaces_.point, &surfaces_.flat_normal, &surfaces_.normal, &surfaces_.direction,
           &surfaces_.throughput, &surfaces_.own, &surfaces_.radiance})
@@ -108,7 +108,6 @@ void Wavefront::take_from(Arena& arena) {
 core::Counters Wavefront::counters() const {
     core::Counters all = counters_;
     all += reference_.counters();
-    all.shadow -= shadows_.counted_twice();
     return all;
 }
 
@@ -169,10 +168,7 @@ void Wavefront::start(std::size_t count) {
     for (double* channel : paths_.throughput)
         std::fill_n(channel, count, 1.0);
     std::iota(paths_.sample, paths_.sample + count, 0U);
-    for (std::uint32_t* column :
-         {paths_.departed_first, paths_.departed_last, paths_.departed_slot})
-        std::fill_n(column, count, no_slot);
-    std::fill_n(paths_.departure, count, 0U);
+    paths_.start_in_the_open(0, count);
     if (with_media_ && camera_.orthographic)
         for (std::size_t i = 0; i < count; ++i)
             paths_.set_media(i, reference_.media_around(ray_of(paths_, i).origin));
@@ -208,69 +204,30 @@ void Wavefront::trace() {
 void Wavefront::trace_wave(int depth) {
     coherent_ = depth == 0;
     finder_.find(paths_, depth == 0 ? &camera_bundle_ : nullptr, counters_);
-    follow_contacts(depth);
-    sort_hits();
+    for (const std::uint32_t lane : finder_.left_open())
+        follow(lane, depth); // several surfaces meet there
+    sorted_.sort(finder_.hits().slot, paths_.count, finder_.left_open());
     see_background();
     shade(depth);
 }
 
-/// Where several surfaces meet, the reference goes on.
-void Wavefront::follow_contacts(int depth) {
-    for (const std::uint32_t lane : finder_.left_open()) {
-        ++counters_.followed;
-        const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
-                                     paths_.throughput[2][lane]);
-        const core::Vec3d color =
-            reference_.color_along({ray_of(paths_, lane), departure_of(scene_, paths_, lane),
-                                    paths_.media_at(lane), throughput, depth}) *
-            throughput;
-        add(paths_.sample[lane], color.x, color.y, color.z);
-    }
-}
-
-/// Stably by material; what hit nothing comes last. Radix sort, a byte at a time.
-void Wavefront::sort_hits() {
-    const auto materials = static_cast<std::uint32_t>(scene_.materials().size());
-    const Hits& hits = finder_.hits();
-    for (std::size_t lane = 0; lane < paths_.count; ++lane)
-        keys_[lane] = hits.slot[lane] == no_slot ? materials : scene_.material_of(hits.slot[lane]);
-    const std::uint32_t taken = materials + 1;
-    for (const std::uint32_t lane : finder_.left_open())
-        keys_[lane] = taken;
-
-    for (std::size_t i = 0; i < paths_.count; ++i)
-        order_[i] = static_cast<std::uint32_t>(i);
-    for (int shift = 0; shift < 32 && taken >> shift != 0; shift += 8) {
-        std::array<std::uint32_t, 257> begin{};
-        for (std::size_t i = 0; i < paths_.count; ++i)
-            ++begin[(keys_[i] >> shift & 0xFF) + 1];
-        for (int value = 1; value < 257; ++value)
-            begin[value] += begin[value - 1];
-        for (std::size_t i = 0; i < paths_.count; ++i)
-            scratch_[begin[keys_[order_[i]] >> shift & 0xFF]++] = order_[i];
-        std::swap(order_, scratch_);
-    }
-
-    runs_.clear();
-    hit_count_ = 0;
-    while (hit_count_ < paths_.count && keys_[order_[hit_count_]] < materials) {
-        const std::uint32_t key = keys_[order_[hit_count_]];
-        const std::size_t begin = hit_count_;
-        while (hit_count_ < paths_.count && keys_[order_[hit_count_]] == key)
-            ++hit_count_;
-        runs_.push_back({&scene_.materials()[key], begin, hit_count_});
-    }
+/// The reference goes on with a lane.
+void Wavefront::follow(std::size_t lane, int depth) {
+    ++counters_.followed;
+    const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
+                                 paths_.throughput[2][lane]);
+    const core::Vec3d color =
+        reference_.color_along({ray_of(paths_, lane), departure_of(scene_, paths_, lane),
+                                paths_.media_at(lane), throughput, depth}) *
+        throughput;
+    add(paths_.sample[lane], color.x, color.y, color.z);
 }
 
 core::Vec3d Wavefront::background_along(std::size_t lane) const {
     const core::Scene& scene = scene_.scene();
-    core::Vec3d color = core::convert<double>(scene.background());
-    if (with_media_ && paths_.media[0][lane] != core::Media::none) {
-        const core::Vec3f& absorption = scene.materials()[paths_.media[0][lane]].absorption;
-        for (int channel = 0; channel < 3; ++channel)
-            if (absorption[channel] > 0.0F) color[channel] = 0.0;
-        return color;
-    }
+    const core::Vec3d color = core::convert<double>(scene.background());
+    if (with_media_ && paths_.media[0][lane] != core::Media::none)
+        return core::let_through_medium(scene.materials()[paths_.media[0][lane]], infinity) * color;
     if (scene.fog().kind == core::FogKind::none) return color;
     const core::Ray<double> ray = ray_of(paths_, lane);
     const double fog = core::fog_fraction_at_infinity(scene.fog(), ray.origin, ray.direction);
@@ -278,50 +235,38 @@ core::Vec3d Wavefront::background_along(std::size_t lane) const {
 }
 
 void Wavefront::see_background() {
-    const auto materials = static_cast<std::uint32_t>(scene_.materials().size());
-    for (std::size_t i = hit_count_; i < paths_.count; ++i) {
-        const std::uint32_t lane = order_[i];
-        if (keys_[lane] != materials) break;
+    for (const std::uint32_t lane : sorted_.missed()) {
         const core::Vec3d color = background_along(lane);
         add(paths_.sample[lane], paths_.throughput[0][lane] * color.x,
             paths_.throughput[1][lane] * color.y, paths_.throughput[2][lane] * color.z);
     }
 }
 
-/// As core::ReferenceTracer has it at `indices_at`, `medium_before` and `media_behind`.
+/// As core::ReferenceTracer has it at `indices_at`.
 void Wavefront::fill_media() {
-    const auto& materials = scene_.scene().materials();
-    const auto index_of = [&](core::MaterialIndex medium) {
-        return medium == core::Media::none ? 1.0 : static_cast<double>(materials[medium].index);
-    };
-    for (const Run& run : runs_)
+    for (const Run& run : sorted_.runs()) {
+        const bool transmits = run.material->transmits;
         for (std::size_t i = run.begin; i < run.end; ++i) {
-            const std::uint32_t lane = order_[i];
-            const core::MaterialIndex material = keys_[lane];
+            const std::uint32_t lane = sorted_.order()[i];
+            const core::MaterialIndex material = sorted_.material_of(lane);
             const bool entering = (finder_.hits().hit[lane] & hit_entering) != 0;
-            const bool transmits = run.material->transmits;
-            const core::MaterialIndex top = paths_.media[0][lane];
-            const core::MaterialIndex before =
-                top == core::Media::none && !entering && transmits ? material : top;
-            media_.index_before[i] = index_of(before);
-            if (entering || !transmits) {
-                media_.index_behind[i] = run.material->index;
-            } else {
-                core::Media behind = paths_.media_at(lane);
-                behind.leave(material);
-                media_.index_behind[i] = index_of(behind.top());
-            }
-            media_.inside[i] = before == core::Media::none ? 0.0 : 1.0;
+            core::Media media = paths_.media_at(lane);
+            const SceneData::Medium& before =
+                scene_.medium(media.before(material, transmits, entering));
+            media_.inside[i] = before.inside;
+            media_.index_before[i] = before.index;
             for (int channel = 0; channel < 3; ++channel)
-                media_.absorption[channel][i] =
-                    before == core::Media::none
-                        ? 0.0
-                        : static_cast<double>(materials[before].absorption[channel]);
+                media_.absorption[channel][i] = before.absorption[channel];
+            media_.index_behind[i] = run.material->index;
+            if (entering || !transmits) continue;
+            media.leave(material);
+            media_.index_behind[i] = scene_.medium(media.top()).index;
         }
+    }
 }
 
 void Wavefront::shade(int depth) {
-    if (runs_.empty()) return;
+    if (sorted_.runs().empty()) return;
     if (with_media_) fill_media();
     const Hits& hits = finder_.hits();
     HitPaths hit_paths{};
@@ -334,11 +279,11 @@ void Wavefront::shade(int depth) {
     }
     hit_paths.t = hits.t;
     hit_paths.hit = hits.hit;
-    for (const Run& run : runs_)
-        shade_.surfaces(run, order_, hit_paths, scene_.fog(), with_media_ ? &media_ : nullptr,
-                        surfaces_);
-    for (std::size_t i = 0; i < hit_count_; ++i)
-        add(paths_.sample[order_[i]], surfaces_.radiance[0][i], surfaces_.radiance[1][i],
+    for (const Run& run : sorted_.runs())
+        shade_.surfaces(run, sorted_.order(), hit_paths, scene_.fog(),
+                        with_media_ ? &media_ : nullptr, surfaces_);
+    for (std::size_t i = 0; i < sorted_.hit_count(); ++i)
+        add(paths_.sample[sorted_.order()[i]], surfaces_.radiance[0][i], surfaces_.radiance[1][i],
             surfaces_.radiance[2][i]);
     add_lights();
     if (depth < settings_.max_depth) spawn();
@@ -348,14 +293,14 @@ void Wavefront::add_lights() {
     for (const LightView& light : scene_.lights()) {
         SpawnedRays& rays = shadows_.rays();
         rays.count = 0;
-        for (const Run& run : runs_)
+        for (const Run& run : sorted_.runs())
             if (run.material->diffuse > 0.0 || run.material->specular > 0.0)
                 shade_.light(run, light, surfaces_, rays);
         if (rays.count == 0) continue;
-        shadows_.trace({paths_, finder_.hits(), order_, coherent_}, light, counters_);
+        shadows_.trace({paths_, finder_.hits(), sorted_.order(), coherent_}, light, counters_);
         for (std::size_t k = 0; k < rays.count; ++k)
             if (shadows_.arrives(k))
-                add(paths_.sample[order_[static_cast<std::size_t>(rays.parent[k])]],
+                add(paths_.sample[sorted_.order()[static_cast<std::size_t>(rays.parent[k])]],
                     rays.weight[0][k], rays.weight[1][k], rays.weight[2][k]);
     }
 }
@@ -369,7 +314,7 @@ void Wavefront::spawn() {
     }
     reflected.parent = shadows_.rays().parent; // not needed any more
     transmitted_.count = 0;
-    for (const Run& run : runs_)
+    for (const Run& run : sorted_.runs())
         if (run.material->reflects || run.material->transmits)
             shade_.spawn(run, static_cast<double>(settings_.min_weight),
                          with_media_ ? &media_ : nullptr, surfaces_, reflected, transmitted_);
@@ -392,24 +337,15 @@ void Wavefront::spawn() {
 void Wavefront::add_to_next(const SpawnedRays& spawned, bool through) {
     const Hits& hits = finder_.hits();
     for (std::size_t k = 0; k < spawned.count; ++k) {
-        const std::uint32_t lane = order_[static_cast<std::size_t>(spawned.parent[k])];
+        const std::uint32_t lane = sorted_.order()[static_cast<std::size_t>(spawned.parent[k])];
         const std::size_t to = next_.count++;
         const std::uint32_t slot = hits.slot[lane], hit = hits.hit[lane];
-        const core::IdRange range = scene_.coplanar_with(slot);
-        const bool entering = (hit & hit_entering) != 0;
+        const SceneData::Occupant shape = scene_.occupant_of(slot);
         next_.sample[to] = paths_.sample[lane];
-        next_.departed_first[to] = range.first;
-        next_.departed_last[to] = range.last;
-        next_.departed_slot[to] = slot;
-        next_.departure[to] = (hit & hit_face) | (through == entering ? departure_inward : 0);
+        next_.start_on(to, slot, shape, hit, through);
         if (!with_media_) continue;
         core::Media media = paths_.media_at(lane);
-        if (through) {
-            if (entering)
-                media.enter(keys_[lane]);
-            else
-                media.leave(keys_[lane]);
-        }
+        if (through) media.cross(shape.material, (hit & hit_entering) != 0);
         next_.set_media(to, media);
     }
 }
@@ -421,17 +357,8 @@ void Wavefront::split_next(int depth) {
         const auto [least, most] = std::minmax_element(paths_.sample, paths_.sample + paths_.count);
         const std::uint32_t first = *least, last = *most;
         if (first == last) {
-            counters_.followed += paths_.count;
-            for (std::size_t lane = 0; lane < paths_.count; ++lane) {
-                const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
-                                             paths_.throughput[2][lane]);
-                const core::Vec3d color =
-                    reference_.color_along({ray_of(paths_, lane),
-                                            departure_of(scene_, paths_, lane),
-                                            paths_.media_at(lane), throughput, depth}) *
-                    throughput;
-                add(first, color.x, color.y, color.z);
-            }
+            for (std::size_t lane = 0; lane < paths_.count; ++lane)
+                follow(lane, depth);
             paths_.count = 0;
             return;
         }

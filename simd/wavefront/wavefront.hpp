@@ -3,6 +3,7 @@
 #include "core/camera_rays.hpp"
 #include "core/film.hpp"
 #include "core/region.hpp"
+#include "simd/wavefront/hit_sorter.hpp"
 #include "simd/wavefront/shadow_tracer.hpp"
 
 #include <vector>
@@ -49,8 +50,7 @@ class Wavefront {
     void start(std::size_t count);
     void trace();
     void trace_wave(int depth);
-    void follow_contacts(int depth);
-    void sort_hits();
+    void follow(std::size_t lane, int depth);
     void see_background();
     void shade(int depth);
     void fill_media();
@@ -87,12 +87,8 @@ class Wavefront {
     std::vector<core::Vec3d> sums_; // by pixel of the region
 
     // A wave, sorted.
-    std::uint32_t* keys_ = nullptr;
-    std::uint32_t* order_ = nullptr;
-    std::uint32_t* scratch_ = nullptr;
-    std::size_t hit_count_ = 0;
+    HitSorter sorted_;
     bool coherent_ = false; ///< it was hit by rays from the camera
-    std::vector<Run> runs_;
     Surfaces surfaces_{};
     MediumColumns media_{};
     SpawnedRays transmitted_{};

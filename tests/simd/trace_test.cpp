@@ -119,7 +119,7 @@ void check(const Kernels& kernels, bool overlapping) {
     Rays rays(tests::sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
     const RoundedRays rounded = rays.round(kernels);
 
-    const std::size_t entries = std::size_t{in_flight} * 16 * (data.tree_depth() + 1) + 16;
+    const std::size_t entries = std::size_t{in_flight} * 16 * (data.view().tree_depth + 1) + 16;
     std::vector<float> t(entries);
     std::vector<std::uint32_t> child(entries);
     const Pending pending{t.data(), child.data()};
