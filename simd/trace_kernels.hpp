@@ -76,6 +76,12 @@ struct TraceKernels {
     void (*camera_rays)(const CameraView& camera, std::size_t count, const double* across,
                         const double* upward, double* const origin[3], double* const direction[3]);
 
+    /// Lists the lanes whose candidate is not certain to be the nearest, and those that are
+    /// `doubtful` anyway. What was found for the candidate is as in Found. Returns how many.
+    std::size_t (*list_uncertain)(std::size_t count, const Candidates& candidates, const double* t,
+                                  const double* error, const std::uint32_t* hit,
+                                  const std::uint8_t* doubtful, std::uint32_t* lanes);
+
     /// Fills origin, direction and slack.
     void (*round_rays)(std::size_t count, const double* const origin[3],
                        const double* const direction[3], const RoundedRays& rays);

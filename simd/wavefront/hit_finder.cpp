@@ -126,7 +126,8 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
     counters.shapes += traced.shapes;
 
     kernels_.finish(scene_.view(), found_in(paths, hits_, paths.count));
-    certify(paths);
+    lane_count_ = kernels_.trace.list_uncertain(paths.count, candidates_, hits_.t, hits_.error,
+                                                hits_.hit, doubtful_, lanes_);
     ask_reference(paths, counters);
     if (onward_ != nullptr) look_through(paths, bundle, counters);
 }
@@ -222,20 +223,6 @@ void HitFinder::find_own_exits(const Paths& paths) {
                 std::max(0.0F, rounded_down(gathered_hits_.t[i] - gathered_hits_.error[i]));
             candidates_.slot[lane] = gathered_hits_.slot[i];
         }
-    }
-}
-
-/// Lists the lanes that remain in doubt.
-void HitFinder::certify(const Paths& paths) {
-    lane_count_ = 0;
-    for (std::size_t lane = 0; lane < paths.count; ++lane) {
-        const double last = hits_.t[lane] + hits_.error[lane];
-        const double most = static_cast<double>(
-            std::min(candidates_.second[lane], candidates_.first[lane] * culling_slack));
-        const bool solved = (hits_.hit[lane] & (hit_doubtful | hit_none)) == 0;
-        const bool certain = (hits_.slot[lane] == no_slot) | (solved & (last <= most));
-        lanes_[lane_count_] = static_cast<std::uint32_t>(lane);
-        lane_count_ += static_cast<std::size_t>(!certain | (doubtful_[lane] != 0));
     }
 }
 

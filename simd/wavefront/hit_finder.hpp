@@ -51,7 +51,6 @@ class HitFinder {
 
     void start(const Paths& paths);
     void find_own_exits(const Paths& paths);
-    void certify(const Paths& paths);
     void ask_reference(const Paths& paths, core::Counters& counters);
     void look_through(const Paths& paths, const Bundle* bundle, core::Counters& counters);
     bool is_visible(const Hits& hits, std::size_t lane) const;

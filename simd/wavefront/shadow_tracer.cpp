@@ -130,7 +130,7 @@ void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
         for (std::size_t lane = 0; lane < walk_.count; ++lane) {
             double distance = walk_distance_[lane];
             if (distance < 0.0 || !step(lane, distance)) continue;
-            walk_.copy(walk_, lane, kept);
+            if (lane != kept) walk_.copy(walk_, lane, kept);
             walk_distance_[kept++] = distance;
         }
         walk_.count = kept;

@@ -1,14 +1,16 @@
 #pragma once
 
 #include "simd/kernel/trace/bundle.hpp"
+#include "simd/kernels.hpp"
 
 namespace raylane::simd {
 
-/// Makes rays, and rounds them for the filters.
+/// What is done to rays before and after they are traced.
 template <class Arch>
 struct Prepare : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
+    using typename S::M;
 
     /// core::CameraRays, in double.
     static void camera_rays(const CameraView& camera, std::size_t count, const double* across,
@@ -51,8 +53,38 @@ struct Prepare : Streams<Arch> {
         }
     }
 
+    static std::size_t list_uncertain(std::size_t count, const Candidates& candidates,
+                                      const double* t, const double* error,
+                                      const std::uint32_t* hit, const std::uint8_t* doubtful,
+                                      std::uint32_t* lanes) {
+        const F none = S::broadcast_bits(no_slot);
+        const F solved_first = S::broadcast_bits(0),
+                solved_last = S::broadcast_bits(hit_doubtful - 1);
+        std::size_t listed = 0;
+        for (std::size_t i = 0; i < count; i += F::size) {
+            // Rounded to float, each is off by half an ulp, and so are their sum and the product.
+            const F last =
+                (Lanes<Arch>::narrow(t + i) + Lanes<Arch>::narrow(error + i)) * F(1 + 0x1p-21F);
+            const F most = xsimd::min(S::load(candidates.second + i),
+                                      S::load(candidates.first + i) * F(culling_slack));
+            const M solved =
+                Lanes<Arch>::in_range(S::load_bits(hit + i), solved_first, solved_last);
+            const M missed = Lanes<Arch>::in_range(S::load_bits(candidates.slot + i), none, none);
+            std::uint32_t uncertain = Lanes<Arch>::bits(~(missed | (solved & (last <= most))));
+            for (std::size_t lane = 0; lane < F::size; ++lane)
+                uncertain |= std::uint32_t{doubtful[i + lane] != 0} << lane;
+            if (uncertain == 0) continue;
+            if (count - i < F::size) uncertain &= (1U << (count - i)) - 1;
+            for (; uncertain != 0; uncertain &= uncertain - 1)
+                lanes[listed++] =
+                    static_cast<std::uint32_t>(i) + static_cast<unsigned>(__builtin_ctz(uncertain));
+        }
+        return listed;
+    }
+
     static constexpr TraceKernels table() {
         return {camera_rays,
+                list_uncertain,
                 round_rays,
                 TraceAll<Arch>::nearest,
                 TraceAll<Arch>::occluded,
