@@ -110,9 +110,10 @@ void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
 void OutputFile::write_png(const core::Film& film, core::Transfer transfer) {
     std::vector<std::uint8_t> codes;
     codes.reserve(3 * film.pixels().size());
+    const core::Encoder encode(transfer);
     for (const core::Color& pixel : film.pixels())
         for (int channel = 0; channel < 3; ++channel)
-            codes.push_back(core::encode(pixel[channel], transfer));
+            codes.push_back(encode(pixel[channel]));
     Sink sink{file_, nullptr};
     sink.finish(stbi_write_png_to_func(&Sink::write, &sink, film.width(), film.height(), 3,
                                        codes.data(), 3 * film.width()));

@@ -1,6 +1,8 @@
 #include "core/transfer.hpp"
 #include "tests/catch.hpp"
 
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 using namespace raylane::core;
@@ -20,4 +22,28 @@ TEST_CASE("the sRGB curve passes through its known points") {
     CHECK(encode(0.2158605F, Transfer::srgb) == 128); // half of the codes
     CHECK(encode(0.0031308F, Transfer::srgb) == 10);  // where the straight part ends: 0.04045
     CHECK(encode(0.18F, Transfer::srgb) == 118);      // photographers' middle grey
+}
+
+TEST_CASE("codes that are looked up are those that are worked out") {
+    for (const Transfer transfer : {Transfer::linear, Transfer::srgb}) {
+        const Encoder look_up(transfer);
+        std::uint32_t wrong = 0, last = 0;
+        const auto check = [&](std::uint32_t bits) {
+            const float value = std::bit_cast<float>(bits);
+            wrong += look_up(value) != encode(value, transfer) ? 1 : 0;
+        };
+        // Every 500th float from 0 to above 1, and beside each step of the curve all that are near.
+        for (std::uint32_t bits = 0; bits < std::bit_cast<std::uint32_t>(1.01F); bits += 500) {
+            check(bits);
+            const std::uint8_t code = encode(std::bit_cast<float>(bits), transfer);
+            if (code != last)
+                for (std::uint32_t near = bits - 502; near < bits + 2; ++near)
+                    check(near);
+            last = code;
+        }
+        CHECK(wrong == 0);
+        for (const float odd : {-1.0F, -0.0F, 7.0F, std::numeric_limits<float>::quiet_NaN(),
+                                std::numeric_limits<float>::infinity()})
+            CHECK(look_up(odd) == encode(odd, transfer));
+    }
 }
