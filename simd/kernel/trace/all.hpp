@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/trace/rays.hpp"
+#include "simd/kernel/trace/packets.hpp"
 #include "simd/kernel/trace/spheres_around.hpp"
 
 namespace raylane::simd {
@@ -97,28 +97,14 @@ struct TraceAll : Streams<Arch> {
         const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
-            const FilterRays<Arch> rays = S::packet(stream, i);
-            const F departed_first = S::load_bits(stream.departed_first + i);
-            const F departed_last = S::load_bits(stream.departed_last + i);
-            F first = S::load(candidates.first + i), second = S::load(candidates.second + i);
-            F slot = S::load_bits(candidates.slot + i);
-            for_each_shape(scene, kind_bits, spheres, rays, first,
-                           [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
-                               const Bounds<Arch> bounds = filter.bounds(rays);
-                               const M counts =
-                                   bounds.possible & ~Lanes<Arch>::in_range(S::broadcast_bits(id),
-                                                                            departed_first,
-                                                                            departed_last);
-                               const F t = xsimd::select(counts, bounds.lower, S::infinity());
-                               const M nearer = t < first;
-                               second = xsimd::min(second, xsimd::max(t, first));
-                               first = xsimd::min(first, t);
-                               slot = xsimd::select(nearer, S::broadcast_bits(this_slot), slot);
+            const Packet<Arch> packet(stream, i);
+            PacketCandidates<Arch> found(candidates, i);
+            for_each_shape(scene, kind_bits, spheres, packet.rays, found.first,
+                           [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {
+                               found.test(filter, id, slot, packet);
                                shapes += F::size;
                            });
-            first.store_unaligned(candidates.first + i);
-            second.store_unaligned(candidates.second + i);
-            S::store_bits(slot, candidates.slot + i);
+            found.store(candidates, i);
         }
         counters.shapes += shapes;
     }
@@ -129,35 +115,14 @@ struct TraceAll : Streams<Arch> {
         const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
-            const FilterRays<Arch> rays = S::packet(stream, i);
-            const F departed_first = S::load_bits(stream.departed_first + i);
-            const F departed_last = S::load_bits(stream.departed_last + i);
-            const F t_most = S::load(occlusions.t_most + i);
-            const F surely_before = t_most * F(1 - 4 * half_ulp);
-            const F perhaps_before = t_most * F(1 + 4 * half_ulp);
-            std::uint32_t some = 0, sure = 0;
-            for_each_shape(scene, kind_bits, spheres, rays, t_most,
-                           [&](const auto& filter, std::uint32_t id, std::uint32_t this_slot) {
-                               const Bounds<Arch> bounds = filter.bounds(rays);
-                               const M elsewhere = ~Lanes<Arch>::in_range(
-                                   S::broadcast_bits(id), departed_first, departed_last);
-                               const M possible =
-                                   bounds.possible & elsewhere & (bounds.lower < perhaps_before);
-                               some |= Lanes<Arch>::bits(possible);
-                               if (scene.plain_lanes == nullptr ||
-                                   (scene.plain_lanes[this_slot / 16] >> this_slot % 16 & 1) != 0)
-                                   sure |= Lanes<Arch>::bits(possible & bounds.certain &
-                                                             (bounds.upper < surely_before));
+            const Packet<Arch> packet(stream, i);
+            PacketOcclusions<Arch> found(occlusions, i);
+            for_each_shape(scene, kind_bits, spheres, packet.rays, found.t_most,
+                           [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {
+                               found.test(filter, id, S::is_plain(scene, slot), packet);
                                shapes += F::size;
                            });
-            const std::size_t end = count - i < F::size ? count - i : F::size;
-            for (std::size_t lane = 0; lane < end; ++lane) {
-                std::uint8_t& state = occlusions.state[i + lane];
-                if ((sure >> lane & 1) != 0)
-                    state = blocked;
-                else if ((some >> lane & 1) != 0 && state == open)
-                    state = doubtful;
-            }
+            found.store(occlusions.state + i, count - i);
         }
         counters.shapes += shapes;
     }

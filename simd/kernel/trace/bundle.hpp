@@ -11,7 +11,6 @@ template <class Arch>
 struct TraceBundle : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
-    using typename S::M;
     using Rays = Group<Arch>;
     static constexpr std::size_t bunch = 16;
 
@@ -140,27 +139,15 @@ struct TraceBundle : Streams<Arch> {
 
     /// One shape against a bunch of rays. Returns from which t on nothing matters to them.
     template <class Filter>
-    static float test(const Filter& filter, std::uint32_t id, std::uint32_t this_slot,
-                      std::size_t from, std::size_t end, const RoundedRays& stream,
-                      const Candidates& candidates) {
+    static float test(const Filter& filter, std::uint32_t id, std::uint32_t slot, std::size_t from,
+                      std::size_t end, const RoundedRays& stream, const Candidates& candidates) {
         F latest = zero<Arch>();
         for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
-            const Bounds<Arch> bounds = filter.bounds(S::packet(stream, i));
-            const M counts =
-                bounds.possible & ~Lanes<Arch>::in_range(S::broadcast_bits(id),
-                                                         S::load_bits(stream.departed_first + i),
-                                                         S::load_bits(stream.departed_last + i));
-            const F t = xsimd::select(counts, bounds.lower, S::infinity());
-            const F first = S::load(candidates.first + i);
-            const F second = S::load(candidates.second + i);
-            const F slot = S::load_bits(candidates.slot + i);
-            const F nearest = xsimd::min(first, t);
-            xsimd::min(second, xsimd::max(t, first)).store_unaligned(candidates.second + i);
-            nearest.store_unaligned(candidates.first + i);
-            S::store_bits(xsimd::select(t < first, S::broadcast_bits(this_slot), slot),
-                          candidates.slot + i);
-            latest =
-                xsimd::max(latest, xsimd::select(S::first_lanes(end - i), nearest, zero<Arch>()));
+            PacketCandidates<Arch> found(candidates, i);
+            found.test(filter, id, slot, Packet<Arch>(stream, i));
+            found.store(candidates, i);
+            latest = xsimd::max(latest,
+                                xsimd::select(S::first_lanes(end - i), found.first, zero<Arch>()));
         }
         return Lanes<Arch>::greatest(latest) * culling_slack;
     }
@@ -206,31 +193,12 @@ struct TraceBundle : Streams<Arch> {
     static bool block(const SceneView& scene, const Filter& filter, std::uint32_t id,
                       std::uint32_t slot, std::size_t from, std::size_t end,
                       const RoundedRays& stream, const Occlusions& occlusions) {
-        const bool plain =
-            scene.plain_lanes == nullptr || (scene.plain_lanes[slot / 16] >> slot % 16 & 1) != 0;
+        const bool plain = S::is_plain(scene, slot);
         bool all_blocked = true;
         for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
-            const F t_most = S::load(occlusions.t_most + i);
-            const Bounds<Arch> bounds = filter.bounds(S::packet(stream, i));
-            const M possible = bounds.possible &
-                               ~Lanes<Arch>::in_range(S::broadcast_bits(id),
-                                                      S::load_bits(stream.departed_first + i),
-                                                      S::load_bits(stream.departed_last + i)) &
-                               (bounds.lower < t_most * F(1 + 4 * half_ulp));
-            const std::uint32_t some = Lanes<Arch>::bits(possible);
-            const std::uint32_t sure =
-                plain ? Lanes<Arch>::bits(possible & bounds.certain &
-                                          (bounds.upper < t_most * F(1 - 4 * half_ulp)))
-                      : 0;
-            const std::size_t lanes = Rays::lesser(end - i, F::size);
-            for (std::size_t lane = 0; lane < lanes; ++lane) {
-                std::uint8_t& state = occlusions.state[i + lane];
-                if ((sure >> lane & 1) != 0)
-                    state = blocked;
-                else if ((some >> lane & 1) != 0 && state == open)
-                    state = doubtful;
-                all_blocked = all_blocked && state == blocked;
-            }
+            PacketOcclusions<Arch> found(occlusions, i);
+            found.test(filter, id, plain, Packet<Arch>(stream, i));
+            if (!found.store(occlusions.state + i, end - i)) all_blocked = false;
         }
         return all_blocked;
     }

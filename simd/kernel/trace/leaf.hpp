@@ -79,18 +79,16 @@ struct Leaf : Streams<Arch> {
         const float* block = S::block_of(table, number);
         const std::uint32_t* ids = S::ids_of(table, block);
         const FilterRays<Arch> ray = S::broadcast(rays, i);
-        const std::uint32_t plain = scene.plain_lanes == nullptr
-                                        ? 0xFFFF
-                                        : scene.plain_lanes[table.first_slot / 16 + number];
+        const std::uint32_t plain = S::plain_lanes(scene, table.first_slot + 16 * number);
         std::uint8_t state = open;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
             const Bounds<Arch> bounds = filter.bounds(ray);
             const M possible = bounds.possible & elsewhere(ids + from, rays, i) &
-                               (bounds.lower < F(t_most * (1 + 4 * half_ulp)));
+                               (bounds.lower < F(t_most * perhaps_within));
             if (Lanes<Arch>::bits(possible) == 0) continue;
             const M certain =
-                possible & bounds.certain & (bounds.upper < F(t_most * (1 - 4 * half_ulp)));
+                possible & bounds.certain & (bounds.upper < F(t_most * surely_within));
             if ((Lanes<Arch>::bits(certain) & plain >> from) != 0) return blocked;
             state = doubtful;
         }

@@ -5,6 +5,10 @@
 
 namespace raylane::simd {
 
+/// A ray's t_most times these: what may be before it, and what surely is. It has been rounded, and
+/// so is the product.
+inline constexpr float perhaps_within = 1 + 4 * half_ulp, surely_within = 1 - 4 * half_ulp;
+
 /// Access to the streams of trace_kernels.hpp.
 template <class Arch>
 struct Streams {
@@ -47,6 +51,14 @@ struct Streams {
         const F empty = broadcast_bits(no_child);
         return Lanes<Arch>::bits(
             ~Lanes<Arch>::in_range(load_bits(node.children + from), empty, empty));
+    }
+
+    /// The lanes of the slot's block that block whatever hits them, as bits.
+    static std::uint32_t plain_lanes(const SceneView& scene, std::uint32_t slot) {
+        return scene.plain_lanes == nullptr ? 0xFFFF : scene.plain_lanes[slot / 16];
+    }
+    static bool is_plain(const SceneView& scene, std::uint32_t slot) {
+        return (plain_lanes(scene, slot) >> slot % 16 & 1) != 0;
     }
 
     static const float* block_of(const TableView& table, std::uint32_t block) {
