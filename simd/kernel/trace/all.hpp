@@ -17,7 +17,7 @@ struct TraceAll : Streams<Arch> {
     /// not be tested further. By block, in the order of the kinds; what has no room has no sphere.
     struct Spheres {
         static constexpr int most_blocks = 12;
-        float values[most_blocks][4][16];
+        BlockSpheres<Arch> around[most_blocks];
         int blocks = 0;
 
         Spheres(const SceneView& scene, std::uint32_t kind_bits) {
@@ -25,20 +25,8 @@ struct TraceAll : Streams<Arch> {
                 const int kind = __builtin_ctz(kind_bits);
                 const TableView& table = scene.tables[kind];
                 for (std::uint32_t b = 0; b < table.block_count && blocks < most_blocks; ++b)
-                    add(kind, S::rows_of(S::block_of(table, b)));
+                    around[blocks++].enclose(kind, S::rows_of(S::block_of(table, b)));
             }
-        }
-
-        void add(int kind, typename S::Rows rows) {
-            for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-                const SphereAround<Arch> sphere =
-                    sphere_around<Arch>(kind, BlockReader<Arch>(rows, from));
-                sphere.center.x.store_unaligned(values[blocks][0] + from);
-                sphere.center.y.store_unaligned(values[blocks][1] + from);
-                sphere.center.z.store_unaligned(values[blocks][2] + from);
-                sphere.radius.store_unaligned(values[blocks][3] + from);
-            }
-            ++blocks;
         }
 
         /// Whether a ray may meet the sphere before t_most. The roundings are some 20 u of the
@@ -46,13 +34,12 @@ struct TraceAll : Streams<Arch> {
         bool may_meet(int block, int lane, const FilterRays<Arch>& rays, const F& t_most) const {
             if (block >= blocks) return true;
             const F grace(32 * half_ulp), o = zero<Arch>();
-            const float(&v)[4][16] = values[block];
-            const Vectors<Arch> to_center =
-                Vectors<Arch>{F(v[0][lane]), F(v[1][lane]), F(v[2][lane])} - rays.origin;
+            const SphereAround<Arch> sphere = around[block].broadcast(lane);
+            const Vectors<Arch> to_center = sphere.center - rays.origin;
             const F tau = fast_dot(to_center, rays.direction);
             const F squared = fast_dot(to_center, to_center);
             const F radius = fast_mul_add<Arch>(
-                grace, xsimd::abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, F(v[3][lane])));
+                grace, xsimd::abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, sphere.radius));
             // What overflows proves nothing.
             const M beside = (squared < S::infinity()) &
                              (squared - tau * tau - grace * squared > radius * radius);

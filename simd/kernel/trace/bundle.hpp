@@ -84,14 +84,16 @@ struct TraceBundle : Streams<Arch> {
         const float* block = S::block_of(table, number);
         const auto rows = S::rows_of(block);
         const std::uint32_t* ids = S::ids_of(table, block);
+        BlockSpheres<Arch> spheres;
+        spheres.enclose(kind, rows);
         std::uint32_t shapes = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size))
-            shapes |= group.meet(sphere_around<Arch>(kind, BlockReader<Arch>(rows, from))) << from;
+            shapes |= group.meet(spheres.load(from)) << from;
         if (shapes == 0) return;
         with_filter<Arch>(kind, [&]<class Filter>() {
             for (; shapes != 0; shapes &= shapes - 1) {
                 const int lane = __builtin_ctz(shapes);
-                const auto sphere = sphere_around<Arch>(kind, BroadcastReader<Arch>(rows, lane));
+                const SphereAround<Arch> sphere = spheres.broadcast(lane);
                 std::uint32_t bunches = 0;
                 for (std::size_t from = 0; from < 16; from += F::size)
                     bunches |= group.bunches_that_meet(sphere, from, S::load(limits.t + from))

@@ -84,4 +84,35 @@ SphereAround<Arch> sphere_around(int kind, Reader reader) {
     }
 }
 
+/// Spheres around the shapes of a block.
+template <class Arch>
+struct BlockSpheres {
+    using F = Floats<Arch>;
+
+    float center[3][16], radius[16];
+
+    void enclose(int kind, const float (*rows)[16]) {
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            const SphereAround<Arch> spheres =
+                sphere_around<Arch>(kind, BlockReader<Arch>(rows, from));
+            spheres.center.x.store_unaligned(center[0] + from);
+            spheres.center.y.store_unaligned(center[1] + from);
+            spheres.center.z.store_unaligned(center[2] + from);
+            spheres.radius.store_unaligned(radius + from);
+        }
+    }
+
+    /// Those from lane `from` on.
+    SphereAround<Arch> load(int from) const {
+        return {{F::load_unaligned(center[0] + from), F::load_unaligned(center[1] + from),
+                 F::load_unaligned(center[2] + from)},
+                F::load_unaligned(radius + from)};
+    }
+
+    /// That of lane `lane` alone, to all lanes.
+    SphereAround<Arch> broadcast(int lane) const {
+        return {{F(center[0][lane]), F(center[1][lane]), F(center[2][lane])}, F(radius[lane])};
+    }
+};
+
 } // namespace raylane::simd
