@@ -32,22 +32,24 @@ struct TraceBundle : Streams<Arch> {
         }
     };
 
+    static bool has_tree(const Pending& pending) { return pending.t != nullptr; }
+
     /// Visits blocks in the order of their distance: block(kind, number).
     template <class Visit>
-    static void walk(const SceneView& scene, std::uint32_t kind_bits, bool has_tree,
-                     const Rays& group, const Limits& limits, const Pending& pending,
-                     TraceCounters& counters, const Visit& visit_block) {
+    static void walk(const SceneView& scene, std::uint32_t kind_bits, const Rays& group,
+                     const Limits& limits, const Pending& pending, TraceCounters& counters,
+                     const Visit& visit_block) {
         for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
             const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
             for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
                 visit_block(kind, block);
         }
-        if (!has_tree) return;
+        if (!has_tree(pending)) return;
         int size = 0;
         std::uint32_t child = 0;
         for (;;) {
             if ((child & child_is_block) != 0) {
-                visit_block(static_cast<KindNumber>(child >> 27 & 0xF), child & child_index);
+                visit_block(TraceTree<Arch>::kind_of(child), child & child_index);
             } else {
                 ++counters.nodes;
                 const int before = size;
@@ -105,37 +107,48 @@ struct TraceBundle : Streams<Arch> {
         });
     }
 
+    /// Tests a group: visit(filter, id, slot, from), for the bunch that starts at ray `from`,
+    /// returns from which t on nothing matters to it.
+    template <class Visit>
+    static void for_each_bunch(const SceneView& scene, std::uint32_t kind_bits, const Rays& group,
+                               std::size_t begin, const Pending& pending, TraceCounters& counters,
+                               const Visit& visit) {
+        Limits limits(group.bunches);
+        walk(scene, kind_bits, group, limits, pending, counters,
+             [&](KindNumber kind, std::uint32_t number) {
+                 bool changed = false;
+                 for_each_shape(scene, kind, number, group, limits,
+                                [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
+                                    std::uint32_t bunches) {
+                                    for (; bunches != 0; bunches &= bunches - 1) {
+                                        const int which = __builtin_ctz(bunches);
+                                        const std::size_t from =
+                                            begin + bunch * static_cast<std::size_t>(which);
+                                        const float limit = visit(filter, id, slot, from);
+                                        counters.shapes += bunch;
+                                        changed = changed || limit != limits.t[which];
+                                        limits.t[which] = limit;
+                                    }
+                                });
+                 if (changed) limits.update();
+             });
+    }
+
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
                         std::size_t count, const RoundedRays& rays, const Candidates& candidates,
                         const Pending& pending, TraceCounters& counters) {
-        const bool has_tree = pending.t != nullptr;
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
             const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
             Rays group;
-            if (!group.enclose(rays, begin, end, bundle, nullptr)) {
-                nearest_one_by_one(scene, kind_bits, has_tree, begin, end, rays, candidates,
-                                   pending, counters);
-                continue;
-            }
-            Limits limits(group.bunches);
-            walk(scene, kind_bits, has_tree, group, limits, pending, counters,
-                 [&](KindNumber kind, std::uint32_t number) {
-                     bool changed = false;
-                     for_each_shape(scene, kind, number, group, limits,
-                                    [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
-                                        std::uint32_t bunches) {
-                                        for (; bunches != 0; bunches &= bunches - 1) {
-                                            const int which = __builtin_ctz(bunches);
-                                            const std::size_t from =
-                                                begin + bunch * static_cast<std::size_t>(which);
-                                            limits.t[which] =
-                                                test(filter, id, slot, from, end, rays, candidates);
-                                            counters.shapes += bunch;
-                                            changed = true;
-                                        }
-                                    });
-                     if (changed) limits.update();
-                 });
+            if (group.enclose(rays, begin, end, bundle, nullptr))
+                for_each_bunch(scene, kind_bits, group, begin, pending, counters,
+                               [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
+                                   std::size_t from) {
+                                   return test(filter, id, slot, from, end, rays, candidates);
+                               });
+            else
+                nearest_one_by_one(scene, kind_bits, begin, end, rays, candidates, pending,
+                                   counters);
         }
     }
 
@@ -157,44 +170,27 @@ struct TraceBundle : Streams<Arch> {
     static void occluded(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
                          std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
                          const Pending& pending, TraceCounters& counters) {
-        const bool has_tree = pending.t != nullptr;
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
             const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
             Rays group;
-            if (!group.enclose(rays, begin, end, bundle, occlusions.t_most)) {
-                occluded_one_by_one(scene, kind_bits, has_tree, begin, end, rays, occlusions,
-                                    pending, counters);
-                continue;
-            }
-            Limits limits(group.bunches); // -1 once a bunch is blocked
-            walk(scene, kind_bits, has_tree, group, limits, pending, counters,
-                 [&](KindNumber kind, std::uint32_t number) {
-                     bool changed = false;
-                     for_each_shape(
-                         scene, kind, number, group, limits,
-                         [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
-                             std::uint32_t bunches) {
-                             for (; bunches != 0; bunches &= bunches - 1) {
-                                 const int which = __builtin_ctz(bunches);
-                                 const std::size_t from =
-                                     begin + bunch * static_cast<std::size_t>(which);
-                                 counters.shapes += bunch;
-                                 if (!block(scene, filter, id, slot, from, end, rays, occlusions))
-                                     continue;
-                                 limits.t[which] = -1.0F;
-                                 changed = true;
-                             }
-                         });
-                     if (changed) limits.update();
-                 });
+            if (group.enclose(rays, begin, end, bundle, occlusions.t_most))
+                for_each_bunch(scene, kind_bits, group, begin, pending, counters,
+                               [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
+                                   std::size_t from) {
+                                   return block(scene, filter, id, slot, from, end, rays,
+                                                occlusions);
+                               });
+            else
+                occluded_one_by_one(scene, kind_bits, begin, end, rays, occlusions, pending,
+                                    counters);
         }
     }
 
-    /// One shape against a bunch of rays. Returns whether all of them are blocked.
+    /// The same for shadow rays, to which nothing matters once all of them are blocked.
     template <class Filter>
-    static bool block(const SceneView& scene, const Filter& filter, std::uint32_t id,
-                      std::uint32_t slot, std::size_t from, std::size_t end,
-                      const RoundedRays& stream, const Occlusions& occlusions) {
+    static float block(const SceneView& scene, const Filter& filter, std::uint32_t id,
+                       std::uint32_t slot, std::size_t from, std::size_t end,
+                       const RoundedRays& stream, const Occlusions& occlusions) {
         const bool plain = S::is_plain(scene, slot);
         bool all_blocked = true;
         for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
@@ -202,7 +198,7 @@ struct TraceBundle : Streams<Arch> {
             found.test(filter, id, plain, Packet<Arch>(stream, i));
             if (!found.store(occlusions.state + i, end - i)) all_blocked = false;
         }
-        return all_blocked;
+        return all_blocked ? -1.0F : __builtin_inff();
     }
 
     /// Streams from one ray on.
@@ -218,7 +214,7 @@ struct TraceBundle : Streams<Arch> {
         return result;
     }
 
-    static void nearest_one_by_one(const SceneView& scene, std::uint32_t kind_bits, bool has_tree,
+    static void nearest_one_by_one(const SceneView& scene, std::uint32_t kind_bits,
                                    std::size_t begin, std::size_t end, const RoundedRays& rays,
                                    const Candidates& candidates, const Pending& pending,
                                    TraceCounters& counters) {
@@ -227,10 +223,11 @@ struct TraceBundle : Streams<Arch> {
                                 candidates.slot + begin};
         if (kind_bits != 0)
             TraceAll<Arch>::nearest(scene, kind_bits, end - begin, some, theirs, counters);
-        if (has_tree) TraceTree<Arch>::nearest(scene, end - begin, some, theirs, pending, counters);
+        if (has_tree(pending))
+            TraceTree<Arch>::nearest(scene, end - begin, some, theirs, pending, counters);
     }
 
-    static void occluded_one_by_one(const SceneView& scene, std::uint32_t kind_bits, bool has_tree,
+    static void occluded_one_by_one(const SceneView& scene, std::uint32_t kind_bits,
                                     std::size_t begin, std::size_t end, const RoundedRays& rays,
                                     const Occlusions& occlusions, const Pending& pending,
                                     TraceCounters& counters) {
@@ -238,7 +235,7 @@ struct TraceBundle : Streams<Arch> {
         const Occlusions theirs{occlusions.t_most + begin, occlusions.state + begin};
         if (kind_bits != 0)
             TraceAll<Arch>::occluded(scene, kind_bits, end - begin, some, theirs, counters);
-        if (has_tree)
+        if (has_tree(pending))
             TraceTree<Arch>::occluded(scene, end - begin, some, theirs, pending, counters);
     }
 };
