@@ -24,10 +24,20 @@ struct Group : Streams<Arch> {
     static constexpr std::size_t most_rays = 256;
     static constexpr float steepest = 4.0F;
 
+    /// A side of the group in all lanes, or of bunches, one per lane.
+    struct SideLanes {
+        F slope, offset, norm;
+    };
+
     /// Of the rays on one side: w_a - slope w_k > offset is outside, or < for the other side.
     struct Side {
         float slope, offset, norm;
         float slopes[16], offsets[16], norms[16]; // of the bunches
+
+        SideLanes of_group() const { return {F(slope), F(offset), F(norm)}; }
+        SideLanes of_bunches(std::size_t from) const {
+            return {S::load(slopes + from), S::load(offsets + from), S::load(norms + from)};
+        }
     };
 
     float apex[3];
@@ -164,8 +174,11 @@ struct Group : Streams<Arch> {
     static void set(Side& side, std::size_t bunch, float slope, float offset) {
         side.slopes[bunch] = slope;
         side.offsets[bunch] = offset;
-        side.norms[bunch] = 1.0F + 0.5F * slope * slope; // at least sqrt(1 + slope^2)
+        side.norms[bunch] = norm_above(slope);
     }
+
+    /// At least sqrt(1 + slope^2).
+    static float norm_above(float slope) { return 1.0F + 0.5F * slope * slope; }
 
     void enclose_bunches(int side) {
         Side &high = above[side], &low = below[side];
@@ -182,8 +195,8 @@ struct Group : Streams<Arch> {
             high.offset = greatest(high.offset, high.offsets[bunch]);
             low.offset = least(low.offset, low.offsets[bunch]);
         }
-        high.norm = 1.0F + 0.5F * high.slope * high.slope;
-        low.norm = 1.0F + 0.5F * low.slope * low.slope;
+        high.norm = norm_above(high.slope);
+        low.norm = norm_above(low.slope);
     }
 
     /// What roundings may add up to at a distance of w along and across.
@@ -224,22 +237,26 @@ struct Group : Streams<Arch> {
         return xsimd::max(beyond, zero<Arch>());
     }
 
+    /// The spheres of which a part may be between the rays' sides along across[side].
+    [[gnu::always_inline]] M reach_between(const SideLanes& high, const SideLanes& low, int side,
+                                           const SphereAround<Arch>& spheres,
+                                           const F& w_along) const {
+        const F w_across = component(spheres.center, across[side]) - F(apex[across[side]]);
+        const F room = grace(w_along, w_across);
+        return (w_across - high.slope * w_along - (room + spheres.radius * high.norm) <=
+                high.offset) &
+               (w_across - low.slope * w_along + (room + spheres.radius * low.norm) >= low.offset);
+    }
+
     /// The spheres that the group may meet, as bits.
     std::uint32_t meet(const SphereAround<Arch>& spheres) const {
         const F w_along = component(spheres.center, along) - F(apex[along]);
         const F w = F(sense) * w_along;
         const F room_k = grace(w_along, zero<Arch>()) + spheres.radius;
         M meets = (w + room_k >= F(least_w)) & (w - room_k <= F(greatest_w));
-        for (int side = 0; side < 2; ++side) {
-            const F w_across = component(spheres.center, across[side]) - F(apex[across[side]]);
-            const F room = grace(w_along, w_across);
-            const Side &high = above[side], &low = below[side];
-            meets = meets &
-                    (w_across - F(high.slope) * w_along - (room + spheres.radius * F(high.norm)) <=
-                     F(high.offset)) &
-                    (w_across - F(low.slope) * w_along + (room + spheres.radius * F(low.norm)) >=
-                     F(low.offset));
-        }
+        for (int side = 0; side < 2; ++side)
+            meets = meets & reach_between(above[side].of_group(), below[side].of_group(), side,
+                                          spheres, w_along);
         return Lanes<Arch>::bits(meets);
     }
 
@@ -249,18 +266,9 @@ struct Group : Streams<Arch> {
         const F w_along = component(sphere.center, along) - F(apex[along]);
         M meets =
             near_t(F(sense) * w_along - grace(w_along, zero<Arch>()) - sphere.radius) <= t_most;
-        for (int side = 0; side < 2; ++side) {
-            const F w_across = component(sphere.center, across[side]) - F(apex[across[side]]);
-            const F room = grace(w_along, w_across);
-            const Side &high = above[side], &low = below[side];
-            meets = meets &
-                    (w_across - S::load(high.slopes + from) * w_along -
-                         (room + sphere.radius * S::load(high.norms + from)) <=
-                     S::load(high.offsets + from)) &
-                    (w_across - S::load(low.slopes + from) * w_along +
-                         (room + sphere.radius * S::load(low.norms + from)) >=
-                     S::load(low.offsets + from));
-        }
+        for (int side = 0; side < 2; ++side)
+            meets = meets & reach_between(above[side].of_bunches(from),
+                                          below[side].of_bunches(from), side, sphere, w_along);
         return Lanes<Arch>::bits(meets);
     }
 
