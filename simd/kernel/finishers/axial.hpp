@@ -103,9 +103,9 @@ struct AxialLine {
         return result;
     }
 
-    /// Leaving after a start on the body: t = 0 is one root, so the other is twice the vertex,
-    /// where F' = 0. Half F' errs there by spread^2 (P + 12 u (|start| + |s|) + 16 u widest), where
-    /// the last is for the tapering alone.
+    /// Leaving after a start on the body. At the vertex half F' errs by
+    ///   spread^2 (P + 12 u (|start| + |s|) + 16 u widest),
+    /// where the last is for the tapering alone.
     [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
         const F vertex = negated(quadratic.B) / quadratic.A;
         F rise_error = local.error_at(vertex, Profile::tapers ? 32.0 : 16.0);
@@ -113,13 +113,8 @@ struct AxialLine {
             rise_error = (spread * spread) * (rise_error + F(0x1p-48) * widest);
         const F rise_there = rise(across_at(vertex), width_at(vertex));
         const F vertex_error = F(1.25) * (xsimd::abs(rise_there) + rise_error) / quadratic.A;
-        const F half = local.shift + vertex;
-        Passage<Arch> result;
+        Passage<Arch> result = Passage<Arch>::opposite(vertex, vertex_error, local);
         result.root.certain = starts.inward & (quadratic.A > F(8.0) * quadratic.A_error);
-        result.root.s = half + vertex;
-        result.root.error = F(2.0) * vertex_error;
-        result.t = half + half;
-        result.error = F(2.0) * local.error_of_t(half, vertex, vertex_error);
         clip(result);
         return result;
     }

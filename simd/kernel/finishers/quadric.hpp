@@ -67,8 +67,8 @@ struct QuadricFinisher {
             return result;
         }
 
-        /// t = 0 is one root, so the other is twice the vertex, where F' = 0: ahead if the ray
-        /// first falls inside and the form rises again, or the reverse.
+        /// The other root is ahead if the ray first falls inside and the form rises again, or the
+        /// reverse.
         [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
             const F vertex = negated(quadratic.B) / quadratic.A;
             const V p = local.at(vertex);
@@ -76,15 +76,10 @@ struct QuadricFinisher {
                 rise_error(largest * sum_of_sizes(p) + linear_size, local.error_at(vertex));
             const F rise = dot(form.half_gradient(p), local.direction);
             const F vertex_error = F(1.25) * (xsimd::abs(rise) + error) / xsimd::abs(quadratic.A);
-            const F half = local.shift + vertex;
             const F certain_A = F(8.0) * quadratic.A_error;
-            Passage<Arch> result;
+            Passage<Arch> result = Passage<Arch>::opposite(vertex, vertex_error, local);
             result.root.certain = (starts.inward & (quadratic.A > certain_A)) |
                                   (~starts.inward & (quadratic.A < negated(certain_A)));
-            result.root.s = half + vertex;
-            result.root.error = F(2.0) * vertex_error;
-            result.t = half + half;
-            result.error = F(2.0) * local.error_of_t(half, vertex, vertex_error);
             clip(result);
             return result;
         }

@@ -74,6 +74,20 @@ struct Passage {
     Mask<Arch> outside; ///< certainly not
     Vectors<Arch> normal;
 
+    /// Of a ray that starts on the surface: t = 0 is one root, so the other is twice the vertex,
+    /// where F' = 0. Not certain as yet.
+    [[gnu::always_inline]] static Passage opposite(const Floats<Arch>& vertex,
+                                                   const Floats<Arch>& vertex_error,
+                                                   const LocalRays<Arch>& local) {
+        const Floats<Arch> two(2.0), half = local.shift + vertex;
+        Passage result;
+        result.root.s = half + vertex;
+        result.root.error = two * vertex_error;
+        result.t = half + half;
+        result.error = two * local.error_of_t(half, vertex, vertex_error);
+        return result;
+    }
+
     Mask<Arch> counts() const { return root.certain & inside & is_result<Arch>(t, error); }
     Mask<Arch> does_not_count() const { return root.certain & (outside | (t < negated(error))); }
     Mask<Arch> is_before(const Passage& other) const { return t + error < other.t - other.error; }
