@@ -1,10 +1,10 @@
 #include "scenes/generators.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/shared_scene.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -67,13 +67,10 @@ std::string refusal_of(const Generator& generator) {
 } // namespace
 
 TEST_CASE("a sphereflake is the balls of the Standard Procedural Databases") {
-    const std::filesystem::path path = std::filesystem::path(RAYLANE_SHARED_SCENES) / "balls.nff";
-    if (!std::filesystem::exists(path)) {
-        WARN("skipped: no " << path);
-        return;
-    }
+    const auto path = tests::shared_scene("balls.nff");
+    if (!path) return;
     std::vector<std::array<double, 4>> expected;
-    std::ifstream file(path);
+    std::ifstream file(*path);
     for (std::string line; std::getline(file, line);) {
         std::istringstream words(line);
         std::string entity;

@@ -1,6 +1,7 @@
 #include "core/reference/tracer.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/shared_scene.hpp"
 
 #include <cstring>
 
@@ -43,11 +44,7 @@ void check(const std::filesystem::path& path) {
 }
 
 void check_shared(const std::string& name) {
-    const std::filesystem::path path = RAYLANE_SHARED_SCENES "/" + name;
-    if (std::filesystem::exists(path))
-        check(path);
-    else
-        WARN("skipped: no " << path);
+    if (const auto path = tests::shared_scene(name)) check(*path);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/shared_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,11 +88,7 @@ void check(const std::filesystem::path& path) {
 }
 
 void check_shared(const std::string& name) {
-    const std::filesystem::path path = RAYLANE_SHARED_SCENES "/" + name;
-    if (std::filesystem::exists(path))
-        check(path);
-    else
-        WARN("skipped: no " << path);
+    if (const auto path = tests::shared_scene(name)) check(*path);
 }
 
 } // namespace

@@ -3,8 +3,8 @@
 #include "simd/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/simd/filter_check.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,8 +28,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+    return tests::rounds(500);
 }
 
 /// Whether to say how tight the bounds are.

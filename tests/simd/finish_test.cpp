@@ -3,13 +3,12 @@
 #include "simd/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/sanitized.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,10 +23,8 @@ using ray_sets::Set;
 
 namespace {
 
-/// Fewer where a processor is emulated.
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+    return tests::rounds(500);
 }
 
 constexpr double sentinel = -12345.0;

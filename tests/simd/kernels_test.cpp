@@ -3,11 +3,10 @@
 #include "simd/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/sanitized.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,8 @@ using ray_sets::Set;
 
 namespace {
 
-/// Fewer where a processor is emulated.
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 4000;
+    return tests::rounds(4000);
 }
 
 constexpr std::size_t rays_a_round = 16 * 16 + 5; // the last packet is not full
