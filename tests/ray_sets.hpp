@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,11 @@ class Random {
   private:
     std::mt19937_64 engine_;
 };
+
+/// Any but the lattice, which is for shapes of its own.
+inline Set any_set(Random& random) {
+    return all_sets[random.integer(0, static_cast<int>(std::size(all_sets)) - 2)];
+}
 
 inline Vec3f rounded(const Vec3d& v) {
     return core::convert<float>(v);
@@ -406,6 +412,12 @@ struct Target<core::Quadric> {
         return {core::convert<double>(q.center) + p, core::normalized(gradient)};
     }
 };
+
+/// For TEMPLATE_TEST_CASE, by the names that they have within raylane::core: given a list that is a
+/// type, it would number the tests.
+#define RAYLANE_ALL_SHAPES                                                                         \
+    Sphere, Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,    \
+        CappedCone, Quadric
 
 /// One ray of a set, for this shape. Its direction has any length.
 template <class Shape>

@@ -27,9 +27,8 @@ bool is_apex(const Quadric& quadric, const Vec3d& point) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("a ray enters against the outward normal and leaves along it", "", Sphere, Plane,
-                   Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,
-                   CappedCone, Quadric) {
+TEMPLATE_TEST_CASE("a ray enters against the outward normal and leaves along it", "",
+                   RAYLANE_ALL_SHAPES) {
     using Shape = TestType;
     constexpr double grazing = 1e-4; // the cosine at which a rounded point may tell the wrong side
     Random random(20260300 + static_cast<int>(kind_of<Shape>));

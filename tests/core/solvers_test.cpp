@@ -77,9 +77,7 @@ constexpr int rays_per_shape = 10;
 
 } // namespace
 
-TEMPLATE_TEST_CASE("the double reference decides as the oracle does", "", Sphere, Plane, Disc,
-                   Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,
-                   CappedCone, Quadric) {
+TEMPLATE_TEST_CASE("the double reference decides as the oracle does", "", RAYLANE_ALL_SHAPES) {
     using Shape = TestType;
     Random random(20260000 + static_cast<int>(kind_of<Shape>));
     for (const Set set : ray_sets::all_sets) {
@@ -98,9 +96,8 @@ TEMPLATE_TEST_CASE("the double reference decides as the oracle does", "", Sphere
     }
 }
 
-TEMPLATE_TEST_CASE("the same formulas in the oracle's numbers agree with the oracle", "", Sphere,
-                   Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder,
-                   OpenCone, CappedCone, Quadric) {
+TEMPLATE_TEST_CASE("the same formulas in the oracle's numbers agree with the oracle", "",
+                   RAYLANE_ALL_SHAPES) {
     using Shape = TestType;
     using oracle::Number;
     Random random(20260100 + static_cast<int>(kind_of<Shape>));

@@ -167,8 +167,7 @@ void add_rays(Rays& rays, const Tables& tables, bool lattice, bool adverse, int 
         const Set set =
             lattice    ? Set::lattice
             : !adverse ? (is_thick<Shape> && random.integer(0, 2) == 0 ? Set::inside : Set::random)
-                       : ray_sets::all_sets[random.integer(
-                             0, static_cast<int>(std::size(ray_sets::all_sets)) - 2)];
+                       : ray_sets::any_set(random);
         add_ray(rays, table.get(slot),
                 view.tables[static_cast<int>(kind_of<Shape>)].first_slot + place, table.id(slot),
                 set, adverse, random);
@@ -254,9 +253,7 @@ void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, S
 
 } // namespace
 
-TEMPLATE_TEST_CASE("what the finish is certain of is right", "", Sphere, Plane, Disc, Triangle,
-                   SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone, CappedCone,
-                   Quadric) {
+TEMPLATE_TEST_CASE("what the finish is certain of is right", "", RAYLANE_ALL_SHAPES) {
     Random random(21);
     Share share;
     for (int round = 0; round < rounds(); ++round) {
@@ -274,9 +271,7 @@ TEMPLATE_TEST_CASE("what the finish is certain of is right", "", Sphere, Plane, 
     CHECK(share.doubtful * 2 < share.hits);
 }
 
-TEMPLATE_TEST_CASE("the finish is certain of ordinary rays", "", Sphere, Plane, Disc, Triangle,
-                   SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone, CappedCone,
-                   Quadric) {
+TEMPLATE_TEST_CASE("the finish is certain of ordinary rays", "", RAYLANE_ALL_SHAPES) {
     Random random(22);
     Share share;
     for (int round = 0; round < rounds(); ++round) {

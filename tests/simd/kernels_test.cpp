@@ -118,9 +118,7 @@ struct Round {
             block.set(lane, ray_sets::Target<Shape>::make(random, lattice), first_id + lane);
         for (std::size_t i = 0; i < rays_a_round; ++i) {
             const int lane = random.integer(0, count - 1);
-            const Set set = lattice ? Set::lattice
-                                    : ray_sets::all_sets[random.integer(
-                                          0, static_cast<int>(std::size(ray_sets::all_sets)) - 2)];
+            const Set set = lattice ? Set::lattice : ray_sets::any_set(random);
             const Ray<float> ray = ray_sets::make_ray(block.get(lane), set, random);
             add_ray(ray, lane, random);
         }
@@ -241,8 +239,7 @@ void check_normals(const Kernels& kernels, Random& random) {
 } // namespace
 
 TEMPLATE_TEST_CASE("every lane of every kernel says what the scalar float reference says", "",
-                   Sphere, Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder,
-                   OpenCone, CappedCone, Quadric) {
+                   RAYLANE_ALL_SHAPES) {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         const Kernels& kernels = kernels_of(isa);
