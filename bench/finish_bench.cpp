@@ -1,3 +1,4 @@
+#include "bench/random_shapes.hpp"
 #include "core/shape_table.hpp"
 #include "core/solve.hpp"
 #include "simd/isa.hpp"
@@ -5,7 +6,6 @@
 #include <benchmark/benchmark.h>
 
 #include <bit>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -16,45 +16,11 @@ namespace {
 
 using namespace raylane;
 using namespace raylane::core;
+using bench::make_shape;
+using bench::Random;
 
 constexpr std::size_t ray_count = 256; // fits the first-level cache with its hits
 constexpr int shape_count = 64;
-
-class Random {
-  public:
-    float uniform(float low, float high) {
-        return low + (high - low) * (static_cast<float>(engine_() >> 8) * 0x1p-24F);
-    }
-    Vec3f cube(float size) {
-        return {uniform(-size, size), uniform(-size, size), uniform(-size, size)};
-    }
-    int integer(int count) { return static_cast<int>(engine_() % static_cast<unsigned>(count)); }
-
-  private:
-    std::mt19937 engine_{1};
-};
-
-/// A shape of a size of about 1 within 1 of the origin.
-template <class Shape>
-Shape make(Random& r) {
-    const Vec3f a = r.cube(1), b = r.cube(1), c = r.cube(1), d = r.cube(1);
-    if constexpr (kind_of<Shape> == Kind::sphere) return {a, r.uniform(0.3F, 1)};
-    if constexpr (kind_of<Shape> == Kind::plane) return {a, b};
-    if constexpr (kind_of<Shape> == Kind::disc) return {a, b, r.uniform(0.5F, 1.5F)};
-    if constexpr (kind_of<Shape> == Kind::triangle) return {2.0F * a, 2.0F * b, 2.0F * c};
-    if constexpr (kind_of<Shape> == Kind::smooth_triangle)
-        return {2.0F * a, 2.0F * b, 2.0F * c, a, b, c};
-    if constexpr (kind_of<Shape> == Kind::box) return {a, b, c, d};
-    if constexpr (kind_of<Shape> == Kind::open_cylinder || kind_of<Shape> == Kind::capped_cylinder)
-        return {a, 2.0F * b, r.uniform(0.2F, 0.8F)};
-    if constexpr (kind_of<Shape> == Kind::open_cone || kind_of<Shape> == Kind::capped_cone)
-        return {a, 2.0F * b, r.uniform(0.3F, 1), r.uniform(0, 0.3F)};
-    if constexpr (kind_of<Shape> == Kind::quadric) {
-        const auto square = [&] { return r.uniform(0.5F, 3); };
-        return {a, square(), square(), square(), 0.1F,         0.2F,       0.1F,
-                0, 0,        0,        -1,       Vec3f(-0.7F), Vec3f(0.7F)};
-    }
-}
 
 /// Rays from outside, each with a shape that it does hit.
 template <class Shape>
@@ -68,7 +34,7 @@ struct Setup {
 
     explicit Setup(bool one_shape) {
         for (int i = 0; i < shape_count; ++i)
-            blocks[i / block_size].set(i % block_size, make<Shape>(random), ShapeId(i));
+            blocks[i / block_size].set(i % block_size, make_shape<Shape>(random), ShapeId(i));
         int shape = random.integer(shape_count);
         while (slots.size() < ray_count) {
             if (!one_shape || slots.size() % 64 == 0) shape = random.integer(shape_count);
@@ -163,17 +129,7 @@ void add_kind() {
 }
 
 const bool registered = [] {
-    add_kind<Sphere>();
-    add_kind<Plane>();
-    add_kind<Disc>();
-    add_kind<Triangle>();
-    add_kind<SmoothTriangle>();
-    add_kind<Box>();
-    add_kind<OpenCylinder>();
-    add_kind<CappedCylinder>();
-    add_kind<OpenCone>();
-    add_kind<CappedCone>();
-    add_kind<Quadric>();
+    bench::for_each_kind([]<class Shape>() { add_kind<Shape>(); });
     return true;
 }();
 
