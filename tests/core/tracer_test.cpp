@@ -36,6 +36,14 @@ Vec3d floor_below(const Shape& shape, const Material& material, float light_heig
     return color_along<double>(scene, {0.5, 0.5, 0}, {-0.5, -0.5, 0});
 }
 
+/// Lit from both sides of the plane y = 0.
+Scene between_lights(const SmoothTriangle& triangle) {
+    Builder builder;
+    builder.add_shape(triangle, matte());
+    builder.add_light(point_light({0, -10, 0}));
+    return builder.finish(point_light({0, 10, 0}));
+}
+
 } // namespace
 
 TEST_CASE("diffuse light falls with the cosine, and not with the distance") {
@@ -302,12 +310,8 @@ TEST_CASE("a thin shell neither leaks nor darkens") {
 }
 
 TEST_CASE("smooth triangles shade by their corners' normals, from both sides") {
-    const SmoothTriangle triangle{{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1},
-                                  {0, 1, 1},   {0, 1, 1},  {0, 1, 1}};
-    Builder builder;
-    builder.add_shape(triangle, matte());
-    builder.add_light(point_light({0, -10, 0}));
-    const Scene scene = builder.finish(point_light({0, 10, 0}));
+    const Scene scene =
+        between_lights({{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1}, {0, 1, 1}, {0, 1, 1}, {0, 1, 1}});
     const double slanted = 0.5 * std::sqrt(0.5);
     CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) == Approx(slanted).epsilon(exactly));
     CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == Approx(slanted).epsilon(exactly));
@@ -324,12 +328,8 @@ TEST_CASE("a light behind a smooth triangle does not shine on it, whatever its n
 }
 
 TEST_CASE("normals that point to a smooth triangle's back are turned to its front") {
-    const SmoothTriangle triangle{{-1, 0, -1}, {-1, 0, 3},  {3, 0, -1},
-                                  {0, -1, -1}, {0, -1, -1}, {0, -1, -1}};
-    Builder builder;
-    builder.add_shape(triangle, matte());
-    builder.add_light(point_light({0, -10, 0}));
-    const Scene scene = builder.finish(point_light({0, 10, 0}));
+    const Scene scene = between_lights(
+        {{-1, 0, -1}, {-1, 0, 3}, {3, 0, -1}, {0, -1, -1}, {0, -1, -1}, {0, -1, -1}});
     const double slanted = 0.5 * std::sqrt(0.5);
     CHECK(gray_along(scene, {0, 1, 0}, {0, -1, 0}) == Approx(slanted).epsilon(exactly));
     CHECK(gray_along(scene, {0, -1, 0}, {0, 1, 0}) == Approx(slanted).epsilon(exactly));

@@ -2,6 +2,7 @@
 #include "scenes/image/reader.hpp"
 #include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <csignal>
@@ -26,12 +27,7 @@ void write(const std::filesystem::path& path, int size = 4) {
 
 /// The message of a refusal to write, without the directory.
 std::string refusal_of(const std::filesystem::path& path, int size = 4) {
-    try {
-        write(path, size);
-    } catch (const scenes::SystemRefused& error) {
-        return std::string(error.what()).substr(path.parent_path().string().size() + 1);
-    }
-    return "no error";
+    return tests::message_in<scenes::SystemRefused>(path.parent_path(), [&] { write(path, size); });
 }
 
 unsigned mode_of(const std::filesystem::path& path) {
@@ -71,13 +67,9 @@ void become_nobody() {
 
 TEST_CASE("a picture's format follows its file's ending") {
     const TemporaryDirectory directory;
-    const auto error_of = [&](const char* name) -> std::string {
-        try {
-            scenes::OutputFile file(directory.path() / name);
-        } catch (const scenes::BadInput& error) {
-            return std::string(error.what()).substr(directory.path().string().size() + 1);
-        }
-        return "no error";
+    const auto error_of = [&](const char* name) {
+        return tests::message_in<scenes::BadInput>(
+            directory.path(), [&] { const scenes::OutputFile file(directory.path() / name); });
     };
     CHECK(error_of("a.jpg") == "a.jpg: must end in .png, .hdr or .pfm, got \".jpg\"");
     CHECK(error_of("png") == "png: must end in .png, .hdr or .pfm, got no ending");
@@ -140,13 +132,9 @@ TEST_CASE("what cannot be written is refused before there is a picture") {
     directory.write("file", "");
     std::filesystem::create_directory(directory.path() / "directory.png");
     std::filesystem::create_symlink("loop.png", directory.path() / "loop.png");
-    const auto refusal = [&](const std::string& name) -> std::string {
-        try {
-            const scenes::OutputFile file(directory.path() / name);
-        } catch (const scenes::SystemRefused& error) {
-            return std::string(error.what()).substr(directory.path().string().size() + 1);
-        }
-        return "no error";
+    const auto refusal = [&](const std::string& name) {
+        return tests::message_in<scenes::SystemRefused>(
+            directory.path(), [&] { const scenes::OutputFile file(directory.path() / name); });
     };
     CHECK(refusal("none/out.png") == "none/out.png: cannot write: No such file or directory");
     CHECK(refusal("file/out.png") == "file/out.png: cannot write: Not a directory");

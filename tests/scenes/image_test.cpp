@@ -3,6 +3,7 @@
 #include "scenes/image/reader.hpp"
 #include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <bit>
@@ -36,12 +37,8 @@ void write(const std::filesystem::path& path, const core::Film& film, Transfer t
 }
 
 std::string error_of_reading(const std::filesystem::path& path) {
-    try {
-        scenes::read_image(path);
-    } catch (const scenes::BadInput& error) {
-        return std::string(error.what()).substr(path.parent_path().string().size() + 1);
-    }
-    return "no error";
+    return tests::message_in<scenes::BadInput>(path.parent_path(),
+                                               [&] { scenes::read_image(path); });
 }
 
 bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {

@@ -2,6 +2,7 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/nff/reader.hpp"
+#include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 /// NFF texts, and what becomes of them.
@@ -26,12 +27,7 @@ inline core::Scene scene_of(std::string_view text) {
 inline std::string error_of(std::string_view text) {
     const TemporaryDirectory directory;
     scenes::InputFile file(directory.write("scene.nff", text));
-    try {
-        scenes::read_nff(file);
-    } catch (const scenes::BadInput& error) {
-        return std::string(error.what()).substr(directory.path().string().size() + 1);
-    }
-    return "no error";
+    return message_in<scenes::BadInput>(directory.path(), [&] { scenes::read_nff(file); });
 }
 
 } // namespace raylane::tests

@@ -3,6 +3,7 @@
 #include "scenes/library/internals.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <atomic>
@@ -11,6 +12,7 @@
 #include <thread>
 
 using namespace raylane;
+using tests::message_of;
 
 namespace {
 
@@ -31,15 +33,6 @@ std::vector<float> inner_pixels(const Scene& scene) {
     for (const core::Color& pixel : rendering.film.pixels())
         rgb.insert(rgb.end(), {pixel.x, pixel.y, pixel.z});
     return rgb;
-}
-
-std::string message_of(const auto& act) {
-    try {
-        act();
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "raylane/raylane.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <string>
@@ -16,12 +17,7 @@ std::string with_objects(const std::string& objects) {
 }
 
 std::string refusal_of(const auto& act) {
-    try {
-        act();
-    } catch (const BadInput& error) {
-        return error.what();
-    }
-    return "no such error";
+    return tests::message_of<BadInput>(act);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "raylane/raylane.hpp"
 #include "scenes/library/internals.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
 
 #include <array>
 #include <string>
@@ -8,6 +9,7 @@
 
 using namespace raylane;
 using library::Internals;
+using tests::message_of;
 
 namespace {
 
@@ -30,16 +32,6 @@ bool same_shapes(const core::Scene& a, const core::Scene& b) {
                 block.ids[0] == other_block.ids[0];
     });
     return same;
-}
-
-template <class Error, class Act>
-std::string message_of(const Act& act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no such error";
 }
 
 Scene ball() {
