@@ -1,0 +1,585 @@
+#include "core/optics.hpp"
+#include "simd/isa.hpp"
+#include "simd/wavefront/shadow_tracer.hpp"
+#include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
+#include "tests/simd/nests.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+using namespace raylane::tests;
+using ray_sets::Set;
+
+/// Rays that leave a surface, by the vector engine's own path: they never meet what they leave
+/// again, unless it curves back, and never miss what is next, however close.
+
+namespace {
+
+/// Fewer where a processor is emulated.
+int rounds() {
+    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
+    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 5 : 200;
+}
+
+constexpr std::size_t rays_per_nest = 512;
+constexpr int oracle_share = 16; // one in so many rays is asked of the oracle
+
+enum RayKind : std::uint8_t { reflected_ray, refracted_ray, shadow_ray };
+
+struct Tally {
+    long rays[2][3] = {}; ///< by the side that they go to, 1 being the inside, and RayKind
+    long self_hits = 0;   ///< on the shape left, where something else is next
+    long missed = 0;      ///< neighbours
+    long other = 0;       ///< anything else that is wrong
+    long by_oracle = 0, by_construction = 0;
+    long doubtful = 0; ///< what the float bounds or the finish left open
+    long followed = 0; ///< what only the reference could go on with
+    long into_the_open = 0, doubtful_in_the_open = 0;
+    std::string first_faults;
+
+    long all() const {
+        long sum = 0;
+        for (const auto& side : rays)
+            for (const long count : side)
+                sum += count;
+        return sum;
+    }
+};
+
+/// The ids of a nest's shapes; what comes after them is far away.
+enum : ShapeId { shape_id, outer_id, inner_id };
+
+/// What is next for a ray.
+struct Next {
+    ShapeId shape = no_shape;
+    double t = std::numeric_limits<double>::infinity();
+    bool entering = false;
+};
+
+bool is_flat(Kind kind) {
+    return kind >= Kind::plane && kind <= Kind::smooth_triangle;
+}
+
+/// Where a nest is, and how large.
+struct Place {
+    double size; ///< of the nest, about
+    Vec3f offset;
+    float factor;
+
+    explicit Place(Random& r) {
+        const double radii = r.log_uniform(1e-2, r.integer(0, 1) == 0 ? 10.0 : 1e6);
+        size = std::clamp(0x1p23 / std::max(radii, 1.0), 8.0, 0x1p21);
+        const double distance = std::min(radii * size, 0x1p23 - 0x1p5);
+        offset = whole(r.direction() * distance);
+        factor = rounded(std::exp2(std::round(std::log2(r.log_uniform(1e-6, 1e6) / size))));
+    }
+    Vec3d point(const Vec3d& p) const {
+        return (p + convert<double>(offset)) * static_cast<double>(factor);
+    }
+};
+
+/// A ray from one of the sets, for the shape of a nest.
+Ray<double> ray_to(const Nest& nest, const Place& place, Random& r) {
+    constexpr Set sets[] = {Set::random,  Set::random,   Set::inside, Set::on_surface,
+                            Set::grazing, Set::parallel, Set::zeros,  Set::far};
+    const Set set = sets[r.integer(0, static_cast<int>(std::size(sets)) - 1)];
+    const float unit = std::exp2(std::round(std::log2(rounded(place.size))));
+    const Ray<float> ray = std::visit(
+        [&](const auto& shape) {
+            return ray_sets::make_ray(Placing(Vec3f(0), 1.0F / unit)(shape), set, r);
+        },
+        nest.shape);
+    return {place.point(convert<double>(ray.origin) * static_cast<double>(unit)),
+            normalized(convert<double>(ray.direction))};
+}
+
+ShapeId add_to(SceneBuilder& builder, const AnyShape& any) {
+    return std::visit([&](const auto& shape) { return builder.add(shape, 0); }, any);
+}
+
+Scene scene_of(const std::vector<AnyShape>& shapes) {
+    SceneBuilder builder;
+    builder.wants_light = false;
+    builder.add_material({});
+    for (const AnyShape& shape : shapes)
+        add_to(builder, shape);
+    return std::move(builder).build();
+}
+
+/// Enough of them that there is a hierarchy.
+std::vector<AnyShape> far_spheres(const Place& place, Random& r) {
+    std::vector<AnyShape> spheres;
+    for (int i = 0; i < 30; ++i)
+        spheres.push_back(
+            Sphere{rounded(place.point(r.direction() * (place.size * r.log_uniform(1e2, 1e4)))),
+                   rounded(place.size * static_cast<double>(place.factor))});
+    return spheres;
+}
+
+/// Arrays that outlive what uses them.
+template <class Take>
+Arena arena_for(const Take& take) {
+    Arena measure;
+    take(measure);
+    Arena arena(measure.used());
+    take(arena);
+    return arena;
+}
+
+/// Spawned rays from a shape, with what is true of them.
+class Spawning {
+  public:
+    Spawning(const Nest& nest, const Place& place, const Kernels& kernels, Random& random,
+             Tally& tally)
+        : random_(random), tally_(tally), nest_(nest), place_(place),
+          placing_(place.offset, place.factor), shapes_{placing_(nest.shape), placing_(nest.outer),
+                                                        placing_(nest.inner)},
+          kind_(tests::kind_of(nest.shape)), alone_(scene_of({shapes_[0]})), alone_data_(alone_) {
+        if (random.integer(0, 1) == 0)
+            for (const AnyShape& sphere : far_spheres(place, random))
+                shapes_.push_back(sphere);
+        scene_.emplace(scene_of(shapes_));
+        data_.emplace(*scene_);
+        kernels_ = &kernels;
+    }
+
+    void check() {
+        ReferenceTracer<double> alone_reference(alone_, {}), reference(*scene_, {});
+        HitFinder first(alone_data_, *kernels_, &alone_reference);
+        HitFinder in_the_open(alone_data_, *kernels_, &alone_reference);
+        HitFinder next(*data_, *kernels_, &reference);
+        ShadowTracer shadows(*data_, *kernels_, reference);
+        const Arena arena = arena_for([&](Arena& a) {
+            first.take_from(a, rays_per_nest);
+            in_the_open.take_from(a, 2 * rays_per_nest);
+            next.take_from(a, 2 * rays_per_nest);
+            shadows.take_from(a, rays_per_nest, false);
+            paths_.take_from(a, rays_per_nest, false);
+            spawned_.take_from(a, 2 * rays_per_nest, false);
+            slots_ = a.take<std::uint32_t>(rays_per_nest);
+            order_ = a.take<std::uint32_t>(rays_per_nest);
+        });
+        hit(first);
+        spawn();
+        find(next, reference);
+        for (int light = 0; light < 2; ++light)
+            look_at_light(shadows);
+        leave_alone(in_the_open);
+    }
+
+  private:
+    /// Where rays hit the shape, as the engine has it.
+    void hit(HitFinder& finder) {
+        paths_.count = rays_per_nest;
+        for (std::size_t i = 0; i < paths_.count; ++i) {
+            const Ray<double> ray = ray_to(nest_, place_, random_);
+            for (int axis = 0; axis < 3; ++axis) {
+                paths_.origin[axis][i] = ray.origin[axis];
+                paths_.direction[axis][i] = ray.direction[axis];
+            }
+        }
+        paths_.start_in_the_open(0, paths_.count);
+        Counters counters;
+        finder.find(paths_, nullptr, counters);
+        REQUIRE(finder.left_open().empty());
+        hits_ = finder.hits();
+        hit_count_ = 0;
+        for (std::size_t i = 0; i < paths_.count; ++i)
+            if (hits_.slot[i] != no_slot) order_[hit_count_++] = static_cast<std::uint32_t>(i);
+        const std::uint32_t slot = slot_of_shape();
+        std::fill_n(slots_, paths_.count, slot);
+        hits_.slot = slots_;
+    }
+
+    std::uint32_t slot_of_shape() const {
+        const TableView& table = data_->view().tables[static_cast<int>(kind_)];
+        std::uint32_t slot = table.first_slot;
+        while (data_->id_of(slot) != shape_id)
+            ++slot;
+        return slot;
+    }
+
+    /// As core::ReferenceTracer::surface_at.
+    struct Surface {
+        Ray<double> ray;
+        Vec3d point, flat, normal;
+        bool entering;
+    };
+    Surface surface_at(std::uint32_t lane) const {
+        const Ray<double> ray = ray_of(paths_, lane);
+        const bool entering = (hits_.hit[lane] & hit_entering) != 0;
+        const auto get = [&](const auto& columns) {
+            const Vec3d v(columns[0][lane], columns[1][lane], columns[2][lane]);
+            return entering ? v : -v;
+        };
+        Vec3d flat = get(hits_.normal);
+        Vec3d normal = hits_.shading_normal[0] != nullptr ? get(hits_.shading_normal) : flat;
+        if (dot(normal, flat) < 0.0) normal = -normal;
+        if (dot(flat, ray.direction) > 0x1p-20) normal = flat = -ray.direction;
+        return {ray, mul_add(hits_.t[lane], ray.direction, ray.origin), flat, normal, entering};
+    }
+
+    void add_spawned(std::uint32_t lane, const Surface& surface, const Vec3d& direction,
+                     bool through) {
+        const std::size_t to = spawned_.count++;
+        for (int axis = 0; axis < 3; ++axis) {
+            spawned_.origin[axis][to] = surface.point[axis];
+            spawned_.direction[axis][to] = direction[axis];
+        }
+        spawned_.sample[to] = through ? refracted_ray : reflected_ray;
+        const std::uint32_t slot = slots_[lane];
+        spawned_.start_on(to, slot, data_->occupant_of(slot), hits_.hit[lane], through);
+    }
+
+    void spawn() {
+        constexpr double indices[][2] = {{1.0, 1.5}, {1.5, 1.0}, {1.0, 1.0001}, {1.0, 4.0}};
+        spawned_.count = 0;
+        for (std::size_t k = 0; k < hit_count_; ++k) {
+            const Surface surface = surface_at(order_[k]);
+            Vec3d away = reflected(surface.ray.direction, surface.normal);
+            if (dot(away, surface.flat) <= 0.0)
+                away = reflected(surface.ray.direction, surface.flat);
+            add_spawned(order_[k], surface, normalized(away), false);
+
+            const auto [before, behind] = indices[random_.integer(0, 3)];
+            auto refraction = refract(surface.ray.direction, surface.normal, before, behind);
+            if (!refraction.total && dot(refraction.transmitted, surface.flat) >= 0.0)
+                refraction = refract(surface.ray.direction, surface.flat, before, behind);
+            if (!refraction.total)
+                add_spawned(order_[k], surface, normalized(refraction.transmitted), true);
+        }
+    }
+
+    void find(HitFinder& finder, ReferenceTracer<double>& reference) {
+        Counters counters;
+        finder.find(spawned_, nullptr, counters);
+        tally_.doubtful += static_cast<long>(counters.doubtful);
+        std::vector<Next> found(spawned_.count);
+        const Hits& hits = finder.hits();
+        for (std::size_t i = 0; i < spawned_.count; ++i)
+            if (hits.slot[i] != no_slot)
+                found[i] = {data_->id_of(hits.slot[i]), hits.t[i],
+                            (hits.hit[i] & hit_entering) != 0};
+        for (const std::uint32_t i : finder.left_open()) {
+            ++tally_.followed;
+            const Hit<double> hit =
+                reference.nearest(ray_of(spawned_, i), departure_of(*data_, spawned_, i)).hit;
+            found[i] = {hit.shape, hit.t, hit.entering};
+        }
+        for (std::size_t i = 0; i < spawned_.count; ++i) {
+            const bool inward = (spawned_.departure[i] & departure_inward) != 0;
+            ++tally_.rays[inward ? 1 : 0][spawned_.sample[i]];
+            compare(found[i], ray_of(spawned_, i), departure_of(*data_, spawned_, i), inward);
+        }
+    }
+
+    /// What the engine has found against the certified search, the oracle and the construction.
+    void compare(const Next& found, const Ray<double>& ray, const Departure<double>& departure,
+                 bool inward) {
+        Searcher<double> searcher(*scene_, Search::every_shape);
+        const Hit<double> certified =
+            searcher.nearest(ray, departure, [](const Hit<double>&) { return true; }).hit;
+        agree(found, {certified.shape, certified.t, certified.entering}, ray, inward,
+              "the certified search");
+
+        if (const std::optional<Next> next = by_construction(ray, inward)) {
+            ++tally_.by_construction;
+            agree(found, *next, ray, inward, "the construction");
+        }
+        if (random_.integer(1, oracle_share) == 1 && found.shape <= inner_id)
+            if (const std::optional<Next> next = by_oracle(ray, inward)) {
+                ++tally_.by_oracle;
+                agree(found, *next, ray, inward, "the oracle");
+            }
+    }
+
+    void agree(const Next& found, const Next& expected, const Ray<double>& ray, bool inward,
+               const char* whose) {
+        const bool same = found.shape == expected.shape &&
+                          (found.shape == no_shape || found.entering == expected.entering);
+        const double allowed = 0x1p-24 * expected.t + slack(ray);
+        const bool near = std::isnan(expected.t) || found.t == expected.t ||
+                          std::abs(found.t - expected.t) <= allowed;
+        if (same && near) return;
+        if (same) {
+            ++tally_.other;
+        } else if (found.shape == shape_id) {
+            ++tally_.self_hits;
+        } else if (expected.shape != shape_id && expected.shape != no_shape) {
+            ++tally_.missed;
+        } else {
+            ++tally_.other;
+        }
+        tell(whose, ": shape ", static_cast<int>(expected.shape), " at ", expected.t,
+             ", engine: ", static_cast<int>(found.shape), " at ", found.t,
+             inward ? ", inward" : ", outward", ", size ",
+             place_.size * static_cast<double>(place_.factor), ", slack ", slack(ray));
+    }
+
+    template <class... Parts>
+    void tell(const Parts&... parts) {
+        if (tally_.self_hits + tally_.missed + tally_.other > 3) return;
+        std::ostringstream text;
+        (text << ... << parts) << "\n";
+        tally_.first_faults += text.str();
+    }
+
+    /// How far the start may be from the surface.
+    double slack(const Ray<double>& ray) const {
+        const Vec3d o = ray.origin;
+        return 0x1p-48 * (std::abs(o.x) + std::abs(o.y) + std::abs(o.z) +
+                          place_.size * static_cast<double>(place_.factor));
+    }
+
+    /// What a ray from the true surface meets. Its t is not known.
+    std::optional<Next> by_construction(const Ray<double>& ray, bool inward) const {
+        constexpr double t = std::numeric_limits<double>::quiet_NaN();
+        if (shapes_.size() > 3) return std::nullopt; // a sphere may be in between, if far away
+        if (is_at_apex(ray.origin)) return std::nullopt;
+        if (nest_.parted) {
+            const Vec3d normal = std::visit(
+                [&]<class Shape>(const Shape& shape) {
+                    return convert<double>(Vec3f(plane_normal(shape)));
+                },
+                shapes_[outer_id]);
+            if (std::abs(dot(normalized(normal), ray.direction)) < 1e-9) return std::nullopt;
+            return inward ? Next{inner_id, t, true} : Next{outer_id, t, false};
+        }
+        if (!inward) return nest_.closed ? std::optional(Next{outer_id, t, false}) : std::nullopt;
+        if (kind_ != Kind::sphere) return std::nullopt;
+        const auto& inner = std::get<Sphere>(shapes_[inner_id]);
+        const Vec3d from_center = ray.origin - convert<double>(inner.center);
+        const double past = length(cross(from_center, ray.direction)),
+                     radius = static_cast<double>(inner.radius);
+        if (past < radius - slack(ray)) return Next{inner_id, t, true};
+        if (past > radius + slack(ray)) return Next{shape_id, t, false};
+        return std::nullopt;
+    }
+
+    /// Which belongs to all sides of an open cone.
+    bool is_at_apex(const Vec3d& point) const {
+        const auto* cone = std::get_if<OpenCone>(&shapes_[shape_id]);
+        if (cone == nullptr) return false;
+        const Vec3d base = convert<double>(cone->base), top = base + convert<double>(cone->axis);
+        return (cone->base_radius == 0.0F && point == base) ||
+               (cone->top_radius == 0.0F && point == top);
+    }
+
+    template <class Shape>
+    static Vec3f plane_normal(const Shape& shape) {
+        if constexpr (std::is_same_v<Shape, Plane>)
+            return shape.normal;
+        else
+            return Vec3f(0);
+    }
+
+    /// Nothing where the start and the next crossing with the shape left are too close to tell
+    /// which is which.
+    std::optional<Next> by_oracle(const Ray<double>& ray, bool inward) const {
+        Next next;
+        for (const ShapeId id : {outer_id, inner_id})
+            for (const oracle::Hit& hit : crossings(shapes_[id], ray))
+                if (hit.t > 0 && to_double(hit.t) < next.t)
+                    next = {id, to_double(hit.t), hit.entering};
+        if (is_flat(kind_) || (!inward && kind_ != Kind::quadric)) return next;
+
+        double start = std::numeric_limits<double>::infinity(), onward = start;
+        for (const oracle::Hit& hit : crossings(shapes_[shape_id], ray)) {
+            const double t = to_double(hit.t);
+            if (hit.entering != inward)
+                onward = t;
+            else if (std::abs(t) < std::abs(start))
+                start = t;
+        }
+        if (std::isinf(onward)) {
+            // The start is off the surface, and the ray passes all of it; or it is out of bounds.
+            const bool solid = kind_ == Kind::sphere || kind_ == Kind::box ||
+                               kind_ == Kind::capped_cylinder || kind_ == Kind::capped_cone;
+            if (solid || std::isinf(start)) return std::nullopt;
+            return next;
+        }
+        if (!(std::abs(start) <= 0x1p10 * slack(ray)) || onward <= start) return std::nullopt;
+        const double error = 2.0 * std::abs(start) + 0x1p-24 * std::abs(onward);
+        if (std::abs(onward - next.t) <= error || std::abs(onward) <= 2 * error)
+            return std::nullopt;
+        if (onward > 0.0 && onward < next.t)
+            return Next{shape_id, std::numeric_limits<double>::quiet_NaN(), !inward};
+        return next;
+    }
+
+    static double to_double(const oracle::Number& number) { return static_cast<double>(number); }
+
+    /// In the gaps, next to them, or far away.
+    Vec3f light_position() {
+        const Surface near = surface_at(
+            order_[static_cast<std::size_t>(random_.integer(0, static_cast<int>(hit_count_) - 1))]);
+        const double size = place_.size * static_cast<double>(place_.factor);
+        const double distance = size * random_.log_uniform(1e-7, random_.integer(0, 1) ? 1.0 : 1e3);
+        return rounded(near.point + near.flat * distance);
+    }
+
+    /// Where there is nothing else, the engine needs no help to know that what goes outward meets
+    /// nothing.
+    void leave_alone(HitFinder& finder) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < spawned_.count; ++i) {
+            if ((spawned_.departure[i] & departure_inward) != 0) continue;
+            spawned_.copy(spawned_, i, kept);
+            spawned_.departed_slot[kept++] =
+                alone_data_.view().tables[static_cast<int>(kind_)].first_slot;
+        }
+        spawned_.count = kept;
+        Counters counters;
+        finder.find(spawned_, nullptr, counters);
+        tally_.into_the_open += static_cast<long>(kept);
+        tally_.doubtful_in_the_open += static_cast<long>(counters.doubtful);
+        if (kind_ == Kind::quadric) return;
+        for (std::size_t i = 0; i < kept; ++i)
+            if (finder.hits().slot[i] != no_slot && ++tally_.self_hits != 0)
+                tell("alone: at ", finder.hits().t[i]);
+    }
+
+    void look_at_light(ShadowTracer& tracer) {
+        if (hit_count_ == 0) return;
+        LightView light{};
+        light.is_point = random_.integer(0, 3) != 0;
+        const Vec3d position = convert<double>(light_position()), sun = random_.direction();
+        for (int axis = 0; axis < 3; ++axis) {
+            light.position[axis] = position[axis];
+            light.to_light[axis] = sun[axis];
+        }
+        SpawnedRays& rays = tracer.rays();
+        rays.count = 0;
+        for (std::size_t k = 0; k < hit_count_; ++k) {
+            const Surface surface = surface_at(order_[k]);
+            const Vec3d offset = position - surface.point;
+            const double distance =
+                light.is_point ? length(offset) : std::numeric_limits<double>::infinity();
+            const Vec3d direction = light.is_point ? offset / distance : sun;
+            if (!(dot(surface.flat, direction) > 0.0)) continue;
+            const std::size_t to = rays.count++;
+            for (int axis = 0; axis < 3; ++axis) {
+                rays.origin[axis][to] = surface.point[axis];
+                rays.direction[axis][to] = direction[axis];
+                rays.weight[axis][to] = 1.0;
+            }
+            rays.distance[to] = distance;
+            rays.parent[to] = static_cast<double>(k);
+        }
+        Counters counters;
+        const bool coherent = random_.integer(0, 1) == 0;
+        tracer.trace({paths_, hits_, order_, coherent}, light, counters);
+        tally_.followed += static_cast<long>(counters.followed);
+        for (std::size_t k = 0; k < rays.count; ++k)
+            check_shadow(tracer, k);
+    }
+
+    void check_shadow(ShadowTracer& tracer, std::size_t k) {
+        const SpawnedRays& rays = tracer.rays();
+        const std::uint32_t lane = order_[static_cast<std::size_t>(rays.parent[k])];
+        const bool inward = (hits_.hit[lane] & hit_entering) == 0;
+        ++tally_.rays[inward ? 1 : 0][shadow_ray];
+        const Ray<double> ray{{rays.origin[0][k], rays.origin[1][k], rays.origin[2][k]},
+                              {rays.direction[0][k], rays.direction[1][k], rays.direction[2][k]}};
+        spawned_.start_on(0, slots_[lane], data_->occupant_of(slots_[lane]), hits_.hit[lane],
+                          /*through=*/false);
+        const Departure<double> departure = departure_of(*data_, spawned_, 0);
+        Searcher<double> searcher(*scene_, Search::every_shape);
+        const Hit<double> certified =
+            searcher.nearest(ray, departure, [](const Hit<double>&) { return true; }).hit;
+        const double distance = rays.distance[k];
+        const bool arrives = tracer.arrives(k);
+        agree_on_shadow(arrives, {certified.shape, certified.t, certified.entering}, distance, ray,
+                        "the certified search");
+        if (const std::optional<Next> next = by_construction(ray, inward))
+            if (next->shape != shape_id && std::isinf(distance)) {
+                ++tally_.by_construction;
+                if (arrives && ++tally_.missed != 0) tell("the construction: the light arrives");
+            }
+        if (random_.integer(1, oracle_share) == 1 && shapes_.size() == 3)
+            if (const std::optional<Next> next = by_oracle(ray, inward)) {
+                ++tally_.by_oracle;
+                agree_on_shadow(arrives, *next, distance, ray, "the oracle");
+            }
+    }
+
+    void agree_on_shadow(bool arrives, const Next& next, double distance, const Ray<double>& ray,
+                         const char* whose) {
+        // The oracle does not tell where the shape left is met again.
+        if (std::isnan(next.t) || std::abs(next.t - distance) <= 0x1p-26 * distance) return;
+        if (arrives == !(next.t < distance)) return;
+        ++(arrives ? tally_.missed : tally_.self_hits);
+        tell(whose, ": shape ", static_cast<int>(next.shape), " at ", next.t, ", light at ",
+             distance, arrives ? ", which arrives" : ", which does not arrive", ", slack ",
+             slack(ray));
+    }
+
+    Random& random_;
+    Tally& tally_;
+    const Nest& nest_;
+    const Place& place_;
+    Placing placing_;
+    std::vector<AnyShape> shapes_; // by id
+    Kind kind_;
+    Scene alone_;
+    SceneData alone_data_;
+    std::optional<Scene> scene_;
+    std::optional<SceneData> data_;
+    const Kernels* kernels_;
+
+    Paths paths_{}, spawned_{};
+    Hits hits_{}; // `slot` in the scene of all shapes
+    std::uint32_t* slots_ = nullptr;
+    std::uint32_t* order_ = nullptr; // the lanes that have hit the shape
+    std::size_t hit_count_ = 0;
+};
+
+void print(Kind kind, const Tally& tally) {
+    std::printf(
+        "spawned, %-15s outward %ld reflected %ld refracted %ld shadow, "
+        "inward %ld reflected %ld refracted %ld shadow; "
+        "%ld by construction, %ld by the oracle; %ld doubtful, %ld followed; in the open %ld of "
+        "%ld doubtful\n",
+        std::string(name_of(kind)).c_str(), tally.rays[0][0], tally.rays[0][1], tally.rays[0][2],
+        tally.rays[1][0], tally.rays[1][1], tally.rays[1][2], tally.by_construction,
+        tally.by_oracle, tally.doubtful, tally.followed, tally.doubtful_in_the_open,
+        tally.into_the_open);
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("spawned rays meet what is next, and not what they leave", "", Sphere, Plane,
+                   Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,
+                   CappedCone, Quadric) {
+    constexpr Kind kind = core::kind_of<TestType>;
+    std::vector<Isa> isas;
+    for (const Isa isa : all_isas)
+        if (is_available(isa)) isas.push_back(isa);
+    if (isas.empty()) return;
+    Random random(20261100 + static_cast<int>(kind));
+    Tally tally;
+    for (int round = 0; round < rounds(); ++round) {
+        const Place place(random);
+        const Nest nest = NestOf<TestType>::make(place.size, random);
+        const Kernels& kernels = kernels_of(isas[static_cast<std::size_t>(round) % isas.size()]);
+        Spawning(nest, place, kernels, random, tally).check();
+    }
+    print(kind, tally);
+    CAPTURE(tally.first_faults);
+    CHECK(tally.self_hits == 0);
+    CHECK(tally.missed == 0);
+    CHECK(tally.other == 0);
+    CHECK(tally.doubtful_in_the_open * 200 <= tally.into_the_open);
+    if (rounds() < 50) return;
+    CHECK(tally.all() > 100L * rounds());
+    for (const auto& side : tally.rays)
+        for (const long count : side)
+            CHECK(count > tally.all() / 100);
+}
