@@ -1,0 +1,70 @@
+#include "scenes/scene_file.hpp"
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/scaled_scene.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+
+/// No number in either engine has a scale of its own: a scene a power of two larger or smaller
+/// makes the same picture, to the bit.
+using namespace raylane;
+
+namespace {
+
+core::Settings test_settings(const core::Scene& scene, int longest) {
+#ifdef RAYLANE_FEW_RAYS
+    longest /= 4;
+#endif
+    core::Settings settings = scene.settings();
+    const int divisor = (std::max(settings.width, settings.height) + longest - 1) / longest;
+    settings.width /= divisor;
+    settings.height /= divisor;
+    settings.grid = 1;
+    return settings;
+}
+
+long different_pixels(const core::Film& a, const core::Film& b) {
+    long count = 0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        count += std::memcmp(&a.pixels()[i], &b.pixels()[i], sizeof(core::Color)) != 0 ? 1 : 0;
+    return count;
+}
+
+void check(const std::filesystem::path& path, simd::Engine engine, int longest) {
+    CAPTURE(path.filename());
+    const core::Scene scene = tests::ScaledScene(scenes::load_scene(path), 1.0F).build();
+    const core::Settings settings = test_settings(scene, longest);
+    simd::RenderOptions options;
+    options.engine = engine;
+    const core::Film expected = simd::render(scene, settings, options).film;
+    for (const float factor : {0x1p-20F, 0x1p-3F, 0x1p7F, 0x1p20F}) {
+        CAPTURE(factor);
+        const core::Scene scaled = tests::ScaledScene(scene, factor).build();
+        CHECK(different_pixels(simd::render(scaled, settings, options).film, expected) == 0);
+    }
+}
+
+template <class Visit>
+void for_each_scene(const Visit& visit) {
+    int scenes = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(RAYLANE_SOURCE_DIR) / "scenes"))
+        if (entry.path().extension() == ".json" &&
+            entry.path().string().find("schema") == std::string::npos) {
+            visit(entry.path());
+            ++scenes;
+        }
+    CHECK(scenes > 10);
+}
+
+} // namespace
+
+TEST_CASE("the vector engine's pictures have no scale") {
+    for_each_scene([](const auto& path) { check(path, simd::Engine::vector, 200); });
+}
+
+TEST_CASE("the reference's pictures have no scale") {
+    for_each_scene([](const auto& path) { check(path, simd::Engine::reference, 80); });
+}
