@@ -176,6 +176,9 @@ std::vector<Hit> axial_crossings(const core::Vec3f& base, const core::Vec3f& axi
     for (const Root& root : roots(A, B, C)) {
         const Number height = h0 + root.t * hd;
         if (sign(height, aa) < 0 || sign(aa - height, aa) < 0) continue;
+        // Through the apex from nappe to nappe: the crossing with the mirror image does not count.
+        const Number width = W + root.t * M;
+        if (A < 0 && sign(width, aa * (r0 + r1)) == 0 && root.falling != (M > 0)) continue;
         surface.push_back({root.t, root.falling});
         solid.push_back(root.t);
     }

@@ -8,8 +8,9 @@ namespace raylane::core {
 
 /// |across(t)|^2 = width(t)^2, where the width runs from base_radius to top_radius along the axis:
 ///   F(t) = |across|^2 - width^2 = A t^2 + 2 B t + C,  width(t) = W + t M.
-/// The equation also describes the mirror nappe beyond the apex, but there width < 0, and between
-/// the ends width >= 0: what is clipped to the ends needs no test of its own.
+/// The equation also describes the mirror nappe beyond the apex, where width < 0. Between the ends
+/// width >= 0, so what is clipped to them needs a test of its own in the apex alone: a ray through
+/// it, from the inside of one nappe to that of the other, crosses both there.
 template <class Real, Ends ends>
 Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const Start& start,
                           Judge<Real>& judge) {
@@ -26,7 +27,7 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
 
     // The infinite double cone.
     Crossings<Real> roots;
-    int curvature = judge.sign(A);
+    const int curvature = judge.sign(A);
     if (start.on_surface && start.face == body) {
         // t = 0 is one root, -2 B / A the other. Going inward F falls at 0, so it rises again only
         // if A > 0.
@@ -49,24 +50,22 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
             roots.add({not_behind(vertex), body, false});
         }
     }
+    // One crossing on each nappe, inside before the first and behind the second. The width grows
+    // with t if M > 0, so the nappe with width >= 0 is then the second.
+    if (curvature < 0) {
+        const bool enters = judge.sign(M) > 0;
+        Crossings<Real> on_nappe;
+        for (const Crossing<Real>& root : roots)
+            if (root.entering == enters) on_nappe.add(root);
+        roots = on_nappe;
+    }
     if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, judge);
 
     // The solid is convex: clip to the nappe that lies between the ends.
     Span<Real> span(judge);
     for (const Crossing<Real>& root : roots) {
-        const bool wanted = !start.on_surface || !root.entering;
-        if (curvature >= 0) {
-            if (wanted)
-                root.entering ? span.clip_front(root.t, root.face)
-                              : span.clip_back(root.t, root.face);
-        } else {
-            // One crossing on each nappe, inside before the first and behind the second. The width
-            // grows with t if M > 0, so the nappe with width >= 0 is then the second.
-            const bool on_nappe = root.entering == (judge.sign(M) > 0);
-            if (on_nappe && wanted)
-                root.entering ? span.clip_front(root.t, root.face)
-                              : span.clip_back(root.t, root.face);
-        }
+        if (root.entering && !start.on_surface) span.clip_front(root.t, root.face);
+        if (!root.entering) span.clip_back(root.t, root.face);
     }
     clip_caps(span, axial, start, judge);
     return start.on_surface ? span.exit() : span.crossings();

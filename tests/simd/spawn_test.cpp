@@ -342,7 +342,6 @@ class Spawning {
     std::optional<Next> by_construction(const Ray<double>& ray, bool inward) const {
         constexpr double t = std::numeric_limits<double>::quiet_NaN();
         if (shapes_.size() > 3) return std::nullopt; // a sphere may be in between, if far away
-        if (is_at_apex(ray.origin)) return std::nullopt;
         if (nest_.parted) {
             const Vec3d normal = std::visit(
                 [&]<class Shape>(const Shape& shape) {
@@ -361,15 +360,6 @@ class Spawning {
         if (past < radius - slack(ray)) return Next{inner_id, t, true};
         if (past > radius + slack(ray)) return Next{shape_id, t, false};
         return std::nullopt;
-    }
-
-    /// Which belongs to all sides of an open cone.
-    bool is_at_apex(const Vec3d& point) const {
-        const auto* cone = std::get_if<OpenCone>(&shapes_[shape_id]);
-        if (cone == nullptr) return false;
-        const Vec3d base = convert<double>(cone->base), top = base + convert<double>(cone->axis);
-        return (cone->base_radius == 0.0F && point == base) ||
-               (cone->top_radius == 0.0F && point == top);
     }
 
     template <class Shape>

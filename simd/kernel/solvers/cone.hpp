@@ -51,15 +51,18 @@ struct ConeLanes {
         roots.second.t = xsimd::select(by_rim, not_behind<Arch>(vertex), roots.second.t);
         roots.second.entering = roots.second.entering & ~from_body & ~by_rim;
 
+        const Mask<Arch> widens = M > o;
+        for (Crossing<Arch>* root : {&roots.first, &roots.second}) {
+            const Mask<Arch> on_nappe = (root->entering & widens) | (~root->entering & ~widens);
+            root->exists = root->exists & (~opens_down | on_nappe);
+        }
+
         Crossings<Arch> result = roots;
         if constexpr (capped) {
             Span<Arch> span;
-            const Mask<Arch> widens = M > o;
             for (const Crossing<Arch>& root : {roots.first, roots.second}) {
-                const Mask<Arch> on_nappe = (root.entering & widens) | (~root.entering & ~widens);
-                const Mask<Arch> clips = root.exists & (~opens_down | on_nappe);
-                span.clip_front(clips & root.entering & ~starts.on_surface, root.t, o);
-                span.clip_back(clips & ~root.entering, root.t, o);
+                span.clip_front(root.exists & root.entering & ~starts.on_surface, root.t, o);
+                span.clip_back(root.exists & ~root.entering, root.t, o);
             }
             clip_caps(span, axial, starts);
             result = span.crossings(starts.on_surface);
