@@ -1,8 +1,10 @@
 #pragma once
 
 #include "core/bounded.hpp"
+#include "core/exact.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 namespace raylane::core {
 
@@ -12,9 +14,14 @@ namespace raylane::core {
 template <class Real>
 class Judge {
   public:
-    int sign(const Real& a) { return a > Real(0) ? 1 : a < Real(0) ? -1 : 0; }
-    bool negative(const Real& a) { return a < Real(0); }
-    bool positive(const Real& a) { return a > Real(0); }
+    int sign(const Real& a) {
+        if constexpr (std::is_same_v<Real, Exact>)
+            return a.sign();
+        else
+            return a > Real(0.0) ? 1 : a < Real(0.0) ? -1 : 0;
+    }
+    bool negative(const Real& a) { return a < Real(0.0); }
+    bool positive(const Real& a) { return a > Real(0.0); }
     bool less(const Real& a, const Real& b) { return a < b; }
     /// To be called of every t that is a result.
     void result(const Real&) {}
@@ -25,44 +32,26 @@ class Judge {
 /// to the right float or to a neighbour.
 inline constexpr double needed_accuracy = 0x1p-27;
 
-/// In double: an answer within the error, or a t that is not accurate enough, is a doubt, and the
+/// With bounds: an answer within the error, or a t that is not accurate enough, is a doubt, and the
 /// question has to be asked again in a wider type.
-template <>
-class Judge<Bounded<double>> {
+template <class T>
+class Judge<Bounded<T>> {
   public:
-    using Real = Bounded<double>;
+    using Real = Bounded<T>;
 
     int sign(const Real& a) {
-        if (!(std::abs(a.value) > a.error)) doubt_ |= a.error != 0.0 || std::isnan(a.value);
-        return a.value > 0.0 ? 1 : a.value < 0.0 ? -1 : 0;
+        const auto value = static_cast<double>(a);
+        if (!(std::abs(value) > a.error)) doubt_ |= a.error != 0.0 || std::isnan(value);
+        return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
     }
     bool negative(const Real& a) { return sign(a) < 0; }
     bool positive(const Real& a) { return sign(a) > 0; }
     bool less(const Real& a, const Real& b) { return negative(a - b); }
-    void result(const Real& t) { doubt_ |= !(t.error <= needed_accuracy * std::abs(t.value)); }
+    void result(const Real& t) { doubt_ |= !(t.error <= needed_accuracy * t.magnitude()); }
     bool doubt() const { return doubt_; }
 
   private:
     bool doubt_ = false;
-};
-
-/// In double-double, the widest: what cannot be told from 0 is 0. That is exact wherever the
-/// inputs' bits fit, which is where exact ties happen: tangents, rims and corners on simple
-/// coordinates.
-template <>
-class Judge<Bounded<DoubleDouble>> {
-  public:
-    using Real = Bounded<DoubleDouble>;
-
-    int sign(const Real& a) {
-        if (!(a.magnitude() > a.error)) return 0;
-        return a.value.high > 0.0 ? 1 : -1;
-    }
-    bool negative(const Real& a) { return sign(a) < 0; }
-    bool positive(const Real& a) { return sign(a) > 0; }
-    bool less(const Real& a, const Real& b) { return negative(a - b); }
-    void result(const Real&) {}
-    bool doubt() const { return false; }
 };
 
 } // namespace raylane::core

@@ -9,6 +9,7 @@
 #include "core/solvers/quadric.hpp"
 #include "core/solvers/sphere.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 /// A ray against one shape, with a stated accuracy.
@@ -40,11 +41,27 @@ Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, cons
     return result;
 }
 
+template <class Shape>
+Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, const Start& start) {
+    constexpr double accuracy = 0x1p-48; // of an Exact as a double
+    Crossings<double> result;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis])) return result;
+    Judge<Exact> judge;
+    const Ray<Exact> exact{convert<Exact>(ray.origin), convert<Exact>(ray.direction)};
+    for (const Crossing<Exact>& crossing : crossings(shape, exact, start, judge)) {
+        const auto t = static_cast<double>(crossing.t);
+        result.add({t, crossing.face, crossing.entering, accuracy * std::abs(t)});
+    }
+    return result;
+}
+
 } // namespace detail
 
 /// double: decisions as real arithmetic takes them, and t within 2^-27 of itself. In double with
 /// error bounds first; where these leave a doubt, once more in double-double, which `widened`
-/// counts.
+/// counts; and where a ray is tangent, or meets a rim or an edge, to more digits than that, in
+/// integers of any size.
 template <class Shape>
 Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start& start,
                         std::uint64_t& widened) {
@@ -54,7 +71,9 @@ Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start&
         return result;
     ++widened;
     Judge<Bounded<DoubleDouble>> wide_judge;
-    return detail::solve_bounded<DoubleDouble>(shape, ray, start, wide_judge);
+    const Crossings<double> wide =
+        detail::solve_bounded<DoubleDouble>(shape, ray, start, wide_judge);
+    return wide_judge.doubt() ? detail::solve_exactly(shape, ray, start) : wide;
 }
 
 } // namespace raylane::core
