@@ -9,8 +9,10 @@
 #include "core/solvers/quadric.hpp"
 #include "core/solvers/sphere.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 /// A ray against one shape, with a stated accuracy.
 namespace raylane::core {
@@ -49,9 +51,10 @@ Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, cons
         if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis])) return result;
     Judge<Exact> judge;
     const Ray<Exact> exact{convert<Exact>(ray.origin), convert<Exact>(ray.direction)};
+    double last = -std::numeric_limits<double>::infinity();
     for (const Crossing<Exact>& crossing : crossings(shape, exact, start, judge)) {
-        const auto t = static_cast<double>(crossing.t);
-        result.add({t, crossing.face, crossing.entering, accuracy * std::abs(t)});
+        last = std::max(last, static_cast<double>(crossing.t)); // rounding swaps no crossings
+        result.add({last, crossing.face, crossing.entering, accuracy * std::abs(last)});
     }
     return result;
 }
