@@ -1,0 +1,187 @@
+#include "core/bounds.hpp"
+#include "core/reference/search.hpp"
+#include "simd/stream_tracer.hpp"
+#include "tests/catch.hpp"
+#include "tests/oracle.hpp"
+#include "tests/ray_sets.hpp"
+#include "tests/sanitized.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+using ray_sets::Random;
+using ray_sets::Set;
+
+/// Streams of rays that all but miss: the bounds of a shape, or the shape itself.
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr int of_each_kind = tests::sanitized ? 6 : 40;
+
+struct Stream {
+    std::vector<float> of[6], t_min, t, normal[3];
+    std::vector<ShapeId> shape;
+
+    void add(const Ray<float>& ray) {
+        for (int axis = 0; axis < 3; ++axis) {
+            of[axis].push_back(ray.origin[axis]);
+            of[3 + axis].push_back(ray.direction[axis]);
+        }
+        t_min.push_back(0.0F);
+    }
+    std::size_t size() const { return t_min.size(); }
+    Ray<double> get(std::size_t i) const {
+        const auto at = [&](int k) { return static_cast<double>(of[k][i]); };
+        return {{at(0), at(1), at(2)}, {at(3), at(4), at(5)}};
+    }
+    void trace(const StreamTracer& tracer) {
+        t.resize(size());
+        shape.resize(size());
+        for (std::vector<float>& component : normal)
+            component.resize(size());
+        tracer.nearest(
+            {size(),
+             {of[0].data(), of[1].data(), of[2].data()},
+             {of[3].data(), of[4].data(), of[5].data()},
+             t_min.data(),
+             nullptr},
+            {t.data(), {normal[0].data(), normal[1].data(), normal[2].data()}, shape.data()});
+    }
+};
+
+/// A point of the surface, of many the one that is furthest along an axis.
+template <class Shape>
+Vec3d furthest(const Shape& shape, int axis, double side, Random& random) {
+    Vec3d best = ray_sets::Target<Shape>::surface(shape, random).point;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3d point = ray_sets::Target<Shape>::surface(shape, random).point;
+        if (side * point[axis] > side * best[axis]) best = point;
+    }
+    return best;
+}
+
+/// Along the face of a shape's bounds, up to some ulps before or behind it.
+template <class Shape>
+Ray<float> along_bounds(const Shape& shape, Random& random) {
+    const int axis = random.integer(0, 2);
+    const bool upper = random.integer(0, 1) == 0;
+    const Bounds bounds = bounds_of(shape);
+    const Vec3d target = furthest(shape, axis, upper ? 1.0 : -1.0, random);
+    Vec3d direction = random.direction();
+    constexpr double little[] = {0.0, -0.0, 1e-40, -1e-40, 1e-9, -1e-9};
+    direction[axis] = little[random.integer(0, 5)];
+    if (random.integer(0, 1) == 0) direction[(axis + 1) % 3] = 0.0;
+    if (squared_length(direction) < 1e-6) direction[(axis + 2) % 3] = 1.0;
+    Vec3f origin = ray_sets::rounded(target - random.uniform(0.0, 9.0) * direction);
+    origin[axis] = upper ? bounds.upper[axis] : bounds.lower[axis];
+    for (int step = random.integer(-8, 2); step != 0; step += step < 0 ? 1 : -1)
+        origin[axis] = std::nextafter(origin[axis], (step > 0) == upper ? infinity : -infinity);
+    return {origin, ray_sets::rounded(direction)};
+}
+
+template <class Shape>
+void add_kind(SceneBuilder& builder, bool lattice, Random& random, Stream& stream) {
+    for (int i = 0; i < of_each_kind; ++i) {
+        const auto shape = ray_sets::Target<Shape>::make(random, lattice);
+        builder.add(shape, 0);
+        for (int j = 0; j < 8; ++j)
+            stream.add(along_bounds(shape, random));
+        for (const Set set : ray_sets::all_sets)
+            if ((set == Set::lattice) == lattice)
+                stream.add(ray_sets::make_ray(shape, set, random));
+    }
+}
+
+int ulps_apart(float a, float b) {
+    int steps = 0;
+    for (; a != b && steps < 9; ++steps)
+        a = std::nextafter(a, b);
+    return steps;
+}
+
+} // namespace
+
+TEST_CASE("traversal and brute force agree on rays along the faces of bounds") {
+    for (const bool lattice : {false, true}) {
+        Random random(lattice ? 41 : 40);
+        SceneBuilder builder;
+        builder.wants_light = false;
+        builder.add_material({});
+        Stream stream;
+        const auto add = [&]<class... Shapes>() {
+            (add_kind<Shapes>(builder, lattice, random, stream), ...);
+        };
+        add.operator()<Sphere, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder,
+                       OpenCone, CappedCone, Quadric>();
+        const Scene scene = std::move(builder).build();
+        stream.trace(StreamTracer(scene));
+
+        Searcher<double> by_trying(scene, Search::every_shape);
+        Searcher<double> by_hierarchy(scene, Search::hierarchy);
+        const auto all = [](const Hit<double>&) { return true; };
+        int hits = 0, wrong = 0, lost_by_reference = 0;
+        for (std::size_t i = 0; i < stream.size(); ++i) {
+            const Hit<double> truth = by_trying.nearest(stream.get(i), {}, all).hit;
+            const Hit<double> found = by_hierarchy.nearest(stream.get(i), {}, all).hit;
+            hits += truth.any() ? 1 : 0;
+            lost_by_reference += found.shape == truth.shape && found.t == truth.t ? 0 : 1;
+            const float t = truth.any() ? static_cast<float>(truth.t) : infinity;
+            wrong += stream.shape[i] == truth.shape && stream.t[i] == t ? 0 : 1;
+        }
+        INFO(stream.size() << " rays, " << hits << " hits");
+        CHECK(wrong == 0);
+        CHECK(lost_by_reference == 0);
+        CHECK(hits > static_cast<int>(stream.size()) / 3);
+    }
+}
+
+TEMPLATE_TEST_CASE("the vectors lead through a solid: in, out, and no further", "", Sphere, Box,
+                   CappedCylinder, CappedCone) {
+    using Shape = TestType;
+    Random random(20260700 + static_cast<int>(kind_of<Shape>));
+    int through = 0, wrong = 0, misplaced = 0;
+    for (int i = 0; i < 4 * of_each_kind; ++i) {
+        const bool lattice = i % 2 == 1;
+        const auto shape = ray_sets::Target<Shape>::make(random, lattice);
+        SceneBuilder builder;
+        builder.wants_light = false;
+        builder.add_material({});
+        builder.add(shape, 0);
+        const Scene scene = std::move(builder).build();
+        Stream stream;
+        for (const Set set : ray_sets::all_sets)
+            for (int j = 0; j < 4; ++j)
+                if ((set == Set::lattice) == lattice || set == Set::zeros)
+                    stream.add(ray_sets::make_ray(shape, set, random));
+
+        const StreamTracer tracer(scene, 1);
+        std::vector<std::vector<float>> found(stream.size());
+        for (int round = 0; round < 3; ++round) {
+            stream.trace(tracer);
+            for (std::size_t k = 0; k < stream.size(); ++k) {
+                if (stream.shape[k] == no_shape) continue;
+                found[k].push_back(stream.t[k]);
+                stream.t_min[k] = stream.t[k];
+            }
+        }
+        for (std::size_t k = 0; k < stream.size(); ++k) {
+            std::vector<float> truth;
+            for (const oracle::Hit& hit : oracle::crossings(shape, stream.get(k)))
+                if (hit.t > 0) truth.push_back(hit.t.template convert_to<float>());
+            through += truth.size() == 2 ? 1 : 0;
+            // Where both are one float, or neighbours, there may be no next one.
+            const bool touches = truth.size() == 2 && ulps_apart(truth[0], truth[1]) <= 1;
+            if (found[k].size() != truth.size() && !(touches && found[k].size() == 1)) ++wrong;
+            if (found[k].size() != truth.size()) continue;
+            for (std::size_t n = 0; n < truth.size(); ++n)
+                misplaced += ulps_apart(found[k][n], truth[n]) <= 1 ? 0 : 1;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(misplaced == 0);
+    CHECK(through > of_each_kind);
+}
