@@ -1,0 +1,155 @@
+#include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
+#include "tests/simd/filter_trial.hpp"
+#include "tests/simd/mutations.hpp"
+#include "tests/simd/scaled_filters.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+using namespace raylane::filter_trial;
+using namespace raylane::mutations;
+
+/// A search for rays that break the filters' bounds. Of what a filter allows for rounding, each ray
+/// needs a part: with less, the filter would say something of it that is not so. The search climbs
+/// to where that part is largest.
+
+namespace {
+
+int rounds() {
+    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
+    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+}
+
+ScaledFilters scaled_filters_of(Isa isa) {
+    switch (isa) {
+    case Isa::sse42:
+        return scaled_filters_sse42();
+    case Isa::avx2:
+        return scaled_filters_avx2();
+    default:
+        return scaled_filters_avx512();
+    }
+}
+
+/// One shape and one ray before the filters.
+template <class Shape>
+class Trial {
+  public:
+    Trial(const ScaledFilters& filters, const Attempt<Shape>& attempt)
+        : filters_(filters), truth_(first_crossing(attempt.shape, attempt.ray)) {
+        block_.set(0, attempt.shape, 0);
+        stream_.add(Doubled(attempt.ray));
+        view_ = stream_.view();
+    }
+
+    /// Whether the filter is wrong when it allows for this part of the rounding.
+    bool is_lie(double part) {
+        *filters_.half_ulp = static_cast<float>(part * 0x1p-24);
+        filters_.checks.bound_rays(static_cast<KindNumber>(kind_of<Shape>), view_of(block_), 0,
+                                   view_);
+        return lie(stream_.answer(0), truth_) != nullptr;
+    }
+
+    /// The part that the ray needs, given that it is more than `least`; 1 if all of it does not do.
+    double part_needed(double least) {
+        double most = 1.0;
+        if (is_lie(most)) return most;
+        while (most - least > 1e-4) {
+            const double middle = 0.5 * (least + most);
+            (is_lie(middle) ? least : most) = middle;
+        }
+        return least;
+    }
+
+  private:
+    const ScaledFilters& filters_;
+    First truth_;
+    Block<Shape> block_;
+    Stream stream_;
+    FilterStream view_{};
+};
+
+/// The ray meant may be `slack` away from its floats, and have a length that is not quite 1.
+void tidy(Ray<double>& ray, bool slack, Random& random) {
+    if (!slack) ray.origin = in_double(convert<float>(ray.origin));
+    ray.direction = normalized(ray.direction);
+    if (random.integer(0, 3) == 0)
+        ray.direction *= 1.0 + 0x1p-40 * (random.integer(0, 1) == 0 ? -1.0 : 1.0);
+}
+
+template <class Shape>
+struct Summit {
+    double part = 0.0;
+    Attempt<Shape> attempt{};
+};
+
+template <class Shape>
+Summit<Shape> climb(const ScaledFilters& filters, bool slack, int steps, Random& random) {
+    const bool lattice = random.integer(0, 3) == 0;
+    Summit<Shape> summit;
+    summit.attempt.shape = make_shape<Shape>(random, lattice);
+    summit.attempt.ray = attack(summit.attempt.shape, lattice, random);
+    for (int step = 0; step < steps && summit.part < 1.0; ++step) {
+        Attempt<Shape> next = mutated(summit.attempt, random);
+        if (summit.part == 0.0 && step % 8 == 0) next.ray = attack(next.shape, lattice, random);
+        tidy(next.ray, slack, random);
+        if (!is_valid(next.shape)) continue;
+        Trial<Shape> trial(filters, next);
+        // A little less than it was is good enough, to get off the lesser hills.
+        if (!trial.is_lie((random.integer(0, 7) == 0 ? 0.98 : 1.001) * summit.part)) continue;
+        summit = {trial.part_needed(0.98 * summit.part), next};
+    }
+    return summit;
+}
+
+template <class Shape>
+Summit<Shape> highest(bool slack, int climbs, std::uint64_t seed) {
+    std::vector<ScaledFilters> filters;
+    for (const Isa isa : all_isas)
+        if (is_available(isa)) filters.push_back(scaled_filters_of(isa));
+    Random random(seed);
+    Summit<Shape> highest;
+    for (int i = 0; i < climbs; ++i) {
+        const Summit<Shape> summit =
+            climb<Shape>(filters[static_cast<std::size_t>(i) % filters.size()], slack, 400, random);
+        if (summit.part > highest.part) highest = summit;
+    }
+    return highest;
+}
+
+/// Exactly, in C++'s notation.
+template <class Shape>
+std::string description(const Summit<Shape>& summit) {
+    std::ostringstream out;
+    out << std::hexfloat;
+    for (const float value : floats_of(summit.attempt.shape))
+        out << value << "F, ";
+    const Ray<double>& ray = summit.attempt.ray;
+    for (const Vec3d& v : {ray.origin, ray.direction})
+        out << "{" << v.x << ", " << v.y << ", " << v.z << "} ";
+    return out.str();
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("no search finds a ray that breaks the filters' bounds", "",
+                   RAYLANE_ALL_SHAPES) {
+    const int climbs = std::max(1, rounds() / 25);
+    const auto without = highest<TestType>(false, climbs, 29);
+    const auto with = highest<TestType>(true, climbs, 31);
+    INFO(description(without));
+    INFO(description(with));
+    CHECK(without.part < 1.0);
+    CHECK(with.part < 1.0);
+    if (std::getenv("RAYLANE_TEST_REPORT") != nullptr)
+        WARN(name_of(kind_of<TestType>)
+             << ": the worst ray needs " << without.part
+             << " of what is allowed for rounding, with slack " << with.part);
+}

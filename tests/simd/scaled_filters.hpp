@@ -1,0 +1,18 @@
+#pragma once
+
+#include "tests/simd/filter_check.hpp"
+
+/// The filters, with what they allow for rounding as a variable: so a test can ask how much of it a
+/// ray needs.
+namespace raylane::simd {
+
+struct ScaledFilters {
+    FilterChecks checks;
+    float* half_ulp; ///< the constant that the filters of this instruction set use
+};
+
+ScaledFilters scaled_filters_sse42();
+ScaledFilters scaled_filters_avx2();
+ScaledFilters scaled_filters_avx512();
+
+} // namespace raylane::simd
