@@ -106,6 +106,22 @@ TEMPLATE_TEST_CASE("what the filters say of a ray is so", "", RAYLANE_ALL_SHAPES
     }
 }
 
+TEST_CASE("a plane may be met beyond the largest float") {
+    const Plane ground{{0, 0, 0}, {0, 1, 0}};
+    const Ray<double> ray{{0, 1e10, 0}, {1, -1e-30, 0}};
+    Block<Plane> block;
+    block.set(0, ground, 0);
+    for (const Isa isa : all_isas) {
+        if (!is_available(isa)) continue;
+        Stream stream;
+        stream.add(Doubled(ray));
+        const FilterStream view = stream.view();
+        checks_of(isa).bound_rays(static_cast<KindNumber>(Kind::plane), view_of(block), 0, view);
+        CHECK(stream.answer(0).possible);
+        CHECK(stream.answer(0).lower < infinity);
+    }
+}
+
 namespace {
 
 template <class Shape>

@@ -35,7 +35,7 @@ inline constexpr float slack_floor = 0x1p-68F;
 template <class Arch>
 struct Bounds {
     Mask<Arch> possible; ///< false: there is none
-    Floats<Arch> lower;  ///< where possible: none is before this; >= 0
+    Floats<Arch> lower;  ///< where possible: none is before this; >= 0, finite if there is one
     Mask<Arch> certain;  ///< there is one
     Floats<Arch> upper;  ///< where certain: the first is not behind this
 };

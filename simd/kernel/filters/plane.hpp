@@ -68,10 +68,13 @@ struct PlaneFilter {
         : point(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)) {}
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
         const Vectors<Arch> to_point = point - rays.origin;
         const FlatCrossing<Arch> crossing = cross_plane(to_point, normal, rays);
-        return {is_number<Arch>(to_point.x) & ~crossing.behind, positive_part<Arch>(crossing.lower),
-                crossing.ahead, crossing.upper};
+        // Alone of all shapes, it may be met beyond the largest float.
+        const F lower = xsimd::min(positive_part<Arch>(crossing.lower), F(0x1.fffffep+127F));
+        return {is_number<Arch>(to_point.x) & ~crossing.behind, lower, crossing.ahead,
+                crossing.upper};
     }
 };
 
