@@ -141,7 +141,7 @@ std::string description(const Summit<Shape>& summit) {
 
 TEMPLATE_TEST_CASE("no search finds a ray that breaks the filters' bounds", "",
                    RAYLANE_ALL_SHAPES) {
-    const int climbs = std::max(1, rounds() / 25);
+    const int climbs = std::max(1, rounds());
     const auto without = highest<TestType>(false, climbs, 29);
     const auto with = highest<TestType>(true, climbs, 31);
     INFO(description(without));

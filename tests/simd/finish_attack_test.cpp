@@ -1,0 +1,240 @@
+#include "core/shape_table.hpp"
+#include "core/solve.hpp"
+#include "simd/isa.hpp"
+#include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
+#include "tests/simd/mutations.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <string>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+using namespace raylane::mutations;
+
+/// A search for rays whose t is further off after the finish than it says. It climbs to where the
+/// error is the largest part of its bound.
+
+namespace {
+
+int rounds() {
+    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
+    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+}
+
+/// What the rays are like.
+enum class Aim {
+    any,     ///< directions of doubles, of length 1 +- 2^-48
+    rounded, ///< meant along floats of any length, which the library brings to length 1
+    onward,  ///< from the surface
+};
+
+/// A number in double-double and what it may be off by.
+using Wide = Bounded<DoubleDouble>;
+
+/// The first crossing, as core::solve has it, but with all of t.
+template <class Shape>
+std::optional<core::Crossing<Wide>> first_crossing(const Shape& shape, const Ray<double>& ray,
+                                                   const Start& start) {
+    Judge<Wide> judge;
+    const Ray<Wide> wide{convert<Wide>(ray.origin), convert<Wide>(ray.direction)};
+    for (const core::Crossing<Wide>& crossing : crossings(shape, wide, start, judge))
+        if (start.on_surface ? !judge.negative(crossing.t) : judge.positive(crossing.t))
+            return crossing;
+    return std::nullopt;
+}
+
+struct Finish {
+    double t, error;
+    std::uint32_t hit;
+};
+
+/// One ray and one shape through a unit's finish.
+template <class Shape>
+Finish finish(const Kernels& kernels, const Shape& shape, const Ray<double>& ray,
+              const Start& start) {
+    constexpr ShapeId id = 7;
+    Block<Shape> block;
+    block.set(0, shape, id);
+    SceneView view{};
+    for (int kind = 0; kind < kind_count; ++kind)
+        view.tables[kind].first_slot = kind > static_cast<int>(kind_of<Shape>) ? 16 : 0;
+    view.tables[static_cast<int>(kind_of<Shape>)] = {reinterpret_cast<const float*>(&block), 1,
+                                                     sizeof(block) / sizeof(float),
+                                                     float_count<Shape>, 0};
+    double rays[6][16], normal[3][16], t[16], error[16];
+    std::uint32_t departed[16], departure[16], slot[16], hit[16];
+    for (int lane = 0; lane < 16; ++lane) {
+        for (int axis = 0; axis < 3; ++axis) {
+            rays[axis][lane] = ray.origin[axis];
+            rays[3 + axis][lane] = ray.direction[axis];
+        }
+        departed[lane] = start.on_surface ? id : no_shape;
+        departure[lane] = start.face | (start.inward ? departure_inward : 0);
+        slot[lane] = 0;
+    }
+    kernels.finish(view, {1,
+                          {rays[0], rays[1], rays[2]},
+                          {rays[3], rays[4], rays[5]},
+                          departed,
+                          departed,
+                          departure,
+                          slot,
+                          t,
+                          error,
+                          {normal[0], normal[1], normal[2]},
+                          {nullptr, nullptr, nullptr},
+                          hit});
+    return {t[0], error[0], hit[0]};
+}
+
+template <class Shape>
+struct Started : Attempt<Shape> {
+    Start start;
+};
+
+/// The part of the bound that the error is: 1 where it breaks, or where what is called certain is
+/// not so; 0 where nothing is.
+template <class Shape>
+double part_needed(const Started<Shape>& attempt, Aim aim) {
+    Ray<double> ray = attempt.ray;
+    DoubleDouble unit(1.0); // of the true t
+    if (aim == Aim::rounded) {
+        const Vec3<DoubleDouble> d = convert<DoubleDouble>(ray.direction);
+        unit = sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+        ray.direction = normalized(ray.direction);
+    }
+    const Finish result = finish(kernels_of(*best_isa()), attempt.shape, ray, attempt.start);
+    if ((result.hit & hit_doubtful) != 0) return 0.0;
+    const auto truth = first_crossing(attempt.shape, attempt.ray, attempt.start);
+    if (result.hit == hit_none) return truth ? 1.0 : 0.0;
+    if (!truth) return 1.0;
+    const double doubt = static_cast<double>(unit) * truth->t.error;
+    const bool same = (result.hit & hit_face) == truth->face &&
+                      ((result.hit & hit_entering) != 0) == truth->entering;
+    // Where even double-double is not sure, one cannot tell.
+    if (!(doubt < 0x1p-10 * result.error)) return 0.0;
+    if (!same) return 1.0;
+    const auto off = static_cast<double>(truth->t.value * unit - DoubleDouble(result.t));
+    return std::abs(off) / result.error;
+}
+
+template <class Shape>
+void tidy(Started<Shape>& attempt, Aim aim, Random& random) {
+    Vec3d& d = attempt.ray.direction;
+    d = normalized(d);
+    if (aim == Aim::rounded) {
+        attempt.ray.origin = in_double(convert<float>(attempt.ray.origin));
+        d = in_double(convert<float>(Vec3d(d * random.log_uniform(0.1, 10.0))));
+    } else if (random.integer(0, 1) == 0) {
+        d *= 1.0 + 0x1p-48 * (random.integer(0, 1) == 0 ? -1.0 : 1.0);
+    }
+}
+
+/// A ray to the shape; or onward from where it hits.
+template <class Shape>
+std::optional<Started<Shape>> first_attempt(Aim aim, bool lattice, Random& random) {
+    Started<Shape> attempt{};
+    attempt.shape = ray_sets::Target<Shape>::make(random, lattice);
+    if (!lattice && random.integer(0, 3) == 0) attempt.shape = extreme(attempt.shape, random);
+    if (!is_valid(attempt.shape)) return std::nullopt;
+    attempt.ray = attack(attempt.shape, lattice, random);
+    tidy(attempt, aim, random);
+    if (aim != Aim::onward) return attempt;
+    const auto hit = first_crossing(attempt.shape, attempt.ray, Start{});
+    if (!hit) return std::nullopt;
+    const Ray<double> there = attempt.ray;
+    attempt.ray.origin = mul_add(static_cast<double>(hit->t), there.direction, there.origin);
+    attempt.ray.direction = random.integer(0, 3) == 0 ? there.direction : random.direction();
+    const Vec3d normal = outward_normal(attempt.shape, attempt.ray.origin, hit->face);
+    attempt.start = {true, hit->face, dot(attempt.ray.direction, normal) < 0.0};
+    tidy(attempt, aim, random);
+    return attempt;
+}
+
+/// What a start on the surface leaves to change is where the ray goes.
+template <class Shape>
+Started<Shape> changed(Started<Shape> attempt, Aim aim, Random& random) {
+    if (aim == Aim::onward)
+        change_direction(attempt.ray.direction, random);
+    else
+        static_cast<Attempt<Shape>&>(attempt) =
+            mutated(static_cast<const Attempt<Shape>&>(attempt), random);
+    tidy(attempt, aim, random);
+    return attempt;
+}
+
+template <class Shape>
+struct Summit {
+    double part = 0.0;
+    Started<Shape> attempt{};
+};
+
+template <class Shape>
+Summit<Shape> climb(Aim aim, int steps, Random& random) {
+    const bool lattice = random.integer(0, 3) == 0;
+    const auto first = first_attempt<Shape>(aim, lattice, random);
+    if (!first) return {};
+    Summit<Shape> at{part_needed(*first, aim), *first}, highest = at;
+    for (int step = 0; step < steps && highest.part < 1.0; ++step) {
+        const Started<Shape> next = changed(at.attempt, aim, random);
+        if (!is_valid(next.shape)) continue;
+        const double part = part_needed(next, aim);
+        // A little less than it was is good enough, to get off the lesser hills.
+        if (part < (random.integer(0, 7) == 0 ? 0.95 : 1.0) * at.part) continue;
+        at = {part, next};
+        if (part > highest.part) highest = at;
+    }
+    return highest;
+}
+
+template <class Shape>
+Summit<Shape> highest(Aim aim, int climbs, std::uint64_t seed) {
+    Random random(seed);
+    Summit<Shape> highest;
+    for (int i = 0; i < climbs; ++i) {
+        const Summit<Shape> summit = climb<Shape>(aim, 200, random);
+        if (summit.part > highest.part) highest = summit;
+    }
+    return highest;
+}
+
+/// Exactly, in C++'s notation.
+template <class Shape>
+std::string description(const Summit<Shape>& summit) {
+    std::ostringstream out;
+    out << std::hexfloat;
+    for (const float value : floats_of(summit.attempt.shape))
+        out << value << "F, ";
+    const Ray<double>& ray = summit.attempt.ray;
+    for (const Vec3d& v : {ray.origin, ray.direction})
+        out << "{" << v.x << ", " << v.y << ", " << v.z << "} ";
+    const Start& start = summit.attempt.start;
+    if (start.on_surface)
+        out << "from face " << int{start.face} << (start.inward ? ", inward" : "");
+    return out.str();
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("no search finds a ray whose t is further off than the finish says", "",
+                   RAYLANE_ALL_SHAPES) {
+    const int climbs = std::max(1, rounds());
+    const auto any = highest<TestType>(Aim::any, climbs, 37),
+               rounded = highest<TestType>(Aim::rounded, climbs, 41),
+               onward = highest<TestType>(Aim::onward, climbs, 43);
+    INFO(description(any));
+    INFO(description(rounded));
+    INFO(description(onward));
+    CHECK(any.part < 1.0);
+    CHECK(rounded.part < 1.0);
+    CHECK(onward.part < 1.0);
+    if (std::getenv("RAYLANE_TEST_REPORT") != nullptr)
+        WARN(name_of(kind_of<TestType>) << ": the largest part of its bound that an error is: "
+                                        << any.part << "; directions brought to unit length "
+                                        << rounded.part << ", from the surface " << onward.part);
+}
