@@ -23,6 +23,7 @@ libbenchmark-dev    measures speed
 catch2              runs the tests
 libboost-dev        the tests'"'"' 100-digit oracle
 python3-jsonschema  the test of the JSON Schema
+gappa               proves the kernels'"'"' error bounds
 '
 
 names() {
