@@ -127,8 +127,8 @@ Summit<Shape> highest(bool slack, int climbs, std::uint64_t seed) {
     Random random(seed);
     Summit<Shape> highest;
     for (int i = 0; i < climbs; ++i) {
-        const Summit<Shape> summit =
-            climb<Shape>(filters[static_cast<std::size_t>(i) % filters.size()], slack, 1200, random);
+        const Summit<Shape> summit = climb<Shape>(
+            filters[static_cast<std::size_t>(i) % filters.size()], slack, 1200, random);
         if (summit.part > highest.part && is_confirmed(summit.attempt)) highest = summit;
     }
     return highest;
