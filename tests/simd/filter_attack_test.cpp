@@ -1,8 +1,8 @@
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/simd/filter_trial.hpp"
 #include "tests/simd/mutations.hpp"
+#include "tests/simd/rounds.hpp"
 #include "tests/simd/scaled_filters.hpp"
 
 #include <algorithm>
@@ -24,8 +24,7 @@ using namespace raylane::mutations;
 namespace {
 
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+    return tests::rounds(500);
 }
 
 ScaledFilters scaled_filters_of(Isa isa) {

@@ -1,7 +1,7 @@
 #include "tests/catch.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/simd/filter_trial.hpp"
 #include "tests/simd/hard_cases.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,8 +19,7 @@ using namespace raylane::hard_cases;
 namespace {
 
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+    return tests::rounds(500);
 }
 
 /// Whether to say how tight the bounds are.

@@ -3,8 +3,8 @@
 #include "simd/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/simd/mutations.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -23,8 +23,7 @@ using namespace raylane::mutations;
 namespace {
 
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 500;
+    return tests::rounds(500);
 }
 
 /// What the rays are like.

@@ -99,9 +99,7 @@ bool is_shape(const Shape& shape) {
 /// Rays to try on a shape: those of the sets, and what is particular to filters.
 template <class Shape>
 Ray<double> attack(const Shape& shape, bool lattice, Random& random) {
-    const Set set = lattice ? Set::lattice
-                            : ray_sets::all_sets[random.integer(
-                                  0, static_cast<int>(std::size(ray_sets::all_sets)) - 2)];
+    const Set set = lattice ? Set::lattice : ray_sets::any_set(random);
     const Ray<float> ray = ray_sets::make_ray(shape, set, random);
     Ray<double> result{in_double(ray.origin), in_double(ray.direction)};
     using T = ray_sets::Target<Shape>;
@@ -148,7 +146,3 @@ Shape make_shape(Random& random, bool lattice) {
 }
 
 } // namespace raylane::hard_cases
-
-#define RAYLANE_ALL_SHAPES                                                                         \
-    Sphere, Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,    \
-        CappedCone, Quadric
