@@ -70,7 +70,8 @@ inline Set any_set(Random& random) {
     return all_sets[random.integer(0, static_cast<int>(std::size(all_sets)) - 2)];
 }
 
-inline Vec3f rounded(const Vec3d& v) {
+/// Not inline: g++ 12 takes the way to float and back for none where it makes vectors of it.
+[[gnu::noinline]] inline Vec3f rounded(const Vec3d& v) {
     return core::convert<float>(v);
 }
 inline float rounded(double v) {

@@ -78,7 +78,7 @@ class Trial {
 
 /// The ray meant may be `slack` away from its floats, and have a length that is not quite 1.
 void tidy(Ray<double>& ray, bool slack, Random& random) {
-    if (!slack) ray.origin = in_double(convert<float>(ray.origin));
+    if (!slack) ray.origin = in_double(ray_sets::rounded(ray.origin));
     ray.direction = normalized(ray.direction);
     if (random.integer(0, 3) == 0)
         ray.direction *= 1.0 + 0x1p-40 * (random.integer(0, 1) == 0 ? -1.0 : 1.0);

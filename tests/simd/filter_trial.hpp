@@ -3,6 +3,7 @@
 #include "core/shape_table.hpp"
 #include "core/solve.hpp"
 #include "simd/isa.hpp"
+#include "tests/ray_sets.hpp"
 #include "tests/simd/filter_check.hpp"
 
 #include <array>
@@ -43,7 +44,7 @@ struct Doubled {
     float slack;
 
     explicit Doubled(const Ray<double>& meant) : ray(meant) {
-        rounded = {convert<float>(ray.origin), convert<float>(ray.direction)};
+        rounded = {ray_sets::rounded(ray.origin), ray_sets::rounded(ray.direction)};
         const double moved = length(Vec3d(convert<double>(rounded.origin) - ray.origin));
         slack = std::nextafter(static_cast<float>(moved * (1.0 + 0x1p-16) + 0x1p-68),
                                std::numeric_limits<float>::infinity());
