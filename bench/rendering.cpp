@@ -52,9 +52,9 @@ void add_renderings(const std::string& name, const MakeScene& make_scene) {
         add(name + "/" + simd::kernels_of(isa).name, make_scene, options);
     }
     options.engine = simd::Engine::reference;
-    options.precision = simd::Precision::single_precision;
+    options.precision = core::Precision::robust;
     add(name + "/reference_float", make_scene, options);
-    options.precision = simd::Precision::double_precision;
+    options.precision = core::Precision::exact;
     add(name + "/reference_double", make_scene, options);
 }
 

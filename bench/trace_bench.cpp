@@ -1,5 +1,6 @@
 #include "simd/isa.hpp"
 #include "simd/wavefront/scene_data.hpp"
+#include "simd/wavefront/tracing.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -64,7 +65,9 @@ struct Setup {
                 {&rounded[3][from], &rounded[4][from], &rounded[5][from]},
                 &rounded[6][from],
                 &departed[from],
-                &departed[from]};
+                &departed[from],
+                {&of[0][from], &of[1][from], &of[2][from]},
+                {&of[3][from], &of[4][from], &of[5][from]}};
     }
 };
 
@@ -73,12 +76,12 @@ Setup& setup_of(int spheres) {
     return all.try_emplace(spheres, spheres).first->second;
 }
 
-void trace(benchmark::State& state, simd::Isa isa, int spheres, bool shadows) {
+void trace(benchmark::State& state, simd::Isa isa, core::Precision precision, int spheres,
+           bool shadows) {
     Setup& setup = setup_of(spheres);
-    const simd::TraceKernels& kernels = simd::kernels_of(isa).trace;
-    const double* const origin[3] = {setup.of[0].data(), setup.of[1].data(), setup.of[2].data()};
-    const double* const direction[3] = {setup.of[3].data(), setup.of[4].data(), setup.of[5].data()};
-    kernels.round_rays(ray_count, origin, direction, setup.rays(0));
+    const simd::Tracing tracing{&simd::kernels_of(isa), precision};
+    const simd::TraceKernels& kernels = tracing.method().trace;
+    tracing.kernels->rays.round_rays(ray_count, setup.rays(0));
     const std::size_t entries =
         std::size_t{simd::in_flight} * 16 * (setup.data.view().tree_depth + 1) + 16;
     std::vector<float> t(entries), first(wave), second(wave);
@@ -91,13 +94,13 @@ void trace(benchmark::State& state, simd::Isa isa, int spheres, bool shadows) {
         second = first;
         std::fill(states.begin(), states.end(), simd::open);
         if (shadows)
-            kernels.occluded_in_tree(setup.data.view(), wave, setup.rays(from),
-                                     {&setup.t_most[from], states.data()}, {t.data(), child.data()},
-                                     counters);
+            kernels.occluded(setup.data.view(), 0, nullptr, wave, setup.rays(from),
+                             {&setup.t_most[from], states.data()}, {t.data(), child.data()},
+                             counters);
         else
-            kernels.nearest_in_tree(setup.data.view(), wave, setup.rays(from),
-                                    {first.data(), second.data(), slot.data()},
-                                    {t.data(), child.data()}, counters);
+            kernels.nearest(setup.data.view(), 0, nullptr, wave, setup.rays(from),
+                            {first.data(), second.data(), slot.data()}, {t.data(), child.data()},
+                            counters);
         from = (from + wave) % ray_count;
     }
     state.SetItemsProcessed(static_cast<std::int64_t>(wave) * state.iterations());
@@ -112,7 +115,9 @@ const bool registered = [] {
                         ("trace/" + std::to_string(spheres) +
                          (shadows ? "/occluded/" : "/nearest/") + std::string(simd::name_of(isa)))
                             .c_str(),
-                        [=](benchmark::State& state) { trace(state, isa, spheres, shadows); });
+                        [=](benchmark::State& state) {
+                            trace(state, isa, core::Precision::exact, spheres, shadows);
+                        });
     return true;
 }();
 

@@ -2,6 +2,7 @@
 
 #include "core/bounded.hpp"
 #include "core/exact.hpp"
+#include "core/precision.hpp"
 
 #include <cmath>
 #include <type_traits>
@@ -14,6 +15,12 @@ namespace raylane::core {
 template <class Real>
 class Judge {
   public:
+    Judge() = default;
+    explicit Judge(Precision precision) : textbook_(precision == Precision::fast) {}
+
+    /// Whether to use the textbooks' formulas.
+    bool textbook() const { return textbook_; }
+
     int sign(const Real& a) {
         if constexpr (std::is_same_v<Real, Exact>)
             return a.sign();
@@ -26,6 +33,9 @@ class Judge {
     /// To be called of every t that is a result.
     void result(const Real&) {}
     bool doubt() const { return false; }
+
+  private:
+    bool textbook_ = false;
 };
 
 /// The relative accuracy that a t must have: an eighth of half an ulp of float, so that it rounds
@@ -38,6 +48,8 @@ template <class T>
 class Judge<Bounded<T>> {
   public:
     using Real = Bounded<T>;
+
+    static constexpr bool textbook() { return false; }
 
     int sign(const Real& a) {
         const auto value = static_cast<double>(a);

@@ -17,12 +17,12 @@
 /// A ray against one shape, with a stated accuracy.
 namespace raylane::core {
 
-/// float: the solver's formulas as they are. What the vector kernels reproduce to the bit; its
-/// decisions and its t are as good as the formulas (see each solver).
+/// float: the solver's formulas as they are, or the textbooks'. What the vector kernels reproduce
+/// to the bit; its decisions and its t are as good as the formulas (see each solver).
 template <class Shape>
 Crossings<float> solve(const Shape& shape, const Ray<float>& ray, const Start& start,
-                       std::uint64_t&) {
-    Judge<float> judge;
+                       std::uint64_t&, Precision precision = Precision::robust) {
+    Judge<float> judge(precision);
     return crossings(shape, ray, start, judge);
 }
 
@@ -64,10 +64,14 @@ Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, cons
 /// double: decisions as real arithmetic takes them, and t within 2^-27 of itself. In double with
 /// error bounds first; where these leave a doubt, once more in double-double, which `widened`
 /// counts; and where a ray is tangent, or meets a rim or an edge, to more digits than that, in
-/// integers of any size.
+/// integers of any size. Or by the formulas as they are.
 template <class Shape>
 Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start& start,
-                        std::uint64_t& widened) {
+                        std::uint64_t& widened, Precision precision = Precision::exact) {
+    if (precision == Precision::plain_double) {
+        Judge<double> plain;
+        return crossings(shape, ray, start, plain);
+    }
     Judge<Bounded<double>> judge;
     const Crossings<double> result = detail::solve_bounded<double>(shape, ray, start, judge);
     if (!judge.doubt()) [[likely]]

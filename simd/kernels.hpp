@@ -37,7 +37,7 @@ struct ShapeBlock {
     const float* ids;
 };
 
-/// Rays in double with the shapes that were found for them, structure of arrays of `count` values,
+/// Rays with the shapes that were found for them, structure of arrays of `count` values,
 /// readable and writable up to whole packets of 16. Directions have a length
 /// of 1 +- 2^-48.
 struct Found {
@@ -69,6 +69,14 @@ inline constexpr std::uint32_t hit_entering = 0x100;
 inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; the rest means nothing
 inline constexpr std::uint32_t hit_none = 0x400;     ///< certainly none; the rest means nothing
 
+/// How one core::Precision traces.
+struct MethodKernels {
+    TraceKernels trace;
+    /// Where rays first cross the shapes that were found for them. The same bits in every unit.
+    void (*finish)(const SceneView& scene, const Found& found);
+};
+inline constexpr int method_count = 4;
+
 struct Kernels {
     const char* name;
     int lanes;
@@ -90,11 +98,8 @@ struct Kernels {
     void (*outward_normals)(KindNumber kind, const ShapeBlock& block, int lane, std::size_t count,
                             const float* const point[3], const float* face, float* const normal[3]);
 
-    /// Where rays first cross the shapes that were found for them, in double. The same bits in
-    /// every unit.
-    void (*finish)(const SceneView& scene, const Found& found);
-
-    TraceKernels trace;
+    RayKernels rays;
+    MethodKernels methods[method_count]; ///< core::Precision by number
     /// shade[media][fog]: for scenes without and with transmissive materials, and fog. Four, as
     /// both are asked of every lane; what concerns one material, or all lanes alike, is asked per
     /// run or wave and costs nothing where it is absent.

@@ -45,15 +45,17 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                            const RenderOptions& options) {
     using Tracer = core::ReferenceTracer<Real>;
     const int tile = options.tile != 0 ? options.tile : 16;
-    return render_by<Tracer>([&] { return Tracer(scene, settings); }, tile, settings, options);
+    return render_by<Tracer>(
+        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); }, tile,
+        settings, options);
 }
 
 Rendering render_vector(const core::Scene& scene, const core::Settings& settings,
                         const RenderOptions& options, Isa isa) {
-    const Kernels& kernels = kernels_of(isa);
+    const Tracing tracing{&kernels_of(isa), options.precision};
     const SceneData data(scene);
     const int tile = options.tile != 0 ? std::clamp(options.tile, 1, Wavefront::max_region) : 32;
-    return render_by<Wavefront>([&] { return Wavefront(data, settings, kernels); }, tile, settings,
+    return render_by<Wavefront>([&] { return Wavefront(data, settings, tracing); }, tile, settings,
                                 options);
 }
 
@@ -65,13 +67,8 @@ Rendering render(const core::Scene& scene, const core::Settings& settings,
     const std::optional<Isa> isa = options.isa ? options.isa : best_isa();
     if (options.engine == Engine::vector && isa)
         return render_vector(scene, settings, options, *isa);
-    switch (options.precision) {
-    case Precision::single_precision:
-        return render_reference<float>(scene, settings, options);
-    case Precision::double_precision:
-        break;
-    }
-    return render_reference<double>(scene, settings, options);
+    return core::is_single(options.precision) ? render_reference<float>(scene, settings, options)
+                                              : render_reference<double>(scene, settings, options);
 }
 
 } // namespace raylane::simd

@@ -2,6 +2,7 @@
 
 #include "core/counters.hpp"
 #include "core/film.hpp"
+#include "core/precision.hpp"
 #include "core/scene.hpp"
 #include "simd/isa.hpp"
 
@@ -17,8 +18,6 @@ enum class Engine : std::uint8_t {
     reference, ///< core::ReferenceTracer
 };
 
-enum class Precision : std::uint8_t { single_precision, double_precision };
-
 /// How far a rendering has come, for any thread to read while it runs; and to end it.
 struct Progress {
     std::atomic<std::int64_t> pixels = 0;
@@ -30,8 +29,8 @@ struct RenderOptions {
     Engine engine = Engine::vector;
     std::optional<Isa> isa; ///< of the vector engine, an available one; default: the best
     int tile = 0;           ///< pixels on a tile's side, in [8, 64]; 0: as suits the engine
-    Precision precision = Precision::double_precision; ///< of the reference
-    int threads = 0;                                   ///< 0: all that the machine has
+    core::Precision precision = core::Precision::exact;
+    int threads = 0; ///< 0: all that the machine has
     Progress* progress = nullptr;
     /// Called behind each tile by the thread that has drawn it, so by several at a time.
     std::function<void()> after_tile;

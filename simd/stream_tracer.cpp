@@ -139,10 +139,10 @@ class StreamTracer::Worker {
   public:
     static constexpr std::size_t capacity = 1024;
 
-    Worker(const core::Scene& scene, const SceneData* data, const Kernels* kernels)
-        : scene_(scene), data_(data), kernels_(kernels), searcher_(scene, core::Search::hierarchy) {
+    Worker(const core::Scene& scene, const SceneData* data, const Tracing& tracing)
+        : scene_(scene), data_(data), tracing_(tracing), searcher_(scene, core::Search::hierarchy) {
         if (data == nullptr) return;
-        finder_.emplace(*data, *kernels, nullptr);
+        finder_.emplace(*data, tracing, nullptr);
         Arena measure;
         take_from(measure);
         arena_ = Arena(measure.used());
@@ -203,17 +203,11 @@ class StreamTracer::Worker {
                                 query.t_max() >= std::numeric_limits<float>::min() * 0x1p24F;
             state_[lane] = simple ? open : doubtful;
         }
-        rounded_.departed_first = paths_.departed_first;
-        rounded_.departed_last = paths_.departed_last;
-        const TraceKernels& trace = kernels_->trace;
-        trace.round_rays(count, paths_.origin, paths_.direction, rounded_);
-        const Occlusions occlusions{t_most_, state_};
+        paths_.pass_to(rounded_);
+        tracing_.kernels->rays.round_rays(count, rounded_);
         TraceCounters counters{};
-        if (data_->listed_kinds() != 0)
-            trace.occluded_by_all(data_->view(), data_->listed_kinds(), count, rounded_, occlusions,
-                                  counters);
-        if (data_->has_tree())
-            trace.occluded_in_tree(data_->view(), count, rounded_, occlusions, pending_, counters);
+        tracing_.method().trace.occluded(data_->view(), data_->listed_kinds(), nullptr, count,
+                                         rounded_, {t_most_, state_}, pending_, counters);
         for (std::size_t lane = 0; lane < count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
             const Query query(rays, i);
@@ -263,7 +257,7 @@ class StreamTracer::Worker {
 
     const core::Scene& scene_;
     const SceneData* data_;
-    const Kernels* kernels_;
+    Tracing tracing_;
     Searcher searcher_;
     std::optional<HitFinder> finder_;
     Arena arena_;
@@ -288,7 +282,7 @@ class StreamTracer::Lease {
             }
         }
         if (worker_ == nullptr)
-            worker_ = std::make_unique<Worker>(tracer.scene_, tracer.data_.get(), tracer.kernels_);
+            worker_ = std::make_unique<Worker>(tracer.scene_, tracer.data_.get(), tracer.tracing_);
     }
     ~Lease() {
         const std::lock_guard lock(tracer_.mutex_);
@@ -307,11 +301,12 @@ class StreamTracer::Lease {
     std::unique_ptr<Worker> worker_;
 };
 
-StreamTracer::StreamTracer(const core::Scene& scene, int threads, std::optional<Isa> isa)
-    : scene_(scene), threads_(threads) {
+StreamTracer::StreamTracer(const core::Scene& scene, int threads, std::optional<Isa> isa,
+                           core::Precision precision)
+    : scene_(scene), threads_(threads), tracing_{nullptr, precision} {
     if (!isa) return;
     data_ = std::make_unique<const SceneData>(scene);
-    kernels_ = &kernels_of(*isa);
+    tracing_.kernels = &kernels_of(*isa);
 }
 
 StreamTracer::~StreamTracer() = default;

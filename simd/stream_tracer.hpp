@@ -2,6 +2,7 @@
 
 #include "core/scene.hpp"
 #include "simd/isa.hpp"
+#include "simd/wavefront/tracing.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -41,7 +42,8 @@ class StreamTracer {
   public:
     /// `threads`: 0 is default_threads(). `isa`: an available one; default: the best.
     explicit StreamTracer(const core::Scene& scene, int threads = 0,
-                          std::optional<Isa> isa = best_isa());
+                          std::optional<Isa> isa = best_isa(),
+                          core::Precision precision = core::Precision::exact);
     ~StreamTracer();
 
     /// The nearest crossing. Of several that no arithmetic in double can tell apart, one that is
@@ -61,7 +63,7 @@ class StreamTracer {
     const core::Scene& scene_;
     int threads_;
     std::unique_ptr<const SceneData> data_; ///< null where the processor has no vectors for us
-    const Kernels* kernels_ = nullptr;
+    Tracing tracing_;
 
     // Workers that nobody uses now: their memory is made once.
     mutable std::mutex mutex_;

@@ -17,6 +17,8 @@ struct RoundedRays {
     float* slack;
     const std::uint32_t* departed_first;
     const std::uint32_t* departed_last;
+    const double* meant_origin[3]; ///< before they were rounded
+    const double* meant_direction[3];
 };
 
 /// What may be the nearest crossing of each ray. In and out.
@@ -72,45 +74,30 @@ struct Bundle {
     bool parallel;
 };
 
-struct TraceKernels {
+/// What is done to rays before and after they are traced.
+struct RayKernels {
     void (*camera_rays)(const CameraView& camera, std::size_t count, const double* across,
                         const double* upward, double* const origin[3], double* const direction[3]);
+
+    /// Fills origin, direction and slack.
+    void (*round_rays)(std::size_t count, const RoundedRays& rays);
 
     /// Lists the lanes whose candidate is not certain to be the nearest, and those that are
     /// `doubtful` anyway. What was found for the candidate is as in Found. Returns how many.
     std::size_t (*list_uncertain)(std::size_t count, const Candidates& candidates, const double* t,
                                   const double* error, const std::uint32_t* hit,
                                   const std::uint8_t* doubtful, std::uint32_t* lanes);
+};
 
-    /// Fills origin, direction and slack.
-    void (*round_rays)(std::size_t count, const double* const origin[3],
-                       const double* const direction[3], const RoundedRays& rays);
-
-    /// All shapes of the kinds in `kind_bits` against all rays.
-    void (*nearest_of_all)(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
-                           const RoundedRays& rays, const Candidates& candidates,
-                           TraceCounters& counters);
-    void (*occluded_by_all)(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
-                            const RoundedRays& rays, const Occlusions& occlusions,
-                            TraceCounters& counters);
-
-    /// Bundles: the kinds in `kind_bits` one by one, and the hierarchy if `pending` is not null.
-    void (*nearest_in_bundle)(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
-                              std::size_t count, const RoundedRays& rays,
-                              const Candidates& candidates, const Pending& pending,
-                              TraceCounters& counters);
-    void (*occluded_in_bundle)(const SceneView& scene, std::uint32_t kind_bits,
-                               const Bundle& bundle, std::size_t count, const RoundedRays& rays,
-                               const Occlusions& occlusions, const Pending& pending,
-                               TraceCounters& counters);
-
-    /// By way of the hierarchy, each ray by itself, many at a time.
-    void (*nearest_in_tree)(const SceneView& scene, std::size_t count, const RoundedRays& rays,
-                            const Candidates& candidates, const Pending& pending,
-                            TraceCounters& counters);
-    void (*occluded_in_tree)(const SceneView& scene, std::size_t count, const RoundedRays& rays,
-                             const Occlusions& occlusions, const Pending& pending,
-                             TraceCounters& counters);
+/// The shapes of the kinds in `kind_bits` one by one, and the hierarchy if `pending` is not null.
+/// `bundle` is null if the rays have nothing in common.
+struct TraceKernels {
+    void (*nearest)(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
+                    std::size_t count, const RoundedRays& rays, const Candidates& candidates,
+                    const Pending& pending, TraceCounters& counters);
+    void (*occluded)(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
+                     std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
+                     const Pending& pending, TraceCounters& counters);
 };
 
 } // namespace raylane::simd

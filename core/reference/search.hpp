@@ -18,7 +18,8 @@ enum class Search : std::uint8_t { hierarchy, every_shape };
 template <class Real>
 class Searcher {
   public:
-    Searcher(const Scene& scene, Search search) : scene_(scene), search_(search) {
+    Searcher(const Scene& scene, Search search, Precision precision = precision_of<Real>)
+        : scene_(scene), search_(search), precision_(precision) {
         pending_.reserve(512);
         coinciding_.reserve(64);
     }
@@ -192,7 +193,7 @@ class Searcher {
                 const Start start = departure.start_on(id);
                 ++counters.shapes;
                 for (const Crossing<Real>& crossing :
-                     solve(block.get(lane), ray, start, counters.widened))
+                     solve(block.get(lane), ray, start, counters.widened, precision_))
                     if (crossing.t > Real(0) || (start.on_surface && crossing.t == Real(0)))
                         visit(Hit<Real>{crossing.t, crossing.error, false, id, crossing.face,
                                         crossing.entering, kind,
@@ -203,6 +204,7 @@ class Searcher {
 
     const Scene& scene_;
     Search search_;
+    Precision precision_;
     std::vector<Pending> pending_;      // nearest last
     std::vector<Hit<Real>> coinciding_; // with the best so far
 };

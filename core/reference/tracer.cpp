@@ -28,9 +28,10 @@ constexpr Real infinity = std::numeric_limits<Real>::infinity();
 } // namespace
 
 template <class Real>
-ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& settings, Search search)
+ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& settings, Search search,
+                                       Precision precision)
     : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
-      searcher_(scene, search) {
+      searcher_(scene, search, precision) {
     crossings_.reserve(64);
 }
 

@@ -16,8 +16,8 @@ namespace raylane::core {
 template <class Real>
 class ReferenceTracer {
   public:
-    ReferenceTracer(const Scene& scene, const Settings& settings,
-                    Search search = Search::hierarchy);
+    ReferenceTracer(const Scene& scene, const Settings& settings, Search search = Search::hierarchy,
+                    Precision precision = precision_of<Real>);
 
     void render(const Region& region, Film& film);
 

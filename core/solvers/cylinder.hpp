@@ -2,6 +2,7 @@
 
 #include "core/solvers/axial.hpp"
 #include "core/solvers/convex.hpp"
+#include "core/solvers/quadratic.hpp"
 
 namespace raylane::core {
 
@@ -23,7 +24,14 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
     Span<Real> span(judge);
     const bool from_body = start.on_surface && start.face == body;
     if (from_body && !parallel) span.clip_back(not_behind(Real(tau + tau)), body);
-    if (!from_body) {
+    if (judge.textbook() && !start.on_surface) {
+        const Real C = squared_length(axial.across_origin) - radius * radius;
+        const Crossings<Real> roots = solve_textbook(
+            speed_squared, Real(dot(axial.across_origin, axial.across_direction)), C);
+        if (parallel ? static_cast<double>(C) > 0.0 : roots.begin() == roots.end()) return {};
+        for (const Crossing<Real>& root : roots)
+            root.entering ? span.clip_front(root.t, body) : span.clip_back(root.t, body);
+    } else if (!from_body) {
         const Vec3<Real> foot = mul_add(tau, axial.across_direction, axial.across_origin);
         Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
         if (judge.negative(discriminant)) {

@@ -5,6 +5,23 @@
 
 namespace raylane::core {
 
+/// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside, by the textbooks'
+/// formula. It cancels; solve_quadratic is what to use.
+template <class Real>
+Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
+    using std::sqrt;
+    const auto a = static_cast<double>(A), b = static_cast<double>(B);
+    if (a == 0.0) {
+        if (b == 0.0) return {};
+        return Crossing<Real>{-C / (B + B), body, b < 0.0};
+    }
+    const Real discriminant = B * B - A * C;
+    if (static_cast<double>(discriminant) < 0.0) return {};
+    const Real root = sqrt(discriminant);
+    const Crossing<Real> in{(-B - root) / A, body, true}, out{(root - B) / A, body, false};
+    return a > 0.0 ? Crossings<Real>(in, out) : Crossings<Real>(out, in);
+}
+
 /// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside.
 ///
 /// `at_vertex(tau)` evaluates F at the parabola's vertex tau = -B / A from the geometry (Haines,
@@ -16,6 +33,7 @@ template <class Real, class AtVertex>
 Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, const Real& scale,
                                 Judge<Real>& judge, const AtVertex& at_vertex) {
     using std::sqrt;
+    if (judge.textbook()) return solve_textbook(A, B, C);
     const auto crossing = [](const Real& t, bool entering) {
         return Crossing<Real>{t, body, entering};
     };

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/judge.hpp"
-#include "core/ray.hpp"
+#include "core/solvers/quadratic.hpp"
 
 namespace raylane::core {
 
@@ -18,8 +17,11 @@ Crossings<Real> crossings(const Sphere& sphere, const Ray<Real>& ray, const Star
     const Real tau = -dot(from_center, ray.direction) / dd;
     if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
 
-    const Vec3<Real> foot = mul_add(tau, ray.direction, from_center);
     const Real radius = Real(sphere.radius);
+    if (judge.textbook())
+        return solve_textbook(dd, Real(dot(from_center, ray.direction)),
+                              Real(squared_length(from_center) - radius * radius));
+    const Vec3<Real> foot = mul_add(tau, ray.direction, from_center);
     const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
     if (judge.negative(discriminant)) return {};
     const Real half_chord = sqrt(discriminant / dd);

@@ -50,6 +50,7 @@ void require_side(const char* field, int pixels) {
 Image render(const Scene& scene, const RenderOptions& options) {
     simd::RenderOptions inner;
     inner.threads = options.threads;
+    inner.precision = library::core_precision(options.precision);
     return image_of(render_with(scene, settings_for(scene, options), inner).film);
 }
 
@@ -63,6 +64,7 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     bool has_ended = false; // by the callback's answer or by what it throws
     simd::RenderOptions inner;
     inner.threads = options.threads;
+    inner.precision = library::core_precision(options.precision);
     inner.progress = &made;
     inner.after_tile = [&] {
         const std::lock_guard lock(calling);

@@ -54,10 +54,16 @@ void library::require_threads(int threads) {
                                           ", got " + std::to_string(threads));
 }
 
+core::Precision library::core_precision(Precision precision) {
+    if (precision > Precision::plain_double) throw InvalidValue("precision", "must be a Precision");
+    return static_cast<core::Precision>(precision);
+}
+
 Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene) {
     library::require_threads(options.threads);
-    tracer_ =
-        std::make_shared<const simd::StreamTracer>(library::Internals::of(scene_), options.threads);
+    tracer_ = std::make_shared<const simd::StreamTracer>(
+        library::Internals::of(scene_), options.threads, simd::best_isa(),
+        library::core_precision(options.precision));
 }
 
 void Tracer::intersect(const RaySpan& rays, const HitSpan& hits) const {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "core/invalid_value.hpp"
+#include "core/precision.hpp"
 #include "raylane/errors.hpp"
+#include "raylane/precision.hpp"
 #include "scenes/errors.hpp"
 
 namespace raylane::library {
@@ -22,5 +24,7 @@ decltype(auto) translated(const F& f) {
 
 /// Throws InvalidValue, field "threads".
 void require_threads(int threads);
+/// Throws InvalidValue if it is none.
+core::Precision core_precision(Precision precision);
 
 } // namespace raylane::library

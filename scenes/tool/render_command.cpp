@@ -20,7 +20,7 @@ namespace {
 
 struct RenderArguments {
     Argument scene, output, size, samples, max_depth, min_weight, threads, transfer, stats;
-    Argument engine = "vector", isa, tile, real;
+    Argument engine = "vector", isa, tile, precision = "exact";
 };
 
 class Stopwatch {
@@ -117,14 +117,11 @@ simd::RenderOptions options_of(const RenderArguments& arguments) {
     options.engine = choice_argument<simd::Engine>(
         "--engine", *arguments.engine,
         {{"vector", simd::Engine::vector}, {"reference", simd::Engine::reference}});
-    if (arguments.real) {
-        if (options.engine != simd::Engine::reference)
-            throw BadInput("--real", "", "goes with --engine reference");
-        options.precision =
-            choice_argument<simd::Precision>("--real", *arguments.real,
-                                             {{"float", simd::Precision::single_precision},
-                                              {"double", simd::Precision::double_precision}});
-    }
+    std::vector<std::pair<std::string_view, core::Precision>> precisions;
+    for (const core::Precision precision : core::all_precisions)
+        precisions.emplace_back(core::name_of(precision), precision);
+    options.precision =
+        choice_argument<core::Precision>("--precision", *arguments.precision, precisions);
     if (arguments.isa) options.isa = isa_argument(*arguments.isa, options.engine);
     if (arguments.tile) options.tile = whole_argument("--tile", *arguments.tile, 8, 64);
     options.threads = arguments.threads
@@ -146,7 +143,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"scene", printable(*arguments.scene, 4096)},
             {"engine", *arguments.engine},
             {"isa", arguments.isa.value_or(isa_in_use(*arguments.engine))},
-            {"real", arguments.real.value_or("double")},
+            {"precision", *arguments.precision},
             {"threads", threads},
             {"width", settings.width},
             {"height", settings.height},
@@ -240,8 +237,10 @@ Command add_render_command(CLI::App& app) {
         "NAME");
     add("--tile", arguments->tile,
         "Pixels on the side of the squares that threads work on, 8 to 64; changes no picture", "N");
-    add("--real", arguments->real, "The reference's numbers: float or double (default: double)",
-        "TYPE");
+    add("--precision", arguments->precision,
+        "What decides where rays hit: fast (textbook formulas in float), robust (the best in "
+        "float), exact (certified, as real numbers would have it) or double (default: exact)",
+        "NAME");
     add("--transfer", arguments->transfer,
         "From light to PNG: srgb or linear (default: as the scene says)", "CURVE");
     add("--stats", arguments->stats, "Write figures about the rendering as JSON", "FILE");

@@ -20,6 +20,7 @@ struct Spots {
 /// from_numbers, to_numbers: numbers below 2^31 in memory.
 /// gather: the floats at some spots, `row` further on.
 /// pick: from[places[lane]].
+/// widen: half of a packet of floats, the lower (0) or the upper one (1).
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
 template <class Arch>
 struct DoubleLanes;
@@ -59,6 +60,10 @@ struct DoubleLanes<Sse42> {
             _mm_cvtps_pd(_mm_setr_ps(from[spots.offsets[0]], from[spots.offsets[1]], 0.0F, 0.0F)));
     }
 
+    static F widen(const Floats<Sse42>& values, int half) {
+        const __m128 lanes = values;
+        return F(_mm_cvtps_pd(half == 0 ? lanes : _mm_movehl_ps(lanes, lanes)));
+    }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(_mm_setr_pd(from[places[0]], from[places[1]]));
     }
@@ -114,6 +119,11 @@ struct DoubleLanes<Avx2> {
                                              from[spots.offsets[2]], from[spots.offsets[3]])));
     }
 
+    static F widen(const Floats<Avx2>& values, int half) {
+        const __m256 lanes = values;
+        return F(_mm256_cvtps_pd(half == 0 ? _mm256_castps256_ps128(lanes)
+                                           : _mm256_extractf128_ps(lanes, 1)));
+    }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(
             _mm256_setr_pd(from[places[0]], from[places[1]], from[places[2]], from[places[3]]));
@@ -188,6 +198,11 @@ struct DoubleLanes<Avx512> {
                                            from[at[4]], from[at[5]], from[at[6]], from[at[7]])));
     }
 
+    static F widen(const Floats<Avx512>& values, int half) {
+        const __m512 lanes = values;
+        return F(_mm512_cvtps_pd(half == 0 ? _mm512_castps512_ps256(lanes)
+                                           : _mm512_extractf32x8_ps(lanes, 1)));
+    }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(_mm512_i32gather_pd(load(places), from, 8));
     }

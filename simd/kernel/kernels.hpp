@@ -1,45 +1,14 @@
 #pragma once
 
-#include "simd/kernel/finish.hpp"
+#include "simd/kernel/methods/exact.hpp"
+#include "simd/kernel/methods/in_double.hpp"
+#include "simd/kernel/methods/plain.hpp"
 #include "simd/kernel/shade/shade.hpp"
-#include "simd/kernel/solvers/box.hpp"
-#include "simd/kernel/solvers/cone.hpp"
-#include "simd/kernel/solvers/cylinder.hpp"
-#include "simd/kernel/solvers/flat.hpp"
-#include "simd/kernel/solvers/quadric.hpp"
-#include "simd/kernel/solvers/sphere.hpp"
 #include "simd/kernel/trace/prepare.hpp"
+#include "simd/kernel/trace/trace.hpp"
 #include "simd/kernels.hpp"
 
 namespace raylane::simd {
-
-/// Calls visit.operator()<Lanes of the kind>(). The order is core::Kind's.
-template <class Arch, class Visit>
-void with_lanes(KindNumber kind, const Visit& visit) {
-    switch (kind) {
-    case 0:
-        return visit.template operator()<SphereLanes<Arch>>();
-    case 1:
-        return visit.template operator()<PlaneLanes<Arch>>();
-    case 2:
-        return visit.template operator()<DiscLanes<Arch>>();
-    case 3:
-    case 4:
-        return visit.template operator()<TriangleLanes<Arch>>();
-    case 5:
-        return visit.template operator()<BoxLanes<Arch>>();
-    case 6:
-        return visit.template operator()<CylinderLanes<Arch, false>>();
-    case 7:
-        return visit.template operator()<CylinderLanes<Arch, true>>();
-    case 8:
-        return visit.template operator()<ConeLanes<Arch, false>>();
-    case 9:
-        return visit.template operator()<ConeLanes<Arch, true>>();
-    default:
-        return visit.template operator()<QuadricLanes<Arch>>();
-    }
-}
 
 template <class Arch>
 struct KernelsOf {
@@ -210,6 +179,11 @@ struct KernelsOf {
         });
     }
 
+    template <class Method>
+    static constexpr MethodKernels method() {
+        return {Trace<Arch, Method>::table(), Method::finish};
+    }
+
     static constexpr Kernels table(const char* name) {
         return {name,
                 lanes,
@@ -218,8 +192,9 @@ struct KernelsOf {
                 occlude_rays,
                 occlude_block,
                 outward_normals,
-                finish<Arch>,
                 Prepare<Arch>::table(),
+                {method<PlainMethod<Arch, true>>(), method<PlainMethod<Arch, false>>(),
+                 method<ExactMethod<Arch>>(), method<DoubleMethod<Arch>>()},
                 {{Shading<Double<Arch>, false, false>::table(),
                   Shading<Double<Arch>, false, true>::table()},
                  {Shading<Double<Arch>, true, false>::table(),

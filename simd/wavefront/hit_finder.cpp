@@ -82,10 +82,10 @@ core::Departure<double> departure_of(const SceneData& scene, const Paths& paths,
     return departure;
 }
 
-HitFinder::HitFinder(const SceneData& scene, const Kernels& kernels,
+HitFinder::HitFinder(const SceneData& scene, const Tracing& tracing,
                      core::ReferenceTracer<double>* reference, bool looks_through)
-    : scene_(scene), kernels_(kernels), reference_(reference) {
-    if (looks_through) onward_.reset(new HitFinder(scene, kernels, reference, false));
+    : scene_(scene), tracing_(tracing), reference_(reference) {
+    if (looks_through) onward_.reset(new HitFinder(scene, tracing, reference, false));
 }
 
 void HitFinder::take_from(Arena& arena, std::size_t capacity) {
@@ -110,24 +110,17 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
     find_own_exits(paths);
 
     TraceCounters traced{};
-    const TraceKernels& trace = kernels_.trace;
-    if (bundle != nullptr) {
-        trace.nearest_in_bundle(scene_.view(), scene_.listed_kinds(), *bundle, paths.count,
-                                rounded_, candidates_, pending_, traced);
-    } else {
-        if (scene_.listed_kinds() != 0)
-            trace.nearest_of_all(scene_.view(), scene_.listed_kinds(), paths.count, rounded_,
-                                 candidates_, traced);
-        if (scene_.has_tree())
-            trace.nearest_in_tree(scene_.view(), paths.count, rounded_, candidates_, pending_,
-                                  traced);
-    }
+    tracing_.method().trace.nearest(scene_.view(), scene_.listed_kinds(), bundle, paths.count,
+                                    rounded_, candidates_, pending_, traced);
     counters.nodes += traced.nodes;
     counters.shapes += traced.shapes;
 
-    kernels_.finish(scene_.view(), found_in(paths, hits_, paths.count));
-    lane_count_ = kernels_.trace.list_uncertain(paths.count, candidates_, hits_.t, hits_.error,
-                                                hits_.hit, doubtful_, lanes_);
+    tracing_.method().finish(scene_.view(), found_in(paths, hits_, paths.count));
+    lane_count_ =
+        tracing_.certifies()
+            ? tracing_.kernels->rays.list_uncertain(paths.count, candidates_, hits_.t, hits_.error,
+                                                    hits_.hit, doubtful_, lanes_)
+            : 0;
     ask_reference(paths, counters);
     if (onward_ != nullptr) look_through(paths, bundle, counters);
 }
@@ -188,9 +181,8 @@ void HitFinder::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
 }
 
 void HitFinder::start(const Paths& paths) {
-    rounded_.departed_first = paths.departed_first;
-    rounded_.departed_last = paths.departed_last;
-    kernels_.trace.round_rays(paths.count, paths.origin, paths.direction, rounded_);
+    paths.pass_to(rounded_);
+    tracing_.kernels->rays.round_rays(paths.count, rounded_);
     candidates_.slot = hits_.slot;
     const std::size_t padded = (paths.count + 15) / 16 * 16;
     std::fill_n(candidates_.first, padded, infinity);
@@ -202,7 +194,6 @@ void HitFinder::start(const Paths& paths) {
 /// Where a ray starts on a shape that it may cross again, no filter can tell 0 from that crossing.
 /// It is solved before, and bounds what else can be nearest.
 void HitFinder::find_own_exits(const Paths& paths) {
-    if (paths.count == 0 || paths.departed_slot[0] == no_slot) return; // from the camera, all
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         lanes_[count] = static_cast<std::uint32_t>(lane);
@@ -213,7 +204,7 @@ void HitFinder::find_own_exits(const Paths& paths) {
         gathered_.copy_ray(paths, lanes_[i], i);
         gathered_hits_.slot[i] = paths.departed_slot[lanes_[i]];
     }
-    kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, count));
+    tracing_.method().finish(scene_.view(), found_in(gathered_, gathered_hits_, count));
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
         if ((hit & hit_doubtful) != 0) {
@@ -258,7 +249,7 @@ void HitFinder::settle(const Paths& paths, std::size_t lane, const core::Hit<dou
     hits_.slot[lane] = slot;
     gathered_.copy_ray(paths, lane, 0);
     gathered_hits_.slot[0] = slot;
-    kernels_.finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));
+    tracing_.method().finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));
     const std::uint32_t bits = hit.face | (hit.entering ? hit_entering : 0);
     if (gathered_hits_.hit[0] == bits) {
         take(gathered_hits_, 0, lane);

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/reference/tracer.hpp"
-#include "simd/kernels.hpp"
 #include "simd/wavefront/paths.hpp"
 #include "simd/wavefront/scene_data.hpp"
+#include "simd/wavefront/tracing.hpp"
 
 #include <memory>
 #include <span>
@@ -20,14 +20,15 @@ struct Hits {
     std::uint32_t* hit;        ///< hit_bits
 };
 
-/// Finds the first surfaces that rays hit, as core::ReferenceTracer<double> would. In float, shapes
-/// are bounded; in double, the one that may be nearest is solved; where that is not certain, the
-/// reference is asked, or, if there is none, the ray left open.
+/// Finds the first surfaces that rays hit. With core::Precision::exact as
+/// core::ReferenceTracer<double> would: in float, shapes are bounded; in double, the one that may
+/// be nearest is solved; where that is not certain, the reference is asked, or, if there is none,
+/// the ray left open.
 class HitFinder {
   public:
-    HitFinder(const SceneData& scene, const Kernels& kernels,
+    HitFinder(const SceneData& scene, const Tracing& tracing,
               core::ReferenceTracer<double>* reference)
-        : HitFinder(scene, kernels, reference, scene.one_sided()) {}
+        : HitFinder(scene, tracing, reference, scene.one_sided()) {}
 
     /// Arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
@@ -46,7 +47,7 @@ class HitFinder {
     std::span<const std::uint32_t> left_open() const { return {open_, open_count_}; }
 
   private:
-    HitFinder(const SceneData& scene, const Kernels& kernels,
+    HitFinder(const SceneData& scene, const Tracing& tracing,
               core::ReferenceTracer<double>* reference, bool looks_through);
 
     void start(const Paths& paths);
@@ -58,7 +59,7 @@ class HitFinder {
     void take(const Hits& hits, std::size_t from, std::size_t lane);
 
     const SceneData& scene_;
-    const Kernels& kernels_;
+    Tracing tracing_;
     core::ReferenceTracer<double>* reference_; // may be null
 
     RoundedRays rounded_{};

@@ -77,6 +77,16 @@ struct Paths {
         std::fill(departure + begin, departure + end, 0U);
     }
 
+    /// To be rounded.
+    void pass_to(RoundedRays& rays) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            rays.meant_origin[axis] = origin[axis];
+            rays.meant_direction[axis] = direction[axis];
+        }
+        rays.departed_first = departed_first;
+        rays.departed_last = departed_last;
+    }
+
     /// Lane `from` of `other` to lane `to`.
     void copy(const Paths& other, std::size_t from, std::size_t to) const {
         copy_ray(other, from, to);

@@ -28,9 +28,9 @@ void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
     rays.parent = arena.take<double>(capacity);
 }
 
-ShadowTracer::ShadowTracer(const SceneData& scene, const Kernels& kernels,
+ShadowTracer::ShadowTracer(const SceneData& scene, const Tracing& tracing,
                            core::ReferenceTracer<double>& reference)
-    : scene_(scene), kernels_(kernels), reference_(reference), walker_(scene, kernels, &reference) {
+    : scene_(scene), tracing_(tracing), reference_(reference), walker_(scene, tracing, &reference) {
 }
 
 void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media) {
@@ -40,6 +40,10 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
     take_rounded(arena, rounded_, capacity);
     rounded_.departed_first = departed_first_;
     rounded_.departed_last = departed_last_;
+    for (int axis = 0; axis < 3; ++axis) {
+        rounded_.meant_origin[axis] = rays_.origin[axis];
+        rounded_.meant_direction[axis] = rays_.direction[axis];
+    }
     t_most_ = arena.take<float>(capacity);
     occlusions_.t_most = t_most_;
     occlusions_.state = arena.take<std::uint8_t>(capacity);
@@ -74,23 +78,16 @@ void ShadowTracer::start(const Wave& wave) {
         occlusions_.state[k] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
         t_most_[k] = static_cast<float>(rays_.distance[k]);
     }
-    kernels_.trace.round_rays(rays_.count, rays_.origin, rays_.direction, rounded_);
+    tracing_.kernels->rays.round_rays(rays_.count, rounded_);
 }
 
 void ShadowTracer::find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters) {
-    const TraceKernels& trace = kernels_.trace;
-    const std::size_t count = rays_.count;
     TraceCounters traced{};
     // Deeper waves hit here and there: too much is between them and the light.
-    if (wave.coherent || !scene_.has_tree()) {
-        trace.occluded_in_bundle(scene_.view(), scene_.listed_kinds(), bundle, count, rounded_,
-                                 occlusions_, pending_, traced);
-    } else {
-        if (scene_.listed_kinds() != 0)
-            trace.occluded_by_all(scene_.view(), scene_.listed_kinds(), count, rounded_,
-                                  occlusions_, traced);
-        trace.occluded_in_tree(scene_.view(), count, rounded_, occlusions_, pending_, traced);
-    }
+    const bool together = wave.coherent || !scene_.has_tree();
+    tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(),
+                                     together ? &bundle : nullptr, rays_.count, rounded_,
+                                     occlusions_, pending_, traced);
     counters.nodes += traced.nodes;
     counters.shapes += traced.shapes;
 }

@@ -10,7 +10,7 @@ void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity);
 /// Finds what of a light reaches the surfaces of a wave.
 class ShadowTracer {
   public:
-    ShadowTracer(const SceneData& scene, const Kernels& kernels,
+    ShadowTracer(const SceneData& scene, const Tracing& tracing,
                  core::ReferenceTracer<double>& reference);
 
     void take_from(Arena& arena, std::size_t capacity, bool with_media);
@@ -40,7 +40,7 @@ class ShadowTracer {
     void absorb(core::MaterialIndex medium, double distance, std::size_t lane);
 
     const SceneData& scene_;
-    const Kernels& kernels_;
+    Tracing tracing_;
     core::ReferenceTracer<double>& reference_;
 
     SpawnedRays rays_{};

@@ -63,13 +63,13 @@ Bundle bundle_of(const CameraView& camera) {
 
 } // namespace
 
-Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Kernels& kernels)
-    : scene_(scene), settings_(settings), kernels_(kernels),
+Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing)
+    : scene_(scene), settings_(settings), tracing_(tracing),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
-      shade_(kernels.shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
-      reference_(scene.scene(), settings), finder_(scene, kernels, &reference_),
-      shadows_(scene, kernels, reference_), sorted_(scene) {
+      shade_(tracing.kernels->shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
+      reference_(scene.scene(), settings), finder_(scene, tracing, &reference_),
+      shadows_(scene, tracing, reference_), sorted_(scene) {
     Arena measure;
     take_from(measure);
     arena_ = Arena(measure.used());
@@ -164,7 +164,8 @@ void Wavefront::start(std::size_t count) {
     for (double* channel : radiance_)
         std::fill_n(channel, count, 0.0);
     paths_.count = count;
-    kernels_.trace.camera_rays(camera_, count, across_, upward_, paths_.origin, paths_.direction);
+    tracing_.kernels->rays.camera_rays(camera_, count, across_, upward_, paths_.origin,
+                                       paths_.direction);
     for (double* channel : paths_.throughput)
         std::fill_n(channel, count, 1.0);
     std::iota(paths_.sample, paths_.sample + count, 0U);

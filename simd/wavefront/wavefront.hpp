@@ -17,7 +17,7 @@ namespace raylane::simd {
 /// order that knows of no other sample, and samples are added in theirs.
 class Wavefront {
   public:
-    Wavefront(const SceneData& scene, const core::Settings& settings, const Kernels& kernels);
+    Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing);
 
     void render(const core::Region& region, core::Film& film);
 
@@ -64,7 +64,7 @@ class Wavefront {
 
     const SceneData& scene_;
     core::Settings settings_;
-    const Kernels& kernels_;
+    Tracing tracing_;
     core::CameraRays<double> camera_rays_;
     CameraView camera_{};
     Bundle camera_bundle_{};

@@ -72,7 +72,7 @@ TEST_CASE("nothing is allocated inside the wavefront loop") {
     builder.add_light(light);
     const Scene scene = builder.finish();
     const simd::SceneData data(scene);
-    simd::Wavefront wavefront(data, scene.settings(), simd::kernels_of(*simd::best_isa()));
+    simd::Wavefront wavefront(data, scene.settings(), {&simd::kernels_of(*simd::best_isa())});
     Film film(64, 64);
     wavefront.render({0, 0, 8, 8}, film); // what surrounds the camera is found at first
     const long before = allocations;

@@ -1,6 +1,7 @@
 #include "core/shape_table.hpp"
 #include "core/solve.hpp"
 #include "simd/isa.hpp"
+#include "simd/wavefront/tracing.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
 #include "tests/simd/mutations.hpp"
@@ -77,18 +78,18 @@ Finish finish(const Kernels& kernels, const Shape& shape, const Ray<double>& ray
         departure[lane] = start.face | (start.inward ? departure_inward : 0);
         slot[lane] = 0;
     }
-    kernels.finish(view, {1,
-                          {rays[0], rays[1], rays[2]},
-                          {rays[3], rays[4], rays[5]},
-                          departed,
-                          departed,
-                          departure,
-                          slot,
-                          t,
-                          error,
-                          {normal[0], normal[1], normal[2]},
-                          {nullptr, nullptr, nullptr},
-                          hit});
+    Tracing{&kernels}.method().finish(view, {1,
+                                             {rays[0], rays[1], rays[2]},
+                                             {rays[3], rays[4], rays[5]},
+                                             departed,
+                                             departed,
+                                             departure,
+                                             slot,
+                                             t,
+                                             error,
+                                             {normal[0], normal[1], normal[2]},
+                                             {nullptr, nullptr, nullptr},
+                                             hit});
     return {t[0], error[0], hit[0]};
 }
 
@@ -128,8 +129,8 @@ void tidy(Started<Shape>& attempt, Aim aim, Random& random) {
     Vec3d& d = attempt.ray.direction;
     d = normalized(d);
     if (aim == Aim::rounded) {
-        attempt.ray.origin = in_double(convert<float>(attempt.ray.origin));
-        d = in_double(convert<float>(Vec3d(d * random.log_uniform(0.1, 10.0))));
+        attempt.ray.origin = in_double(ray_sets::rounded(attempt.ray.origin));
+        d = in_double(ray_sets::rounded(d * random.log_uniform(0.1, 10.0)));
     } else if (random.integer(0, 1) == 0) {
         d *= 1.0 + 0x1p-48 * (random.integer(0, 1) == 0 ? -1.0 : 1.0);
     }

@@ -1,6 +1,7 @@
 #include "core/shape_table.hpp"
 #include "core/solve.hpp"
 #include "simd/isa.hpp"
+#include "simd/wavefront/tracing.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/simd/rounds.hpp"
@@ -229,7 +230,7 @@ void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, S
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         CAPTURE(std::string(kernels_of(isa).name));
-        kernels_of(isa).finish(scene, rays.view(random));
+        Tracing{&kernels_of(isa), Precision::exact}.method().finish(scene, rays.view(random));
         for (std::size_t i = 0; i < rays.hit.size(); ++i) {
             if (i >= rays.rays.size() || rays.slot[i] == no_slot) {
                 if (!rays.untouched(i)) FAIL("wrote to a lane without a shape");

@@ -79,8 +79,7 @@ TEST_CASE("paths of the greatest depth fit the threads' stacks") {
     builder.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, shine);
     builder.add_shape(Plane{{0, 0, 1}, {0, 0, -1}}, shine);
     const Scene scene = builder.finish();
-    for (const auto precision :
-         {simd::Precision::single_precision, simd::Precision::double_precision}) {
+    for (const auto precision : {core::Precision::robust, core::Precision::exact}) {
         simd::RenderOptions options;
         options.threads = 2;
         options.engine = simd::Engine::reference;

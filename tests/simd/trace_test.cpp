@@ -1,6 +1,7 @@
 #include "core/reference/search.hpp"
 #include "simd/isa.hpp"
 #include "simd/wavefront/scene_data.hpp"
+#include "simd/wavefront/tracing.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/sanitized.hpp"
@@ -88,10 +89,10 @@ struct Rays {
                                     {rounded[3].data(), rounded[4].data(), rounded[5].data()},
                                     rounded[6].data(),
                                     departed.data(),
-                                    departed.data()};
-        const double* const origin[3] = {of[0].data(), of[1].data(), of[2].data()};
-        const double* const direction[3] = {of[3].data(), of[4].data(), of[5].data()};
-        kernels.trace.round_rays(count, origin, direction, result);
+                                    departed.data(),
+                                    {of[0].data(), of[1].data(), of[2].data()},
+                                    {of[3].data(), of[4].data(), of[5].data()}};
+        kernels.rays.round_rays(count, result);
         return result;
     }
 
@@ -126,14 +127,15 @@ void check(const Kernels& kernels, bool overlapping) {
     TraceCounters counters{};
     Answers by_all(rays.padded), by_tree(rays.padded);
     constexpr std::uint32_t all_kinds = (1U << kinds) - 1;
-    kernels.trace.nearest_of_all(data.view(), all_kinds, rays.count, rounded, by_all.candidates(),
-                                 counters);
-    kernels.trace.nearest_in_tree(data.view(), rays.count, rounded, by_tree.candidates(), pending,
-                                  counters);
-    kernels.trace.occluded_by_all(data.view(), all_kinds, rays.count, rounded,
-                                  {rays.t_most.data(), by_all.state.data()}, counters);
-    kernels.trace.occluded_in_tree(data.view(), rays.count, rounded,
-                                   {rays.t_most.data(), by_tree.state.data()}, pending, counters);
+    const TraceKernels& trace = Tracing{&kernels, Precision::exact}.method().trace;
+    trace.nearest(data.view(), all_kinds, nullptr, rays.count, rounded, by_all.candidates(), {},
+                  counters);
+    trace.nearest(data.view(), 0, nullptr, rays.count, rounded, by_tree.candidates(), pending,
+                  counters);
+    trace.occluded(data.view(), all_kinds, nullptr, rays.count, rounded,
+                   {rays.t_most.data(), by_all.state.data()}, {}, counters);
+    trace.occluded(data.view(), 0, nullptr, rays.count, rounded,
+                   {rays.t_most.data(), by_tree.state.data()}, pending, counters);
 
     Searcher<double> searcher(scene, Search::hierarchy);
     int hits = 0, different = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 
 #include <cstddef>
@@ -27,6 +28,7 @@ struct Image {
 struct RenderOptions {
     std::optional<Settings> settings{}; ///< in place of the scene's
     int threads = 0;                    ///< at most, 1 to 4096; 0: all that the machine has
+    Precision precision = Precision::exact;
 };
 
 /// How far a rendering has come.
@@ -41,7 +43,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 
 /// The picture of a scene. The same scene and settings give the same bits, whatever the threads and
 /// the processor. May be called by several threads at a time. Throws InvalidValue for options that
-/// are none (fields "settings/width", ..., "threads"), and std::bad_alloc.
+/// are none (fields "settings/width", ..., "threads", "precision"), and std::bad_alloc.
 Image render(const Scene& scene, const RenderOptions& options = {});
 
 /// The same, with a callback: called after every tile of some hundred pixels or more, by whichever

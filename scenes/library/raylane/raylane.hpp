@@ -10,6 +10,7 @@
 #include "raylane/errors.hpp"
 #include "raylane/image.hpp"
 #include "raylane/material.hpp"
+#include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 #include "raylane/shapes.hpp"
 #include "raylane/surroundings.hpp"

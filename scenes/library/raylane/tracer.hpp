@@ -1,5 +1,6 @@
 #pragma once
 
+#include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 
 #include <cstdint>
@@ -36,17 +37,18 @@ struct HitSpan {
 
 struct TracerOptions {
     int threads = 0; ///< at most, 1 to 4096; 0: all that the machine has
+    Precision precision = Precision::exact;
 };
 
 /// Asks rays about a scene. Cheap to copy. All functions may be called by any number of threads at
 /// a time on one Tracer; long spans are shared out among threads of its own. What a ray hits
 /// depends on the scene and that ray alone.
 ///
-/// Which surface a ray crosses, and which first, is decided as real arithmetic decides it for
-/// exactly the floats given, as far as 106 bits can tell; t is rounded from within a relative 2^-27
-/// of its true value. The limits compare with t as it is answered: rounded to float, and where that
-/// would be 0 or infinite, the nearest float that is neither. So each t, given back as t_min, leads
-/// on to the next crossing.
+/// With Precision::exact, which surface a ray crosses, and which first, is decided as real
+/// arithmetic decides it for exactly the floats given, as far as 106 bits can tell; t is rounded
+/// from within a relative 2^-27 of its true value. The limits compare with t as it is answered:
+/// rounded to float, and where that would be 0 or infinite, the nearest float that is neither. So
+/// each t, given back as t_min, leads on to the next crossing.
 ///
 /// - Where surfaces coincide, one that the ray enters comes before one that it leaves, and then the
 ///   lower id.

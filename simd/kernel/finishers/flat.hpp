@@ -121,31 +121,15 @@ struct TriangleFinisher {
 
 template <class Arch>
 struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
-    Vectors<Arch> normal_a, normal_b, normal_c;
+    CornerNormals<Arch> normals;
 
     template <class Reader>
     explicit SmoothTriangleFinisher(Reader reader)
-        : TriangleFinisher<Arch>(PassOn<Reader>{reader}), normal_a(next_vector<Arch>(reader)),
-          normal_b(next_vector<Arch>(reader)), normal_c(next_vector<Arch>(reader)) {}
+        : TriangleFinisher<Arch>(PassOn<Arch, Reader>{reader}), normals(reader) {}
 
-    /// core::shading_normal
     Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
-        const Vectors<Arch> a = this->triangle.a - point, b = this->triangle.b - point,
-                            c = this->triangle.c - point;
-        const Vectors<Arch> sum = scaled<Arch>(dot(unit_flat, cross(b, c)), unit<Arch>(normal_a)) +
-                                  scaled<Arch>(dot(unit_flat, cross(c, a)), unit<Arch>(normal_b)) +
-                                  scaled<Arch>(dot(unit_flat, cross(a, b)), unit<Arch>(normal_c));
-        const Floats<Arch> square = squared_length(sum);
-        return select<Arch>(square > zero<Arch>(), sum / xsimd::sqrt(square), unit_flat);
+        return normals.interpolated(this->triangle, point, unit_flat);
     }
-
-  private:
-    /// Reads on behalf of another reader.
-    template <class Reader>
-    struct PassOn {
-        Reader& reader;
-        Floats<Arch> next() { return reader.next(); }
-    };
 };
 
 } // namespace raylane::simd

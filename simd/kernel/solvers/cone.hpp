@@ -6,7 +6,7 @@
 namespace raylane::simd {
 
 /// core/solvers/cone.hpp
-template <class Arch, bool capped>
+template <class Arch, bool capped, bool textbook = false>
 struct ConeLanes {
     Vectors<Arch> base, axis;
     Floats<Arch> base_radius, top_radius;
@@ -29,7 +29,7 @@ struct ConeLanes {
         const Floats<Arch> C = mul_add<Arch>(negated(W), W, squared_length(axial.across_origin));
         const Mask<Arch> opens_up = A > o, opens_down = A < o;
 
-        Crossings<Arch> roots = solve_quadratic<Arch>(
+        Crossings<Arch> roots = solve_quadratic<Arch, textbook>(
             A, B, C, mul_add<Arch>(M, M, across_squared), [&](const Floats<Arch>& tau) {
                 const Floats<Arch> width = mul_add<Arch>(tau, M, W);
                 return mul_add<Arch>(negated(width), width,

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "simd/kernel/solvers/axial.hpp"
+#include "simd/kernel/solvers/quadratic.hpp"
 
 namespace raylane::simd {
 
 /// core/solvers/cylinder.hpp
-template <class Arch, bool capped>
+template <class Arch, bool capped, bool textbook = false>
 struct CylinderLanes {
     Vectors<Arch> base, axis;
     Floats<Arch> radius;
@@ -31,11 +32,24 @@ struct CylinderLanes {
         const Floats<Arch> discriminant =
             mul_add<Arch>(radius, radius, negated(squared_length(foot)));
         const Mask<Arch> no_roots = discriminant < zero<Arch>();
-        const Mask<Arch> beside = no_roots & ~starts.on_surface;
+        Mask<Arch> beside = no_roots & ~starts.on_surface;
         const Floats<Arch> half_chord =
             xsimd::sqrt(xsimd::select(no_roots, zero<Arch>(), discriminant) / speed_squared);
-        span.clip_front(~parallel & ~starts.on_surface, tau - half_chord, zero<Arch>());
-        span.clip_back(~parallel & ~from_body, tau + half_chord, zero<Arch>());
+        if constexpr (textbook) {
+            const Floats<Arch> C = squared_length(axial.across_origin) - radius * radius;
+            const Crossings<Arch> roots = solve_textbook<Arch>(
+                speed_squared, dot(axial.across_origin, axial.across_direction), C);
+            beside = ~starts.on_surface &
+                     ((parallel & (C > zero<Arch>())) | (~parallel & ~roots.first.exists));
+            span.clip_front(roots.first.exists & ~parallel & ~starts.on_surface, roots.first.t,
+                            zero<Arch>());
+            span.clip_back(roots.second.exists & ~starts.on_surface, roots.second.t, zero<Arch>());
+            span.clip_back(~parallel & ~from_body & starts.on_surface, tau + half_chord,
+                           zero<Arch>());
+        } else {
+            span.clip_front(~parallel & ~starts.on_surface, tau - half_chord, zero<Arch>());
+            span.clip_back(~parallel & ~from_body, tau + half_chord, zero<Arch>());
+        }
 
         if constexpr (capped) clip_caps(span, axial, starts);
         Crossings<Arch> result = span.crossings(starts.on_surface);

@@ -93,4 +93,58 @@ struct TriangleLanes {
     }
 };
 
+/// Reads on behalf of another reader.
+template <class Arch, class Reader>
+struct PassOn {
+    Reader& reader;
+    Floats<Arch> next() { return reader.next(); }
+};
+
+/// Of a smooth triangle.
+template <class Arch>
+struct CornerNormals {
+    Vectors<Arch> a, b, c;
+
+    template <class Reader>
+    explicit CornerNormals(Reader& reader)
+        : a(next_vector<Arch>(reader)), b(next_vector<Arch>(reader)), c(next_vector<Arch>(reader)) {
+    }
+
+    /// core::shading_normal
+    Vectors<Arch> interpolated(const TriangleLanes<Arch>& triangle, const Vectors<Arch>& point,
+                               const Vectors<Arch>& unit_flat) const {
+        const Vectors<Arch> to_a = triangle.a - point, to_b = triangle.b - point,
+                            to_c = triangle.c - point;
+        const auto share = [&](const Vectors<Arch>& p, const Vectors<Arch>& q,
+                               const Vectors<Arch>& normal) {
+            const Floats<Arch> weight = dot(unit_flat, cross(p, q));
+            const Vectors<Arch> unit = unit_of(normal);
+            return Vectors<Arch>{weight * unit.x, weight * unit.y, weight * unit.z};
+        };
+        const Vectors<Arch> sum =
+            share(to_b, to_c, a) + share(to_c, to_a, b) + share(to_a, to_b, c);
+        const Floats<Arch> square = squared_length(sum);
+        return select<Arch>(square > zero<Arch>(), sum / xsimd::sqrt(square), unit_flat);
+    }
+
+  private:
+    static Vectors<Arch> unit_of(const Vectors<Arch>& v) {
+        const Floats<Arch> inverse = Floats<Arch>(1.0F) / xsimd::sqrt(squared_length(v));
+        return {inverse * v.x, inverse * v.y, inverse * v.z};
+    }
+};
+
+template <class Arch>
+struct SmoothTriangleLanes : TriangleLanes<Arch> {
+    CornerNormals<Arch> normals;
+
+    template <class Reader>
+    explicit SmoothTriangleLanes(Reader reader)
+        : TriangleLanes<Arch>(PassOn<Arch, Reader>{reader}), normals(reader) {}
+
+    Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
+        return normals.interpolated(*this, point, unit_flat);
+    }
+};
+
 } // namespace raylane::simd

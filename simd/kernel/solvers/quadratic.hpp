@@ -4,10 +4,28 @@
 
 namespace raylane::simd {
 
+/// core::solve_textbook. In lanes where A = 0 the first crossing is the only one.
+template <class Arch>
+Crossings<Arch> solve_textbook(const Floats<Arch>& A, const Floats<Arch>& B,
+                               const Floats<Arch>& C) {
+    const Floats<Arch> o = zero<Arch>();
+    const Mask<Arch> opens_up = A > o, linear = ~opens_up & ~(A < o);
+    const Floats<Arch> discriminant = B * B - A * C;
+    const Mask<Arch> curved = ~linear & ~(discriminant < o);
+    const Floats<Arch> root = xsimd::sqrt(discriminant);
+    const Floats<Arch> in = (negated(B) - root) / A, out = (root - B) / A;
+    const Mask<Arch> falling = B < o, sloped = linear & ((B > o) | falling);
+    return {{curved | sloped,
+             xsimd::select(linear, negated(C) / (B + B), xsimd::select(opens_up, in, out)), o,
+             (linear & falling) | opens_up},
+            {curved, xsimd::select(opens_up, out, in), o, ~linear & ~opens_up}};
+}
+
 /// core::solve_quadratic. In lanes where A = 0 the first crossing is the only one.
-template <class Arch, class AtVertex>
+template <class Arch, bool textbook = false, class AtVertex>
 Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, const Floats<Arch>& C,
                                 const Floats<Arch>& scale, const AtVertex& at_vertex) {
+    if constexpr (textbook) return solve_textbook<Arch>(A, B, C);
     const Floats<Arch> o = zero<Arch>();
     const Mask<Arch> opens_up = A > o, linear = ~opens_up & ~(A < o);
     const Mask<Arch> near_linear = xsimd::abs(A) < Floats<Arch>(0x1p-4F) * scale;

@@ -6,7 +6,7 @@
 namespace raylane::simd {
 
 /// core/solvers/quadric.hpp
-template <class Arch>
+template <class Arch, bool textbook = false>
 struct QuadricLanes {
     Vectors<Arch> center;
     Floats<Arch> xx, yy, zz, xy, xz, yz;
@@ -28,8 +28,8 @@ struct QuadricLanes {
         const Floats<Arch> B = dot(rays.direction, half_gradient(from_center));
         const Floats<Arch> scale = squared_length(rays.direction) * largest_coefficient();
 
-        Crossings<Arch> roots =
-            solve_quadratic<Arch>(A, B, value(from_center), scale, [&](const Floats<Arch>& tau) {
+        Crossings<Arch> roots = solve_quadratic<Arch, textbook>(
+            A, B, value(from_center), scale, [&](const Floats<Arch>& tau) {
                 return value(mul_add<Arch>(tau, rays.direction, from_center));
             });
         const Mask<Arch> turns = (starts.inward & (A > o)) | (~starts.inward & (A < o));

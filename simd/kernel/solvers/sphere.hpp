@@ -1,11 +1,12 @@
 #pragma once
 
+#include "simd/kernel/solvers/quadratic.hpp"
 #include "simd/kernel/solvers/shapes.hpp"
 
 namespace raylane::simd {
 
 /// core/solvers/sphere.hpp
-template <class Arch>
+template <class Arch, bool textbook = false>
 struct SphereLanes {
     Vectors<Arch> center;
     Floats<Arch> radius;
@@ -18,13 +19,22 @@ struct SphereLanes {
         const Vectors<Arch> from_center = rays.origin - center;
         const Floats<Arch> dd = squared_length(rays.direction);
         const Floats<Arch> tau = negated(dot(from_center, rays.direction)) / dd;
+        const Mask<Arch> leaves = starts.on_surface & starts.inward;
+        if constexpr (textbook) {
+            Crossings<Arch> roots =
+                solve_textbook<Arch>(dd, dot(from_center, rays.direction),
+                                     squared_length(from_center) - radius * radius);
+            roots.first.exists = roots.first.exists & ~starts.on_surface;
+            roots.second.exists = (roots.second.exists & ~starts.on_surface) | leaves;
+            roots.second.t = xsimd::select(leaves, not_behind<Arch>(tau + tau), roots.second.t);
+            return roots;
+        }
         const Vectors<Arch> foot = mul_add<Arch>(tau, rays.direction, from_center);
         const Floats<Arch> discriminant =
             mul_add<Arch>(radius, radius, negated(squared_length(foot)));
         const Floats<Arch> half_chord = xsimd::sqrt(discriminant / dd);
 
         const Mask<Arch> meets = ~(discriminant < zero<Arch>()) & ~starts.on_surface;
-        const Mask<Arch> leaves = starts.on_surface & starts.inward;
         return {{meets, tau - half_chord, zero<Arch>(), all<Arch>()},
                 {meets | leaves,
                  xsimd::select(leaves, not_behind<Arch>(tau + tau), tau + half_chord), zero<Arch>(),

@@ -7,7 +7,7 @@ namespace raylane::simd {
 
 /// Every shape against packets of rays: for scenes of a few shapes, and for unbounded ones. The
 /// rays stay in registers while the shapes go by.
-template <class Arch>
+template <class Arch, class Method>
 struct TraceAll : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
@@ -63,7 +63,7 @@ struct TraceAll : Streams<Arch> {
             const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
             const TableView& table = scene.tables[kind];
             const bool costly = (Spheres::costly_kinds >> kind & 1) != 0;
-            with_filter<Arch>(kind, [&]<class Filter>() {
+            Method::with_filter(kind, [&]<class Filter>() {
                 for (std::uint32_t b = 0; b < table.block_count; ++b) {
                     const float* block = S::block_of(table, b);
                     const std::uint32_t* ids = S::ids_of(table, block);
@@ -84,7 +84,7 @@ struct TraceAll : Streams<Arch> {
         const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
-            const Packet<Arch> packet(stream, i);
+            const Packet<Arch, Method> packet(stream, i);
             PacketCandidates<Arch> found(candidates, i);
             for_each_shape(scene, kind_bits, spheres, packet.rays, found.first,
                            [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {
@@ -102,7 +102,7 @@ struct TraceAll : Streams<Arch> {
         const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
-            const Packet<Arch> packet(stream, i);
+            const Packet<Arch, Method> packet(stream, i);
             PacketOcclusions<Arch> found(occlusions, i);
             for_each_shape(scene, kind_bits, spheres, packet.rays, found.t_most,
                            [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {

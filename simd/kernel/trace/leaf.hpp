@@ -17,7 +17,7 @@ struct LeafHits {
 };
 
 /// One ray against the shapes of a block.
-template <class Arch>
+template <class Arch, class Method>
 struct Leaf : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
@@ -36,7 +36,7 @@ struct Leaf : Streams<Arch> {
                                             LeafHits& hits) {
         const float* block = S::block_of(table, number);
         const std::uint32_t* ids = S::ids_of(table, block);
-        const FilterRays<Arch> ray = S::broadcast(rays, i);
+        const typename Method::Rays ray = Method::broadcast(rays, i);
         hits.lanes = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
@@ -78,7 +78,7 @@ struct Leaf : Streams<Arch> {
              const RoundedRays& rays, std::size_t i, float t_most) {
         const float* block = S::block_of(table, number);
         const std::uint32_t* ids = S::ids_of(table, block);
-        const FilterRays<Arch> ray = S::broadcast(rays, i);
+        const typename Method::Rays ray = Method::broadcast(rays, i);
         const std::uint32_t plain = S::plain_lanes(scene, table.first_slot + 16 * number);
         std::uint8_t state = open;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {

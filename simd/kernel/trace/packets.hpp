@@ -5,16 +5,16 @@
 namespace raylane::simd {
 
 /// Rays of a stream, one per lane.
-template <class Arch>
+template <class Arch, class Method>
 struct Packet {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
 
-    FilterRays<Arch> rays;
+    typename Method::Rays rays;
     F departed_first, departed_last;
 
     Packet(const RoundedRays& stream, std::size_t i)
-        : rays(S::packet(stream, i)), departed_first(S::load_bits(stream.departed_first + i)),
+        : rays(Method::packet(stream, i)), departed_first(S::load_bits(stream.departed_first + i)),
           departed_last(S::load_bits(stream.departed_last + i)) {}
 
     /// Those that do not leave the shape.
@@ -42,9 +42,9 @@ struct PacketCandidates {
     }
 
     /// Takes account of one shape.
-    template <class Filter>
+    template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id,
-                                     std::uint32_t this_slot, const Packet<Arch>& packet) {
+                                     std::uint32_t this_slot, const Packet<Arch, Method>& packet) {
         const Bounds<Arch> bounds = filter.bounds(packet.rays);
         const F t =
             xsimd::select(bounds.possible & packet.elsewhere(id), bounds.lower, S::infinity());
@@ -69,9 +69,9 @@ struct PacketOcclusions {
           surely_before(t_most * F(surely_within)) {}
 
     /// Takes account of one shape.
-    template <class Filter>
+    template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
-                                     const Packet<Arch>& packet) {
+                                     const Packet<Arch, Method>& packet) {
         const Bounds<Arch> bounds = filter.bounds(packet.rays);
         const Mask<Arch> possible =
             bounds.possible & packet.elsewhere(id) & (bounds.lower < perhaps_before);

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "simd/kernel/trace/bundle.hpp"
+#include "simd/kernel/filters/filter.hpp"
+#include "simd/kernel/trace/rays.hpp"
 #include "simd/kernels.hpp"
 
 namespace raylane::simd {
 
-/// What is done to rays before and after they are traced.
+/// RayKernels
 template <class Arch>
 struct Prepare : Streams<Arch> {
     using S = Streams<Arch>;
@@ -38,15 +39,15 @@ struct Prepare : Streams<Arch> {
         }
     }
 
-    static void round_rays(std::size_t count, const double* const origin[3],
-                           const double* const direction[3], const RoundedRays& rays) {
+    static void round_rays(std::size_t count, const RoundedRays& rays) {
         for (std::size_t i = 0; i < count; i += F::size) {
             F sum = zero<Arch>();
             for (int axis = 0; axis < 3; ++axis) {
-                const F o = Lanes<Arch>::narrow(origin[axis] + i);
+                const F o = Lanes<Arch>::narrow(rays.meant_origin[axis] + i);
                 o.store_unaligned(rays.origin[axis] + i);
                 sum = sum + xsimd::abs(o);
-                Lanes<Arch>::narrow(direction[axis] + i).store_unaligned(rays.direction[axis] + i);
+                Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
+                    .store_unaligned(rays.direction[axis] + i);
             }
             // Half an ulp of each coordinate, and what FilterRays asks for.
             (sum * F(half_ulp * (1 + 0x1p-15F)) + F(slack_floor)).store_unaligned(rays.slack + i);
@@ -82,17 +83,7 @@ struct Prepare : Streams<Arch> {
         return listed;
     }
 
-    static constexpr TraceKernels table() {
-        return {camera_rays,
-                list_uncertain,
-                round_rays,
-                TraceAll<Arch>::nearest,
-                TraceAll<Arch>::occluded,
-                TraceBundle<Arch>::nearest,
-                TraceBundle<Arch>::occluded,
-                TraceTree<Arch>::nearest,
-                TraceTree<Arch>::occluded};
-    }
+    static constexpr RayKernels table() { return {camera_rays, round_rays, list_uncertain}; }
 };
 
 } // namespace raylane::simd

@@ -8,7 +8,7 @@ namespace raylane::simd {
 /// Many rays at a time through the wide hierarchy, each by itself: while one waits for memory, or
 /// for its own last result, others go on. In a round, all that are at nodes take a step, then all
 /// that are at blocks; what would branch for each ray on its own sorts them into lists.
-template <class Arch>
+template <class Arch, class Method>
 struct TraceTree : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
@@ -59,7 +59,7 @@ struct TraceTree : Streams<Arch> {
             int end = k + 1;
             while (end < count && kind_of(rays[which[end]].child) == kind)
                 ++end;
-            with_filter<Arch>(kind, [&]<class Filter>() {
+            Method::with_filter(kind, [&]<class Filter>() {
                 for_each_of_kind<Filter>(scene.tables[kind], which + k, end - k, rays, visit);
             });
             k = end;
@@ -124,11 +124,12 @@ struct TraceTree : Streams<Arch> {
             const int at_blocks = lists.block_count;
             for_each_at_block(
                 scene, lists.at_blocks, at_blocks, flights,
-                [&]<class Filter>(Flight & flight,
-                                  const TableView& table) __attribute__((always_inline)) {
-                    Leaf<Arch>::template find<Filter>(table, flight.child & child_index, rays,
-                                                      flight.i, flight.best.second, flight.hits);
-                });
+                [&]<class Filter>(Flight & flight, const TableView& table)
+                    __attribute__((always_inline)) {
+                        Leaf<Arch, Method>::template find<Filter>(table, flight.child & child_index,
+                                                                  rays, flight.i,
+                                                                  flight.best.second, flight.hits);
+                    });
             int hit[in_flight], hit_count = 0;
             for (int k = 0; k < at_blocks; ++k) {
                 hit[hit_count] = lists.at_blocks[k];
@@ -137,8 +138,8 @@ struct TraceTree : Streams<Arch> {
             for (int k = 0; k < hit_count; ++k) {
                 Flight& flight = flights[hit[k]];
                 const TableView& table = scene.tables[kind_of(flight.child)];
-                Leaf<Arch>::take(flight.hits, table.first_slot + 16 * (flight.child & child_index),
-                                 flight.best);
+                Leaf<Arch, Method>::take(
+                    flight.hits, table.first_slot + 16 * (flight.child & child_index), flight.best);
             }
             for (int k = 0; k < at_blocks; ++k) {
                 Flight& flight = flights[lists.at_blocks[k]];
@@ -233,7 +234,7 @@ struct TraceTree : Streams<Arch> {
                 scene, lists.at_blocks, at_blocks, shadows,
                 [&]<class Filter>(Shadow & shadow,
                                   const TableView& table) __attribute__((always_inline)) {
-                    const std::uint8_t state = Leaf<Arch>::template occluded<Filter>(
+                    const std::uint8_t state = Leaf<Arch, Method>::template occluded<Filter>(
                         scene, table, shadow.child & child_index, rays, shadow.i, shadow.t_most);
                     shadow.state = state > shadow.state ? state : shadow.state;
                     shadow.top = state == blocked ? shadow.bottom + 1 : shadow.top;

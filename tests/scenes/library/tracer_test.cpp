@@ -2,6 +2,7 @@
 #include "scenes/library/internals.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/ray_arrays.hpp"
+#include "tests/scenes/message_of.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -205,4 +206,28 @@ TEST_CASE("a scene without shapes is hit by nothing") {
     const Tracer tracer(SceneBuilder().build());
     CHECK(intersect(tracer, to_ball()).is_none(0));
     CHECK(occluded(tracer, to_ball())[0] == 0);
+}
+
+TEST_CASE("other precisions answer nearly the same") {
+    const Heap all = heap(false, 20, 7);
+    const Hits expected = intersect(Tracer(all.scene), all.rays);
+    for (const Precision precision :
+         {Precision::fast, Precision::robust, Precision::plain_double}) {
+        const Tracer tracer(all.scene, {.precision = precision});
+        const Hits hits = intersect(tracer, all.rays);
+        std::size_t other = 0, not_equal = 0;
+        for (std::size_t i = 0; i < all.rays.size(); ++i) {
+            const bool same = hits.shape[i] == expected.shape[i];
+            other += same && (hits.is_none(i) || std::abs(hits.t[i] / expected.t[i] - 1.0F) < 1e-3F)
+                         ? 0
+                         : 1;
+            not_equal += hits.t[i] == expected.t[i] ? 0 : 1;
+        }
+        CAPTURE(static_cast<int>(precision), other, not_equal, all.rays.size());
+        CHECK(other < all.rays.size() / 5);
+        if (precision != Precision::plain_double) CHECK(not_equal > 0);
+    }
+    CHECK(message_of<InvalidValue>([&] {
+              Tracer(all.scene, {.precision = static_cast<Precision>(4)});
+          }) == "precision: must be a Precision");
 }

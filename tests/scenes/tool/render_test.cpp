@@ -47,8 +47,9 @@ const std::string mirror = R"({
 TEST_CASE("a picture does not depend on the number of threads") {
     const Workshop workshop;
     for (const char* name : {"picture.png", "picture.hdr", "picture.pfm"})
-        for (const Options& engine :
-             {Options{}, {"--engine", "reference"}, {"--engine", "reference", "--real", "float"}}) {
+        for (const Options& engine : {Options{},
+                                      {"--engine", "reference"},
+                                      {"--engine", "reference", "--precision", "robust"}}) {
             const Options options = joined({"--size", "100x70", "--spp", "4"}, engine);
             const std::string one = bytes_of(workshop, name, joined(options, {"--threads", "1"}));
             CHECK(!one.empty());
@@ -115,8 +116,8 @@ TEST_CASE("the figures of a rendering are JSON") {
         return nlohmann::ordered_json::parse(content_of(workshop.output() / "s.json"));
     };
     const nlohmann::ordered_json figures =
-        stats({"--size", "8x6", "--spp", "4", "--threads", "1", "--engine", "reference", "--real",
-               "float", "--max-depth", "3", "--min-weight", "0.1"});
+        stats({"--size", "8x6", "--spp", "4", "--threads", "1", "--engine", "reference",
+               "--precision", "robust", "--max-depth", "3", "--min-weight", "0.1"});
     std::vector<std::string> keys;
     for (const auto& [key, value] : figures.items())
         keys.push_back(key);
@@ -124,7 +125,7 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "scene",
                                            "engine",
                                            "isa",
-                                           "real",
+                                           "precision",
                                            "threads",
                                            "width",
                                            "height",
@@ -144,7 +145,7 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(figures["version"] == RAYLANE_VERSION);
     CHECK(figures["scene"] == "scene.json");
     CHECK(figures["engine"] == "reference");
-    CHECK(figures["real"] == "float");
+    CHECK(figures["precision"] == "robust");
     CHECK(figures["threads"] == 1);
     CHECK(figures["width"] == 8);
     CHECK(figures["height"] == 6);

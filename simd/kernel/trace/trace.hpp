@@ -5,10 +5,10 @@
 
 namespace raylane::simd {
 
-/// Bundles of rays, a group at a time: a node or a block is visited once for up to 256 rays, and a
-/// shape is tested against those bunches of 16 that may meet it.
-template <class Arch>
-struct TraceBundle : Streams<Arch> {
+/// TraceKernels. Bundles of rays a group at a time: a node or a block is visited once for up to 256
+/// rays, and a shape is tested against those bunches of 16 that may meet it.
+template <class Arch, class Method>
+struct Trace : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using Rays = Group<Arch>;
@@ -49,7 +49,7 @@ struct TraceBundle : Streams<Arch> {
         std::uint32_t child = 0;
         for (;;) {
             if ((child & child_is_block) != 0) {
-                visit_block(TraceTree<Arch>::kind_of(child), child & child_index);
+                visit_block(TraceTree<Arch, Method>::kind_of(child), child & child_index);
             } else {
                 ++counters.nodes;
                 const int before = size;
@@ -92,7 +92,7 @@ struct TraceBundle : Streams<Arch> {
         for (int from = 0; from < 16; from += static_cast<int>(F::size))
             shapes |= group.meet(spheres.load(from)) << from;
         if (shapes == 0) return;
-        with_filter<Arch>(kind, [&]<class Filter>() {
+        Method::with_filter(kind, [&]<class Filter>() {
             for (; shapes != 0; shapes &= shapes - 1) {
                 const int lane = __builtin_ctz(shapes);
                 const SphereAround<Arch> sphere = spheres.broadcast(lane);
@@ -134,13 +134,17 @@ struct TraceBundle : Streams<Arch> {
              });
     }
 
-    static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
+    static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
                         std::size_t count, const RoundedRays& rays, const Candidates& candidates,
                         const Pending& pending, TraceCounters& counters) {
+        if (bundle == nullptr) {
+            nearest_one_by_one(scene, kind_bits, 0, count, rays, candidates, pending, counters);
+            return;
+        }
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
             const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
             Rays group;
-            if (group.enclose(rays, begin, end, bundle, nullptr))
+            if (group.enclose(rays, begin, end, *bundle, nullptr))
                 for_each_bunch(scene, kind_bits, group, begin, pending, counters,
                                [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
                                    std::size_t from) {
@@ -159,7 +163,7 @@ struct TraceBundle : Streams<Arch> {
         F latest = zero<Arch>();
         for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
             PacketCandidates<Arch> found(candidates, i);
-            found.test(filter, id, slot, Packet<Arch>(stream, i));
+            found.test(filter, id, slot, Packet<Arch, Method>(stream, i));
             found.store(candidates, i);
             latest = xsimd::max(latest,
                                 xsimd::select(S::first_lanes(end - i), found.first, zero<Arch>()));
@@ -167,13 +171,17 @@ struct TraceBundle : Streams<Arch> {
         return Lanes<Arch>::greatest(latest) * culling_slack;
     }
 
-    static void occluded(const SceneView& scene, std::uint32_t kind_bits, const Bundle& bundle,
+    static void occluded(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
                          std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
                          const Pending& pending, TraceCounters& counters) {
+        if (bundle == nullptr) {
+            occluded_one_by_one(scene, kind_bits, 0, count, rays, occlusions, pending, counters);
+            return;
+        }
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
             const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
             Rays group;
-            if (group.enclose(rays, begin, end, bundle, occlusions.t_most))
+            if (group.enclose(rays, begin, end, *bundle, occlusions.t_most))
                 for_each_bunch(scene, kind_bits, group, begin, pending, counters,
                                [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
                                    std::size_t from) {
@@ -195,7 +203,7 @@ struct TraceBundle : Streams<Arch> {
         bool all_blocked = true;
         for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
             PacketOcclusions<Arch> found(occlusions, i);
-            found.test(filter, id, plain, Packet<Arch>(stream, i));
+            found.test(filter, id, plain, Packet<Arch, Method>(stream, i));
             if (!found.store(occlusions.state + i, end - i)) all_blocked = false;
         }
         return all_blocked ? -1.0F : __builtin_inff();
@@ -207,6 +215,8 @@ struct TraceBundle : Streams<Arch> {
         for (int axis = 0; axis < 3; ++axis) {
             result.origin[axis] += begin;
             result.direction[axis] += begin;
+            result.meant_origin[axis] += begin;
+            result.meant_direction[axis] += begin;
         }
         result.slack += begin;
         result.departed_first += begin;
@@ -222,9 +232,9 @@ struct TraceBundle : Streams<Arch> {
         const Candidates theirs{candidates.first + begin, candidates.second + begin,
                                 candidates.slot + begin};
         if (kind_bits != 0)
-            TraceAll<Arch>::nearest(scene, kind_bits, end - begin, some, theirs, counters);
+            TraceAll<Arch, Method>::nearest(scene, kind_bits, end - begin, some, theirs, counters);
         if (has_tree(pending))
-            TraceTree<Arch>::nearest(scene, end - begin, some, theirs, pending, counters);
+            TraceTree<Arch, Method>::nearest(scene, end - begin, some, theirs, pending, counters);
     }
 
     static void occluded_one_by_one(const SceneView& scene, std::uint32_t kind_bits,
@@ -234,10 +244,12 @@ struct TraceBundle : Streams<Arch> {
         const RoundedRays some = from_ray(rays, begin);
         const Occlusions theirs{occlusions.t_most + begin, occlusions.state + begin};
         if (kind_bits != 0)
-            TraceAll<Arch>::occluded(scene, kind_bits, end - begin, some, theirs, counters);
+            TraceAll<Arch, Method>::occluded(scene, kind_bits, end - begin, some, theirs, counters);
         if (has_tree(pending))
-            TraceTree<Arch>::occluded(scene, end - begin, some, theirs, pending, counters);
+            TraceTree<Arch, Method>::occluded(scene, end - begin, some, theirs, pending, counters);
     }
+
+    static constexpr TraceKernels table() { return {nearest, occluded}; }
 };
 
 } // namespace raylane::simd

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+namespace raylane::core {
+
+/// How what rays hit is worked out.
+enum class Precision : std::uint8_t {
+    fast,         ///< float, the textbooks' formulas: for previews, and to compare with
+    robust,       ///< float, the best formulas that float has
+    exact,        ///< double with proven error bounds, and wider where that leaves a doubt
+    plain_double, ///< double, the same formulas as robust's: to compare with
+};
+
+inline constexpr Precision all_precisions[] = {Precision::fast, Precision::robust, Precision::exact,
+                                               Precision::plain_double};
+
+/// What people call it.
+constexpr std::string_view name_of(Precision precision) {
+    constexpr std::string_view names[] = {"fast", "robust", "exact", "double"};
+    return names[static_cast<std::size_t>(precision)];
+}
+
+constexpr bool is_single(Precision precision) {
+    return precision == Precision::fast || precision == Precision::robust;
+}
+
+/// What a tracer of these numbers does unless told otherwise.
+template <class Real>
+inline constexpr Precision precision_of =
+    std::is_same_v<Real, float> ? Precision::robust : Precision::exact;
+
+} // namespace raylane::core

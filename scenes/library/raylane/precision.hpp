@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+namespace raylane {
+
+/// How what rays hit is worked out. `exact` decides as real arithmetic does for the numbers given,
+/// and is hardly slower than `robust`: the others are there to compare with, and for previews.
+enum class Precision : std::uint8_t {
+    fast,         ///< float, by the textbooks' formulas: wrong where these cancel
+    robust,       ///< float, by the best formulas that float has
+    exact,        ///< certified by proven error bounds
+    plain_double, ///< double, by robust's formulas
+};
+
+} // namespace raylane

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "simd/kernel/filters/filters.hpp"
+#include "simd/kernel/finish.hpp"
+#include "simd/kernel/trace/rays.hpp"
+
+namespace raylane::simd {
+
+/// Methods: how shapes are tested, one for each core::Precision. Each has
+///   Rays       what a packet of rays is to its filters, at least FilterRays
+///   packet     the rays of a stream from one on, one per lane
+///   broadcast  one of them in all lanes
+///   with_filter(kind, visit)  calls visit.operator()<its filter for the kind>()
+///   finish     Kernels::Method::finish
+///
+/// This one is core::Precision::exact: bounds in float, and what they leave in double.
+template <class Arch>
+struct ExactMethod {
+    using Rays = FilterRays<Arch>;
+
+    static Rays packet(const RoundedRays& rays, std::size_t i) {
+        return Streams<Arch>::packet(rays, i);
+    }
+    static Rays broadcast(const RoundedRays& rays, std::size_t i) {
+        return Streams<Arch>::broadcast(rays, i);
+    }
+    template <class Visit>
+    static void with_filter(KindNumber kind, const Visit& visit) {
+        simd::with_filter<Arch>(kind, visit);
+    }
+    static void finish(const SceneView& scene, const Found& found) {
+        simd::finish<Arch>(scene, found);
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "simd/kernel/finishers/finisher.hpp"
+#include "simd/kernel/methods/plain_finish.hpp"
+
+namespace raylane::simd {
+
+/// A solver's first crossing as if it were certain.
+template <class Arch, class Solver>
+struct PlainFilter {
+    Solver solver;
+
+    template <class Reader>
+    explicit PlainFilter(Reader reader) : solver(reader) {}
+
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        const Crossing<Arch> first = first_ahead<Arch>(
+            solver.crossings({rays.origin, rays.direction}, starts_nowhere<Arch>()), none<Arch>());
+        return {first.exists, first.t, first.exists, first.t};
+    }
+};
+
+/// core::Precision::robust and, by the textbooks, fast.
+template <class Arch, bool textbook>
+struct PlainMethod {
+    using Rays = FilterRays<Arch>;
+
+    static Rays packet(const RoundedRays& rays, std::size_t i) {
+        return Streams<Arch>::packet(rays, i);
+    }
+    static Rays broadcast(const RoundedRays& rays, std::size_t i) {
+        return Streams<Arch>::broadcast(rays, i);
+    }
+    template <class Visit>
+    static void with_filter(KindNumber kind, const Visit& visit) {
+        with_lanes<Arch, textbook>(
+            kind, [&]<class Solver>() { visit.template operator()<PlainFilter<Arch, Solver>>(); });
+    }
+    static void finish(const SceneView& scene, const Found& found) {
+        PlainFinish<Arch, textbook>(scene, found).all_rays();
+    }
+};
+
+} // namespace raylane::simd
