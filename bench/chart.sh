@@ -7,7 +7,8 @@
 #
 # Environment: ISA (avx512 where the processor has it, else avx2, else sse4.2); RAYS, random or hard
 # (random); REPETITIONS of each measurement (5), of which the median counts; JSON, a file to draw
-# instead of measuring. It wants gnuplot and python3, Debian's packages of these names.
+# instead of measuring. It wants gnuplot and python3
+# (Debian's packages gnuplot-nox and python3).
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
@@ -20,7 +21,7 @@ fail() {
     exit 2
 }
 for program in gnuplot python3; do
-    command -v $program >/dev/null || fail "no $program here; Debian's package $program has it"
+    command -v $program >/dev/null || fail "no $program here; see Debian's gnuplot-nox and python3"
 done
 if [ -z "${ISA:-}" ]; then
     ISA=sse4.2
@@ -35,7 +36,7 @@ if [ -z "${JSON:-}" ]; then
         fail "no $build/bin/raylane-bench; cmake --preset release leads to one"
     "$build/bin/raylane-bench" --benchmark_filter="methods/.*/$rays/.*/$ISA\$" \
         --benchmark_repetitions="$repetitions" --benchmark_enable_random_interleaving=true \
-        --benchmark_min_time=0.05 --benchmark_out="$json" --benchmark_out_format=json >/dev/null 2>&1
+        --benchmark_min_time=0.05 --benchmark_out="$json" --benchmark_out_format=json >/dev/null
 fi
 
 work=$(mktemp -d)
@@ -55,7 +56,9 @@ if not runs: sys.exit("chart.sh: no measurements of %s rays by %s in %s" % (rays
 colors = {"fast": "#d7301f", "robust": "#e69f00", "exact": "#0072b2", "double": "#666666"}
 floor = 0.1  # ulps: what is drawn at the bottom
 plot = open(work + "/plot", "w")
-for shape, methods in runs.items():
+order = ["sphere", "plane", "disc", "triangle", "smooth_triangle", "box"]
+for shape, methods in sorted(runs.items(), key=lambda run: (
+        order.index(run[0]) if run[0] in order else len(order), run[0])):
     marks = []
     for method in colors:
         of = methods[method]

@@ -122,7 +122,7 @@ void report(benchmark::State& state, const std::vector<Truth>& truths, const sim
 template <class Shape, bool hard>
 void find(benchmark::State& state, simd::Isa isa, Precision precision) {
     const Setup<Shape, hard>& of = setup<Shape, hard>();
-    ReferenceTracer<double> reference(of.scene, of.scene.settings());
+    ReferenceTracer<double> reference(of.scene, of.scene.settings(), Search::hierarchy, precision);
     simd::HitFinder finder(of.data, {&simd::kernels_of(isa), precision}, &reference);
     simd::Arena measure;
     finder.take_from(measure, ray_count);

@@ -18,7 +18,8 @@
 namespace raylane::core {
 
 /// float: the solver's formulas as they are, or the textbooks'. What the vector kernels reproduce
-/// to the bit; its decisions and its t are as good as the formulas (see each solver).
+/// to the bit; its decisions and its t are as good as the formulas (see each solver). What is not
+/// `fast` is robust.
 template <class Shape>
 Crossings<float> solve(const Shape& shape, const Ray<float>& ray, const Start& start,
                        std::uint64_t&, Precision precision = Precision::robust) {
@@ -64,7 +65,7 @@ Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, cons
 /// double: decisions as real arithmetic takes them, and t within 2^-27 of itself. In double with
 /// error bounds first; where these leave a doubt, once more in double-double, which `widened`
 /// counts; and where a ray is tangent, or meets a rim or an edge, to more digits than that, in
-/// integers of any size. Or by the formulas as they are.
+/// integers of any size. Or, as plain_double, by the formulas as they are.
 template <class Shape>
 Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start& start,
                         std::uint64_t& widened, Precision precision = Precision::exact) {

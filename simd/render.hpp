@@ -42,9 +42,9 @@ struct Rendering {
     bool complete = true; ///< false if it was stopped: tiles may be black
 };
 
-/// Renders a picture of settings.width * settings.height pixels. It depends on scene, settings,
-/// engine and precision alone. Throws std::bad_alloc, InvalidValue for settings that are none, and
-/// what `after_tile` throws.
+/// Renders a picture of settings.width * settings.height pixels. With
+/// core::Precision::exact it depends on scene, settings and engine alone. Throws std::bad_alloc,
+/// InvalidValue for settings that are none, and what `after_tile` throws.
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& options);
 

@@ -140,7 +140,8 @@ class StreamTracer::Worker {
     static constexpr std::size_t capacity = 1024;
 
     Worker(const core::Scene& scene, const SceneData* data, const Tracing& tracing)
-        : scene_(scene), data_(data), tracing_(tracing), searcher_(scene, core::Search::hierarchy) {
+        : scene_(scene), data_(data), tracing_(tracing),
+          searcher_(scene, core::Search::hierarchy, tracing.precision) {
         if (data == nullptr) return;
         finder_.emplace(*data, tracing, nullptr);
         Arena measure;
@@ -171,6 +172,11 @@ class StreamTracer::Worker {
             float t = any ? t_at(lane) : 0.0F;
             // Which shape it is the caller's own ray decides, whose direction was not rounded.
             if (is_open_[lane] != 0 || (any && t <= query.t_min())) {
+                // The other methods' numbers are not always beyond a limit that this one's are.
+                if (tracing_.precision != core::Precision::exact) {
+                    find_nearest(scene_, searcher_, query, hits, i);
+                    continue;
+                }
                 Hit<double> hit = nearest_of(scene_, searcher_, query);
                 any = hit.any();
                 if (any) {

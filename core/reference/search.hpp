@@ -161,7 +161,7 @@ class Searcher {
 
     /// What bounds may be missed by, relative to t: the solvers' error, which is 2^-27 in double,
     /// and that of the quotients here, 3 half ulps (Ize, "Robust BVH Ray Traversal", 2013). In
-    /// float the solvers promise nothing; the bounds' padding does the rest.
+    /// float, and in plain double, the solvers promise nothing; the bounds' padding does the rest.
     static constexpr Real allowance =
         Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 

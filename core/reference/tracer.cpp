@@ -282,10 +282,11 @@ bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
 template <class Real>
 typename ReferenceTracer<Real>::Indices
 ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, const Media& media) const {
-    const Real before(index_of(scene_.materials(), medium_before(hit, media)));
+    const auto before = static_cast<Real>(index_of(scene_.materials(), medium_before(hit, media)));
     const Material& material = scene_.material_of(hit.shape);
     if (hit.entering || !material.transmits()) return {before, Real(material.index)};
-    return {before, Real(index_of(scene_.materials(), media_behind(hit, media).top()))};
+    return {before,
+            static_cast<Real>(index_of(scene_.materials(), media_behind(hit, media).top()))};
 }
 
 template <class Real>

@@ -11,8 +11,9 @@
 namespace raylane::core {
 
 /// The scalar reference: what a picture of a scene is, written to be read. `Real` is float or
-/// double. In double every decision of which surface a ray hits is the one that real arithmetic
-/// takes. To be used by one thread; what it makes of a pixel depends on scene and settings alone.
+/// double. With Precision::exact every decision of which surface a ray hits is the one that real
+/// arithmetic takes. To be used by one thread; what it makes of a pixel depends on scene and
+/// settings alone.
 template <class Real>
 class ReferenceTracer {
   public:

@@ -55,6 +55,10 @@ void library::require_threads(int threads) {
 }
 
 core::Precision library::core_precision(Precision precision) {
+    static_assert(int(Precision::fast) == int(core::Precision::fast) &&
+                  int(Precision::robust) == int(core::Precision::robust) &&
+                  int(Precision::exact) == int(core::Precision::exact) &&
+                  int(Precision::plain_double) == int(core::Precision::plain_double));
     if (precision > Precision::plain_double) throw InvalidValue("precision", "must be a Precision");
     return static_cast<core::Precision>(precision);
 }

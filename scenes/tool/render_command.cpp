@@ -236,10 +236,12 @@ Command add_render_command(CLI::App& app) {
         "The vector engine's instructions: sse4.2, avx2 or avx512 (default: the best there are)",
         "NAME");
     add("--tile", arguments->tile,
-        "Pixels on the side of the squares that threads work on, 8 to 64; changes no picture", "N");
+        "Pixels on the side of the squares that threads work on, 8 to 64; changes no exact picture",
+        "N");
     add("--precision", arguments->precision,
         "What decides where rays hit: fast (textbook formulas in float), robust (the best in "
-        "float), exact (certified, as real numbers would have it) or double (default: exact)",
+        "float), exact (certified, as real numbers would have it) or double (robust's "
+        "formulas in double; default: exact)",
         "NAME");
     add("--transfer", arguments->transfer,
         "From light to PNG: srgb or linear (default: as the scene says)", "CURVE");

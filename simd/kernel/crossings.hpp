@@ -41,9 +41,14 @@ template <class Arch>
 Mask<Arch> all() {
     return Mask<Arch>(true);
 }
+/// In all lanes, whether these are float or double.
+template <class Arch>
+Floats<Arch> constant(float value) {
+    return Floats<Arch>(static_cast<typename Floats<Arch>::value_type>(value));
+}
 template <class Arch>
 Floats<Arch> zero() {
-    return Floats<Arch>(static_cast<typename Floats<Arch>::value_type>(0.0F));
+    return constant<Arch>(0.0F);
 }
 
 /// core::not_behind
@@ -88,7 +93,7 @@ class Span {
         clip_all(lanes & ~rises & ~falls & beside);
         const Floats<Arch> at_low = negated(start) / slope;
         const Floats<Arch> at_high = (end - start) / slope;
-        const Floats<Arch> low_face(low), high_face(high);
+        const Floats<Arch> low_face = constant<Arch>(low), high_face = constant<Arch>(high);
         const Mask<Arch> crosses = lanes & (rises | falls);
         clip_front(crosses, xsimd::select(rises, at_low, at_high),
                    xsimd::select(rises, low_face, high_face));

@@ -3,6 +3,8 @@
 #include "core/precision.hpp"
 #include "simd/kernels.hpp"
 
+#include <iterator>
+
 namespace raylane::simd {
 
 /// What traces rays: an instruction set's kernels, and which of their methods.
@@ -11,6 +13,7 @@ struct Tracing {
     core::Precision precision = core::Precision::exact;
 
     const MethodKernels& method() const {
+        static_assert(method_count == std::size(core::all_precisions));
         return kernels->methods[static_cast<std::size_t>(precision)];
     }
     /// Whether candidates that cannot be told apart are left to who can.

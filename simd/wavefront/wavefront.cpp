@@ -68,8 +68,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
       shade_(tracing.kernels->shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
-      reference_(scene.scene(), settings), finder_(scene, tracing, &reference_),
-      shadows_(scene, tracing, reference_), sorted_(scene) {
+      reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
+      finder_(scene, tracing, &reference_), shadows_(scene, tracing, reference_), sorted_(scene) {
     Arena measure;
     take_from(measure);
     arena_ = Arena(measure.used());

@@ -11,7 +11,8 @@
 namespace raylane::simd {
 
 /// Renders regions of a picture: camera rays in chunks, then wave after wave of what they meet,
-/// until no ray is left. To be used by one thread. All of its memory is asked for once.
+/// until no ray is left. To be used by one thread. All of its memory is asked for once, but
+/// what exact numbers need where a crossing has to be decided in them.
 ///
 /// A picture does not depend on how it is divided: each sample's contributions are added in an
 /// order that knows of no other sample, and samples are added in theirs.

@@ -17,7 +17,7 @@ constexpr double invisible = 1e-5;
 } // namespace
 
 // Rays that leave a cone or a paraboloid met it again, and its tests were switched off.
-TEST_CASE("mmp/pbrt-v3 #44: what a cone or paraboloid reflects does not meet it again") {
+TEST_CASE("mmp/pbrt-v3 #44: what a cone or paraboloid reflects does not meet it again", "[long]") {
     const Vec3f center{1000, 2000, -3000};
     const CappedCone cone{center, {0, 0, 1}, 1, 0};
     const Quadric paraboloid{center, 1, 1, 0, 0, 0, 0, 0, 0, 0.5F, -1, {-1, -1, 0}, {1, 1, 1}};
@@ -62,7 +62,7 @@ double reached_through_ball(const Sphere& ball, double index, double plane, Ray<
 
 // Rays into a lens were moved along its normal by an epsilon that grows with the coordinates: half
 // a unit at z = -5400, and the picture behind the lens shifted.
-TEST_CASE("mitsuba3 #219: a lens at large coordinates bends rays where they hit it") {
+TEST_CASE("mitsuba3 #219: a lens at large coordinates bends rays where they hit it", "[long]") {
     const Sphere ball{{278, 273, -5400}, 250};
     constexpr double plane = -7000, width = 4096;
     Builder builder = square(pixels, perspective({278, 273, -4000}, {278, 273, -5400}, 12));
@@ -85,7 +85,7 @@ TEST_CASE("mitsuba3 #219: a lens at large coordinates bends rays where they hit 
 
 // The offset, 9e-5 and more, was wider than the gap between glass and what it covers: rays began
 // inside the inner sphere, and light leaked.
-TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light") {
+TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light", "[long]") {
     const Sphere inner{{0, 0, 0}, 1}, outer{{0, 0, 0}, 1.0F + 4e-5F};
     Builder builder = square(pixels, perspective({0, 0, 5}, {0, 0, 0}, 26));
     Material red = luminous({1, 0, 0});
@@ -111,7 +111,7 @@ TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light") {
 }
 
 // Of the rays that leave a sphere the size of a pea, some hit it again.
-TEST_CASE("mitsuba3 #1236: rays that leave a small sphere do not hit it") {
+TEST_CASE("mitsuba3 #1236: rays that leave a small sphere do not hit it", "[long]") {
     const Sphere sphere{{0, 0.083F, 0.4F}, 0.015F};
     Builder builder = square(pixels, perspective({0.05F, 0.1F, 0.6F}, {0, 0.083F, 0.4F}, 9));
     const Camera camera = builder.camera;
@@ -157,7 +157,7 @@ TEST_CASE("mitsuba3 #1236: rays that leave a small sphere do not hit it") {
 
 // For radii below 1 the smallest t of a cylinder was larger than the cylinder: 1.44 at 0.5. Its
 // inside could not be seen.
-TEST_CASE("RenderKit/ospray #279: the inside of a thin cylinder is seen") {
+TEST_CASE("RenderKit/ospray #279: the inside of a thin cylinder is seen", "[long]") {
     for (const float radius : {0.5F, 1e-3F}) {
         const std::vector<OpenCylinder> pipes = {
             {{0, 0, 0}, {0, 0.6F * radius, 3 * radius}, radius}};
@@ -181,7 +181,7 @@ TEST_CASE("RenderKit/ospray #279: the inside of a thin cylinder is seen") {
 }
 
 // What lies nearer behind a transparent box than the smallest t that counts was not there: black.
-TEST_CASE("POV-Ray #125: a plane 7e-7 below a transparent box is seen through it") {
+TEST_CASE("POV-Ray #125: a plane 7e-7 below a transparent box is seen through it", "[long]") {
     const float depth = -1.0000007F;
     Builder builder = square(pixels, perspective({1, 2, 3}, {0, 0, 0}, 50));
     builder.add_shape(Box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, glass(1.0F));
@@ -204,7 +204,7 @@ TEST_CASE("POV-Ray #125: a plane 7e-7 below a transparent box is seen through it
 }
 
 // A layer of plastic balls had dark rings; the advice was to enlarge the epsilon, or the scene.
-TEST_CASE("plotoptix #4: a layer of small plastic spheres has no dark rings") {
+TEST_CASE("plotoptix #4: a layer of small plastic spheres has no dark rings", "[long]") {
     std::vector<Sphere> spheres;
     for (int i = 0; i < 16; ++i)
         spheres.push_back({{0.02F * static_cast<float>(i % 4), 0.001F * static_cast<float>(i % 3),

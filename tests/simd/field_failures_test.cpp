@@ -29,7 +29,8 @@ Scene chalk_scene(Builder builder, const std::vector<Shape>& shapes, const Vec3f
 
 // Points on a sphere at x = 800,000 were rounded to 1/16, more than the offset that was to keep
 // their shadow rays off the sphere: a dark ring inside its limb.
-TEST_CASE("mmp/pbrt-v3 #265: a sphere 800,000 units from the origin has no ring at its limb") {
+TEST_CASE("mmp/pbrt-v3 #265: a sphere 800,000 units from the origin has no ring at its limb",
+          "[long]") {
     const std::vector<Sphere> spheres = {{{800000, 0, 0}, 100}};
     const Scene scene =
         chalk_scene(square(pixels, perspective({796800, 0, 0}, {800000, 0, 0}, 4, {0, 0, 1})),
@@ -43,7 +44,7 @@ TEST_CASE("mmp/pbrt-v3 #265: a sphere 800,000 units from the origin has no ring 
 
 // Intervals around a ray's origin in the sphere's own space, as wide as its rounding at 10,000
 // units, made rays at the limb misses: 15 % of the sphere's edge was gone.
-TEST_CASE("mmp/pbrt-v3 #44: a sphere 10,000 units from the origin does not shrink") {
+TEST_CASE("mmp/pbrt-v3 #44: a sphere 10,000 units from the origin does not shrink", "[long]") {
     const std::vector<Sphere> spheres = {{{10000, 10000, 10000}, 1}};
     const Scene scene =
         chalk_scene(square(pixels, perspective({10000, 10000, 10004}, {10000, 10000, 10000}, 35)),
@@ -70,7 +71,7 @@ TEST_CASE("mmp/pbrt-v3 #44: a sphere 10,000 units from the origin does not shrin
 
 // From 1,000 units away b^2 and 4 a c agree in all but the last digits that float has, and t comes
 // in steps: rings all over a unit sphere.
-TEST_CASE("mitsuba3 #512: a unit sphere seen from 1,000 units away has no rings") {
+TEST_CASE("mitsuba3 #512: a unit sphere seen from 1,000 units away has no rings", "[long]") {
     const std::vector<Sphere> spheres = {{{0, 0, 0}, 1}};
     const Scene scene = chalk_scene(square(pixels, orthographic({0, 0, 1000}, {0, 0, 0}, 2.2F)),
                                     spheres, {0, 0, -1});
@@ -85,7 +86,7 @@ TEST_CASE("mitsuba3 #512: a unit sphere seen from 1,000 units away has no rings"
 
 // Cones of about a unit's size, seen from afar: the solver's precision gave out where they are
 // looked at along their axes, in rings about the centre of projection.
-TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projection") {
+TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projection", "[long]") {
     std::vector<CappedCone> cones;
     for (int i = 0; i < 9; ++i)
         cones.push_back({{static_cast<float>(i % 3) - 1.0F, static_cast<float>(i / 3) - 1.0F, 0},
@@ -106,7 +107,7 @@ TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projectio
 
 // Seen exactly along its axis, a cylinder was a bar and a circle: the wall's leading coefficient
 // was nothing but rounding.
-TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc") {
+TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc", "[long]") {
     const Vec3f base{-30.005F, -77.1061F, -16.8721F}, top{-30.005F, -27.301F, 16.8721F};
     const std::vector<CappedCylinder> cylinders = {{base, top - base, 2}};
     const Vec3f along{0, 0.827878F, 0.560908F};
@@ -143,7 +144,7 @@ TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc") {
 }
 
 // The two halves of a bond flickered against each other as the camera moved.
-TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whole") {
+TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whole", "[long]") {
     const OpenCylinder whole = {{-3, -1, -2}, {6, 2.5F, 4}, 0.2F};
     const std::vector<OpenCylinder> halves = {{{-3, -1, -2}, {3, 1.25F, 2}, 0.2F},
                                               {{0, 0.25F, 0}, {3, 1.25F, 2}, 0.2F}};
@@ -173,7 +174,7 @@ TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whol
 
 // Curves stood in for cylinders and cones and put balls on their ends; molecules need neither balls
 // nor triangles.
-TEST_CASE("RenderKit/ospray #421: bonds and arrows have no balls on their ends") {
+TEST_CASE("RenderKit/ospray #421: bonds and arrows have no balls on their ends", "[long]") {
     std::vector<OpenCylinder> bonds;
     std::vector<OpenCone> arrows;
     int beyond = 0;

@@ -105,7 +105,7 @@ int ulps_apart(float a, float b) {
 
 } // namespace
 
-TEST_CASE("traversal and brute force agree on rays along the faces of bounds") {
+TEST_CASE("traversal and brute force agree on rays along the faces of bounds", "[long]") {
     for (const bool lattice : {false, true}) {
         Random random(lattice ? 41 : 40);
         SceneBuilder builder;
@@ -139,8 +139,8 @@ TEST_CASE("traversal and brute force agree on rays along the faces of bounds") {
     }
 }
 
-TEMPLATE_TEST_CASE("the vectors lead through a solid: in, out, and no further", "", Sphere, Box,
-                   CappedCylinder, CappedCone) {
+TEMPLATE_TEST_CASE("the vectors lead through a solid: in, out, and no further", "[long]", Sphere,
+                   Box, CappedCylinder, CappedCone) {
     using Shape = TestType;
     Random random(20260700 + static_cast<int>(kind_of<Shape>));
     int through = 0, wrong = 0, misplaced = 0;

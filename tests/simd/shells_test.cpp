@@ -53,7 +53,7 @@ long count_not(const Film& film, const Color& color) {
 
 } // namespace
 
-TEST_CASE("a sphere is seen through a skin of glass, and nothing else of it") {
+TEST_CASE("a sphere is seen through a skin of glass, and nothing else of it", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {1, 2, 3});
@@ -77,7 +77,7 @@ TEST_CASE("a sphere is seen through a skin of glass, and nothing else of it") {
     }
 }
 
-TEST_CASE("no light leaves by the gap between two spheres") {
+TEST_CASE("no light leaves by the gap between two spheres", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {0.5F, 0.25F, 0});
@@ -92,7 +92,7 @@ TEST_CASE("no light leaves by the gap between two spheres") {
 
 // Every path goes out through the glass, is reflected, comes in, crosses the sphere and goes out
 // again: to a depth of 3 n + 1 it has seen n + 1 mirrors.
-TEST_CASE("light between a mirror and the glass right before it is never lost") {
+TEST_CASE("light between a mirror and the glass right before it is never lost", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {0.5F, 0.25F, 0});
@@ -109,7 +109,7 @@ TEST_CASE("light between a mirror and the glass right before it is never lost") 
     }
 }
 
-TEST_CASE("a mirror ball in a skin of glass that bends light is the reference's") {
+TEST_CASE("a mirror ball in a skin of glass that bends light is the reference's", "[long]") {
     for (const Vec3f& center : centers) {
         CAPTURE(center.x);
         Builder builder = looking_at(center, {1, 2, 3});

@@ -545,9 +545,9 @@ void print(Kind kind, const Tally& tally) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("spawned rays meet what is next, and not what they leave", "", Sphere, Plane,
-                   Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone,
-                   CappedCone, Quadric) {
+TEMPLATE_TEST_CASE("spawned rays meet what is next, and not what they leave", "[long]", Sphere,
+                   Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder,
+                   OpenCone, CappedCone, Quadric) {
     constexpr Kind kind = core::kind_of<TestType>;
     std::vector<Isa> isas;
     for (const Isa isa : all_isas)

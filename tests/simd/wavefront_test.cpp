@@ -51,7 +51,7 @@ Scene panes(int depth) {
 
 } // namespace
 
-TEST_CASE("waves that outgrow their queues are divided") {
+TEST_CASE("waves that outgrow their queues are divided", "[long]") {
     // Up to 2^9 paths per sample, a thousand samples in a chunk.
     const Scene scene = panes(9);
     CHECK(differing(scene) == 0);

@@ -41,9 +41,10 @@ struct Progress {
 /// Hears of progress, and answers whether to continue.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
-/// The picture of a scene. The same scene and settings give the same bits, whatever the threads and
-/// the processor. May be called by several threads at a time. Throws InvalidValue for options that
-/// are none (fields "settings/width", ..., "threads", "precision"), and std::bad_alloc.
+/// The picture of a scene. With Precision::exact the same scene and settings give the same bits,
+/// whatever the threads and the processor. May be called by several threads at a time. Throws
+/// InvalidValue for options that are none (fields "settings/width", ..., "threads", "precision"),
+/// and std::bad_alloc.
 Image render(const Scene& scene, const RenderOptions& options = {});
 
 /// The same, with a callback: called after every tile of some hundred pixels or more, by whichever

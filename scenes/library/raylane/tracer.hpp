@@ -37,6 +37,8 @@ struct HitSpan {
 
 struct TracerOptions {
     int threads = 0; ///< at most, 1 to 4096; 0: all that the machine has
+    /// With others than exact, `occluded` may say otherwise than `intersect` where that is close,
+    /// and ties may go either way. fast and robust are exact on processors without vectors.
     Precision precision = Precision::exact;
 };
 
@@ -45,7 +47,7 @@ struct TracerOptions {
 /// depends on the scene and that ray alone.
 ///
 /// With Precision::exact, which surface a ray crosses, and which first, is decided as real
-/// arithmetic decides it for exactly the floats given, as far as 106 bits can tell; t is rounded
+/// arithmetic decides it for exactly the floats given; t is rounded
 /// from within a relative 2^-27 of its true value. The limits compare with t as it is answered:
 /// rounded to float, and where that would be 0 or infinite, the nearest float that is neither. So
 /// each t, given back as t_min, leads on to the next crossing.

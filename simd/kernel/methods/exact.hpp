@@ -11,7 +11,7 @@ namespace raylane::simd {
 ///   packet     the rays of a stream from one on, one per lane
 ///   broadcast  one of them in all lanes
 ///   with_filter(kind, visit)  calls visit.operator()<its filter for the kind>()
-///   finish     Kernels::Method::finish
+///   finish     MethodKernels::finish
 ///
 /// This one is core::Precision::exact: bounds in float, and what they leave in double.
 template <class Arch>

@@ -27,7 +27,7 @@ Crossing<Number> first_ahead(const Crossings<Number>& found, const Mask<Number>&
             (first & found.first.entering) | (~first & found.second.entering)};
 }
 
-/// Kernels::Method::finish by the solvers' formulas alone, in lanes of `Number`, which is an
+/// MethodKernels::finish by the solvers' formulas alone, in lanes of `Number`, which is an
 /// instruction set or a Double<> of one. Nothing is doubtful.
 template <class Number, bool textbook>
 class PlainFinish {

@@ -31,7 +31,8 @@ inline constexpr float top_cap_code = 2.0F;
 
 template <class Arch>
 void clip_caps(Span<Arch>& span, const AxialRays<Arch>& axial, const Starts<Arch>& starts) {
-    const Floats<Arch> base_face(base_cap_code), top_face(top_cap_code);
+    const Floats<Arch> base_face = constant<Arch>(base_cap_code),
+                       top_face = constant<Arch>(top_cap_code);
     span.clip_slab(~starts.on_surface, axial.height_origin, axial.height_direction,
                    axial.axis_squared, base_cap_code, top_cap_code);
     const Mask<Arch> rises =

@@ -31,11 +31,11 @@ struct BoxLanes {
             const float low = static_cast<float>(2 * i), high = static_cast<float>(2 * i + 1);
             span.clip_slab(~starts.on_surface, position, slope, turned(volume), low, high);
             const Mask<Arch> rises =
-                starts.on_surface & (slope > zero<Arch>()) & (starts.face != Floats<Arch>(high));
+                starts.on_surface & (slope > zero<Arch>()) & (starts.face != constant<Arch>(high));
             const Mask<Arch> falls =
-                starts.on_surface & (slope < zero<Arch>()) & (starts.face != Floats<Arch>(low));
-            span.clip_back(rises, (turned(volume) - position) / slope, Floats<Arch>(high));
-            span.clip_back(falls, negated(position) / slope, Floats<Arch>(low));
+                starts.on_surface & (slope < zero<Arch>()) & (starts.face != constant<Arch>(low));
+            span.clip_back(rises, (turned(volume) - position) / slope, constant<Arch>(high));
+            span.clip_back(falls, negated(position) / slope, constant<Arch>(low));
         }
         return inward_only(span.crossings(starts.on_surface), starts);
     }
@@ -44,7 +44,7 @@ struct BoxLanes {
         const Vectors<Arch> normals[3] = {cross(edge_v, edge_w), cross(edge_w, edge_u),
                                           cross(edge_u, edge_v)};
         const Mask<Arch> left_handed = dot(normals[0], edge_u) < zero<Arch>();
-        const auto is = [&](float f) { return face == Floats<Arch>(f); };
+        const auto is = [&](float f) { return face == constant<Arch>(f); };
         const Vectors<Arch> normal =
             select(is(0) | is(1), normals[0], select(is(2) | is(3), normals[1], normals[2]));
         const Mask<Arch> through_corner = is(0) | is(2) | is(4);

@@ -85,8 +85,8 @@ struct ConeLanes {
         const Vectors<Arch> at_apex = select(narrowing > o, unit_axis, -unit_axis);
         const Vectors<Arch> on_body =
             select(squared_length(gradient) > o, normalized(gradient), at_apex);
-        return select(face == Floats<Arch>(base_cap_code), -unit_axis,
-                      select(face == Floats<Arch>(top_cap_code), unit_axis, on_body));
+        return select(face == constant<Arch>(base_cap_code), -unit_axis,
+                      select(face == constant<Arch>(top_cap_code), unit_axis, on_body));
     }
 };
 

@@ -62,8 +62,8 @@ struct CylinderLanes {
     Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>& face) const {
         const Vectors<Arch> unit_axis = normalized(axis);
         const Vectors<Arch> from_axis = normalized(offset_from_axis(base, axis, point));
-        return select(face == Floats<Arch>(base_cap_code), -unit_axis,
-                      select(face == Floats<Arch>(top_cap_code), unit_axis, from_axis));
+        return select(face == constant<Arch>(base_cap_code), -unit_axis,
+                      select(face == constant<Arch>(top_cap_code), unit_axis, from_axis));
     }
 };
 

@@ -129,7 +129,7 @@ struct CornerNormals {
 
   private:
     static Vectors<Arch> unit_of(const Vectors<Arch>& v) {
-        const Floats<Arch> inverse = Floats<Arch>(1.0F) / xsimd::sqrt(squared_length(v));
+        const Floats<Arch> inverse = constant<Arch>(1.0F) / xsimd::sqrt(squared_length(v));
         return {inverse * v.x, inverse * v.y, inverse * v.z};
     }
 };

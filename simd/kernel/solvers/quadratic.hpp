@@ -28,7 +28,7 @@ Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, co
     if constexpr (textbook) return solve_textbook<Arch>(A, B, C);
     const Floats<Arch> o = zero<Arch>();
     const Mask<Arch> opens_up = A > o, linear = ~opens_up & ~(A < o);
-    const Mask<Arch> near_linear = xsimd::abs(A) < Floats<Arch>(0x1p-4F) * scale;
+    const Mask<Arch> near_linear = xsimd::abs(A) < constant<Arch>(0x1p-4F) * scale;
     const Floats<Arch> discriminant = xsimd::select(
         near_linear, mul_add<Arch>(B, B, negated(A * C)), negated(A * at_vertex(negated(B) / A)));
     const Mask<Arch> curved = ~linear & ~(discriminant < o);

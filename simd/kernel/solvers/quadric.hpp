@@ -53,7 +53,7 @@ struct QuadricLanes {
     Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>&) const {
         const Floats<Arch> o = zero<Arch>();
         const Vectors<Arch> gradient = half_gradient(point - center);
-        const Vectors<Arch> unit_z = {o, o, Floats<Arch>(1.0F)};
+        const Vectors<Arch> unit_z = {o, o, constant<Arch>(1.0F)};
         return select(squared_length(gradient) > o, normalized(gradient), unit_z);
     }
 
