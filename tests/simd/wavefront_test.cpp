@@ -60,7 +60,7 @@ TEST_CASE("waves that outgrow their queues are divided", "[long]") {
     CHECK(counters.followed == 0);
 }
 
-TEST_CASE("a sample that outgrows a queue by itself is followed to its end") {
+TEST_CASE("a sample that outgrows a queue by itself is followed to its end", "[long]") {
     const Scene scene = panes(15);
     Settings settings = scene.settings();
     settings.width = settings.height = 3;
