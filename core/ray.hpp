@@ -38,8 +38,8 @@ template <class Real>
 struct Crossing {
     Real t;
     Face face;
-    bool entering;      ///< from the outside (front) to the inside (back)
-    double error = 0.0; ///< what t may be off by; only solve() in double tells
+    bool entering = false; ///< from the outside (front) to the inside (back)
+    double error = 0.0;    ///< what t may be off by; only solve() in double tells
 };
 
 /// The crossings of a ray with one shape that may count, in the order of t: t > 0 is for the caller
