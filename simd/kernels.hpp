@@ -37,9 +37,8 @@ struct ShapeBlock {
     const float* ids;
 };
 
-/// Rays with the shapes that were found for them, structure of arrays of `count` values,
-/// readable and writable up to whole packets of 16. Directions have a length
-/// of 1 +- 2^-48.
+/// Rays with the shapes that were found for them, structure of arrays of `count` values, readable
+/// and writable up to whole packets of 16. Directions have a length of 1 +- 2^-48.
 struct Found {
     std::size_t count;
     const double* origin[3];
@@ -53,8 +52,8 @@ struct Found {
 
     /// Out: its first crossing with t > 0 (for a start on the surface, as core::Start has it).
     double* t;
-    double* error;             ///< what t may be off by; at most 2^-27 t unless doubtful
-    double* normal[3];         ///< unit, outward
+    double* error;     ///< exact: what t may be off by, at most 2^-27 t unless doubtful; others: 0
+    double* normal[3]; ///< unit, outward
     double* shading_normal[3]; ///< interpolated on smooth triangles, else the same; may be null
     std::uint32_t* hit;        ///< hit_bits
 };

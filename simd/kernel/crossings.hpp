@@ -41,14 +41,17 @@ template <class Arch>
 Mask<Arch> all() {
     return Mask<Arch>(true);
 }
-/// In all lanes, whether these are float or double.
+/// For rays that start on no surface.
 template <class Arch>
-Floats<Arch> constant(float value) {
-    return Floats<Arch>(static_cast<typename Floats<Arch>::value_type>(value));
+Starts<Arch> starts_nowhere() {
+    return {none<Arch>(), none<Arch>(), zero<Arch>()};
 }
+
+/// Where a crossing counts: ahead of the ray or, where that starts on the surface, at t = 0.
 template <class Arch>
-Floats<Arch> zero() {
-    return constant<Arch>(0.0F);
+Mask<Arch> ahead(const Crossing<Arch>& crossing, const Mask<Arch>& on_surface) {
+    return crossing.exists &
+           ((crossing.t > zero<Arch>()) | (on_surface & (crossing.t == zero<Arch>())));
 }
 
 /// core::not_behind

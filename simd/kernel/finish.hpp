@@ -5,6 +5,7 @@
 #include "simd/kernel/finishers/flat.hpp"
 #include "simd/kernel/finishers/quadric.hpp"
 #include "simd/kernel/finishers/sphere.hpp"
+#include "simd/kernel/slots.hpp"
 #include "simd/kernels.hpp"
 
 namespace raylane::simd {
@@ -81,7 +82,7 @@ class Finish {
             std::uint32_t left = in_use(i) & ~in_range(found_.slot + i, no_slot, no_slot);
             std::size_t next = i + width;
             while (left != 0) {
-                const int kind = kind_of(found_.slot[i + first_of(left)]);
+                const int kind = S::kind_of(scene_, found_.slot[i + first_of(left)]);
                 const TableView& table = scene_.tables[kind];
                 const std::uint32_t alike = left & in_table(table, i);
                 with_finisher<Arch>(
@@ -94,6 +95,7 @@ class Finish {
 
   private:
     using D = Double<Arch>;
+    using S = Slots<Arch>;
     using F = Floats<D>;
     using M = Mask<D>;
     static constexpr std::size_t width = F::size;
@@ -106,13 +108,6 @@ class Finish {
     static std::uint32_t in_range(const std::uint32_t* values, std::uint32_t first,
                                   std::uint32_t last) {
         return Lanes<D>::bits(Lanes<D>::in_range(values, first, last));
-    }
-
-    int kind_of(std::uint32_t slot) const {
-        int kind = 0;
-        while (slot - scene_.tables[kind].first_slot >= 16 * scene_.tables[kind].block_count)
-            ++kind;
-        return kind;
     }
 
     std::uint32_t in_use(std::size_t i) const {
@@ -146,11 +141,11 @@ class Finish {
         Spots<Arch> spots;
         spots.base = table.blocks;
         if (one_shape) {
-            spots.offsets[0] = offset(table, slot);
+            spots.offsets[0] = S::offset(table, slot);
         } else {
             for (unsigned lane = 0; lane < width; ++lane)
                 spots.offsets[lane] =
-                    offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
+                    S::offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
         }
         const Finisher finisher =
             one_shape ? Finisher(OneShapeReader<Arch>(table.blocks + spots.offsets[0]))
@@ -158,8 +153,7 @@ class Finish {
 
         const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
         const Finished<D> finished = finisher.finish(
-            rays, leaves_any(i, active) ? starts(table, spots, one_shape, i)
-                                        : Starts<D>{none<D>(), none<D>(), zero<D>()});
+            rays, leaves_any(i, active) ? starts(table, spots, one_shape, i) : starts_nowhere<D>());
         store(finished, i, active);
         if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
             if (found_.shading_normal[0] != nullptr)
@@ -169,11 +163,6 @@ class Finish {
         } else if (found_.shading_normal[0] != nullptr) {
             store(finished.normal, found_.shading_normal, i, active);
         }
-    }
-
-    [[gnu::always_inline]] static long long offset(const TableView& table, std::uint32_t slot) {
-        const std::uint32_t place = slot - table.first_slot;
-        return static_cast<long long>(place / 16) * table.block_floats + place % 16;
     }
 
     bool leaves_any(std::size_t i, std::uint32_t active) const {

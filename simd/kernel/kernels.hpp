@@ -54,11 +54,6 @@ struct KernelsOf {
             F(stream.departed_inward[i]) > zero<Arch>(), F(stream.departed_face[i])};
     }
 
-    static M ahead(const Crossing<Arch>& crossing, const M& on_surface) {
-        return crossing.exists &
-               ((crossing.t > zero<Arch>()) | (on_surface & (crossing.t == zero<Arch>())));
-    }
-
     static void take(const Crossing<Arch>& crossing, const M& on_surface, const F& id, Hits& hits) {
         const M ties = crossing.t == hits.t;
         const M nearer = (crossing.t < hits.t) | (ties & is_lower(id, hits.shape));

@@ -16,6 +16,16 @@ xsimd::batch<Number, Arch> negated(const xsimd::batch<Number, Arch>& a) {
     return a ^ xsimd::batch<Number, Arch>(static_cast<Number>(-0.0F));
 }
 
+/// In all lanes, whether these are float or double.
+template <class Arch>
+Floats<Arch> constant(float value) {
+    return Floats<Arch>(static_cast<typename Floats<Arch>::value_type>(value));
+}
+template <class Arch>
+Floats<Arch> zero() {
+    return constant<Arch>(0.0F);
+}
+
 /// One vector per lane.
 template <class Arch>
 struct Vectors {
@@ -42,6 +52,11 @@ Vectors<Arch> operator/(const Vectors<Arch>& a, const Floats<Arch>& s) {
     return {a.x / s, a.y / s, a.z / s};
 }
 
+template <class Arch>
+Vectors<Arch> scaled(const Floats<Arch>& s, const Vectors<Arch>& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+
 /// s * a + b
 template <class Arch>
 Vectors<Arch> mul_add(const Floats<Arch>& s, const Vectors<Arch>& a, const Vectors<Arch>& b) {
@@ -66,6 +81,12 @@ Vectors<Arch> cross(const Vectors<Arch>& a, const Vectors<Arch>& b) {
 template <class Arch>
 Vectors<Arch> normalized(const Vectors<Arch>& a) {
     return a / xsimd::sqrt(squared_length(a));
+}
+
+/// The same but for rounding, with one division.
+template <class Arch>
+Vectors<Arch> unit(const Vectors<Arch>& a) {
+    return scaled(constant<Arch>(1.0F) / xsimd::sqrt(squared_length(a)), a);
 }
 
 template <class Arch>

@@ -61,17 +61,6 @@ Floats<Arch> sum_of_sizes(const Vectors<Arch>& v) {
     return xsimd::abs(v.x) + xsimd::abs(v.y) + xsimd::abs(v.z);
 }
 
-template <class Arch>
-Vectors<Arch> scaled(const Floats<Arch>& s, const Vectors<Arch>& v) {
-    return {s * v.x, s * v.y, s * v.z};
-}
-
-/// v / |v|, with one division.
-template <class Arch>
-Vectors<Arch> unit(const Vectors<Arch>& v) {
-    return scaled<Arch>(Floats<Arch>(1.0) / xsimd::sqrt(squared_length(v)), v);
-}
-
 /// v with the sign of each lane's components turned where `mask`.
 template <class Arch>
 Vectors<Arch> negated_where(const Mask<Arch>& mask, const Vectors<Arch>& v) {

@@ -15,15 +15,7 @@ namespace raylane::simd {
 ///
 /// This one is core::Precision::exact: bounds in float, and what they leave in double.
 template <class Arch>
-struct ExactMethod {
-    using Rays = FilterRays<Arch>;
-
-    static Rays packet(const RoundedRays& rays, std::size_t i) {
-        return Streams<Arch>::packet(rays, i);
-    }
-    static Rays broadcast(const RoundedRays& rays, std::size_t i) {
-        return Streams<Arch>::broadcast(rays, i);
-    }
+struct ExactMethod : RaysInFloat<Arch> {
     template <class Visit>
     static void with_filter(KindNumber kind, const Visit& visit) {
         simd::with_filter<Arch>(kind, visit);

@@ -57,7 +57,7 @@ struct DoubleMethod {
     using Rays = DoubleRays<Arch>;
 
     static Rays packet(const RoundedRays& rays, std::size_t i) {
-        Rays result{Streams<Arch>::packet(rays, i), {}};
+        Rays result{RaysInFloat<Arch>::packet(rays, i), {}};
         for (int half = 0; half < 2; ++half) {
             const std::size_t from = i + static_cast<std::size_t>(half) * Floats<D>::size;
             result.halves[half] = {load(rays.meant_origin, from), load(rays.meant_direction, from)};
@@ -69,7 +69,7 @@ struct DoubleMethod {
             return Vectors<D>{Floats<D>(from[0][i]), Floats<D>(from[1][i]), Floats<D>(from[2][i])};
         };
         const simd::Rays<D> ray = {in_all(rays.meant_origin), in_all(rays.meant_direction)};
-        return {Streams<Arch>::broadcast(rays, i), {ray, ray}};
+        return {RaysInFloat<Arch>::broadcast(rays, i), {ray, ray}};
     }
     template <class Visit>
     static void with_filter(KindNumber kind, const Visit& visit) {

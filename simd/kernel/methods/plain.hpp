@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/finishers/finisher.hpp"
+#include "simd/kernel/filters/filter.hpp"
 #include "simd/kernel/methods/plain_finish.hpp"
 
 namespace raylane::simd {
@@ -22,15 +22,7 @@ struct PlainFilter {
 
 /// core::Precision::robust and, by the textbooks, fast.
 template <class Arch, bool textbook>
-struct PlainMethod {
-    using Rays = FilterRays<Arch>;
-
-    static Rays packet(const RoundedRays& rays, std::size_t i) {
-        return Streams<Arch>::packet(rays, i);
-    }
-    static Rays broadcast(const RoundedRays& rays, std::size_t i) {
-        return Streams<Arch>::broadcast(rays, i);
-    }
+struct PlainMethod : RaysInFloat<Arch> {
     template <class Visit>
     static void with_filter(KindNumber kind, const Visit& visit) {
         with_lanes<Arch, textbook>(

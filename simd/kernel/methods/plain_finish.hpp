@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/doubles.hpp"
+#include "simd/kernel/slots.hpp"
 #include "simd/kernel/solvers/solvers.hpp"
 #include "simd/kernel/trace/rays.hpp"
 #include "simd/kernels.hpp"
@@ -9,19 +10,11 @@
 
 namespace raylane::simd {
 
-template <class Number>
-Starts<Number> starts_nowhere() {
-    return {none<Number>(), none<Number>(), zero<Number>()};
-}
-
-/// The first crossing that counts: ahead of the ray or, where it starts on the surface, at t = 0.
+/// The first crossing that is ahead.
 template <class Number>
 Crossing<Number> first_ahead(const Crossings<Number>& found, const Mask<Number>& on_surface) {
-    const auto ahead = [&](const Crossing<Number>& crossing) {
-        return crossing.exists &
-               ((crossing.t > zero<Number>()) | (on_surface & (crossing.t == zero<Number>())));
-    };
-    const Mask<Number> first = ahead(found.first), second = ahead(found.second);
+    const Mask<Number> first = ahead(found.first, on_surface),
+                       second = ahead(found.second, on_surface);
     return {first | second, xsimd::select(first, found.first.t, found.second.t),
             xsimd::select(first, found.first.face, found.second.face),
             (first & found.first.entering) | (~first & found.second.entering)};
@@ -41,31 +34,26 @@ class PlainFinish {
             for (int lane = 0; lane < here; ++lane)
                 left |= std::uint32_t{found_.slot[i + lane] != no_slot} << lane;
             while (left != 0) {
-                const TableView* table = scene_.tables;
-                const std::uint32_t slot = found_.slot[i + __builtin_ctz(left)];
-                while (!holds(*table, slot))
-                    ++table;
+                const int kind = S::kind_of(scene_, found_.slot[i + __builtin_ctz(left)]);
+                const TableView& table = scene_.tables[kind];
                 std::uint32_t alike = 0;
                 for (int lane = 0; lane < here; ++lane)
-                    alike |= std::uint32_t{holds(*table, found_.slot[i + lane])} << lane;
+                    alike |= std::uint32_t{S::holds(table, found_.slot[i + lane])} << lane;
                 alike &= left;
-                with_lanes<Number, textbook>(
-                    static_cast<KindNumber>(table - scene_.tables),
-                    [&]<class Solver>() { finish_packet<Solver>(*table, i, alike); });
+                with_lanes<Number, textbook>(static_cast<KindNumber>(kind), [&]<class Solver>() {
+                    finish_packet<Solver>(table, i, alike);
+                });
                 left &= ~alike;
             }
         }
     }
 
   private:
+    using S = Slots<Number>;
     using F = Floats<Number>;
     using Value = typename F::value_type;
     static constexpr std::size_t lanes = F::size;
     static constexpr std::uint32_t all_lanes = (1U << lanes) - 1;
-
-    static bool holds(const TableView& table, std::uint32_t slot) {
-        return slot - table.first_slot < 16 * table.block_count;
-    }
 
     /// Reads the floats of a shape per lane.
     struct Reader {
@@ -92,9 +80,7 @@ class PlainFinish {
         reader.one_shape = true;
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const std::size_t ray = i + ((active >> lane & 1) != 0 ? lane : first_lane);
-            const std::uint32_t place = found_.slot[ray] - table.first_slot;
-            reader.from[lane] =
-                table.blocks + std::size_t{table.block_floats} * (place / 16) + place % 16;
+            reader.from[lane] = table.blocks + S::offset(table, found_.slot[ray]);
             reader.one_shape &= reader.from[lane] == reader.from[0];
         }
         const Starts<Number> starts = starts_of(table, reader, i);

@@ -24,7 +24,6 @@ struct Shading {
         v.y.store_unaligned(to[1] + i);
         v.z.store_unaligned(to[2] + i);
     }
-    static V scaled(const F& s, const V& v) { return {s * v.x, s * v.y, s * v.z}; }
     static V product(const V& a, const V& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
     /// A column at the places of a packet's lanes; the last packet repeats its last lane.

@@ -117,20 +117,12 @@ struct CornerNormals {
                             to_c = triangle.c - point;
         const auto share = [&](const Vectors<Arch>& p, const Vectors<Arch>& q,
                                const Vectors<Arch>& normal) {
-            const Floats<Arch> weight = dot(unit_flat, cross(p, q));
-            const Vectors<Arch> unit = unit_of(normal);
-            return Vectors<Arch>{weight * unit.x, weight * unit.y, weight * unit.z};
+            return scaled(dot(unit_flat, cross(p, q)), unit(normal));
         };
         const Vectors<Arch> sum =
             share(to_b, to_c, a) + share(to_c, to_a, b) + share(to_a, to_b, c);
         const Floats<Arch> square = squared_length(sum);
         return select<Arch>(square > zero<Arch>(), sum / xsimd::sqrt(square), unit_flat);
-    }
-
-  private:
-    static Vectors<Arch> unit_of(const Vectors<Arch>& v) {
-        const Floats<Arch> inverse = constant<Arch>(1.0F) / xsimd::sqrt(squared_length(v));
-        return {inverse * v.x, inverse * v.y, inverse * v.z};
     }
 };
 

@@ -26,19 +26,6 @@ struct Streams {
     }
     static F infinity() { return F(__builtin_inff()); }
 
-    static FilterRays<Arch> packet(const RoundedRays& rays, std::size_t i) {
-        return {
-            {load(rays.origin[0] + i), load(rays.origin[1] + i), load(rays.origin[2] + i)},
-            {load(rays.direction[0] + i), load(rays.direction[1] + i), load(rays.direction[2] + i)},
-            load(rays.slack + i)};
-    }
-
-    static FilterRays<Arch> broadcast(const RoundedRays& rays, std::size_t i) {
-        return {{F(rays.origin[0][i]), F(rays.origin[1][i]), F(rays.origin[2][i])},
-                {F(rays.direction[0][i]), F(rays.direction[1][i]), F(rays.direction[2][i])},
-                F(rays.slack[i])};
-    }
-
     /// The first `count` lanes.
     static M first_lanes(std::size_t count) {
         static constexpr float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
@@ -68,6 +55,29 @@ struct Streams {
     static Rows rows_of(const float* block) { return reinterpret_cast<Rows>(block); }
     static const std::uint32_t* ids_of(const TableView& table, const float* block) {
         return reinterpret_cast<const std::uint32_t*>(block + std::size_t{16} * table.values);
+    }
+};
+
+/// Rays of a stream, rounded to float.
+template <class Arch>
+struct RaysInFloat : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using Rays = FilterRays<Arch>;
+
+    /// Those from one on, one per lane.
+    static Rays packet(const RoundedRays& rays, std::size_t i) {
+        const auto load = [&](float* const(&from)[3]) {
+            return Vectors<Arch>{S::load(from[0] + i), S::load(from[1] + i), S::load(from[2] + i)};
+        };
+        return {load(rays.origin), load(rays.direction), S::load(rays.slack + i)};
+    }
+
+    /// One of them in all lanes.
+    static Rays broadcast(const RoundedRays& rays, std::size_t i) {
+        return {{F(rays.origin[0][i]), F(rays.origin[1][i]), F(rays.origin[2][i])},
+                {F(rays.direction[0][i]), F(rays.direction[1][i]), F(rays.direction[2][i])},
+                F(rays.slack[i])};
     }
 };
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "simd/scene_view.hpp"
+
+#include <cstddef>
+
+namespace raylane::simd {
+
+/// Where in the tables slots are. A template, as all in kernel/.
+template <class Arch>
+struct Slots {
+    static bool holds(const TableView& table, std::uint32_t slot) {
+        return slot - table.first_slot < 16 * table.block_count;
+    }
+
+    /// Of a slot that some table holds.
+    static int kind_of(const SceneView& scene, std::uint32_t slot) {
+        int kind = 0;
+        while (!holds(scene.tables[kind], slot))
+            ++kind;
+        return kind;
+    }
+
+    /// From the table's first float to the slot's first one.
+    [[gnu::always_inline]] static long long offset(const TableView& table, std::uint32_t slot) {
+        const std::uint32_t place = slot - table.first_slot;
+        return static_cast<long long>(place / 16) * table.block_floats + place % 16;
+    }
+};
+
+} // namespace raylane::simd
