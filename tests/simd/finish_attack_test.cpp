@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
-#include <sstream>
 #include <string>
 
 using namespace raylane;
@@ -216,20 +215,13 @@ Summit<Shape> highest(Aim aim, int climbs, std::uint64_t seed) {
     return highest;
 }
 
-/// Exactly, in C++'s notation.
 template <class Shape>
 std::string description(const Summit<Shape>& summit) {
-    std::ostringstream out;
-    out << std::hexfloat;
-    for (const float value : floats_of(summit.attempt.shape))
-        out << value << "F, ";
-    const Ray<double>& ray = summit.attempt.ray;
-    for (const Vec3d& v : {ray.origin, ray.direction})
-        out << "{" << v.x << ", " << v.y << ", " << v.z << "} ";
+    std::string text = mutations::description(summit.attempt.shape, summit.attempt.ray);
     const Start& start = summit.attempt.start;
     if (start.on_surface)
-        out << "from face " << int{start.face} << (start.inward ? ", inward" : "");
-    return out.str();
+        text += "from face " + std::to_string(start.face) + (start.inward ? ", inward" : "");
+    return text;
 }
 
 } // namespace

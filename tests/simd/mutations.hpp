@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <sstream>
+#include <string>
 #include <utility>
 
 /// Small changes of rays and shapes, for searches that climb to where a bound is nearly broken.
@@ -17,6 +19,18 @@ struct Attempt {
     Shape shape;
     Ray<double> ray;
 };
+
+/// Exactly, in C++'s notation.
+template <class Shape>
+std::string description(const Shape& shape, const Ray<double>& ray) {
+    std::ostringstream out;
+    out << std::hexfloat;
+    for (const float value : floats_of(shape))
+        out << value << "F, ";
+    for (const Vec3d& v : {ray.origin, ray.direction})
+        out << "{" << v.x << ", " << v.y << ", " << v.z << "} ";
+    return out.str();
+}
 
 template <class Shape>
 bool is_valid(const Shape& shape) {

@@ -7,10 +7,10 @@
 namespace raylane::tests {
 
 /// How often to repeat what is random. RAYLANE_TEST_ROUNDS asks for fewer where a processor is
-/// emulated.
-inline int rounds(int usual) {
+/// emulated; sanitizers allow for a few.
+inline int rounds(int usual, int few = 20) {
     const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : sanitized ? 20 : usual;
+    return wanted != nullptr ? std::atoi(wanted) : sanitized ? few : usual;
 }
 
 } // namespace raylane::tests

@@ -2,12 +2,11 @@
 #include "simd/isa.hpp"
 #include "simd/wavefront/shadow_tracer.hpp"
 #include "tests/catch.hpp"
-#include "tests/sanitized.hpp"
-#include "tests/simd/nests.hpp"
+#include "tests/simd/rounds.hpp"
+#include "tests/simd/spawn_tally.hpp"
+#include "tests/simd/spawn_truth.hpp"
 
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -15,90 +14,18 @@ using namespace raylane;
 using namespace raylane::core;
 using namespace raylane::simd;
 using namespace raylane::tests;
-using ray_sets::Set;
 
 /// Rays that leave a surface, by the vector engine's own path: they never meet what they leave
 /// again, unless it curves back, and never miss what is next, however close.
 
 namespace {
 
-/// Fewer where a processor is emulated.
 int rounds() {
-    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
-    return wanted != nullptr ? std::atoi(wanted) : tests::sanitized ? 5 : 200;
+    return tests::rounds(200, 5);
 }
 
 constexpr std::size_t rays_per_nest = 512;
 constexpr int oracle_share = 16; // one in so many rays is asked of the oracle
-
-enum RayKind : std::uint8_t { reflected_ray, refracted_ray, shadow_ray };
-
-struct Tally {
-    long rays[2][3] = {}; ///< by the side that they go to, 1 being the inside, and RayKind
-    long self_hits = 0;   ///< on the shape left, where something else is next
-    long missed = 0;      ///< neighbours
-    long other = 0;       ///< anything else that is wrong
-    long by_oracle = 0, by_construction = 0;
-    long doubtful = 0; ///< what the float bounds or the finish left open
-    long followed = 0; ///< what only the reference could go on with
-    long into_the_open = 0, doubtful_in_the_open = 0;
-    std::string first_faults;
-
-    long all() const {
-        long sum = 0;
-        for (const auto& side : rays)
-            for (const long count : side)
-                sum += count;
-        return sum;
-    }
-};
-
-/// The ids of a nest's shapes; what comes after them is far away.
-enum : ShapeId { shape_id, outer_id, inner_id };
-
-/// What is next for a ray.
-struct Next {
-    ShapeId shape = no_shape;
-    double t = std::numeric_limits<double>::infinity();
-    bool entering = false;
-};
-
-bool is_flat(Kind kind) {
-    return kind >= Kind::plane && kind <= Kind::smooth_triangle;
-}
-
-/// Where a nest is, and how large.
-struct Place {
-    double size; ///< of the nest, about
-    Vec3f offset;
-    float factor;
-
-    explicit Place(Random& r) {
-        const double radii = r.log_uniform(1e-2, r.integer(0, 1) == 0 ? 10.0 : 1e6);
-        size = std::clamp(0x1p23 / std::max(radii, 1.0), 8.0, 0x1p21);
-        const double distance = std::min(radii * size, 0x1p23 - 0x1p5);
-        offset = whole(r.direction() * distance);
-        factor = rounded(std::exp2(std::round(std::log2(r.log_uniform(1e-6, 1e6) / size))));
-    }
-    Vec3d point(const Vec3d& p) const {
-        return (p + convert<double>(offset)) * static_cast<double>(factor);
-    }
-};
-
-/// A ray from one of the sets, for the shape of a nest.
-Ray<double> ray_to(const Nest& nest, const Place& place, Random& r) {
-    constexpr Set sets[] = {Set::random,  Set::random,   Set::inside, Set::on_surface,
-                            Set::grazing, Set::parallel, Set::zeros,  Set::far};
-    const Set set = sets[r.integer(0, static_cast<int>(std::size(sets)) - 1)];
-    const float unit = std::exp2(std::round(std::log2(rounded(place.size))));
-    const Ray<float> ray = std::visit(
-        [&](const auto& shape) {
-            return ray_sets::make_ray(Placing(Vec3f(0), 1.0F / unit)(shape), set, r);
-        },
-        nest.shape);
-    return {place.point(convert<double>(ray.origin) * static_cast<double>(unit)),
-            normalized(convert<double>(ray.direction))};
-}
 
 ShapeId add_to(SceneBuilder& builder, const AnyShape& any) {
     return std::visit([&](const auto& shape) { return builder.add(shape, 0); }, any);
@@ -111,16 +38,6 @@ Scene scene_of(const std::vector<AnyShape>& shapes) {
     for (const AnyShape& shape : shapes)
         add_to(builder, shape);
     return std::move(builder).build();
-}
-
-/// Enough of them that there is a hierarchy.
-std::vector<AnyShape> far_spheres(const Place& place, Random& r) {
-    std::vector<AnyShape> spheres;
-    for (int i = 0; i < 30; ++i)
-        spheres.push_back(
-            Sphere{rounded(place.point(r.direction() * (place.size * r.log_uniform(1e2, 1e4)))),
-                   rounded(place.size * static_cast<double>(place.factor))});
-    return spheres;
 }
 
 /// Arrays that outlive what uses them.
@@ -141,7 +58,8 @@ class Spawning {
         : random_(random), tally_(tally), nest_(nest), place_(place),
           placing_(place.offset, place.factor), shapes_{placing_(nest.shape), placing_(nest.outer),
                                                         placing_(nest.inner)},
-          kind_(tests::kind_of(nest.shape)), alone_(scene_of({shapes_[0]})), alone_data_(alone_) {
+          truth_(nest, place, shapes_), kind_(tests::kind_of(nest.shape)),
+          alone_(scene_of({shapes_[0]})), alone_data_(alone_) {
         if (random.integer(0, 1) == 0)
             for (const AnyShape& sphere : far_spheres(place, random))
                 shapes_.push_back(sphere);
@@ -289,12 +207,12 @@ class Spawning {
         agree(found, {certified.shape, certified.t, certified.entering}, ray, inward,
               "the certified search");
 
-        if (const std::optional<Next> next = by_construction(ray, inward)) {
+        if (const std::optional<Next> next = truth_.by_construction(ray, inward)) {
             ++tally_.by_construction;
             agree(found, *next, ray, inward, "the construction");
         }
         if (random_.integer(1, oracle_share) == 1 && found.shape <= inner_id)
-            if (const std::optional<Next> next = by_oracle(ray, inward)) {
+            if (const std::optional<Next> next = truth_.by_oracle(ray, inward)) {
                 ++tally_.by_oracle;
                 agree(found, *next, ray, inward, "the oracle");
             }
@@ -304,7 +222,7 @@ class Spawning {
                const char* whose) {
         const bool same = found.shape == expected.shape &&
                           (found.shape == no_shape || found.entering == expected.entering);
-        const double allowed = 0x1p-24 * expected.t + slack(ray);
+        const double allowed = 0x1p-24 * expected.t + truth_.slack(ray);
         const bool near = std::isnan(expected.t) || found.t == expected.t ||
                           std::abs(found.t - expected.t) <= allowed;
         if (same && near) return;
@@ -320,7 +238,7 @@ class Spawning {
         tell(whose, ": shape ", static_cast<int>(expected.shape), " at ", expected.t,
              ", engine: ", static_cast<int>(found.shape), " at ", found.t,
              inward ? ", inward" : ", outward", ", size ",
-             place_.size * static_cast<double>(place_.factor), ", slack ", slack(ray));
+             place_.size * static_cast<double>(place_.factor), ", slack ", truth_.slack(ray));
     }
 
     template <class... Parts>
@@ -330,81 +248,6 @@ class Spawning {
         (text << ... << parts) << "\n";
         tally_.first_faults += text.str();
     }
-
-    /// How far the start may be from the surface.
-    double slack(const Ray<double>& ray) const {
-        const Vec3d o = ray.origin;
-        return 0x1p-48 * (std::abs(o.x) + std::abs(o.y) + std::abs(o.z) +
-                          place_.size * static_cast<double>(place_.factor));
-    }
-
-    /// What a ray from the true surface meets. Its t is not known.
-    std::optional<Next> by_construction(const Ray<double>& ray, bool inward) const {
-        constexpr double t = std::numeric_limits<double>::quiet_NaN();
-        if (shapes_.size() > 3) return std::nullopt; // a sphere may be in between, if far away
-        if (nest_.parted) {
-            const Vec3d normal = std::visit(
-                [&]<class Shape>(const Shape& shape) {
-                    return convert<double>(Vec3f(plane_normal(shape)));
-                },
-                shapes_[outer_id]);
-            if (std::abs(dot(normalized(normal), ray.direction)) < 1e-9) return std::nullopt;
-            return inward ? Next{inner_id, t, true} : Next{outer_id, t, false};
-        }
-        if (!inward) return nest_.closed ? std::optional(Next{outer_id, t, false}) : std::nullopt;
-        if (kind_ != Kind::sphere) return std::nullopt;
-        const auto& inner = std::get<Sphere>(shapes_[inner_id]);
-        const Vec3d from_center = ray.origin - convert<double>(inner.center);
-        const double past = length(cross(from_center, ray.direction)),
-                     radius = static_cast<double>(inner.radius);
-        if (past < radius - slack(ray)) return Next{inner_id, t, true};
-        if (past > radius + slack(ray)) return Next{shape_id, t, false};
-        return std::nullopt;
-    }
-
-    template <class Shape>
-    static Vec3f plane_normal(const Shape& shape) {
-        if constexpr (std::is_same_v<Shape, Plane>)
-            return shape.normal;
-        else
-            return Vec3f(0);
-    }
-
-    /// Nothing where the start and the next crossing with the shape left are too close to tell
-    /// which is which.
-    std::optional<Next> by_oracle(const Ray<double>& ray, bool inward) const {
-        Next next;
-        for (const ShapeId id : {outer_id, inner_id})
-            for (const oracle::Hit& hit : crossings(shapes_[id], ray))
-                if (hit.t > 0 && to_double(hit.t) < next.t)
-                    next = {id, to_double(hit.t), hit.entering};
-        if (is_flat(kind_) || (!inward && kind_ != Kind::quadric)) return next;
-
-        double start = std::numeric_limits<double>::infinity(), onward = start;
-        for (const oracle::Hit& hit : crossings(shapes_[shape_id], ray)) {
-            const double t = to_double(hit.t);
-            if (hit.entering != inward)
-                onward = t;
-            else if (std::abs(t) < std::abs(start))
-                start = t;
-        }
-        if (std::isinf(onward)) {
-            // The start is off the surface, and the ray passes all of it; or it is out of bounds.
-            const bool solid = kind_ == Kind::sphere || kind_ == Kind::box ||
-                               kind_ == Kind::capped_cylinder || kind_ == Kind::capped_cone;
-            if (solid || std::isinf(start)) return std::nullopt;
-            return next;
-        }
-        if (!(std::abs(start) <= 0x1p10 * slack(ray)) || onward <= start) return std::nullopt;
-        const double error = 2.0 * std::abs(start) + 0x1p-24 * std::abs(onward);
-        if (std::abs(onward - next.t) <= error || std::abs(onward) <= 2 * error)
-            return std::nullopt;
-        if (onward > 0.0 && onward < next.t)
-            return Next{shape_id, std::numeric_limits<double>::quiet_NaN(), !inward};
-        return next;
-    }
-
-    static double to_double(const oracle::Number& number) { return static_cast<double>(number); }
 
     /// In the gaps, next to them, or far away.
     Vec3f light_position() {
@@ -488,13 +331,13 @@ class Spawning {
         const bool arrives = tracer.arrives(k);
         agree_on_shadow(arrives, {certified.shape, certified.t, certified.entering}, distance, ray,
                         "the certified search");
-        if (const std::optional<Next> next = by_construction(ray, inward))
+        if (const std::optional<Next> next = truth_.by_construction(ray, inward))
             if (next->shape != shape_id && std::isinf(distance)) {
                 ++tally_.by_construction;
                 if (arrives && ++tally_.missed != 0) tell("the construction: the light arrives");
             }
         if (random_.integer(1, oracle_share) == 1 && shapes_.size() == 3)
-            if (const std::optional<Next> next = by_oracle(ray, inward)) {
+            if (const std::optional<Next> next = truth_.by_oracle(ray, inward)) {
                 ++tally_.by_oracle;
                 agree_on_shadow(arrives, *next, distance, ray, "the oracle");
             }
@@ -508,7 +351,7 @@ class Spawning {
         ++(arrives ? tally_.missed : tally_.self_hits);
         tell(whose, ": shape ", static_cast<int>(next.shape), " at ", next.t, ", light at ",
              distance, arrives ? ", which arrives" : ", which does not arrive", ", slack ",
-             slack(ray));
+             truth_.slack(ray));
     }
 
     Random& random_;
@@ -517,6 +360,7 @@ class Spawning {
     const Place& place_;
     Placing placing_;
     std::vector<AnyShape> shapes_; // by id
+    SpawnTruth truth_;
     Kind kind_;
     Scene alone_;
     SceneData alone_data_;
@@ -530,18 +374,6 @@ class Spawning {
     std::uint32_t* order_ = nullptr; // the lanes that have hit the shape
     std::size_t hit_count_ = 0;
 };
-
-void print(Kind kind, const Tally& tally) {
-    std::printf(
-        "spawned, %-15s outward %ld reflected %ld refracted %ld shadow, "
-        "inward %ld reflected %ld refracted %ld shadow; "
-        "%ld by construction, %ld by the oracle; %ld doubtful, %ld followed; in the open %ld of "
-        "%ld doubtful\n",
-        std::string(name_of(kind)).c_str(), tally.rays[0][0], tally.rays[0][1], tally.rays[0][2],
-        tally.rays[1][0], tally.rays[1][1], tally.rays[1][2], tally.by_construction,
-        tally.by_oracle, tally.doubtful, tally.followed, tally.doubtful_in_the_open,
-        tally.into_the_open);
-}
 
 } // namespace
 

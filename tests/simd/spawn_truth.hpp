@@ -1,0 +1,114 @@
+#pragma once
+
+#include "tests/simd/nest_place.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace raylane::tests {
+
+/// The ids of a nest's shapes; what comes after them is far away.
+enum : ShapeId { shape_id, outer_id, inner_id };
+
+/// What is next for a ray.
+struct Next {
+    ShapeId shape = no_shape;
+    double t = std::numeric_limits<double>::infinity();
+    bool entering = false;
+};
+
+inline bool is_flat(Kind kind) {
+    return kind >= Kind::plane && kind <= Kind::smooth_triangle;
+}
+
+/// What is true of rays that leave a nest's shape.
+class SpawnTruth {
+  public:
+    /// `shapes`: of the scene, by id.
+    SpawnTruth(const Nest& nest, const Place& place, const std::vector<AnyShape>& shapes)
+        : nest_(nest), place_(place), shapes_(shapes), kind_(tests::kind_of(nest.shape)) {}
+
+    /// How far the start may be from the surface.
+    double slack(const Ray<double>& ray) const {
+        const Vec3d o = ray.origin;
+        return 0x1p-48 * (std::abs(o.x) + std::abs(o.y) + std::abs(o.z) +
+                          place_.size * static_cast<double>(place_.factor));
+    }
+
+    /// What a ray from the true surface meets. Its t is not known.
+    std::optional<Next> by_construction(const Ray<double>& ray, bool inward) const {
+        constexpr double t = std::numeric_limits<double>::quiet_NaN();
+        if (shapes_.size() > 3) return std::nullopt; // a sphere may be in between, if far away
+        if (nest_.parted) {
+            const Vec3d normal = std::visit(
+                [&]<class Shape>(const Shape& shape) {
+                    return convert<double>(Vec3f(plane_normal(shape)));
+                },
+                shapes_[outer_id]);
+            if (std::abs(dot(normalized(normal), ray.direction)) < 1e-9) return std::nullopt;
+            return inward ? Next{inner_id, t, true} : Next{outer_id, t, false};
+        }
+        if (!inward) return nest_.closed ? std::optional(Next{outer_id, t, false}) : std::nullopt;
+        if (kind_ != Kind::sphere) return std::nullopt;
+        const auto& inner = std::get<Sphere>(shapes_[inner_id]);
+        const Vec3d from_center = ray.origin - convert<double>(inner.center);
+        const double past = length(cross(from_center, ray.direction)),
+                     radius = static_cast<double>(inner.radius);
+        if (past < radius - slack(ray)) return Next{inner_id, t, true};
+        if (past > radius + slack(ray)) return Next{shape_id, t, false};
+        return std::nullopt;
+    }
+
+    /// Nothing where the start and the next crossing with the shape left are too close to tell
+    /// which is which.
+    std::optional<Next> by_oracle(const Ray<double>& ray, bool inward) const {
+        Next next;
+        for (const ShapeId id : {outer_id, inner_id})
+            for (const oracle::Hit& hit : crossings(shapes_[id], ray))
+                if (hit.t > 0 && to_double(hit.t) < next.t)
+                    next = {id, to_double(hit.t), hit.entering};
+        if (is_flat(kind_) || (!inward && kind_ != Kind::quadric)) return next;
+
+        double start = std::numeric_limits<double>::infinity(), onward = start;
+        for (const oracle::Hit& hit : crossings(shapes_[shape_id], ray)) {
+            const double t = to_double(hit.t);
+            if (hit.entering != inward)
+                onward = t;
+            else if (std::abs(t) < std::abs(start))
+                start = t;
+        }
+        if (std::isinf(onward)) {
+            // The start is off the surface, and the ray passes all of it; or it is out of bounds.
+            const bool solid = kind_ == Kind::sphere || kind_ == Kind::box ||
+                               kind_ == Kind::capped_cylinder || kind_ == Kind::capped_cone;
+            if (solid || std::isinf(start)) return std::nullopt;
+            return next;
+        }
+        if (!(std::abs(start) <= 0x1p10 * slack(ray)) || onward <= start) return std::nullopt;
+        const double error = 2.0 * std::abs(start) + 0x1p-24 * std::abs(onward);
+        if (std::abs(onward - next.t) <= error || std::abs(onward) <= 2 * error)
+            return std::nullopt;
+        if (onward > 0.0 && onward < next.t)
+            return Next{shape_id, std::numeric_limits<double>::quiet_NaN(), !inward};
+        return next;
+    }
+
+  private:
+    template <class Shape>
+    static Vec3f plane_normal(const Shape& shape) {
+        if constexpr (std::is_same_v<Shape, Plane>)
+            return shape.normal;
+        else
+            return Vec3f(0);
+    }
+
+    static double to_double(const oracle::Number& number) { return static_cast<double>(number); }
+
+    const Nest& nest_;
+    const Place& place_;
+    const std::vector<AnyShape>& shapes_;
+    Kind kind_;
+};
+
+} // namespace raylane::tests
