@@ -1,0 +1,173 @@
+"""Turns the JSON of raylane-bench into gnuplot's commands for the figures of chart.sh.
+
+    chart.py JSON methods RAYS ISA
+    chart.py JSON pictures
+"""
+
+import json
+import statistics
+import sys
+
+COLORS = {
+    "fast": "#d7301f",
+    "robust": "#e69f00",
+    "exact": "#0072b2",
+    "double": "#666666",
+    "Embree": "#009e73",
+}
+GREY = "#999999"
+
+
+def runs_of(source, family):
+    """Lists of runs by the parts of their names behind the first one, `family`."""
+    runs = {}
+    with open(source) as file:
+        for run in json.load(file)["benchmarks"]:
+            first, *parts = run.get("run_name", run["name"]).split("/")
+            if run.get("run_type") == "iteration" and first == family:
+                runs.setdefault(tuple(parts), []).append(run)
+    return runs
+
+
+def median(runs, counter):
+    return statistics.median(run[counter] for run in runs)
+
+
+class Plot:
+    """One panel: curves, each a block of points that stands in the script itself."""
+
+    blocks = 0
+
+    def __init__(self):
+        self.curves = []
+
+    def add(self, points, style):
+        Plot.blocks += 1
+        print("$points%d << END" % Plot.blocks)
+        for point in points:
+            print(*('"%s"' % value if isinstance(value, str) else "%g" % value for value in point))
+        print("END")
+        self.again(style)
+
+    def again(self, style):
+        """The points of the last `add`, in another style."""
+        self.curves.append("$points%d %s" % (Plot.blocks, style))
+
+    def draw(self):
+        print("plot", ", ".join(self.curves))
+
+
+def begin(title, layout, xlabel, ylabel):
+    print("set multiplot layout %s title \"%s\" font ',14'" % (layout, title))
+    print("set logscale y\nset format y '10^{%L}'\nset tics font ',9'")
+    print("set grid ytics lc '#dddddd'")
+    print("set xlabel '%s' offset 0,0.6 font ',9'" % xlabel)
+    print("set ylabel '%s' offset 1.5 font ',9'" % ylabel)
+
+
+def pareto_front(marks):
+    """Of (speed, error, ...) those that no other one beats in both."""
+    front, least = [], float("inf")
+    for mark in sorted(marks, key=lambda mark: (-mark[0], mark[1])):
+        if mark[1] < least:
+            front.append(mark)
+            least = mark[1]
+    return front
+
+
+SHAPES = ["sphere", "plane", "disc", "triangle", "smooth_triangle", "box", "open_cylinder",
+          "capped_cylinder", "open_cone", "capped_cone", "quadric"]
+
+
+def methods_figure(source, rays, isa):
+    by_shape = {}
+    for (shape, which, method, on), runs in runs_of(source, "methods").items():
+        if which != rays or on != isa:
+            continue
+        name = "Embree" if method.startswith("embree") else method
+        mark = (median(runs, "items_per_second") / 1e6, runs[0]["ulps_p99"], name, runs[0]["wrong"])
+        marks = by_shape.setdefault(shape, {})
+        if name not in marks or mark > marks[name]:  # the fastest way to call it
+            marks[name] = mark
+    if not by_shape:
+        sys.exit("chart.sh: no measurements of %s rays by %s in %s" % (rays, isa, source))
+
+    floor = 0.1  # ulps: what is drawn at the bottom
+    begin("Nearest of 12 shapes, normals included: %s rays, one thread, %s" % (rays, isa), "3,4",
+          "million rays/s", "ulps of t, 99th percentile")
+    for shape in sorted(by_shape, key=SHAPES.index):
+        marks = [(speed, max(error, floor), name, wrong)
+                 for speed, error, name, wrong in by_shape[shape].values()]
+        print("set title '%s' offset 0,-0.6" % shape.replace("_", " "))
+        print("set xrange [0:%g]\nset yrange [%g:%g]" %
+              (1.2 * max(mark[0] for mark in marks), floor, 8 * max(mark[1] for mark in marks)))
+        plot = Plot()
+        plot.add([mark[:2] for mark in pareto_front(marks)],
+                 "with lines lc '%s' dt 2 notitle" % GREY)
+        for speed, error, name, wrong in marks:
+            share = "" if wrong == 0 else " %.2g %% wrong" % (100 * wrong)
+            plot.add([(speed, error, share)],
+                     "with points pt 7 ps 1.1 lc '%s' notitle" % COLORS[name])
+            plot.again("using 1:2:3 with labels center offset 0,0.8 font ',9' tc '%s' notitle" %
+                       COLORS[name])
+        plot.draw()
+    named = {name for marks in by_shape.values() for name in marks}
+    draw_key(["NaN with points pt 7 ps 1.4 lc '%s' title '%s'" % (color, name)
+              for name, color in COLORS.items() if name in named] +
+             ["NaN with lines lc '%s' dt 2 title 'the best there is'" % GREY])
+
+
+def draw_key(entries):
+    """In a panel of its own."""
+    print("unset title\nunset border\nunset tics\nunset grid\nunset logscale\nunset xlabel\n"
+          "unset ylabel\nset xrange [0:1]\nset yrange [0:1]\n"
+          "set key at 0.95,0.85 samplen 1.5 spacing 1.6 font ',12'")
+    print("plot", ", ".join(entries))
+    print("unset multiplot")
+
+
+def pictures_figure(source):
+    scenes = {}
+    for (scene, what, precision, value), runs in runs_of(source, "picture").items():
+        scenes.setdefault(scene, {}).setdefault((what, precision), []).append(
+            (int(value), 1000 * median(runs, "seconds"), runs[0]["rmse"]))
+    if not scenes:
+        sys.exit("chart.sh: no measurements of pictures in %s" % source)
+
+    floor = 1e-9  # RMSE: what is drawn at the bottom
+    begin("What pictures cost and what they are off by, by samples per pixel: 200 pixels a row, "
+          "one thread", "2,3", "milliseconds", "RMSE to 64 samples in double")
+    print("set logscale x\nset format y '10^{%L}'\nset yrange [3e-10:1]\nset key off")
+    print("set lmargin 9")
+    for index, (scene, series) in enumerate(scenes.items()):
+        print("set title '%s' offset 0,-0.6" % scene)
+        plot = Plot()
+        if index == 0:
+            print("set key at graph 0.03,0.5 left top reverse Left samplen 2 spacing 1.1 font ',9'")
+        for precision, color in COLORS.items():
+            points = sorted(series.get(("samples", precision), []))
+            # The last of double's is what all are compared with.
+            points = [(ms, max(error, floor), str(samples)) for samples, ms, error in points
+                      if precision != "double" or error > 0]
+            if not points:
+                continue
+            plot.add(points, "with linespoints pt 7 ps 0.7 lw 1.5 lc '%s' title '%s'" %
+                     (color, precision))
+            if precision == "exact":
+                plot.again("using 1:2:3 with labels right offset -0.7,-0.4 font ',8' tc '%s' "
+                           "notitle" % color)
+        for what, title, mark, color in (("depth", "64 samples, fewer reflections", 6, "#7b3294"),
+                                         ("weight", "64 samples, fewer faint paths", 4, "#008080")):
+            points = [(ms, error) for _, ms, error in sorted(series.get((what, "exact"), []))
+                      if error > 0]
+            if points:
+                plot.add(points, "with linespoints pt %d ps 0.8 dt 2 lc '%s' title '%s'" %
+                         (mark, color, title))
+        plot.draw()
+        print("set key off")
+    print("unset multiplot")
+
+
+if __name__ == "__main__":
+    figures = {"methods": methods_figure, "pictures": pictures_figure}
+    figures[sys.argv[2]](sys.argv[1], *sys.argv[3:])

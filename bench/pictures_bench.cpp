@@ -1,0 +1,137 @@
+#include "core/precision.hpp"
+#include "scenes/scene_file.hpp"
+#include "simd/render.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+/// What a picture costs, and how far it is from one of 64 samples a pixel, long paths and double
+/// precision: by precision and samples; and, with exact's, by the depth of reflections and
+/// by the throughput below which paths are left.
+///
+/// picture/SCENE/WHAT/PRECISION/VALUE: WHAT is `samples` (a pixel), `depth` or `weight` (per
+/// mille), with counters `seconds` of wall time by one thread and `rmse` of linear light.
+
+namespace {
+
+using namespace raylane;
+using Clock = std::chrono::steady_clock;
+
+constexpr int best_grid = 8, usual_grid = 2;
+
+/// A scene and its best picture, made when first asked for.
+struct Subject {
+    core::Scene scene;
+    core::Settings settings; ///< small enough to measure many
+    core::Film best;
+
+    explicit Subject(core::Scene loaded)
+        : scene(std::move(loaded)), settings(small(scene.settings())),
+          best(render(with_grid(best_grid), core::Precision::plain_double).film) {}
+
+    static const Subject& of(const std::string& name) {
+        static std::map<std::string, std::unique_ptr<Subject>> all;
+        std::unique_ptr<Subject>& subject = all[name];
+        if (subject == nullptr)
+            subject = std::make_unique<Subject>(scenes::load_scene(
+                std::filesystem::path(RAYLANE_SOURCE_DIR) / "scenes" / (name + ".json")));
+        return *subject;
+    }
+
+    core::Settings with_grid(int grid) const {
+        core::Settings changed = settings;
+        changed.grid = grid;
+        return changed;
+    }
+
+    simd::Rendering render(const core::Settings& with, core::Precision precision) const {
+        simd::RenderOptions options;
+        options.precision = precision;
+        options.threads = 1;
+        return simd::render(scene, with, options);
+    }
+
+  private:
+    static core::Settings small(core::Settings settings) {
+        settings.height = 200 * settings.height / settings.width;
+        settings.width = 200;
+        settings.max_depth = 16;
+        settings.min_weight = 0.0002F;
+        return settings;
+    }
+};
+
+/// Root of the mean square difference of all components.
+double rmse(const core::Film& a, const core::Film& b) {
+    double squares = 0.0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        squares += core::squared_length(core::convert<double>(a.pixels()[i]) -
+                                        core::convert<double>(b.pixels()[i]));
+    return std::sqrt(squares / (3.0 * static_cast<double>(a.pixels().size())));
+}
+
+using Change = void (*)(core::Settings&, int value);
+
+void draw(benchmark::State& state, const std::string& name, core::Precision precision,
+          Change change, int value) {
+    const Subject& subject = Subject::of(name);
+    core::Settings settings = subject.with_grid(usual_grid);
+    change(settings, value);
+    double seconds = 0.0;
+    core::Film film(1, 1);
+    for (auto _ : state) {
+        const Clock::time_point start = Clock::now();
+        film = subject.render(settings, precision).film;
+        seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    state.counters["seconds"] = seconds / static_cast<double>(state.iterations());
+    state.counters["rmse"] = rmse(film, subject.best);
+}
+
+void add(const std::string& scene, const char* what, core::Precision precision, Change change,
+         int value) {
+    const std::string name = "picture/" + scene + "/" + what + "/" +
+                             std::string(name_of(precision)) + "/" + std::to_string(value);
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+        draw(state, scene, precision, change, value);
+    })->Unit(benchmark::kMillisecond);
+}
+
+const bool registered = [] {
+    for (const char* scene :
+         {"birthday", "sphereflake", "lattice", "mirrors", "glass-block", "quadric"}) {
+        for (const core::Precision precision : core::all_precisions)
+            for (const int grid : {1, 2, 3, 4, 6, best_grid})
+                add(
+                    scene, "samples", precision,
+                    [](core::Settings& settings, int samples) {
+                        settings.grid = static_cast<int>(std::lround(std::sqrt(samples)));
+                    },
+                    grid * grid);
+        for (const int depth : {0, 1, 2, 3, 5, 8})
+            add(
+                scene, "depth", core::Precision::exact,
+                [](core::Settings& settings, int value) {
+                    settings.grid = best_grid;
+                    settings.max_depth = value;
+                },
+                depth);
+        for (const int per_mille : {500, 200, 50, 10, 2})
+            add(
+                scene, "weight", core::Precision::exact,
+                [](core::Settings& settings, int value) {
+                    settings.grid = best_grid;
+                    settings.min_weight = static_cast<float>(value) / 1000.0F;
+                },
+                per_mille);
+    }
+    return true;
+}();
+
+} // namespace
