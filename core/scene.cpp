@@ -31,12 +31,11 @@ float traversal_padding(const Tables& shapes, const Camera& camera) {
     include(camera.from);
     for_each_table(shapes, [&]<class Shape>(const Table<Shape>& table) {
         if constexpr (kind_of<Shape> != Kind::plane)
-            for (const Block<Shape>& block : table.blocks())
-                for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
-                    const Bounds bounds = bounds_of(block.get(lane));
-                    include(bounds.lower);
-                    include(bounds.upper);
-                }
+            for_each_shape(table, [&](const Shape& shape, ShapeId) {
+                const Bounds bounds = bounds_of(shape);
+                include(bounds.lower);
+                include(bounds.upper);
+            });
     });
     return 6.0F * 0x1p-24F * extent;
 }

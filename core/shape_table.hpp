@@ -113,6 +113,14 @@ decltype(auto) with_table(TablesRef&& tables, Kind kind, Visit&& visit) {
     return visit(std::get<Table<Quadric>>(tables));
 }
 
+/// Calls `visit(shape, id)` for every shape of a table.
+template <class Shape, class Visit>
+void for_each_shape(const Table<Shape>& table, const Visit& visit) {
+    for (const Block<Shape>& block : table.blocks())
+        for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane)
+            visit(block.get(lane), block.ids[lane]);
+}
+
 /// Calls `visit(table)` for every kind in order.
 template <class TablesRef, class Visit>
 void for_each_table(TablesRef&& tables, Visit&& visit) {

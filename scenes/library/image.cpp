@@ -1,5 +1,6 @@
 #include "raylane/image.hpp"
 
+#include "core/method_choice.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
@@ -19,6 +20,13 @@ namespace {
 core::Settings settings_for(const Scene& scene, const RenderOptions& options) {
     if (!options.settings) return library::Internals::of(scene).settings();
     return converted<core::Settings>(*options.settings);
+}
+
+core::Precision precision_for(const Scene& scene, const core::Settings& settings,
+                              const RenderOptions& options) {
+    const std::optional<core::Precision> precision = library::core_precision(options.precision);
+    return precision ? *precision
+                     : core::choose_method(library::Internals::of(scene), settings).precision;
 }
 
 simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
@@ -48,10 +56,11 @@ void require_side(const char* field, int pixels) {
 } // namespace
 
 Image render(const Scene& scene, const RenderOptions& options) {
+    const core::Settings settings = settings_for(scene, options);
     simd::RenderOptions inner;
     inner.threads = options.threads;
-    inner.precision = library::core_precision(options.precision);
-    return image_of(render_with(scene, settings_for(scene, options), inner).film);
+    inner.precision = precision_for(scene, settings, options);
+    return image_of(render_with(scene, settings, inner).film);
 }
 
 std::optional<Image> render(const Scene& scene, const RenderOptions& options,
@@ -64,7 +73,7 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     bool has_ended = false; // by the callback's answer or by what it throws
     simd::RenderOptions inner;
     inner.threads = options.threads;
-    inner.precision = library::core_precision(options.precision);
+    inner.precision = precision_for(scene, settings, options);
     inner.progress = &made;
     inner.after_tile = [&] {
         const std::lock_guard lock(calling);

@@ -54,11 +54,12 @@ void library::require_threads(int threads) {
                                           ", got " + std::to_string(threads));
 }
 
-core::Precision library::core_precision(Precision precision) {
+std::optional<core::Precision> library::core_precision(Precision precision) {
     static_assert(int(Precision::fast) == int(core::Precision::fast) &&
                   int(Precision::robust) == int(core::Precision::robust) &&
                   int(Precision::exact) == int(core::Precision::exact) &&
                   int(Precision::plain_double) == int(core::Precision::plain_double));
+    if (precision == Precision::automatic) return std::nullopt;
     if (precision > Precision::plain_double) throw InvalidValue("precision", "must be a Precision");
     return static_cast<core::Precision>(precision);
 }
@@ -67,7 +68,7 @@ Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene)
     library::require_threads(options.threads);
     tracer_ = std::make_shared<const simd::StreamTracer>(
         library::Internals::of(scene_), options.threads, simd::best_isa(),
-        library::core_precision(options.precision));
+        library::core_precision(options.precision).value_or(core::Precision::exact));
 }
 
 void Tracer::intersect(const RaySpan& rays, const HitSpan& hits) const {

@@ -6,6 +6,8 @@
 #include "raylane/precision.hpp"
 #include "scenes/errors.hpp"
 
+#include <optional>
+
 namespace raylane::library {
 
 /// Calls f(), and throws the library's own errors in place of those inside.
@@ -24,7 +26,7 @@ decltype(auto) translated(const F& f) {
 
 /// Throws InvalidValue, field "threads".
 void require_threads(int threads);
-/// Throws InvalidValue if it is none.
-core::Precision core_precision(Precision precision);
+/// None for Precision::automatic. Throws InvalidValue if it is no Precision.
+std::optional<core::Precision> core_precision(Precision precision);
 
 } // namespace raylane::library

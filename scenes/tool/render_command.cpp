@@ -1,3 +1,4 @@
+#include "core/method_choice.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/scene_file.hpp"
@@ -112,16 +113,20 @@ simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
     return isa;
 }
 
+/// None: auto, which wants to see the scene.
+std::optional<core::Precision> precision_argument(const std::string& text) {
+    std::vector<std::pair<std::string_view, std::optional<core::Precision>>> choices;
+    for (const core::Precision precision : core::all_precisions)
+        choices.emplace_back(core::name_of(precision), precision);
+    choices.emplace_back("auto", std::nullopt);
+    return choice_argument<std::optional<core::Precision>>("--precision", text, choices);
+}
+
 simd::RenderOptions options_of(const RenderArguments& arguments) {
     simd::RenderOptions options;
     options.engine = choice_argument<simd::Engine>(
         "--engine", *arguments.engine,
         {{"vector", simd::Engine::vector}, {"reference", simd::Engine::reference}});
-    std::vector<std::pair<std::string_view, core::Precision>> precisions;
-    for (const core::Precision precision : core::all_precisions)
-        precisions.emplace_back(core::name_of(precision), precision);
-    options.precision =
-        choice_argument<core::Precision>("--precision", *arguments.precision, precisions);
     if (arguments.isa) options.isa = isa_argument(*arguments.isa, options.engine);
     if (arguments.tile) options.tile = whole_argument("--tile", *arguments.tile, 8, 64);
     options.threads = arguments.threads
@@ -136,15 +141,15 @@ std::string isa_in_use(const std::string& engine) {
 }
 
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
-                                const core::Settings& settings, int threads,
+                                const core::Settings& settings, const simd::RenderOptions& options,
                                 const core::Counters& counters, const Times& times) {
     const auto count = static_cast<double>(counters.rays());
     return {{"version", RAYLANE_VERSION},
             {"scene", printable(*arguments.scene, 4096)},
             {"engine", *arguments.engine},
             {"isa", arguments.isa.value_or(isa_in_use(*arguments.engine))},
-            {"precision", *arguments.precision},
-            {"threads", threads},
+            {"precision", core::name_of(options.precision)},
+            {"threads", options.threads},
             {"width", settings.width},
             {"height", settings.height},
             {"samples_per_pixel", settings.grid * settings.grid},
@@ -170,6 +175,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
 int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
     simd::RenderOptions options = options_of(arguments);
+    const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
     const Files files(arguments);
     OutputFile output(files.output);
     std::optional<AtomicFile> stats;
@@ -178,6 +184,7 @@ int render(const RenderArguments& arguments) {
     Stopwatch stopwatch;
     const core::Scene scene = load_scene(files.scene);
     const core::Settings settings = overrides.applied_to(scene.settings());
+    options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     output.reserve(settings.width, settings.height);
     Times times{};
     times.load = stopwatch.lap();
@@ -195,9 +202,7 @@ int render(const RenderArguments& arguments) {
 
     if (stats) {
         const std::string text =
-            stats_of(arguments, scene, settings, options.threads, rendering.counters, times)
-                .dump(2) +
-            "\n";
+            stats_of(arguments, scene, settings, options, rendering.counters, times).dump(2) + "\n";
         stats->write(text);
         stats->commit();
     }
@@ -240,8 +245,9 @@ Command add_render_command(CLI::App& app) {
         "N");
     add("--precision", arguments->precision,
         "What decides where rays hit: fast (textbook formulas in float), robust (the best in "
-        "float), exact (certified, as real numbers would have it) or double (robust's "
-        "formulas in double; default: exact)",
+        "float), exact (certified, as real numbers would have it), double (robust's "
+        "formulas in double), or auto: the cheapest of these that cannot be told from exact by "
+        "eye (default: exact)",
         "NAME");
     add("--transfer", arguments->transfer,
         "From light to PNG: srgb or linear (default: as the scene says)", "CURVE");

@@ -35,7 +35,37 @@ std::vector<float> inner_pixels(const Scene& scene) {
     return rgb;
 }
 
+/// A scene that floats draw as well, and sooner.
+Scene lone_egg() {
+    SceneBuilder builder;
+    builder.settings.width = builder.settings.height = 100;
+    builder.camera.from = {0, 0, 6};
+    builder.add_light({.position = {4, 6, 5}});
+    builder.add(Quadric{.center = {0, 0, 0},
+                        .xx = 1,
+                        .yy = 2,
+                        .zz = 3,
+                        .one = -1,
+                        .lower = {-1.1F, -1.1F, -1.1F},
+                        .upper = {1.1F, 1.1F, 1.1F}},
+                builder.add_material({}));
+    return builder.build();
+}
+
 } // namespace
+
+TEST_CASE("the precision can be left to the scene") {
+    const auto drawn = [](const Scene& scene, Precision precision) {
+        return render(scene, {.precision = precision}).rgb;
+    };
+    const Scene egg = lone_egg(), ball = mirrored_ball();
+    CHECK(drawn(egg, Precision::fast) != drawn(egg, Precision::exact));
+    CHECK(drawn(egg, Precision::automatic) == drawn(egg, Precision::fast));
+    CHECK(drawn(ball, Precision::automatic) == drawn(ball, Precision::exact));
+    CHECK(message_of<InvalidValue>([&] {
+              render(egg, {.precision = static_cast<Precision>(5)});
+          }) == "precision: must be a Precision");
+}
 
 TEST_CASE("a picture is the tool's") {
     const Scene scene = mirrored_ball();

@@ -101,7 +101,7 @@ TEST_CASE("an option's value that is none is told in one line") {
         {{"--threads", "many"}, threads + "\"many\""},
         {{"--engine", "foo"}, "--engine: must be vector or reference, got \"foo\""},
         {{"--precision", "half"},
-         "--precision: must be fast, robust, exact or double, got \"half\""},
+         "--precision: must be fast, robust, exact, double or auto, got \"half\""},
         {{"--isa", "avx1"},
          "--isa: must be sse4.2, avx2 or avx512, got \"avx1\", did you mean \"avx2\"?"},
         {{"--isa", "avx2", "--engine", "reference"}, "--isa: goes with --engine vector"},
