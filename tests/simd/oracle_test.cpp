@@ -1,0 +1,178 @@
+#include "simd/isa.hpp"
+#include "simd/wavefront/hit_finder.hpp"
+#include "tests/catch.hpp"
+#include "tests/oracle.hpp"
+#include "tests/ray_sets.hpp"
+#include "tests/simd/rounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+using ray_sets::Random;
+using ray_sets::Set;
+
+/// The engine, exact as it is by default, against the oracle: which shape a ray hits and whether
+/// from outside, t, and the point. RAYLANE_TEST_ROUNDS=4600 makes it ten million rays.
+
+namespace {
+
+constexpr std::size_t rays_a_scene = 25;
+constexpr int shapes_a_scene = 3;
+
+struct Tally {
+    std::size_t rays = 0, hits = 0, wrong = 0;
+    std::uint64_t left = 0;                     ///< to the scalar reference
+    std::vector<double> t_errors, point_errors; ///< in ulps of float
+
+    static double at(std::vector<double>& values, double share) {
+        std::sort(values.begin(), values.end());
+        return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+    }
+};
+
+/// Of a float of that size.
+double ulp(double value) {
+    return std::ldexp(1.0, std::max(std::ilogb(value), -126) - 23);
+}
+
+double distance(double a, const oracle::Number& b) {
+    return std::abs(static_cast<double>(oracle::Number(oracle::Number(a) - b)));
+}
+
+template <class Shape>
+class Trial {
+  public:
+    Trial(Set set, Random& random) {
+        SceneBuilder builder;
+        builder.wants_light = false;
+        builder.add_material({});
+        for (int i = 0; i < shapes_a_scene; ++i) {
+            shapes_.push_back(ray_sets::Target<Shape>::make(random, set == Set::lattice));
+            builder.add(shapes_.back(), 0);
+        }
+        scene_.emplace(std::move(builder).build());
+        Arena measure;
+        paths_.take_from(measure, rays_a_scene, false);
+        arena_ = Arena(measure.used());
+        paths_.take_from(arena_, rays_a_scene, false);
+        paths_.count = rays_a_scene;
+        paths_.start_in_the_open(0, rays_a_scene);
+        for (std::size_t i = 0; i < rays_a_scene; ++i) {
+            const Ray<float> aimed = ray_sets::make_ray(
+                shapes_[static_cast<std::size_t>(random.integer(0, shapes_a_scene - 1))], set,
+                random);
+            const Vec3d origin = convert<double>(aimed.origin);
+            const Vec3d direction = normalized(convert<double>(aimed.direction));
+            for (int axis = 0; axis < 3; ++axis) {
+                paths_.origin[axis][i] = origin[axis];
+                paths_.direction[axis][i] = direction[axis];
+            }
+        }
+    }
+
+    void trace(const Kernels& kernels, Tally& tally) const {
+        const SceneData data(*scene_);
+        ReferenceTracer<double> reference(*scene_, scene_->settings());
+        HitFinder finder(data, {&kernels, Precision::exact}, &reference);
+        Arena measure;
+        finder.take_from(measure, rays_a_scene);
+        Arena arena(measure.used());
+        finder.take_from(arena, rays_a_scene);
+        Counters counters;
+        finder.find(paths_, nullptr, counters);
+        tally.left += counters.doubtful;
+        for (std::size_t i = 0; i < rays_a_scene; ++i)
+            compare(finder, data, i, tally);
+    }
+
+  private:
+    void compare(const HitFinder& finder, const SceneData& data, std::size_t i,
+                 Tally& tally) const {
+        const Hits& hits = finder.hits();
+        const Ray<double> ray = ray_of(paths_, i);
+        std::optional<oracle::Hit> truth;
+        ShapeId id = no_shape;
+        bool touches = false; // surfaces that double can hardly tell apart, or one shape twice
+        for (ShapeId k = 0; k < shapes_a_scene; ++k)
+            for (const oracle::Hit& hit : oracle::crossings(shapes_[k], ray)) {
+                if (!(hit.t > 0)) continue;
+                if (truth && abs(hit.t - truth->t) <= truth->t * 0x1p-40)
+                    touches = true;
+                else if (!truth || hit.t < truth->t)
+                    touches = false;
+                if (truth && oracle::sign(hit.t - truth->t, truth->t) >= 0) continue;
+                truth = hit;
+                id = k;
+            }
+        ++tally.rays;
+        // Where surfaces touch, the engine leaves more than a hit to the reference.
+        const std::span<const std::uint32_t> open = finder.left_open();
+        if (std::find(open.begin(), open.end(), i) != open.end()) {
+            tally.wrong += touches ? 0 : 1;
+            return;
+        }
+        const bool hit = hits.slot[i] != no_slot;
+        const bool same_side = truth && ((hits.hit[i] & hit_entering) != 0) == truth->entering;
+        if (hit != truth.has_value() || (hit && data.occupant_of(hits.slot[i]).id != id) ||
+            (hit && !same_side && !is_tangent(shapes_[id], ray, *truth))) {
+            ++tally.wrong;
+            return;
+        }
+        if (!hit) return;
+        ++tally.hits;
+        const double t = hits.t[i];
+        tally.t_errors.push_back(distance(static_cast<double>(static_cast<float>(t)), truth->t) /
+                                 ulp(static_cast<double>(truth->t)));
+        double off = 0.0, largest = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const oracle::Number right =
+                oracle::Number(ray.origin[axis]) + truth->t * oracle::Number(ray.direction[axis]);
+            off = std::max(off, distance(ray.origin[axis] + t * ray.direction[axis], right));
+            largest = std::max(largest, std::abs(static_cast<double>(right)));
+        }
+        // As near as double can tell, where the ray comes from far and hits near the origin.
+        const double start = length(ray.origin) + t;
+        tally.point_errors.push_back(off <= 0x1p-50 * start ? 0.0 : off / ulp(largest));
+    }
+
+    /// Whether it enters and leaves at one point.
+    static bool is_tangent(const Shape& shape, const Ray<double>& ray, const oracle::Hit& at) {
+        const auto all = oracle::crossings(shape, ray);
+        return std::count_if(all.begin(), all.end(), [&](const oracle::Hit& hit) {
+                   return oracle::sign(hit.t - at.t, at.t) == 0;
+               }) == 2;
+    }
+
+    std::vector<Shape> shapes_;
+    std::optional<Scene> scene_;
+    Arena arena_;
+    Paths paths_{};
+};
+
+} // namespace
+
+TEMPLATE_TEST_CASE("the engine decides as the oracle does", "[long]", Sphere, Plane, Disc, Triangle,
+                   SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone, CappedCone,
+                   Quadric) {
+    const std::optional<Isa> isa = best_isa();
+    if (!isa) return;
+    Random random(20261100 + static_cast<std::uint64_t>(kind_of<TestType>));
+    for (const Set set : ray_sets::all_sets) {
+        Tally tally;
+        for (int i = 0; i < tests::rounds(60, 5); ++i)
+            Trial<TestType>(set, random).trace(kernels_of(*isa), tally);
+        REQUIRE(tally.hits > tally.rays / 100);
+        const double t_99 = Tally::at(tally.t_errors, 0.99), t_max = Tally::at(tally.t_errors, 1);
+        const double point_99 = Tally::at(tally.point_errors, 0.99),
+                     point_max = Tally::at(tally.point_errors, 1);
+        const char* const name = ray_sets::set_names[static_cast<int>(set)].data();
+        CAPTURE(name, tally.rays, tally.hits, tally.left, t_99, t_max, point_99, point_max);
+        CHECK(tally.wrong == 0);
+        CHECK(t_99 <= 0.5);
+        CHECK(t_max <= 1.0);
+        CHECK(point_max <= 1.0);
+    }
+}
