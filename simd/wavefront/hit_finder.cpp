@@ -140,7 +140,12 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
     }
     // They no longer start at one point.
     if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = nullptr;
-    while (onward_paths_.count != 0) {
+    for (int passed = 1; onward_paths_.count != 0; ++passed) {
+        if (passed == longest_walk) {
+            for (std::size_t i = 0; i < onward_paths_.count; ++i)
+                open_[open_count_++] = onward_paths_.sample[i];
+            return;
+        }
         onward_->find(onward_paths_, bundle, counters);
         const Hits& found = onward_->hits();
         for (const std::uint32_t i : onward_->left_open()) {
