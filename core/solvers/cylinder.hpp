@@ -26,11 +26,15 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
     if (from_body && !parallel) span.clip_back(not_behind(Real(tau + tau)), body);
     if (judge.textbook() && !start.on_surface) {
         const Real C = squared_length(axial.across_origin) - radius * radius;
-        const Crossings<Real> roots = solve_textbook(
-            speed_squared, Real(dot(axial.across_origin, axial.across_direction)), C);
-        if (parallel ? static_cast<double>(C) > 0.0 : roots.begin() == roots.end()) return {};
-        for (const Crossing<Real>& root : roots)
-            root.entering ? span.clip_front(root.t, body) : span.clip_back(root.t, body);
+        if (parallel) {
+            if (static_cast<double>(C) > 0.0) return {};
+        } else {
+            const Crossings<Real> roots = solve_textbook(
+                speed_squared, Real(dot(axial.across_origin, axial.across_direction)), C);
+            if (roots.begin() == roots.end()) return {};
+            for (const Crossing<Real>& root : roots)
+                root.entering ? span.clip_front(root.t, body) : span.clip_back(root.t, body);
+        }
     } else if (!from_body) {
         const Vec3<Real> foot = mul_add(tau, axial.across_direction, axial.across_origin);
         Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));

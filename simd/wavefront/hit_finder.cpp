@@ -58,33 +58,10 @@ Pending pending_for(const SceneData& scene, Arena& arena) {
     return {t, arena.take<std::uint32_t>(entries)};
 }
 
-core::Ray<double> ray_of(const Paths& paths, std::size_t lane) {
-    return {{paths.origin[0][lane], paths.origin[1][lane], paths.origin[2][lane]},
-            {paths.direction[0][lane], paths.direction[1][lane], paths.direction[2][lane]}};
-}
-
-core::Departure<double> departure_of(const SceneData& scene, const Paths& paths, std::size_t lane) {
-    core::Departure<double> departure;
-    const std::uint32_t slot = paths.departed_slot[lane];
-    if (slot == no_slot) return departure;
-    core::Hit<double> hit;
-    const SceneData::Occupant shape = scene.occupant_of(slot);
-    hit.shape = shape.id;
-    hit.face = static_cast<core::Face>(paths.departure[lane] & departure_face);
-    hit.kind = shape.kind;
-    hit.slot = scene.place_of(slot);
-    const bool inward = (paths.departure[lane] & departure_inward) != 0;
-    departure.add({hit,
-                   {paths.departed_first[lane], paths.departed_last[lane]},
-                   core::Vec3d(0.0),
-                   inward,
-                   inward});
-    return departure;
-}
-
 HitFinder::HitFinder(const SceneData& scene, const Tracing& tracing,
                      core::ReferenceTracer<double>* reference, bool looks_through)
     : scene_(scene), tracing_(tracing), reference_(reference) {
+    if (!tracing.certifies()) tie_breaker_.emplace(scene, tracing.precision);
     if (looks_through) onward_.reset(new HitFinder(scene, tracing, reference, false));
 }
 
@@ -115,6 +92,7 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
     counters.nodes += traced.nodes;
     counters.shapes += traced.shapes;
 
+    if (tie_breaker_) break_ties(paths);
     tracing_.method().finish(scene_.view(), found_in(paths, hits_, paths.count));
     lane_count_ =
         tracing_.certifies()
@@ -140,7 +118,12 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
     }
     // They no longer start at one point.
     if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = nullptr;
-    while (onward_paths_.count != 0) {
+    for (int passed = 1; onward_paths_.count != 0; ++passed) {
+        if (passed == longest_walk) {
+            for (std::size_t i = 0; i < onward_paths_.count; ++i)
+                open_[open_count_++] = onward_paths_.sample[i];
+            return;
+        }
         onward_->find(onward_paths_, bundle, counters);
         const Hits& found = onward_->hits();
         for (const std::uint32_t i : onward_->left_open()) {
@@ -210,9 +193,29 @@ void HitFinder::find_own_exits(const Paths& paths) {
         if ((hit & hit_doubtful) != 0) {
             doubtful_[lane] = 1;
         } else if ((hit & hit_none) == 0) {
+            const double t = gathered_hits_.t[i];
             candidates_.first[lane] =
-                std::max(0.0F, rounded_down(gathered_hits_.t[i] - gathered_hits_.error[i]));
+                tracing_.certifies() ? std::max(0.0F, rounded_down(t - gathered_hits_.error[i]))
+                                     : static_cast<float>(t);
             candidates_.slot[lane] = gathered_hits_.slot[i];
+        }
+    }
+}
+
+/// The kernels take of several crossings at the same t whichever they meet first, and note that
+/// there is another. That is rare: most packets are done with at a glance.
+void HitFinder::break_ties(const Paths& paths) {
+    for (std::size_t begin = 0; begin < paths.count; begin += 16) {
+        const float* const first = candidates_.first + begin;
+        const float* const second = candidates_.second + begin;
+        int ties = 0;
+        for (int i = 0; i < 16; ++i)
+            ties += static_cast<int>(first[i] == second[i]) & static_cast<int>(first[i] < infinity);
+        if (ties == 0) continue;
+        for (std::size_t i = 0; i < 16 && begin + i < paths.count; ++i) {
+            if (first[i] != second[i] || first[i] == infinity) continue;
+            const std::size_t lane = begin + i;
+            hits_.slot[lane] = tie_breaker_->first_at(first[i], paths, lane, hits_.slot[lane]);
         }
     }
 }

@@ -1,11 +1,14 @@
 #pragma once
 
 #include "core/reference/tracer.hpp"
+#include "simd/wavefront/as_core.hpp"
 #include "simd/wavefront/paths.hpp"
 #include "simd/wavefront/scene_data.hpp"
+#include "simd/wavefront/tie_breaker.hpp"
 #include "simd/wavefront/tracing.hpp"
 
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace raylane::simd {
@@ -23,7 +26,8 @@ struct Hits {
 /// Finds the first surfaces that rays hit. With core::Precision::exact as
 /// core::ReferenceTracer<double> would: in float, shapes are bounded; in double, the one that may
 /// be nearest is solved; where that is not certain, the reference is asked, or, if there is none,
-/// the ray left open.
+/// the ray left open. In float alone nothing is uncertain, and a TieBreaker decides where t is the
+/// same.
 class HitFinder {
   public:
     HitFinder(const SceneData& scene, const Tracing& tracing,
@@ -52,6 +56,7 @@ class HitFinder {
 
     void start(const Paths& paths);
     void find_own_exits(const Paths& paths);
+    void break_ties(const Paths& paths);
     void ask_reference(const Paths& paths, core::Counters& counters);
     void look_through(const Paths& paths, const Bundle* bundle, core::Counters& counters);
     bool is_visible(const Hits& hits, std::size_t lane) const;
@@ -61,6 +66,7 @@ class HitFinder {
     const SceneData& scene_;
     Tracing tracing_;
     core::ReferenceTracer<double>* reference_; // may be null
+    std::optional<TieBreaker> tie_breaker_;
 
     RoundedRays rounded_{};
     Candidates candidates_{};
@@ -82,10 +88,6 @@ class HitFinder {
     Paths onward_paths_{}; // sample: the lane
     double* passed_ = nullptr;
 };
-
-/// How core sees the departure of a lane.
-core::Departure<double> departure_of(const SceneData& scene, const Paths& paths, std::size_t lane);
-core::Ray<double> ray_of(const Paths& paths, std::size_t lane);
 
 /// Arrays for rounded rays, but what they leave.
 void take_rounded(Arena& arena, RoundedRays& rays, std::size_t capacity);

@@ -111,16 +111,17 @@ void ShadowTracer::start_walk(const Wave& wave, std::size_t ray) {
 /// core::ReferenceTracer::light_let_through has it.
 void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
     counters.walked += walk_.count;
-    while (walk_.count != 0) {
+    for (int passed = 0; walk_.count != 0; ++passed) {
+        if (passed == longest_walk) {
+            counters.followed += walk_.count;
+            for (std::size_t lane = 0; lane < walk_.count; ++lane)
+                follow(lane);
+            return;
+        }
         walker_.find(walk_, &bundle, counters);
         for (const std::uint32_t lane : walker_.left_open()) {
             ++counters.followed;
-            const core::Vec3d share =
-                reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
-                                             walk_.media_at(lane), walk_distance_[lane]);
-            for (int channel = 0; channel < 3; ++channel)
-                rays_.weight[channel][walk_.sample[lane]] =
-                    walk_.throughput[channel][lane] * share[channel];
+            follow(lane);
             walk_distance_[lane] = -1.0; // done
         }
         std::size_t kept = 0;
@@ -132,6 +133,16 @@ void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
         }
         walk_.count = kept;
     }
+}
+
+/// The reference takes a walk to its end.
+void ShadowTracer::follow(std::size_t lane) {
+    const core::Vec3d share =
+        reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
+                                     walk_.media_at(lane), walk_distance_[lane]);
+    for (int channel = 0; channel < 3; ++channel)
+        rays_.weight[channel][walk_.sample[lane]] =
+            walk_.throughput[channel][lane] * share[channel];
 }
 
 /// Takes a walk through the surface that it has found. False if it is over.

@@ -36,6 +36,7 @@ class ShadowTracer {
     void find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters);
     void walk(const Bundle& bundle, core::Counters& counters);
     void start_walk(const Wave& wave, std::size_t ray);
+    void follow(std::size_t lane);
     bool step(std::size_t lane, double& distance);
     void absorb(core::MaterialIndex medium, double distance, std::size_t lane);
 

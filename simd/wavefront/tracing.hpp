@@ -20,4 +20,10 @@ struct Tracing {
     bool certifies() const { return !core::is_single(precision); }
 };
 
+/// A ray that has walked through so many surfaces, one search for each, is left to the reference,
+/// which finds all that are still to come in one. Between surfaces that lie closer together than
+/// numbers do, a walk would go round in circles: each step is lost in its origin, and what it has
+/// passed is ahead of it again.
+inline constexpr int longest_walk = 64;
+
 } // namespace raylane::simd

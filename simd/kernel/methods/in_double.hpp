@@ -36,8 +36,8 @@ struct DoubleFilter {
     [[gnu::always_inline]] Bounds<Arch> bounds(const DoubleRays<Arch>& rays) const {
         double t[Floats<Arch>::size], exist[Floats<Arch>::size];
         for (int half = 0; half < 2; ++half) {
-            const Crossing<D> first = first_ahead<D>(
-                halves[half].crossings(rays.halves[half], starts_nowhere<D>()), none<D>());
+            const Crossing<D> first = at_finite_t(first_ahead<D>(
+                halves[half].crossings(rays.halves[half], starts_nowhere<D>()), none<D>()));
             const int from = half * static_cast<int>(Floats<D>::size);
             first.t.store_unaligned(t + from);
             xsimd::select(first.exists, Floats<D>(1.0), zero<D>()).store_unaligned(exist + from);

@@ -20,6 +20,13 @@ Crossing<Number> first_ahead(const Crossings<Number>& found, const Mask<Number>&
             (first & found.first.entering) | (~first & found.second.entering)};
 }
 
+/// What overflows is no crossing.
+template <class Number>
+Crossing<Number> at_finite_t(Crossing<Number> crossing) {
+    crossing.exists = crossing.exists & (crossing.t < constant<Number>(__builtin_inff()));
+    return crossing;
+}
+
 /// MethodKernels::finish by the solvers' formulas alone, in lanes of `Number`, which is an
 /// instruction set or a Double<> of one. Nothing is doubtful.
 template <class Number, bool textbook>
@@ -87,7 +94,7 @@ class PlainFinish {
         const Solver solver(reader);
         const Rays<Number> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
         const Crossing<Number> first =
-            first_ahead<Number>(solver.crossings(rays, starts), starts.on_surface);
+            at_finite_t(first_ahead<Number>(solver.crossings(rays, starts), starts.on_surface));
         const Vectors<Number> point = mul_add<Number>(first.t, rays.direction, rays.origin);
         const Vectors<Number> normal = solver.outward_normal(point, first.face);
 

@@ -43,7 +43,8 @@ struct CylinderLanes {
                      ((parallel & (C > zero<Arch>())) | (~parallel & ~roots.first.exists));
             span.clip_front(roots.first.exists & ~parallel & ~starts.on_surface, roots.first.t,
                             zero<Arch>());
-            span.clip_back(roots.second.exists & ~starts.on_surface, roots.second.t, zero<Arch>());
+            span.clip_back(roots.second.exists & ~parallel & ~starts.on_surface, roots.second.t,
+                           zero<Arch>());
             span.clip_back(~parallel & ~from_body & starts.on_surface, tau + half_chord,
                            zero<Arch>());
         } else {

@@ -9,7 +9,7 @@ template <class Arch>
 Crossings<Arch> solve_textbook(const Floats<Arch>& A, const Floats<Arch>& B,
                                const Floats<Arch>& C) {
     const Floats<Arch> o = zero<Arch>();
-    const Mask<Arch> opens_up = A > o, linear = ~opens_up & ~(A < o);
+    const Mask<Arch> opens_up = A > o, linear = A == o;
     const Floats<Arch> discriminant = B * B - A * C;
     const Mask<Arch> curved = ~linear & ~(discriminant < o);
     const Floats<Arch> root = xsimd::sqrt(discriminant);

@@ -90,11 +90,11 @@ void add_kind(SceneBuilder& builder, MaterialIndex material, int count, bool lat
 }
 
 /// All kinds in one heap, with rays that are hard for some of them.
-inline Heap heap(bool lattice, int of_each_kind, std::uint64_t seed) {
+inline Heap heap(bool lattice, int of_each_kind, std::uint64_t seed, const Material& of = {}) {
     Random random(seed);
     SceneBuilder builder;
     Rays rays;
-    const MaterialIndex material = builder.add_material({});
+    const MaterialIndex material = builder.add_material(of);
     const auto add = [&]<class Shape, class CoreShape>(int count) {
         add_kind<Shape, CoreShape>(builder, material, count, lattice, random, rays);
     };

@@ -1,0 +1,145 @@
+#include "simd/isa.hpp"
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+#include "tests/ray_sets.hpp"
+#include "tests/simd/deadline.hpp"
+
+#include <cmath>
+
+/// Surfaces that coincide, which rays walk through one by one: rounding puts each of them before or
+/// behind the others, and again before them once they are passed.
+using namespace raylane;
+using namespace little_scene;
+
+namespace {
+
+/// Every walk ends, by every precision and engine.
+void check_ends(const Scene& scene) {
+    const tests::Deadline deadline(300); // it takes a fraction of a second
+    for (const Precision precision : all_precisions)
+        for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
+            simd::RenderOptions options;
+            options.precision = precision;
+            options.engine = engine;
+            options.threads = 1;
+            const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
+            long wrong = 0;
+            for (const Color& pixel : rendering.film.pixels())
+                wrong += std::isfinite(pixel.x) && pixel.x >= 0.0F ? 0 : 1;
+            CHECK(wrong == 0);
+        }
+}
+
+/// A light above a floor, and a camera that looks at it, `offset` from the origin.
+class Room : public Builder {
+  public:
+    explicit Room(const Vec3f& offset) : offset_(offset) {
+        settings.width = settings.height = 24;
+        settings.max_depth = 4;
+        camera.from = offset + Vec3f(1, 4, 7);
+        camera.at = offset;
+        background = {0.5F, 0.5F, 0.5F};
+        Light light;
+        light.position = offset + Vec3f(2, 9, 3);
+        add_light(light);
+        Material matte = luminous();
+        matte.ambient = 0.25F;
+        matte.diffuse = 0.75F;
+        add_shape(Plane{offset + Vec3f(0, -2, 0), {0, 1, 0}}, matte);
+    }
+
+    /// One plane, said in many ways.
+    void add_sheets(int count, const Material& material) {
+        ray_sets::Random random(3);
+        const Vec3f normal(0.3F, 1.0F, -0.2F);
+        for (int i = 0; i < count; ++i) {
+            const Vec3d across = ray_sets::across(convert<double>(normal), random);
+            add_shape(Plane{offset_ + convert<float>(Vec3d(random.uniform(0.0, 9.0) * across)),
+                            normal * static_cast<float>(random.uniform(0.1, 3.0))},
+                      material);
+        }
+    }
+
+    void add_shells(int count, const Material& material) {
+        for (int i = 0; i < count; ++i) {
+            add_shape(Sphere{offset_, 1.5F}, material);
+            add_shape(Box{offset_ + Vec3f(1, -1, -1), {1.1F, 0, 0.1F}, {0, 1.1F, 0}, {-0.1F, 0, 1}},
+                      material);
+            add_shape(CappedCylinder{offset_ + Vec3f(-3, -1, 0), {0.3F, 1.7F, 0}, 0.7F}, material);
+        }
+    }
+
+  private:
+    Vec3f offset_;
+};
+
+Material seen_from(Visible side) {
+    Material material = luminous({0.1F, 0.9F, 0.2F});
+    material.visible = side;
+    return material;
+}
+
+const Vec3f offsets[] = {{0, 0, 0}, {1000, -700, 300}, {1e6F, 3e6F, -2e6F}};
+
+/// Planes about y = 1000 that are closer to each other than numbers are there, but not to what
+/// starts a little above or below. Where x is positive, they lie one below the other.
+class CloseSheets : public Builder {
+  public:
+    explicit CloseSheets(const Material& material) {
+        settings.width = settings.height = 8;
+        camera.projection = Projection::orthographic;
+        camera.height = 0.25F;
+        for (int i = 1; i <= 3; ++i)
+            add_shape(Plane{{0, 1000, 0}, {0.5e-14F * static_cast<float>(i), 1, 0}}, material);
+    }
+
+    void look(float from, float to) {
+        camera.from = {1.25F, from, 0};
+        camera.at = {1.25F, to, 0};
+        camera.up = {0, 0, 1};
+    }
+};
+
+} // namespace
+
+TEST_CASE("shadow rays find their way through glass that coincides with glass") {
+    for (const Vec3f& offset : offsets) {
+        Room sheets(offset);
+        sheets.add_sheets(5, glass(1.0F));
+        check_ends(sheets.finish());
+        Room shells(offset);
+        shells.add_shells(3, glass(1.25F));
+        check_ends(shells.finish());
+    }
+}
+
+TEST_CASE("rays find their way through surfaces that coincide and are not seen") {
+    for (const Vec3f& offset : offsets)
+        for (const Visible side : {Visible::inside, Visible::outside}) {
+            Room sheets(offset);
+            sheets.add_sheets(5, seen_from(side));
+            check_ends(sheets.finish());
+            Room shells(offset);
+            shells.add_shells(3, seen_from(side));
+            check_ends(shells.finish());
+        }
+}
+
+TEST_CASE("rays pass surfaces that are closer together than numbers") {
+    CloseSheets scene(seen_from(Visible::inside));
+    scene.look(1001.0F, 1000.0F);
+    check_ends(scene.finish());
+}
+
+TEST_CASE("light passes glass that is closer together than numbers") {
+    CloseSheets scene(glass(1.0F));
+    Material matte = luminous();
+    matte.diffuse = 1.0F;
+    scene.add_shape(Plane{{0, 1001, 0}, {0, -1, 0}}, matte);
+    scene.look(1000.5F, 1001.0F);
+    Light light;
+    light.kind = LightKind::directional;
+    light.direction = {0, 1, 0};
+    check_ends(scene.finish(light));
+}
