@@ -1,6 +1,5 @@
 #include "simd/isa.hpp"
-#include "simd/wavefront/scene_data.hpp"
-#include "simd/wavefront/tracing.hpp"
+#include "simd/wavefront/hit_finder.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -8,116 +7,169 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
-/// Rays that have nothing in common through the hierarchy of many small spheres, rays per second.
+/// Rays that have nothing in common through the hierarchy of many small shapes, rays per second:
+/// the nearest hit with all that follows, up to the scalar reference's word where there is a doubt;
+/// and whether there is any. `left` is the share of rays that are not decided in packets.
 
 namespace {
 
 using namespace raylane;
-using core::Vec3d;
+using core::Vec3d, core::Vec3f;
 
 constexpr std::size_t ray_count = std::size_t{1} << 16;
 constexpr std::size_t wave = 4096;
 
-struct Setup {
-    core::Scene scene;
-    simd::SceneData data{scene};
-    std::vector<double> of[6];
-    std::vector<float> rounded[7], t_most;
-    std::vector<std::uint32_t> departed;
+/// What a scene is made of.
+enum class Mix { spheres, cylinders, cones, mixed };
+constexpr const char* mix_names[] = {"spheres", "cylinders", "cones", "mixed"};
 
-    explicit Setup(int spheres) : scene(make(spheres)) {
-        std::mt19937_64 engine(2);
-        std::uniform_real_distribution<double> uniform(0.0, 1.0);
-        std::normal_distribution<double> normal;
-        for (std::vector<float>& values : rounded)
-            values.resize(ray_count);
-        departed.assign(ray_count, simd::no_slot);
-        for (std::size_t i = 0; i < ray_count; ++i) {
-            const Vec3d direction =
-                core::normalized(Vec3d(normal(engine), normal(engine), normal(engine)));
-            for (int axis = 0; axis < 3; ++axis) {
-                of[axis].push_back(uniform(engine));
-                of[3 + axis].push_back(direction[axis]);
-            }
-            t_most.push_back(static_cast<float>(0.3 * uniform(engine)));
-        }
-    }
-
-    static core::Scene make(int spheres) {
+class Maker {
+  public:
+    core::Scene make(Mix mix, int count) {
         core::SceneBuilder builder;
         builder.wants_light = false;
         builder.add_material({});
-        std::mt19937 engine(1);
-        std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
-        const float radius = 0.3F / std::cbrt(static_cast<float>(spheres));
-        for (int i = 0; i < spheres; ++i)
-            builder.add(core::Sphere{{uniform(engine), uniform(engine), uniform(engine)}, radius},
-                        0);
+        const float size = 0.3F / std::cbrt(static_cast<float>(count));
+        for (int i = 0; i < count; ++i)
+            add(builder, mix == Mix::mixed ? static_cast<Mix>(i % 3) : mix, size);
         return std::move(builder).build();
     }
 
-    simd::RoundedRays rays(std::size_t from) {
-        return {{&rounded[0][from], &rounded[1][from], &rounded[2][from]},
-                {&rounded[3][from], &rounded[4][from], &rounded[5][from]},
-                &rounded[6][from],
-                &departed[from],
-                &departed[from],
-                {&of[0][from], &of[1][from], &of[2][from]},
-                {&of[3][from], &of[4][from], &of[5][from]}};
+  private:
+    float uniform(float low, float high) {
+        return std::uniform_real_distribution<float>(low, high)(engine_);
+    }
+    Vec3f within(float low, float high) {
+        return {uniform(low, high), uniform(low, high), uniform(low, high)};
+    }
+
+    void add(core::SceneBuilder& builder, Mix mix, float size) {
+        const Vec3f place = within(0.0F, 1.0F);
+        if (mix == Mix::spheres) {
+            builder.add(core::Sphere{place, size}, 0);
+            return;
+        }
+        const Vec3f axis = within(-size, size) + Vec3f(0.25F * size);
+        if (mix == Mix::cylinders)
+            builder.add(core::CappedCylinder{place, axis, 0.5F * size}, 0);
+        else
+            builder.add(core::CappedCone{place, axis, 0.7F * size, uniform(0.0F, 0.35F) * size}, 0);
+    }
+
+    std::mt19937 engine_{1};
+};
+
+struct Setup {
+    core::Scene scene;
+    simd::SceneData data{scene};
+    std::vector<std::unique_ptr<simd::Arena>> arenas;
+    std::vector<simd::Paths> waves;
+    std::vector<float> t_most;
+
+    Setup(Mix mix, int count) : scene(Maker().make(mix, count)) {
+        std::mt19937_64 engine(2);
+        std::uniform_real_distribution<double> uniform(0.0, 1.0);
+        std::normal_distribution<double> normal;
+        for (std::size_t first = 0; first < ray_count; first += wave) {
+            simd::Paths paths{};
+            simd::Arena measure;
+            paths.take_from(measure, wave, false);
+            arenas.push_back(std::make_unique<simd::Arena>(measure.used()));
+            paths.take_from(*arenas.back(), wave, false);
+            paths.count = wave;
+            paths.start_in_the_open(0, wave);
+            for (std::size_t i = 0; i < wave; ++i) {
+                const Vec3d direction =
+                    core::normalized(Vec3d(normal(engine), normal(engine), normal(engine)));
+                for (int axis = 0; axis < 3; ++axis) {
+                    paths.origin[axis][i] = uniform(engine);
+                    paths.direction[axis][i] = direction[axis];
+                }
+                t_most.push_back(static_cast<float>(0.3 * uniform(engine)));
+            }
+            waves.push_back(paths);
+        }
+    }
+
+    static Setup& of(Mix mix, int count) {
+        static std::map<std::pair<Mix, int>, std::unique_ptr<Setup>> all;
+        std::unique_ptr<Setup>& setup = all[{mix, count}];
+        if (setup == nullptr) setup = std::make_unique<Setup>(mix, count);
+        return *setup;
     }
 };
 
-Setup& setup_of(int spheres) {
-    static std::map<int, Setup> all;
-    return all.try_emplace(spheres, spheres).first->second;
+void report(benchmark::State& state, std::uint64_t left) {
+    const auto rays = static_cast<double>(wave) * static_cast<double>(state.iterations());
+    state.SetItemsProcessed(static_cast<std::int64_t>(wave) * state.iterations());
+    state.counters["left"] = static_cast<double>(left) / rays;
 }
 
-void trace(benchmark::State& state, simd::Isa isa, core::Precision precision, int spheres,
-           bool shadows) {
-    Setup& setup = setup_of(spheres);
-    const simd::Tracing tracing{&simd::kernels_of(isa), precision};
-    const simd::TraceKernels& kernels = tracing.method().trace;
-    tracing.kernels->rays.round_rays(ray_count, setup.rays(0));
-    const std::size_t entries =
-        std::size_t{simd::in_flight} * 16 * (setup.data.view().tree_depth + 1) + 16;
-    std::vector<float> t(entries), first(wave), second(wave);
-    std::vector<std::uint32_t> child(entries), slot(wave);
+void nearest(benchmark::State& state, const Setup& setup, const simd::Tracing& tracing) {
+    core::ReferenceTracer<double> reference(setup.scene, setup.scene.settings(),
+                                            core::Search::hierarchy, tracing.precision);
+    simd::HitFinder finder(setup.data, tracing, &reference);
+    simd::Arena measure;
+    finder.take_from(measure, wave);
+    simd::Arena arena(measure.used());
+    finder.take_from(arena, wave);
+    core::Counters counters;
+    std::size_t next = 0;
+    for (auto _ : state)
+        finder.find(setup.waves[next++ % setup.waves.size()], nullptr, counters);
+    report(state, counters.doubtful);
+}
+
+void occluded(benchmark::State& state, const Setup& setup, const simd::Tracing& tracing) {
+    simd::Arena measure;
+    simd::RoundedRays rounded{};
+    simd::take_rounded(measure, rounded, wave);
+    simd::pending_for(setup.data, measure);
+    simd::Arena arena(measure.used());
+    simd::take_rounded(arena, rounded, wave);
+    const simd::Pending pending = simd::pending_for(setup.data, arena);
     std::vector<std::uint8_t> states(wave);
     simd::TraceCounters counters{};
-    std::size_t from = 0;
+    std::size_t next = 0;
+    std::uint64_t left = 0;
     for (auto _ : state) {
-        std::fill(first.begin(), first.end(), std::numeric_limits<float>::infinity());
-        second = first;
+        const std::size_t at = next++ % setup.waves.size();
+        const simd::Paths& paths = setup.waves[at];
+        paths.pass_to(rounded);
+        tracing.kernels->rays.round_rays(wave, rounded);
         std::fill(states.begin(), states.end(), simd::open);
-        if (shadows)
-            kernels.occluded(setup.data.view(), 0, nullptr, wave, setup.rays(from),
-                             {&setup.t_most[from], states.data()}, {t.data(), child.data()},
-                             counters);
-        else
-            kernels.nearest(setup.data.view(), 0, nullptr, wave, setup.rays(from),
-                            {first.data(), second.data(), slot.data()}, {t.data(), child.data()},
-                            counters);
-        from = (from + wave) % ray_count;
+        tracing.method().trace.occluded(setup.data.view(), setup.data.listed_kinds(), nullptr, wave,
+                                        rounded, {&setup.t_most[at * wave], states.data()}, pending,
+                                        counters);
+        left += static_cast<std::uint64_t>(
+            std::count_if(states.begin(), states.end(), [](std::uint8_t found) {
+                return found != simd::open && found != simd::blocked;
+            }));
     }
-    state.SetItemsProcessed(static_cast<std::int64_t>(wave) * state.iterations());
+    report(state, left);
 }
 
 const bool registered = [] {
-    for (const int spheres : {10'000, 100'000, 1'000'000})
-        for (const bool shadows : {false, true})
-            for (const simd::Isa isa : simd::all_isas)
-                if (simd::is_available(isa))
-                    benchmark::RegisterBenchmark(
-                        ("trace/" + std::to_string(spheres) +
-                         (shadows ? "/occluded/" : "/nearest/") + std::string(simd::name_of(isa)))
-                            .c_str(),
-                        [=](benchmark::State& state) {
-                            trace(state, isa, core::Precision::exact, spheres, shadows);
+    for (const Mix mix : {Mix::spheres, Mix::cylinders, Mix::cones, Mix::mixed})
+        for (const int count : {10'000, 100'000, 1'000'000})
+            for (const bool shadows : {false, true})
+                for (const core::Precision precision : core::all_precisions)
+                    for (const simd::Isa isa : simd::all_isas) {
+                        if (!simd::is_available(isa)) continue;
+                        const std::string name =
+                            "trace/" + std::string(mix_names[static_cast<int>(mix)]) + "/" +
+                            std::to_string(count) + (shadows ? "/occluded/" : "/nearest/") +
+                            std::string(name_of(precision)) + "/" + std::string(name_of(isa));
+                        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+                            (shadows ? occluded : nearest)(state, Setup::of(mix, count),
+                                                           {&simd::kernels_of(isa), precision});
                         });
+                    }
     return true;
 }();
 
