@@ -50,7 +50,7 @@ class Searcher {
                 });
                 return true;
             });
-        return best.any() ? encounter(ray, best) : Encounter<Real>{};
+        return best.any() ? encounter(ray, departure) : Encounter<Real>{};
     }
 
     /// Calls visit(hit) for the crossings with t < t_most, in no order, until it returns false.
@@ -90,11 +90,28 @@ class Searcher {
         return hit;
     }
 
-    /// What is entered comes before what is left where they coincide: they touch, there is no gap
-    /// between them.
-    Encounter<Real> encounter(const Ray<Real>& ray, const Hit<Real>& best) {
+    /// Of coinciding_. What is entered comes before what is left where they coincide: they touch,
+    /// there is no gap between them.
+    Encounter<Real> encounter(const Ray<Real>& ray, const Departure<Real>& departure) {
+        const auto nearest_one = [&] {
+            return *std::min_element(
+                coinciding_.begin(), coinciding_.end(),
+                [](const Hit<Real>& a, const Hit<Real>& b) { return a.before(b); });
+        };
+        Hit<Real> best = nearest_one();
+        const auto drop_others = [&] {
+            std::erase_if(coinciding_, [&](const Hit<Real>& hit) { return !hit.coincides(best); });
+        };
+        drop_others();
+        if constexpr (std::is_same_v<Real, double>)
+            if (coinciding_.size() > 1 && precision_ == Precision::exact) {
+                for (Hit<double>& hit : coinciding_)
+                    sharpen(hit, ray, departure);
+                best = nearest_one();
+                drop_others();
+            }
+
         Encounter<Real> result;
-        std::erase_if(coinciding_, [&](const Hit<Real>& hit) { return !hit.coincides(best); });
         const auto is_first = [](const Hit<Real>& a, const Hit<Real>& b) {
             return a.entering != b.entering ? a.entering : a.shape < b.shape;
         };
@@ -110,6 +127,27 @@ class Searcher {
         for (const Hit<Real>& hit : coinciding_)
             add(hit);
         return result;
+    }
+
+    /// Solves in double-double, and leaves an error of no more than what double loses of the point:
+    /// what is closer together than that is in contact for a ray that goes on from there.
+    void sharpen(Hit<double>& hit, const Ray<double>& ray, const Departure<double>& departure) {
+        with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
+            Judge<Bounded<DoubleDouble>> judge;
+            const Crossings<double> all = detail::solve_bounded<DoubleDouble>(
+                table.get(hit.slot), ray, departure.start_on(hit.shape), judge);
+            ++counters.widened;
+            const double rounding = 0x1p-53 * (std::abs(ray.origin.x) + std::abs(ray.origin.y) +
+                                               std::abs(ray.origin.z) + std::abs(hit.t));
+            for (const Crossing<double>& crossing : all) {
+                const bool same = crossing.face == hit.face && crossing.entering == hit.entering &&
+                                  std::abs(crossing.t - hit.t) <= crossing.error + hit.error;
+                if (!same || crossing.error + rounding >= hit.error) continue;
+                hit.t = crossing.t;
+                hit.error = crossing.error + rounding;
+                return;
+            }
+        });
     }
 
     struct Pending {

@@ -73,16 +73,16 @@ TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
             Searcher<double> by_hierarchy(aimed.scene, Search::hierarchy);
             Searcher<double> by_trying(aimed.scene, Search::every_shape);
             const auto all = [](const Hit<double>&) { return true; };
-            const double infinity = std::numeric_limits<double>::infinity();
             int hits = 0, lost = 0, blocked_otherwise = 0;
             for (const Ray<double>& ray : aimed.rays) {
                 const Hit<double> hit = by_trying.nearest(ray, Departure<double>{}, all).hit;
                 hits += hit.any() ? 1 : 0;
                 if (!same(hit, by_hierarchy.nearest(ray, Departure<double>{}, all).hit)) ++lost;
                 // Up to the hit, nothing; just beyond it, something.
-                const double beyond = std::nextafter(hit.t, infinity);
-                if (crosses(by_hierarchy, ray, hit.t - hit.error)) ++blocked_otherwise;
-                if (hit.any() && !crosses(by_hierarchy, ray, beyond)) ++blocked_otherwise;
+                const double off = 2.0 * needed_accuracy * hit.t;
+                if (crosses(by_hierarchy, ray, hit.any() ? hit.t - off : hit.t))
+                    ++blocked_otherwise;
+                if (hit.any() && !crosses(by_hierarchy, ray, hit.t + off)) ++blocked_otherwise;
             }
             CAPTURE(lattice, of_each_kind);
             CHECK(lost == 0);

@@ -95,11 +95,11 @@ class Trial {
         const Ray<double> ray = ray_of(paths_, i);
         std::optional<oracle::Hit> truth;
         ShapeId id = no_shape;
-        bool touches = false; // surfaces that double can hardly tell apart, or one shape twice
+        bool touches = false;
         for (ShapeId k = 0; k < shapes_a_scene; ++k)
             for (const oracle::Hit& hit : oracle::crossings(shapes_[k], ray)) {
                 if (!(hit.t > 0)) continue;
-                if (truth && abs(hit.t - truth->t) <= truth->t * 0x1p-40)
+                if (truth && abs(hit.t - truth->t) <= reach(ray, *truth))
                     touches = true;
                 else if (!truth || hit.t < truth->t)
                     touches = false;
@@ -138,11 +138,16 @@ class Trial {
         tally.point_errors.push_back(off <= 0x1p-50 * start ? 0.0 : off / ulp(largest));
     }
 
+    /// What a double can be off by in a point there: what is closer together touches.
+    static double reach(const Ray<double>& ray, const oracle::Hit& at) {
+        return 0x1p-50 * (length(ray.origin) + static_cast<double>(at.t));
+    }
+
     /// Whether it enters and leaves at one point.
     static bool is_tangent(const Shape& shape, const Ray<double>& ray, const oracle::Hit& at) {
         const auto all = oracle::crossings(shape, ray);
         return std::count_if(all.begin(), all.end(), [&](const oracle::Hit& hit) {
-                   return oracle::sign(hit.t - at.t, at.t) == 0;
+                   return abs(hit.t - at.t) <= reach(ray, at);
                }) == 2;
     }
 
