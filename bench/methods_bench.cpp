@@ -132,9 +132,9 @@ void find(benchmark::State& state, simd::Isa isa, Precision precision) {
     for (auto _ : state)
         finder.find(of.paths, nullptr, counters);
     state.SetItemsProcessed(static_cast<std::int64_t>(ray_count) * state.iterations());
-    state.counters["left_to_the_reference"] =
-        static_cast<double>(counters.doubtful) /
-        (static_cast<double>(ray_count) * static_cast<double>(state.iterations()));
+    const double rays = static_cast<double>(ray_count) * static_cast<double>(state.iterations());
+    state.counters["refined"] = static_cast<double>(counters.refined) / rays;
+    state.counters["left_to_the_reference"] = static_cast<double>(counters.doubtful) / rays;
     report(state, of.truths, finder.hits());
 }
 

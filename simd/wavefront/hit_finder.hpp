@@ -1,29 +1,18 @@
 #pragma once
 
 #include "core/reference/tracer.hpp"
-#include "simd/wavefront/paths.hpp"
-#include "simd/wavefront/scene_data.hpp"
-#include "simd/wavefront/tracing.hpp"
+#include "simd/wavefront/hits.hpp"
+#include "simd/wavefront/refinery.hpp"
 
 #include <memory>
 #include <span>
 
 namespace raylane::simd {
 
-/// What rays hit, by lane.
-struct Hits {
-    std::uint32_t* slot; ///< no_slot: nothing
-    double* t;
-    double* error;
-    double* normal[3];
-    double* shading_normal[3]; ///< null where the scene has no smooth triangles
-    std::uint32_t* hit;        ///< hit_bits
-};
-
 /// Finds the first surfaces that rays hit. With core::Precision::exact as
 /// core::ReferenceTracer<double> would: in float, shapes are bounded; in double, the one that may
-/// be nearest is solved; where that is not certain, the reference is asked, or, if there is none,
-/// the ray left open.
+/// be nearest is solved; where that is not certain, all that may be are; and where that is not
+/// enough, the reference is asked. If there is none, the ray is left open at once.
 class HitFinder {
   public:
     HitFinder(const SceneData& scene, const Tracing& tracing,
@@ -56,11 +45,14 @@ class HitFinder {
     void look_through(const Paths& paths, const Bundle* bundle, core::Counters& counters);
     bool is_visible(const Hits& hits, std::size_t lane) const;
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
-    void take(const Hits& hits, std::size_t from, std::size_t lane);
+    const Hits& finish(const Paths& paths, std::size_t lane, std::uint32_t slot);
+    /// Without a reference, rays may be rounded ones: what is doubtful is for who knows the others.
+    bool refines() const { return reference_ != nullptr && refinery_.works(); }
 
     const SceneData& scene_;
     Tracing tracing_;
     core::ReferenceTracer<double>* reference_; // may be null
+    Refinery refinery_;
 
     RoundedRays rounded_{};
     Candidates candidates_{};
