@@ -31,9 +31,10 @@ void find(benchmark::State& state, simd::Isa isa, core::Precision precision) {
     for (auto _ : state)
         finder.find(of.paths, nullptr, counters);
     state.SetItemsProcessed(static_cast<std::int64_t>(method_ray_count) * state.iterations());
-    state.counters["left_to_the_reference"] =
-        static_cast<double>(counters.doubtful) /
-        (static_cast<double>(method_ray_count) * static_cast<double>(state.iterations()));
+    const double rays =
+        static_cast<double>(method_ray_count) * static_cast<double>(state.iterations());
+    state.counters["refined"] = static_cast<double>(counters.refined) / rays;
+    state.counters["left_to_the_reference"] = static_cast<double>(counters.doubtful) / rays;
     report_errors(state, of.truths, found_in(finder.hits()));
 }
 

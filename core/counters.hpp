@@ -15,6 +15,7 @@ struct Counters {
     std::uint64_t widened = 0;   ///< of these, tests that had to be repeated in more than double
     std::uint64_t walked = 0;    ///< shadow rays that had to be followed from surface to surface
     std::uint64_t deferred = 0;  ///< paths put off, as a wave had become too long
+    std::uint64_t refined = 0;   ///< rays that the vector engine has decided on at second sight
     /// What the vector engine has left to the reference:
     std::uint64_t doubtful = 0; ///< rays: to decide which shape is the nearest
     std::uint64_t followed = 0; ///< paths: to follow, where surfaces meet or waves grow too long
@@ -30,6 +31,7 @@ struct Counters {
         shapes += other.shapes;
         widened += other.widened;
         walked += other.walked;
+        refined += other.refined;
         doubtful += other.doubtful;
         deferred += other.deferred;
         followed += other.followed;

@@ -37,7 +37,7 @@ Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, cons
     Crossings<double> result;
     for (const Crossing<Real>& crossing : crossings(shape, wide, start, judge)) {
         const int side = start.on_surface ? 1 : judge.sign(crossing.t);
-        if (side > 0) judge.result(crossing.t);
+        if (side > 0) judge.result(crossing.t, ray);
         result.add({side == 0 ? 0.0 : static_cast<double>(crossing.t), crossing.face,
                     crossing.entering, crossing.t.error});
     }

@@ -73,6 +73,7 @@ struct MethodKernels {
     TraceKernels trace;
     /// Where rays first cross the shapes that were found for them. The same bits in every unit.
     void (*finish)(const SceneView& scene, const Found& found);
+    RefineKernels refine; ///< null where nothing is
 };
 inline constexpr int method_count = 4;
 

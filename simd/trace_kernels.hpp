@@ -9,6 +9,8 @@
 /// Arrays have `count` values and are readable and writable up to whole packets of 16.
 namespace raylane::simd {
 
+struct Found;
+
 /// Rays rounded to float (FilterRays in kernel/filters/filter.hpp), with the shapes that they
 /// leave, which no filter sees: ids first to last, no_shape twice if none.
 struct RoundedRays {
@@ -98,6 +100,31 @@ struct TraceKernels {
     void (*occluded)(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
                      std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
                      const Pending& pending, TraceCounters& counters);
+};
+
+/// What a ray may cross first, in no order.
+struct CandidateList {
+    std::uint32_t* slot;
+    float* lower; ///< bounds
+    std::size_t room, count;
+    /// In and out: what lies beyond is not listed.
+    float limit;
+};
+
+/// How far the limit of a list is behind the upper bound that it is taken from, so that what is
+/// nearly as near is listed, too.
+inline constexpr float candidate_grace = 1.0F + 0x1p-18F;
+
+/// What is done to rays that are left in doubt.
+struct RefineKernels {
+    /// Lists all that ray i may cross before the limit, in the kinds and the hierarchy as
+    /// TraceKernels::nearest has them. Returns whether there was room.
+    bool (*list_candidates)(const SceneView& scene, std::uint32_t kind_bits,
+                            const RoundedRays& rays, std::size_t i, const Pending& pending,
+                            CandidateList& list, TraceCounters& counters);
+    /// MethodKernels::finish once more for lanes that it left doubtful. The others are left as they
+    /// are.
+    void (*finish_again)(const SceneView& scene, const Found& found);
 };
 
 } // namespace raylane::simd

@@ -112,6 +112,7 @@ template <class Real>
 struct Encounter {
     Hit<Real> hit;
     Departure<Real> contacts;
+    bool is_close = false; ///< the next one is too near for t to be off by more than a rounding
 };
 
 } // namespace raylane::core

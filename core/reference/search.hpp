@@ -34,7 +34,7 @@ class Searcher {
             if (contact.is_crossed() && contact_hit(contact).before(first) &&
                 counts(contact_hit(contact)))
                 first = contact_hit(contact);
-        if (first.any()) return {first, departure};
+        if (first.any()) return {first, departure, false};
 
         Hit<Real> best;
         best.t = t_most;
@@ -103,15 +103,15 @@ class Searcher {
             std::erase_if(coinciding_, [&](const Hit<Real>& hit) { return !hit.coincides(best); });
         };
         drop_others();
+        Encounter<Real> result;
         if constexpr (std::is_same_v<Real, double>)
             if (coinciding_.size() > 1 && precision_ == Precision::exact) {
                 for (Hit<double>& hit : coinciding_)
                     sharpen(hit, ray, departure);
                 best = nearest_one();
                 drop_others();
+                result.is_close = true;
             }
-
-        Encounter<Real> result;
         const auto is_first = [](const Hit<Real>& a, const Hit<Real>& b) {
             return a.entering != b.entering ? a.entering : a.shape < b.shape;
         };

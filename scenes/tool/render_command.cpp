@@ -169,6 +169,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"shapes_tested", counters.shapes},
             {"tests_beyond_double", counters.widened},
             {"shadow_rays_walked", counters.walked},
+            {"rays_refined", counters.refined},
             {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
 }
 

@@ -4,6 +4,13 @@
 
 namespace raylane::simd {
 
+/// Of a question that decides between ways to compute the same: there either answer will do, so
+/// that numbers with bounds need not be certain of it.
+template <class Number, class Arch>
+xsimd::batch_bool<Number, Arch> either_way(const xsimd::batch_bool<Number, Arch>& a) {
+    return a;
+}
+
 template <class Arch>
 struct Rays {
     Vectors<Arch> origin, direction;
@@ -54,10 +61,20 @@ Mask<Arch> ahead(const Crossing<Arch>& crossing, const Mask<Arch>& on_surface) {
            ((crossing.t > zero<Arch>()) | (on_surface & (crossing.t == zero<Arch>())));
 }
 
+/// The first crossing that is ahead.
+template <class Arch>
+Crossing<Arch> first_ahead(const Crossings<Arch>& found, const Mask<Arch>& on_surface) {
+    const Mask<Arch> first = ahead(found.first, on_surface),
+                     second = ahead(found.second, on_surface);
+    return {first | second, select(first, found.first.t, found.second.t),
+            select(first, found.first.face, found.second.face),
+            (first & found.first.entering) | (~first & found.second.entering)};
+}
+
 /// core::not_behind
 template <class Arch>
 Floats<Arch> not_behind(const Floats<Arch>& t) {
-    return xsimd::select(t > zero<Arch>(), t, zero<Arch>());
+    return select(t > zero<Arch>(), t, zero<Arch>());
 }
 
 /// A ray that leaves a convex solid does not meet it again.
@@ -75,15 +92,15 @@ class Span {
   public:
     void clip_front(const Mask<Arch>& lanes, const Floats<Arch>& t, const Floats<Arch>& face) {
         const Mask<Arch> clips = lanes & (~has_front_ | (front_ < t));
-        front_ = xsimd::select(clips, t, front_);
-        front_face_ = xsimd::select(clips, face, front_face_);
+        front_ = select(clips, t, front_);
+        front_face_ = select(clips, face, front_face_);
         has_front_ = has_front_ | lanes;
     }
 
     void clip_back(const Mask<Arch>& lanes, const Floats<Arch>& t, const Floats<Arch>& face) {
         const Mask<Arch> clips = lanes & (~has_back_ | (t < back_));
-        back_ = xsimd::select(clips, t, back_);
-        back_face_ = xsimd::select(clips, face, back_face_);
+        back_ = select(clips, t, back_);
+        back_face_ = select(clips, face, back_face_);
         has_back_ = has_back_ | lanes;
     }
 
@@ -98,10 +115,8 @@ class Span {
         const Floats<Arch> at_high = (end - start) / slope;
         const Floats<Arch> low_face = constant<Arch>(low), high_face = constant<Arch>(high);
         const Mask<Arch> crosses = lanes & (rises | falls);
-        clip_front(crosses, xsimd::select(rises, at_low, at_high),
-                   xsimd::select(rises, low_face, high_face));
-        clip_back(crosses, xsimd::select(rises, at_high, at_low),
-                  xsimd::select(rises, high_face, low_face));
+        clip_front(crosses, select(rises, at_low, at_high), select(rises, low_face, high_face));
+        clip_back(crosses, select(rises, at_high, at_low), select(rises, high_face, low_face));
     }
 
     /// `exits`: lanes that start on the surface, for which only the far end counts.
@@ -109,7 +124,7 @@ class Span {
         const Mask<Arch> both = ~exits & ~empty_ & has_front_ & has_back_ & ~(back_ < front_);
         const Mask<Arch> leaves = exits & has_back_;
         return {{both, front_, front_face_, all<Arch>()},
-                {both | leaves, xsimd::select(leaves, not_behind<Arch>(back_), back_), back_face_,
+                {both | leaves, select(leaves, not_behind<Arch>(back_), back_), back_face_,
                  none<Arch>()}};
     }
 

@@ -21,6 +21,7 @@ struct Spots {
 /// gather: the floats at some spots, `row` further on.
 /// pick: from[places[lane]].
 /// widen: half of a packet of floats, the lower (0) or the upper one (1).
+/// product_error: a b - product, exactly, for the rounded product of a and b.
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
 template <class Arch>
 struct DoubleLanes;
@@ -63,6 +64,13 @@ struct DoubleLanes<Sse42> {
     static F widen(const Floats<Sse42>& values, int half) {
         const __m128 lanes = values;
         return F(_mm_cvtps_pd(half == 0 ? lanes : _mm_movehl_ps(lanes, lanes)));
+    }
+    /// Dekker's way, for operands below 2^995.
+    static F product_error(const F& a, const F& b, const F& product) {
+        const F split(0x1p27 + 1.0), scaled_a = split * a, scaled_b = split * b;
+        const F a_high = scaled_a - (scaled_a - a), b_high = scaled_b - (scaled_b - b);
+        const F a_low = a - a_high, b_low = b - b_high;
+        return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
     }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(_mm_setr_pd(from[places[0]], from[places[1]]));
@@ -123,6 +131,9 @@ struct DoubleLanes<Avx2> {
         const __m256 lanes = values;
         return F(_mm256_cvtps_pd(half == 0 ? _mm256_castps256_ps128(lanes)
                                            : _mm256_extractf128_ps(lanes, 1)));
+    }
+    static F product_error(const F& a, const F& b, const F& product) {
+        return F(_mm256_fmsub_pd(a, b, product));
     }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(
@@ -202,6 +213,9 @@ struct DoubleLanes<Avx512> {
         const __m512 lanes = values;
         return F(_mm512_cvtps_pd(half == 0 ? _mm512_castps512_ps256(lanes)
                                            : _mm512_extractf32x8_ps(lanes, 1)));
+    }
+    static F product_error(const F& a, const F& b, const F& product) {
+        return F(_mm512_fmsub_pd(a, b, product));
     }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(_mm512_i32gather_pd(load(places), from, 8));

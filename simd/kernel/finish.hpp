@@ -152,8 +152,9 @@ class Finish {
                       : Finisher(GatherReader<Arch>(spots));
 
         const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
-        const Finished<D> finished = finisher.finish(
+        Finished<D> finished = finisher.finish(
             rays, leaves_any(i, active) ? starts(table, spots, one_shape, i) : starts_nowhere<D>());
+        finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
         store(finished, i, active);
         if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
             if (found_.shading_normal[0] != nullptr)

@@ -176,7 +176,7 @@ struct KernelsOf {
 
     template <class Method>
     static constexpr MethodKernels method() {
-        return {Trace<Arch, Method>::table(), Method::finish};
+        return {Trace<Arch, Method>::table(), Method::finish, Method::refine()};
     }
 
     static constexpr Kernels table(const char* name) {

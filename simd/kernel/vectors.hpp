@@ -80,13 +80,13 @@ Vectors<Arch> cross(const Vectors<Arch>& a, const Vectors<Arch>& b) {
 
 template <class Arch>
 Vectors<Arch> normalized(const Vectors<Arch>& a) {
-    return a / xsimd::sqrt(squared_length(a));
+    return a / sqrt(squared_length(a));
 }
 
 /// The same but for rounding, with one division.
 template <class Arch>
 Vectors<Arch> unit(const Vectors<Arch>& a) {
-    return scaled(constant<Arch>(1.0F) / xsimd::sqrt(squared_length(a)), a);
+    return scaled(constant<Arch>(1.0F) / sqrt(squared_length(a)), a);
 }
 
 template <class Arch>

@@ -9,35 +9,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-void take_hits(Arena& arena, Hits& hits, std::size_t capacity, bool smooth) {
-    hits.slot = arena.take<std::uint32_t>(capacity);
-    hits.t = arena.take<double>(capacity);
-    hits.error = arena.take<double>(capacity);
-    arena.take(hits.normal, capacity);
-    for (double*& column : hits.shading_normal)
-        column = smooth ? arena.take<double>(capacity) : nullptr;
-    hits.hit = arena.take<std::uint32_t>(capacity);
-}
-
-Found found_in(const Paths& paths, const Hits& hits, std::size_t count) {
-    Found found{};
-    found.count = count;
-    for (int axis = 0; axis < 3; ++axis) {
-        found.origin[axis] = paths.origin[axis];
-        found.direction[axis] = paths.direction[axis];
-        found.normal[axis] = hits.normal[axis];
-        found.shading_normal[axis] = hits.shading_normal[axis];
-    }
-    found.departed_first = paths.departed_first;
-    found.departed_last = paths.departed_last;
-    found.departure = paths.departure;
-    found.slot = hits.slot;
-    found.t = hits.t;
-    found.error = hits.error;
-    found.hit = hits.hit;
-    return found;
-}
-
 /// A float that is not above a value >= 0, nor far below it.
 float rounded_down(double value) {
     return static_cast<float>(value) * (1.0F - 0x1p-22F);
@@ -60,7 +31,7 @@ Pending pending_for(const SceneData& scene, Arena& arena) {
 
 HitFinder::HitFinder(const SceneData& scene, const Tracing& tracing,
                      core::ReferenceTracer<double>* reference, bool looks_through)
-    : scene_(scene), tracing_(tracing), reference_(reference) {
+    : scene_(scene), tracing_(tracing), reference_(reference), refinery_(scene, tracing) {
     if (!tracing.certifies()) tie_breaker_.emplace(scene, tracing.precision);
     if (looks_through) onward_.reset(new HitFinder(scene, tracing, reference, false));
 }
@@ -70,12 +41,13 @@ void HitFinder::take_from(Arena& arena, std::size_t capacity) {
     candidates_.first = arena.take<float>(capacity);
     candidates_.second = arena.take<float>(capacity);
     pending_ = pending_for(scene_, arena);
-    take_hits(arena, hits_, capacity, scene_.smooth());
+    hits_.take_from(arena, capacity, scene_.smooth());
     doubtful_ = arena.take<std::uint8_t>(capacity);
     open_ = arena.take<std::uint32_t>(capacity);
     gathered_.take_from(arena, capacity, false);
-    take_hits(arena, gathered_hits_, capacity, scene_.smooth());
+    gathered_hits_.take_from(arena, capacity, scene_.smooth());
     lanes_ = arena.take<std::uint32_t>(capacity);
+    if (refines()) refinery_.take_from(arena);
     if (onward_ == nullptr) return;
     onward_->take_from(arena, capacity);
     onward_paths_.take_from(arena, capacity, false);
@@ -93,12 +65,15 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
     counters.shapes += traced.shapes;
 
     if (tie_breaker_) break_ties(paths);
-    tracing_.method().finish(scene_.view(), found_in(paths, hits_, paths.count));
+    tracing_.method().finish(scene_.view(), hits_.found(paths, paths.count));
     lane_count_ =
         tracing_.certifies()
             ? tracing_.kernels->rays.list_uncertain(paths.count, candidates_, hits_.t, hits_.error,
                                                     hits_.hit, doubtful_, lanes_)
             : 0;
+    if (refines() && lane_count_ != 0)
+        lane_count_ = refinery_.refine(paths, rounded_, pending_, doubtful_, {lanes_, lane_count_},
+                                       hits_, counters);
     ask_reference(paths, counters);
     if (onward_ != nullptr) look_through(paths, bundle, counters);
 }
@@ -135,7 +110,7 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
             const std::uint32_t lane = onward_paths_.sample[i];
             if (lane == no_slot) continue;
             if (is_visible(found, i)) {
-                take(found, i, lane);
+                hits_.copy(found, i, lane);
                 hits_.t[lane] += passed_[i];
                 continue;
             }
@@ -187,7 +162,7 @@ void HitFinder::find_own_exits(const Paths& paths) {
         gathered_.copy_ray(paths, lanes_[i], i);
         gathered_hits_.slot[i] = paths.departed_slot[lanes_[i]];
     }
-    tracing_.method().finish(scene_.view(), found_in(gathered_, gathered_hits_, count));
+    tracing_.method().finish(scene_.view(), gathered_hits_.found(gathered_, count));
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
         if ((hit & hit_doubtful) != 0) {
@@ -241,26 +216,31 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
             open_[open_count_++] = static_cast<std::uint32_t>(lane);
             continue;
         }
-        settle(paths, lane, encounter.hit);
+        if (encounter.is_close)
+            take_from_reference(paths, lane, encounter.hit);
+        else
+            settle(paths, lane, encounter.hit);
     }
 }
 
 /// The shape is decided. The numbers are those that the kernel has for it, so that they do not
 /// depend on what was in doubt, or, where these are not certain, the reference's.
 void HitFinder::settle(const Paths& paths, std::size_t lane, const core::Hit<double>& hit) {
-    const std::uint32_t slot = scene_.slot_of(hit.kind, hit.slot);
-    hits_.slot[lane] = slot;
-    gathered_.copy_ray(paths, lane, 0);
-    gathered_hits_.slot[0] = slot;
-    tracing_.method().finish(scene_.view(), found_in(gathered_, gathered_hits_, 1));
-    const std::uint32_t bits = hit.face | (hit.entering ? hit_entering : 0);
-    if (gathered_hits_.hit[0] == bits) {
-        take(gathered_hits_, 0, lane);
+    const Hits& finished = finish(paths, lane, scene_.slot_of(hit.kind, hit.slot));
+    if (finished.hit[0] == (hit.face | (hit.entering ? hit_entering : 0))) {
+        hits_.copy(finished, 0, lane);
         return;
     }
+    take_from_reference(paths, lane, hit);
+}
+
+void HitFinder::take_from_reference(const Paths& paths, std::size_t lane,
+                                    const core::Hit<double>& hit) {
     const core::Ray<double> ray = ray_of(paths, lane);
-    hits_.hit[lane] = bits;
+    hits_.slot[lane] = scene_.slot_of(hit.kind, hit.slot);
+    hits_.hit[lane] = hit.face | (hit.entering ? hit_entering : 0);
     hits_.t[lane] = hit.t;
+    hits_.error[lane] = hit.error;
     const core::Vec3d point = core::mul_add(hit.t, ray.direction, ray.origin);
     core::with_table(
         scene_.scene().shapes(), hit.kind, [&]<class Shape>(const core::Table<Shape>& table) {
@@ -275,15 +255,13 @@ void HitFinder::settle(const Paths& paths, std::size_t lane, const core::Hit<dou
         });
 }
 
-void HitFinder::take(const Hits& hits, std::size_t from, std::size_t lane) {
-    hits_.slot[lane] = hits.slot[from];
-    hits_.hit[lane] = hits.hit[from];
-    hits_.t[lane] = hits.t[from];
-    hits_.error[lane] = hits.error[from];
-    for (int axis = 0; axis < 3; ++axis) {
-        hits_.normal[axis][lane] = hits.normal[axis][from];
-        if (scene_.smooth()) hits_.shading_normal[axis][lane] = hits.shading_normal[axis][from];
-    }
+/// One ray and one shape. Lane 0 of the result.
+const Hits& HitFinder::finish(const Paths& paths, std::size_t lane, std::uint32_t slot) {
+    if (refines()) return refinery_.finish(paths, lane, slot);
+    gathered_.copy_ray(paths, lane, 0);
+    gathered_hits_.slot[0] = slot;
+    tracing_.method().finish(scene_.view(), gathered_hits_.found(gathered_, 1));
+    return gathered_hits_;
 }
 
 } // namespace raylane::simd

@@ -2,10 +2,9 @@
 
 #include "core/reference/tracer.hpp"
 #include "simd/wavefront/as_core.hpp"
-#include "simd/wavefront/paths.hpp"
-#include "simd/wavefront/scene_data.hpp"
+#include "simd/wavefront/hits.hpp"
+#include "simd/wavefront/refinery.hpp"
 #include "simd/wavefront/tie_breaker.hpp"
-#include "simd/wavefront/tracing.hpp"
 
 #include <memory>
 #include <optional>
@@ -13,21 +12,11 @@
 
 namespace raylane::simd {
 
-/// What rays hit, by lane.
-struct Hits {
-    std::uint32_t* slot; ///< no_slot: nothing
-    double* t;
-    double* error;
-    double* normal[3];
-    double* shading_normal[3]; ///< null where the scene has no smooth triangles
-    std::uint32_t* hit;        ///< hit_bits
-};
-
 /// Finds the first surfaces that rays hit. With core::Precision::exact as
 /// core::ReferenceTracer<double> would: in float, shapes are bounded; in double, the one that may
-/// be nearest is solved; where that is not certain, the reference is asked, or, if there is none,
-/// the ray left open. In float alone nothing is uncertain, and a TieBreaker decides where t is the
-/// same.
+/// be nearest is solved; where that is not certain, all that may be are; and where that is not
+/// enough, the reference is asked. If there is none, the ray is left open at once. In float
+/// alone nothing is uncertain, and a TieBreaker decides where t is the same.
 class HitFinder {
   public:
     HitFinder(const SceneData& scene, const Tracing& tracing,
@@ -61,12 +50,16 @@ class HitFinder {
     void look_through(const Paths& paths, const Bundle* bundle, core::Counters& counters);
     bool is_visible(const Hits& hits, std::size_t lane) const;
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
-    void take(const Hits& hits, std::size_t from, std::size_t lane);
+    void take_from_reference(const Paths& paths, std::size_t lane, const core::Hit<double>& hit);
+    const Hits& finish(const Paths& paths, std::size_t lane, std::uint32_t slot);
+    /// Without a reference, rays may be rounded ones: what is doubtful is for who knows the others.
+    bool refines() const { return reference_ != nullptr && refinery_.works(); }
 
     const SceneData& scene_;
     Tracing tracing_;
     core::ReferenceTracer<double>* reference_; // may be null
     std::optional<TieBreaker> tie_breaker_;
+    Refinery refinery_;
 
     RoundedRays rounded_{};
     Candidates candidates_{};

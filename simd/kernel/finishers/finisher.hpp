@@ -50,15 +50,27 @@ Mask<Arch> is_result(const Floats<Arch>& t, const Floats<Arch>& error) {
     return error < Floats<Arch>(needed_accuracy) * t;
 }
 
-template <class Arch>
-bool any(const Mask<Arch>& mask) {
-    return Lanes<Arch>::bits(mask) != 0;
-}
-
 /// |x| + |y| + |z|, between |v| and 1.74 |v|.
 template <class Arch>
 Floats<Arch> sum_of_sizes(const Vectors<Arch>& v) {
     return xsimd::abs(v.x) + xsimd::abs(v.y) + xsimd::abs(v.z);
+}
+
+/// core::holds_point
+template <class Arch>
+[[gnu::always_inline]] inline Mask<Arch> holds_point(const Rays<Arch>& rays, const Floats<Arch>& t,
+                                                     const Floats<Arch>& error) {
+    using F = Floats<Arch>;
+    const Vectors<Arch> point = mul_add<Arch>(t, rays.direction, rays.origin);
+    const F largest =
+        xsimd::max(xsimd::max(xsimd::abs(point.x), xsimd::abs(point.y)), xsimd::abs(point.z));
+    return (error <= F(0x1p-24) * largest) |
+           (error <= F(0x1p-49) * (sum_of_sizes(rays.origin) + t));
+}
+
+template <class Arch>
+bool any(const Mask<Arch>& mask) {
+    return Lanes<Arch>::bits(mask) != 0;
 }
 
 /// v with the sign of each lane's components turned where `mask`.

@@ -2,7 +2,8 @@
 
 #include "simd/kernel/filters/filters.hpp"
 #include "simd/kernel/finish.hpp"
-#include "simd/kernel/trace/rays.hpp"
+#include "simd/kernel/finish_again.hpp"
+#include "simd/kernel/trace/candidates.hpp"
 
 namespace raylane::simd {
 
@@ -12,6 +13,7 @@ namespace raylane::simd {
 ///   broadcast  one of them in all lanes
 ///   with_filter(kind, visit)  calls visit.operator()<its filter for the kind>()
 ///   finish     MethodKernels::finish
+///   refine     MethodKernels::refine
 ///
 /// This one is core::Precision::exact: bounds in float, and what they leave in double.
 template <class Arch>
@@ -22,6 +24,9 @@ struct ExactMethod : RaysInFloat<Arch> {
     }
     static void finish(const SceneView& scene, const Found& found) {
         simd::finish<Arch>(scene, found);
+    }
+    static constexpr RefineKernels refine() {
+        return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>};
     }
 };
 

@@ -79,6 +79,7 @@ struct DoubleMethod {
     static void finish(const SceneView& scene, const Found& found) {
         PlainFinish<D, false>(scene, found).all_rays();
     }
+    static constexpr RefineKernels refine() { return {nullptr, nullptr}; }
 
   private:
     static Vectors<D> load(const double* const (&from)[3], std::size_t i) {

@@ -31,6 +31,7 @@ struct PlainMethod : RaysInFloat<Arch> {
     static void finish(const SceneView& scene, const Found& found) {
         PlainFinish<Arch, textbook>(scene, found).all_rays();
     }
+    static constexpr RefineKernels refine() { return {nullptr, nullptr}; }
 };
 
 } // namespace raylane::simd

@@ -10,16 +10,6 @@
 
 namespace raylane::simd {
 
-/// The first crossing that is ahead.
-template <class Number>
-Crossing<Number> first_ahead(const Crossings<Number>& found, const Mask<Number>& on_surface) {
-    const Mask<Number> first = ahead(found.first, on_surface),
-                       second = ahead(found.second, on_surface);
-    return {first | second, xsimd::select(first, found.first.t, found.second.t),
-            xsimd::select(first, found.first.face, found.second.face),
-            (first & found.first.entering) | (~first & found.second.entering)};
-}
-
 /// What overflows is no crossing.
 template <class Number>
 Crossing<Number> at_finite_t(Crossing<Number> crossing) {

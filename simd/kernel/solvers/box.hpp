@@ -21,7 +21,7 @@ struct BoxLanes {
         const Floats<Arch> volume = dot(normals[0], edge_u);
         const Mask<Arch> left_handed = volume < zero<Arch>();
         const auto turned = [&](const Floats<Arch>& a) {
-            return xsimd::select(left_handed, negated(a), a);
+            return select(left_handed, negated(a), a);
         };
 
         Span<Arch> span;

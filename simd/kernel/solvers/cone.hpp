@@ -45,10 +45,9 @@ struct ConeLanes {
         roots.first.exists = roots.first.exists & ~from_body;
         const Mask<Arch> body_exit = from_body & opens_up;
         roots.second.exists = (roots.second.exists & ~from_body) | body_exit | by_rim;
-        roots.second.t =
-            xsimd::select(from_body, not_behind<Arch>(negated(B + B) / A), roots.second.t);
-        const Floats<Arch> vertex = xsimd::select(opens_up, negated(B) / A, o);
-        roots.second.t = xsimd::select(by_rim, not_behind<Arch>(vertex), roots.second.t);
+        roots.second.t = select(from_body, not_behind<Arch>(negated(B + B) / A), roots.second.t);
+        const Floats<Arch> vertex = select(opens_up, negated(B) / A, o);
+        roots.second.t = select(by_rim, not_behind<Arch>(vertex), roots.second.t);
         roots.second.entering = roots.second.entering & ~from_body & ~by_rim;
 
         const Mask<Arch> widens = M > o;
@@ -79,7 +78,7 @@ struct ConeLanes {
         const Vectors<Arch> unit_axis = normalized(axis);
         const Vectors<Arch> across = offset_from_axis(base, axis, point);
         const Floats<Arch> narrowing = base_radius - top_radius;
-        const Floats<Arch> width = xsimd::sqrt(squared_length(across));
+        const Floats<Arch> width = sqrt(squared_length(across));
         const Vectors<Arch> gradient =
             mul_add<Arch>(width * narrowing / squared_length(axis), axis, across);
         const Vectors<Arch> at_apex = select(narrowing > o, unit_axis, -unit_axis);

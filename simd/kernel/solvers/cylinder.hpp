@@ -20,9 +20,9 @@ struct CylinderLanes {
         const Floats<Arch> speed_squared = squared_length(axial.across_direction);
         const Mask<Arch> parallel =
             ~(speed_squared > zero<Arch>()) & ~(speed_squared < zero<Arch>());
-        const Floats<Arch> tau = xsimd::select(
-            parallel, zero<Arch>(),
-            negated(dot(axial.across_origin, axial.across_direction)) / speed_squared);
+        const Floats<Arch> tau =
+            select(parallel, zero<Arch>(),
+                   negated(dot(axial.across_origin, axial.across_direction)) / speed_squared);
 
         Span<Arch> span;
         const Mask<Arch> from_body = starts.on_surface & (starts.face == zero<Arch>());
@@ -34,7 +34,7 @@ struct CylinderLanes {
         const Mask<Arch> no_roots = discriminant < zero<Arch>();
         Mask<Arch> beside = no_roots & ~starts.on_surface;
         const Floats<Arch> half_chord =
-            xsimd::sqrt(xsimd::select(no_roots, zero<Arch>(), discriminant) / speed_squared);
+            sqrt(select(no_roots, zero<Arch>(), discriminant) / speed_squared);
         if constexpr (textbook) {
             const Floats<Arch> C = squared_length(axial.across_origin) - radius * radius;
             const Crossings<Arch> roots = solve_textbook<Arch>(

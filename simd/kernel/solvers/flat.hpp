@@ -122,7 +122,7 @@ struct CornerNormals {
         const Vectors<Arch> sum =
             share(to_b, to_c, a) + share(to_c, to_a, b) + share(to_a, to_b, c);
         const Floats<Arch> square = squared_length(sum);
-        return select<Arch>(square > zero<Arch>(), sum / xsimd::sqrt(square), unit_flat);
+        return select<Arch>(square > zero<Arch>(), sum / sqrt(square), unit_flat);
     }
 };
 

@@ -12,13 +12,12 @@ Crossings<Arch> solve_textbook(const Floats<Arch>& A, const Floats<Arch>& B,
     const Mask<Arch> opens_up = A > o, linear = A == o;
     const Floats<Arch> discriminant = B * B - A * C;
     const Mask<Arch> curved = ~linear & ~(discriminant < o);
-    const Floats<Arch> root = xsimd::sqrt(discriminant);
+    const Floats<Arch> root = sqrt(discriminant);
     const Floats<Arch> in = (negated(B) - root) / A, out = (root - B) / A;
     const Mask<Arch> falling = B < o, sloped = linear & ((B > o) | falling);
-    return {{curved | sloped,
-             xsimd::select(linear, negated(C) / (B + B), xsimd::select(opens_up, in, out)), o,
+    return {{curved | sloped, select(linear, negated(C) / (B + B), select(opens_up, in, out)), o,
              (linear & falling) | opens_up},
-            {curved, xsimd::select(opens_up, out, in), o, ~linear & ~opens_up}};
+            {curved, select(opens_up, out, in), o, ~linear & ~opens_up}};
 }
 
 /// core::solve_quadratic. In lanes where A = 0 the first crossing is the only one.
@@ -28,26 +27,26 @@ Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, co
     if constexpr (textbook) return solve_textbook<Arch>(A, B, C);
     const Floats<Arch> o = zero<Arch>();
     const Mask<Arch> opens_up = A > o, linear = ~opens_up & ~(A < o);
-    const Mask<Arch> near_linear = xsimd::abs(A) < constant<Arch>(0x1p-4F) * scale;
-    const Floats<Arch> discriminant = xsimd::select(
-        near_linear, mul_add<Arch>(B, B, negated(A * C)), negated(A * at_vertex(negated(B) / A)));
+    const Mask<Arch> near_linear = either_way(abs(A) < constant<Arch>(0x1p-4F) * scale);
+    const Floats<Arch> discriminant = select(near_linear, mul_add<Arch>(B, B, negated(A * C)),
+                                             negated(A * at_vertex(negated(B) / A)));
     const Mask<Arch> curved = ~linear & ~(discriminant < o);
-    const Floats<Arch> root = xsimd::sqrt(discriminant);
+    const Floats<Arch> root = sqrt(discriminant);
 
-    const Mask<Arch> falling = B < o;
-    const Floats<Arch> q = xsimd::select(falling, root - B, negated(root) - B);
+    const Mask<Arch> falls = B < o, falling = either_way(falls);
+    const Floats<Arch> q = select(falling, root - B, negated(root) - B);
     const Mask<Arch> tangent = q == o;
     const Floats<Arch> by_A = q / A, by_C = C / q;
     // by_A leaves where B falls, so it comes first where it enters and A > 0, or neither.
     const Mask<Arch> A_first = (opens_up & ~falling) | (~opens_up & falling);
-    const Floats<Arch> first = xsimd::select(A_first, by_A, by_C);
-    const Floats<Arch> second = xsimd::select(A_first, by_C, by_A);
+    const Floats<Arch> first = select(A_first, by_A, by_C);
+    const Floats<Arch> second = select(A_first, by_C, by_A);
 
-    const Mask<Arch> sloped = linear & ((B > o) | falling);
+    const Mask<Arch> sloped = linear & ((B > o) | falls);
     const Floats<Arch> on_line = negated(C) / (B + B);
-    return {{curved | sloped, xsimd::select(linear, on_line, xsimd::select(tangent, o, first)), o,
-             (linear & falling) | (~linear & opens_up)},
-            {curved, xsimd::select(tangent, o, second), o, ~linear & ~opens_up}};
+    return {{curved | sloped, select(linear, on_line, select(tangent, o, first)), o,
+             (linear & falls) | (~linear & opens_up)},
+            {curved, select(tangent, o, second), o, ~linear & ~opens_up}};
 }
 
 } // namespace raylane::simd

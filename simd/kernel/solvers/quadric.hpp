@@ -37,7 +37,7 @@ struct QuadricLanes {
         roots.second.exists =
             (roots.second.exists & ~starts.on_surface) | (starts.on_surface & turns);
         roots.second.t =
-            xsimd::select(starts.on_surface, not_behind<Arch>(negated(B + B) / A), roots.second.t);
+            select(starts.on_surface, not_behind<Arch>(negated(B + B) / A), roots.second.t);
         roots.second.entering =
             (roots.second.entering & ~starts.on_surface) | (starts.on_surface & ~starts.inward);
 
@@ -66,10 +66,10 @@ struct QuadricLanes {
         return dot(p, half_gradient(p) + linear) + one;
     }
     Floats<Arch> largest_coefficient() const {
-        Floats<Arch> largest = xsimd::abs(xx);
+        Floats<Arch> largest = abs(xx);
         for (const Floats<Arch>* coefficient : {&yy, &zz, &xy, &xz, &yz}) {
-            const Floats<Arch> size = xsimd::abs(*coefficient);
-            largest = xsimd::select(largest < size, size, largest);
+            const Floats<Arch> size = abs(*coefficient);
+            largest = select(largest < size, size, largest);
         }
         return largest;
     }

@@ -26,19 +26,18 @@ struct SphereLanes {
                                      squared_length(from_center) - radius * radius);
             roots.first.exists = roots.first.exists & ~starts.on_surface;
             roots.second.exists = (roots.second.exists & ~starts.on_surface) | leaves;
-            roots.second.t = xsimd::select(leaves, not_behind<Arch>(tau + tau), roots.second.t);
+            roots.second.t = select(leaves, not_behind<Arch>(tau + tau), roots.second.t);
             return roots;
         }
         const Vectors<Arch> foot = mul_add<Arch>(tau, rays.direction, from_center);
         const Floats<Arch> discriminant =
             mul_add<Arch>(radius, radius, negated(squared_length(foot)));
-        const Floats<Arch> half_chord = xsimd::sqrt(discriminant / dd);
+        const Floats<Arch> half_chord = sqrt(discriminant / dd);
 
         const Mask<Arch> meets = ~(discriminant < zero<Arch>()) & ~starts.on_surface;
         return {{meets, tau - half_chord, zero<Arch>(), all<Arch>()},
-                {meets | leaves,
-                 xsimd::select(leaves, not_behind<Arch>(tau + tau), tau + half_chord), zero<Arch>(),
-                 none<Arch>()}};
+                {meets | leaves, select(leaves, not_behind<Arch>(tau + tau), tau + half_chord),
+                 zero<Arch>(), none<Arch>()}};
     }
 
     Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>&) const {

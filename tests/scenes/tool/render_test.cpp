@@ -141,6 +141,7 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "shapes_tested",
                                            "tests_beyond_double",
                                            "shadow_rays_walked",
+                                           "rays_refined",
                                            "left_to_the_reference"});
     CHECK(figures["version"] == RAYLANE_VERSION);
     CHECK(figures["scene"] == "scene.json");

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "simd/kernel/trace/leaf.hpp"
+#include "simd/kernel/trace/queue.hpp"
+
+namespace raylane::simd {
+
+/// All that one ray may cross first: RefineKernels::list_candidates.
+template <class Arch, class Method>
+struct ListCandidates : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    static bool list(const SceneView& scene, std::uint32_t kind_bits, const RoundedRays& rays,
+                     std::size_t i, const Pending& pending, CandidateList& list,
+                     TraceCounters& counters) {
+        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
+            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
+            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
+                if (!visit(scene, kind, block, rays, i, list, counters)) return false;
+        }
+        if (pending.t == nullptr) return true;
+
+        BoxRays<Arch> box_rays;
+        box_rays.load(rays, i / 16 * 16);
+        const BoxRay ray = box_rays.get(static_cast<int>(i % 16));
+        Queue<Arch> queue;
+        queue.clear();
+        for (std::uint32_t child = 0; child != no_child;) {
+            if ((child & child_is_block) == 0) {
+                ++counters.nodes;
+                child = queue.step(scene.nodes[child], ray, list.limit, pending);
+                continue;
+            }
+            const auto kind = static_cast<KindNumber>(child >> 27 & 0xF);
+            if (!visit(scene, kind, child & child_index, rays, i, list, counters)) return false;
+            child = queue.pop(list.limit, pending);
+        }
+        return true;
+    }
+
+  private:
+    static bool visit(const SceneView& scene, KindNumber kind, std::uint32_t block,
+                      const RoundedRays& rays, std::size_t i, CandidateList& list,
+                      TraceCounters& counters) {
+        bool has_room = true;
+        counters.shapes += 16;
+        Method::with_filter(kind, [&]<class Filter>() {
+            has_room = add<Filter>(scene.tables[kind], block, rays, i, list);
+        });
+        return has_room;
+    }
+
+    template <class Filter>
+    [[gnu::noinline]] static bool add(const TableView& table, std::uint32_t number,
+                                      const RoundedRays& rays, std::size_t i, CandidateList& list) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        const typename Method::Rays ray = Method::broadcast(rays, i);
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const Bounds<Arch> bounds = filter.bounds(ray);
+            const M possible = bounds.possible & Leaf<Arch, Method>::elsewhere(ids + from, rays, i);
+            const M counts = possible & (bounds.lower < F(list.limit));
+            std::uint32_t bits = Lanes<Arch>::bits(counts);
+            if (bits == 0) continue;
+            const float last = Lanes<Arch>::least(
+                xsimd::select(counts & bounds.certain, bounds.upper, S::infinity()));
+            const float limit = last * candidate_grace;
+            list.limit = limit < list.limit ? limit : list.limit;
+            float lower[F::size];
+            bounds.lower.store_unaligned(lower);
+            for (; bits != 0; bits &= bits - 1) {
+                if (list.count == list.room) return false;
+                const int lane = __builtin_ctz(bits);
+                list.slot[list.count] =
+                    table.first_slot + 16 * number + static_cast<std::uint32_t>(from + lane);
+                list.lower[list.count++] = lower[lane];
+            }
+        }
+        return true;
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,235 @@
+#include "simd/isa.hpp"
+#include "simd/wavefront/hit_finder.hpp"
+#include "tests/catch.hpp"
+#include "tests/ray_sets.hpp"
+#include "tests/simd/rounds.hpp"
+
+#include <bit>
+#include <string>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+using ray_sets::Random;
+
+/// What the engine finds of rays that bounds in float cannot decide on, against the certified
+/// scalar search.
+
+namespace {
+
+constexpr std::size_t ray_count = 331; // the last packet is not full
+
+int rounds() {
+    return tests::rounds(200);
+}
+
+template <class Visit>
+void for_each_kind(const Visit& visit) {
+    visit.template operator()<Sphere>();
+    visit.template operator()<Plane>();
+    visit.template operator()<Disc>();
+    visit.template operator()<Triangle>();
+    visit.template operator()<SmoothTriangle>();
+    visit.template operator()<Box>();
+    visit.template operator()<OpenCylinder>();
+    visit.template operator()<CappedCylinder>();
+    visit.template operator()<OpenCone>();
+    visit.template operator()<CappedCone>();
+    visit.template operator()<Quadric>();
+}
+
+/// Rays with room for them.
+struct Stream {
+    Paths paths{};
+
+    explicit Stream(std::size_t count) {
+        Arena measure;
+        paths.take_from(measure, count, false);
+        arena_ = Arena(measure.used());
+        paths.take_from(arena_, count, false);
+        paths.count = count;
+        paths.start_in_the_open(0, count);
+    }
+
+  private:
+    Arena arena_;
+};
+
+/// Finds what a stream's rays hit.
+struct Finding {
+    HitFinder finder;
+    Counters counters;
+
+    Finding(const SceneData& data, const Kernels& kernels, ReferenceTracer<double>& reference,
+            const Paths& paths)
+        : finder(data, {&kernels, Precision::exact}, &reference) {
+        Arena measure;
+        finder.take_from(measure, paths.count);
+        arena_ = Arena(measure.used());
+        finder.take_from(arena_, paths.count);
+        finder.find(paths, nullptr, counters);
+    }
+
+  private:
+    Arena arena_;
+};
+
+/// Shapes of all kinds, so many of each, and hard rays at them: half of them go on from where they
+/// hit one.
+class Round {
+  public:
+    Round(int of_each, Random& random)
+        : scene_(make(of_each, random)), data_(scene_), stream_(ray_count),
+          reference_(scene_, scene_.settings(), Search::every_shape) {
+        for (std::size_t lane = 0; lane < ray_count; ++lane)
+            add(lane, random);
+    }
+
+    const SceneData& data() const { return data_; }
+    const Paths& paths() const { return stream_.paths; }
+    ReferenceTracer<double>& reference() { return reference_; }
+    const Encounter<double>& truth(std::size_t lane) const { return truths_[lane]; }
+
+  private:
+    static Scene make(int of_each, Random& random) {
+        SceneBuilder builder;
+        builder.wants_light = false;
+        builder.add_material({});
+        for_each_kind([&]<class Shape>() {
+            for (int i = 0; i < of_each; ++i)
+                builder.add(ray_sets::Target<Shape>::make(random, false), 0);
+        });
+        return std::move(builder).build();
+    }
+
+    Ray<double> aim(Random& random) {
+        int left = random.integer(0, 10);
+        Ray<float> aimed{};
+        for_each_kind([&]<class Shape>() {
+            if (left-- != 0) return;
+            const auto& blocks = std::get<Table<Shape>>(scene_.shapes()).blocks();
+            std::size_t block = 0;
+            int place = 0;
+            do {
+                const int last = static_cast<int>(blocks.size()) - 1;
+                block = static_cast<std::size_t>(random.integer(0, last));
+                place = random.integer(0, block_size - 1);
+            } while (blocks[block].ids[place] == no_shape);
+            aimed = ray_sets::make_ray(blocks[block].get(place), ray_sets::any_set(random), random);
+        });
+        return {convert<double>(aimed.origin), normalized(convert<double>(aimed.direction))};
+    }
+
+    void add(std::size_t lane, Random& random) {
+        const Paths& paths = stream_.paths;
+        Ray<double> ray = aim(random);
+        const Encounter<double> there = reference_.nearest(ray, {});
+        if (there.hit.any() && random.integer(0, 1) == 0) {
+            ray = {mul_add(there.hit.t, ray.direction, ray.origin), random.direction()};
+            const std::uint32_t slot = data_.slot_of(there.hit.kind, there.hit.slot);
+            const bool inward = dot(ray.direction, there.contacts.begin()->normal) < 0.0;
+            const std::uint32_t bits = there.hit.face | (inward ? hit_entering : 0);
+            paths.start_on(lane, slot, data_.occupant_of(slot), bits, /*through=*/true);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            paths.origin[axis][lane] = ray.origin[axis];
+            paths.direction[axis][lane] = ray.direction[axis];
+        }
+        truths_.push_back(reference_.nearest(ray, departure_of(data_, paths, lane)));
+    }
+
+    Scene scene_;
+    SceneData data_;
+    Stream stream_;
+    ReferenceTracer<double> reference_;
+    std::vector<Encounter<double>> truths_;
+};
+
+bool is_open(const HitFinder& finder, std::size_t lane) {
+    for (const std::uint32_t open : finder.left_open())
+        if (open == lane) return true;
+    return false;
+}
+
+void check_truth(const Round& round, const HitFinder& finder) {
+    for (std::size_t lane = 0; lane < ray_count; ++lane) {
+        const Hit<double>& truth = round.truth(lane).hit;
+        CAPTURE(lane, truth.any(), truth.t, round.paths().departed_slot[lane]);
+        if (is_open(finder, lane)) continue;
+        const Hits& hits = finder.hits();
+        if (!truth.any()) {
+            if (hits.slot[lane] != no_slot) FAIL("a hit for a miss");
+            continue;
+        }
+        if (hits.slot[lane] != round.data().slot_of(truth.kind, truth.slot)) FAIL("another shape");
+        CAPTURE(hits.t[lane], hits.error[lane], hits.hit[lane]);
+        if (((hits.hit[lane] & hit_entering) != 0) != truth.entering) FAIL("the other side");
+        if (!(std::abs(hits.t[lane] - truth.t) <= 0x1p-25 * truth.t)) FAIL("another t");
+    }
+}
+
+/// Lane `a` of one and lane `b` of the other.
+void check_same_bits(const HitFinder& one, std::size_t a, const HitFinder& other, std::size_t b) {
+    const auto same = [](double x, double y) {
+        return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+    };
+    const Hits &x = one.hits(), &y = other.hits();
+    CAPTURE(a);
+    if (is_open(one, a) != is_open(other, b)) FAIL("open or not");
+    if (is_open(one, a)) return;
+    if (x.slot[a] != y.slot[b]) FAIL("another shape");
+    if (x.slot[a] == no_slot) return;
+    if (x.hit[a] != y.hit[b] || !same(x.t[a], y.t[b]) || !same(x.normal[0][a], y.normal[0][b]) ||
+        !same(x.normal[1][a], y.normal[1][b]) || !same(x.normal[2][a], y.normal[2][b]))
+        FAIL("other bits");
+}
+
+/// The ray of one lane by itself.
+void check_alone(Round& round, const Kernels& kernels, const HitFinder& together,
+                 std::size_t lane) {
+    const Stream alone(1);
+    alone.paths.copy_ray(round.paths(), lane, 0);
+    const Finding finding(round.data(), kernels, round.reference(), alone.paths);
+    check_same_bits(together, lane, finding.finder, 0);
+}
+
+void check_rounds(int of_each) {
+    Random random(static_cast<std::uint64_t>(of_each));
+    Counters counters;
+    for (int i = 0; i < rounds(); ++i) {
+        Round round(of_each, random);
+        std::optional<Finding> first;
+        for (const Isa isa : all_isas) {
+            if (!is_available(isa)) continue;
+            const Kernels& kernels = kernels_of(isa);
+            CAPTURE(i, std::string(kernels.name));
+            if (first) {
+                const Finding next(round.data(), kernels, round.reference(), round.paths());
+                for (std::size_t lane = 0; lane < ray_count; ++lane)
+                    check_same_bits(first->finder, lane, next.finder, lane);
+                continue;
+            }
+            first.emplace(round.data(), kernels, round.reference(), round.paths());
+            check_truth(round, first->finder);
+            counters += first->counters;
+            check_alone(round, kernels, first->finder,
+                        static_cast<std::size_t>(random.integer(0, ray_count - 1)));
+        }
+    }
+    if (!best_isa()) return;
+    const auto rays = static_cast<std::uint64_t>(rounds()) * ray_count;
+    CAPTURE(counters.refined, counters.doubtful, rays);
+    CHECK(counters.refined * 20 > rays);
+    CHECK(counters.doubtful * 200 < rays);
+}
+
+} // namespace
+
+TEST_CASE("hard rays at few shapes are decided as the reference decides them") {
+    check_rounds(1);
+}
+
+TEST_CASE("hard rays at many shapes are decided as the reference decides them") {
+    check_rounds(20);
+}
