@@ -66,20 +66,22 @@ double least_gradient(const Quadric& quadric, double norm, double error) {
 
 /// Of the matrix, or more: the larger of what its rows add up to.
 double norm_of_matrix(const Quadric& q) {
-    const double xy = std::abs(double{q.xy}), xz = std::abs(double{q.xz}),
-                 yz = std::abs(double{q.yz});
-    return std::max({std::abs(double{q.xx}) + xy + xz, std::abs(double{q.yy}) + xy + yz,
-                     std::abs(double{q.zz}) + xz + yz});
+    const double xy = std::abs(static_cast<double>(q.xy)), xz = std::abs(static_cast<double>(q.xz)),
+                 yz = std::abs(static_cast<double>(q.yz));
+    return std::max({std::abs(static_cast<double>(q.xx)) + xy + xz,
+                     std::abs(static_cast<double>(q.yy)) + xy + yz,
+                     std::abs(static_cast<double>(q.zz)) + xz + yz});
 }
 
 /// The least eigenvalue of the matrix, sign apart; 0 if it may be indefinite. By Gershgorin's
 /// circles.
 double least_eigenvalue(const Quadric& q) {
-    const double xy = std::abs(double{q.xy}), xz = std::abs(double{q.xz}),
-                 yz = std::abs(double{q.yz});
+    const double xy = std::abs(static_cast<double>(q.xy)), xz = std::abs(static_cast<double>(q.xz)),
+                 yz = std::abs(static_cast<double>(q.yz));
     const auto least = [&](double sign) {
-        return std::min({sign * double{q.xx} - xy - xz, sign * double{q.yy} - xy - yz,
-                         sign * double{q.zz} - xz - yz});
+        return std::min({sign * static_cast<double>(q.xx) - xy - xz,
+                         sign * static_cast<double>(q.yy) - xy - yz,
+                         sign * static_cast<double>(q.zz) - xz - yz});
     };
     return std::max({least(1.0), least(-1.0), 0.0});
 }
@@ -90,7 +92,7 @@ double least_eigenvalue(const Quadric& q) {
 /// perpendicular is off by roundings of D, and with it the radius. Fast: the discriminant B^2 - A C
 /// is off by roundings of D^2, that is the square of the radius is.
 double displacement(const Sphere& sphere, Precision precision, double reach) {
-    const double r = double{sphere.radius}, D = reach + r;
+    const double r = static_cast<double>(sphere.radius), D = reach + r;
     const double off =
         precision == Precision::robust ? 2.0 * roundings * D : 3.0 * roundings * D * (1.0 + D / r);
     return off < 0.25 * r ? off : infinity;
@@ -100,7 +102,7 @@ double displacement(const Sphere& sphere, Precision precision, double reach) {
 /// direction. So the point is off its plane by roundings of D, along the ray; and what that moves
 /// it by inside the plane is foreshortened as the disc is.
 double displacement(const Disc& disc, Precision, double reach) {
-    const double r = double{disc.radius};
+    const double r = static_cast<double>(disc.radius);
     const double off = 2.0 * roundings * (reach + r);
     return off < 0.25 * r ? off : infinity;
 }
@@ -131,7 +133,9 @@ double displacement(const Quadric& quadric, Precision precision, double reach) {
     const double l = length(Vec3d(quadric.x, quadric.y, quadric.z));
     const double R = std::sqrt(R_squared), G = m * R + l;
     const double D = reach + std::sqrt(aside_squared);
-    const auto T = [&](double x) { return x * (m * x + 2.0 * l) + std::abs(double{quadric.one}); };
+    const auto T = [&](double x) {
+        return x * (m * x + 2.0 * l) + std::abs(static_cast<double>(quadric.one));
+    };
 
     double error = 0.0, along = D; // roundings of these: of Q, and along the ray
     if (precision == Precision::robust) {

@@ -58,8 +58,8 @@ struct Distances {
 Distances distances(const Vec3d& from, const Bounds& bounds) {
     double near_squared = 0.0, far_squared = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double below = double{bounds.lower[axis]} - from[axis];
-        const double above = from[axis] - double{bounds.upper[axis]};
+        const double below = static_cast<double>(bounds.lower[axis]) - from[axis];
+        const double above = from[axis] - static_cast<double>(bounds.upper[axis]);
         const double outside = std::max({below, above, 0.0});
         const double across = std::max(std::abs(below), std::abs(above));
         near_squared += outside * outside;
@@ -72,8 +72,9 @@ Distances distances(const Vec3d& from, const Bounds& bounds) {
 double gap(const Bounds& a, const Bounds& b) {
     double squared = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double outside = std::max({double{a.lower[axis]} - double{b.upper[axis]},
-                                         double{b.lower[axis]} - double{a.upper[axis]}, 0.0});
+        const double outside = std::max(
+            {static_cast<double>(a.lower[axis]) - static_cast<double>(b.upper[axis]),
+             static_cast<double>(b.lower[axis]) - static_cast<double>(a.upper[axis]), 0.0});
         squared += outside * outside;
     }
     return std::sqrt(squared);
@@ -85,12 +86,13 @@ class PixelSize {
     PixelSize(const Camera& camera, const Settings& settings)
         : orthographic_(camera.projection == Projection::orthographic) {
         if (orthographic_) {
-            size_ = double{camera.height} / settings.height;
+            size_ = static_cast<double>(camera.height) / settings.height;
             return;
         }
         // Towards the picture's corner a pixel is seen under a smaller angle, by the cosine
         // squared.
-        const double half = std::tan(double{camera.field_of_view} * (3.14159265358979 / 360.0));
+        const double half =
+            std::tan(static_cast<double>(camera.field_of_view) * (3.14159265358979 / 360.0));
         const double across = half * settings.width / settings.height;
         size_ = 2.0 * half / settings.height / (1.0 + half * half + across * across);
     }

@@ -28,8 +28,8 @@ double reach_of(const Shape& shape, const Vec3d& from) {
     const Bounds bounds = bounds_of(shape);
     double squared = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double far = std::max(std::abs(from[axis] - double{bounds.lower[axis]}),
-                                    std::abs(from[axis] - double{bounds.upper[axis]}));
+        const double far = std::max(std::abs(from[axis] - static_cast<double>(bounds.lower[axis])),
+                                    std::abs(from[axis] - static_cast<double>(bounds.upper[axis])));
         squared += far * far;
     }
     return std::sqrt(squared);
@@ -37,7 +37,8 @@ double reach_of(const Shape& shape, const Vec3d& from) {
 
 /// From a point near a surface to the surface, to first order.
 double distance_to(const Sphere& sphere, const Vec3d& p) {
-    return std::abs(length(p - convert<double>(sphere.center)) - double{sphere.radius});
+    return std::abs(length(p - convert<double>(sphere.center)) -
+                    static_cast<double>(sphere.radius));
 }
 
 double distance_to(const Disc& disc, const Vec3d& p) {
@@ -66,8 +67,8 @@ bool is_on_a_line(const Shape& shape, const Ray<double>& ray, double off) {
     if constexpr (kind_of<Shape> == Kind::disc) {
         const Vec3d to_center = convert<double>(shape.center) - ray.origin;
         const double slope = dot(ray.direction, normalized(convert<double>(shape.normal)));
-        return std::abs(slope) * double{shape.radius} < off &&
-               length(cross(to_center, ray.direction)) < double{shape.radius} + off;
+        return std::abs(slope) * static_cast<double>(shape.radius) < off &&
+               length(cross(to_center, ray.direction)) < static_cast<double>(shape.radius) + off;
     }
     return false;
 }
