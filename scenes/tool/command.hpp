@@ -29,5 +29,6 @@ void add_flag(CLI::App& command, const std::string& name, bool& value, const std
 Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_compare_command(CLI::App& app);
+Command add_convert_command(CLI::App& app);
 
 } // namespace raylane::scenes

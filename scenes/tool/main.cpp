@@ -34,8 +34,8 @@ int run(int argc, const char* const* argv) {
                "Exit codes: 0 done, 1 a comparison that differs, 2 bad input or usage, 3 the "
                "system refused.");
     app.require_subcommand(1);
-    const std::array<Command, 3> commands = {add_render_command(app), add_info_command(app),
-                                             add_compare_command(app)};
+    const std::array<Command, 4> commands = {add_render_command(app), add_info_command(app),
+                                             add_compare_command(app), add_convert_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& request) {

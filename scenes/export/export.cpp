@@ -1,0 +1,49 @@
+#include "scenes/export/export.hpp"
+
+#include "scenes/export/writers.hpp"
+
+namespace raylane::scenes {
+
+namespace {
+
+enum class Format { json, nff, pov };
+
+Format format_of(const std::filesystem::path& path) {
+    const std::string ending = path.extension().string();
+    if (ending == ".json") return Format::json;
+    if (ending == ".nff") return Format::nff;
+    if (ending == ".pov") return Format::pov;
+    throw BadInput(path.string(), "", "must end in .json, .nff or .pov");
+}
+
+} // namespace
+
+void require_scene_ending(const std::filesystem::path& path) {
+    static_cast<void>(format_of(path));
+}
+
+std::vector<std::string> export_scene(const std::filesystem::path& path, const core::Scene& scene) {
+    const Format format = format_of(path);
+    AtomicFile file(path);
+    TextFile text(file);
+    LeftOut left_out;
+    try {
+        switch (format) {
+        case Format::json:
+            write_json(text, scene);
+            break;
+        case Format::nff:
+            write_nff(text, scene, left_out);
+            break;
+        case Format::pov:
+            write_pov(text, scene, left_out);
+        }
+    } catch (const core::InvalidValue& invalid) {
+        throw BadInput(path.string(), "", invalid.what());
+    }
+    text.flush();
+    file.commit();
+    return {left_out.begin(), left_out.end()};
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "core/scene.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// Writes a scene, in the format that the file's ending names: .json (raylane's own), .nff (of the
+/// Standard Procedural Databases) or .pov (POV-Ray 3.7's). The file appears whole or not at all.
+///
+/// JSON holds all of a scene, to the bit, but which triangles make up a flat polygon. Of what the
+/// others have no word for, shapes are refused, and the rest is left out: the names of what is, in
+/// words, are returned.
+///
+/// Throws BadInput for another ending or a shape that the format does not have, and SystemRefused.
+std::vector<std::string> export_scene(const std::filesystem::path& path, const core::Scene& scene);
+
+/// Throws BadInput for an ending that export_scene does not know.
+void require_scene_ending(const std::filesystem::path& path);
+
+} // namespace raylane::scenes

@@ -1,0 +1,268 @@
+#include "scenes/export/writers.hpp"
+
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// Writes objects, one key after the other.
+class Object {
+  public:
+    explicit Object(TextFile& file) : file_(file) { file_ << "{"; }
+    ~Object() { file_ << "}"; }
+    Object(const Object&) = delete;
+    Object& operator=(const Object&) = delete;
+
+    TextFile& key(const char* name) {
+        file_ << (first_ ? "\"" : ", \"") << name << "\": ";
+        first_ = false;
+        return file_;
+    }
+    void text(const char* name, std::string_view value) { key(name) << "\"" << value << "\""; }
+    void number(const char* name, float value) { key(name) << value; }
+    void number(const char* name, int value) { key(name) << value; }
+    void vector(const char* name, const core::Vec3f& value) {
+        key(name) << "[";
+        file_.list(value, ", ") << "]";
+    }
+    void vectors(const char* name, std::initializer_list<core::Vec3f> values) {
+        key(name) << "[";
+        bool first = true;
+        for (const core::Vec3f& value : values) {
+            file_ << (std::exchange(first, false) ? "[" : ", [");
+            file_.list(value, ", ") << "]";
+        }
+        file_ << "]";
+    }
+
+  private:
+    TextFile& file_;
+    bool first_ = true;
+};
+
+void write_pattern(Object& material, TextFile& file, const core::Pattern& pattern) {
+    using core::PatternKind;
+    if (pattern.kind == PatternKind::solid) {
+        material.vector("color", pattern.colors[0]);
+        return;
+    }
+    material.key("pattern");
+    Object object(file);
+    if (pattern.kind == PatternKind::back_plane) {
+        object.text("type", "back-plane");
+        return;
+    }
+    object.text("type", pattern.kind == PatternKind::checker   ? "checker"
+                        : pattern.kind == PatternKind::stripes ? "stripes"
+                                                               : "gradient");
+    object.vectors("colors", {pattern.colors[0], pattern.colors[1]});
+    if (pattern.kind == PatternKind::checker) {
+        object.number("size", pattern.size);
+        std::string axes;
+        for (int axis = 0; axis < 3; ++axis)
+            if ((pattern.axes >> axis & 1) != 0) axes += "xyz"[axis];
+        object.text("axes", axes);
+    } else if (pattern.kind == PatternKind::stripes) {
+        object.number("width", pattern.size);
+        object.vector("direction", pattern.direction);
+    } else {
+        object.vector("from", pattern.from);
+        object.vector("to", pattern.to);
+    }
+}
+
+void write_material(TextFile& file, const core::Material& material) {
+    Object object(file);
+    write_pattern(object, file, material.pattern);
+    object.number("ambient", material.ambient);
+    object.number("diffuse", material.diffuse);
+    object.number("specular", material.specular);
+    object.number("exponent", material.exponent);
+    if (material.reflection == core::Reflection::constant)
+        object.number("reflectivity", material.reflectivity);
+    else
+        object.text("reflection",
+                    material.reflection == core::Reflection::schlick ? "schlick" : "dielectric");
+    object.number("transmission", material.transmission);
+    object.number("index", material.index);
+    object.vector("absorption", material.absorption);
+    if (material.visible != core::Visible::both)
+        object.text("visible", material.visible == core::Visible::outside ? "outside" : "inside");
+}
+
+void write_shape(Object& object, const core::Sphere& s) {
+    object.text("type", "sphere");
+    object.vector("center", s.center);
+    object.number("radius", s.radius);
+}
+
+void write_shape(Object& object, const core::Plane& s) {
+    object.text("type", "plane");
+    object.vector("point", s.point);
+    object.vector("normal", s.normal);
+}
+
+void write_shape(Object& object, const core::Disc& s) {
+    object.text("type", "disc");
+    object.vector("center", s.center);
+    object.vector("normal", s.normal);
+    object.number("radius", s.radius);
+}
+
+void write_corners(Object& object, const auto& s) {
+    object.text("type", "triangle");
+    object.vector("a", s.a);
+    object.vector("b", s.b);
+    object.vector("c", s.c);
+}
+
+void write_shape(Object& object, const core::Triangle& s) {
+    write_corners(object, s);
+}
+
+void write_shape(Object& object, const core::SmoothTriangle& s) {
+    write_corners(object, s);
+    object.vectors("normals", {s.normal_a, s.normal_b, s.normal_c});
+}
+
+void write_shape(Object& object, const core::Box& s) {
+    object.text("type", "box");
+    object.vector("corner", s.corner);
+    object.vectors("edges", {s.edge_u, s.edge_v, s.edge_w});
+}
+
+template <core::Ends ends>
+void write_shape(Object& object, const core::Cylinder<ends>& s) {
+    object.text("type", "cylinder");
+    object.vector("base", s.base);
+    object.vector("axis", s.axis);
+    object.number("radius", s.radius);
+    object.key("capped") << (ends == core::Ends::capped ? "true" : "false");
+}
+
+template <core::Ends ends>
+void write_shape(Object& object, const core::Cone<ends>& s) {
+    object.text("type", "cone");
+    object.vector("base", s.base);
+    object.vector("axis", s.axis);
+    object.number("base_radius", s.base_radius);
+    object.number("top_radius", s.top_radius);
+    object.key("capped") << (ends == core::Ends::capped ? "true" : "false");
+}
+
+void write_shape(Object& object, const core::Quadric& s) {
+    object.text("type", "quadric");
+    object.vector("center", s.center);
+    const float rows[4][4] = {{s.xx, s.xy, s.xz, s.x},
+                              {s.xy, s.yy, s.yz, s.y},
+                              {s.xz, s.yz, s.zz, s.z},
+                              {s.x, s.y, s.z, s.one}};
+    TextFile& file = object.key("matrix");
+    for (int row = 0; row < 4; ++row) {
+        file << (row == 0 ? "[[" : ", [");
+        for (int column = 0; column < 4; ++column)
+            file << (column == 0 ? "" : ", ") << rows[row][column];
+        file << "]";
+    }
+    file << "]";
+    object.vector("lower", s.lower);
+    object.vector("upper", s.upper);
+}
+
+void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) {
+    const core::Settings& settings = scene.settings();
+    root.key("image");
+    {
+        Object image(file);
+        image.number("width", settings.width);
+        image.number("height", settings.height);
+        image.text("transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear");
+    }
+    file << ",\n";
+    file << "\"sampling\": ";
+    {
+        Object sampling(file);
+        sampling.number("grid", settings.grid);
+        sampling.text("pattern",
+                      settings.samples == core::SamplePattern::regular ? "regular" : "stratified");
+    }
+    file << ",\n\"limits\": ";
+    {
+        Object limits(file);
+        limits.number("max_depth", settings.max_depth);
+        limits.number("min_weight", settings.min_weight);
+    }
+    file << ",\n\"camera\": ";
+    {
+        const core::Camera& camera = scene.camera();
+        const bool perspective = camera.projection == core::Projection::perspective;
+        Object object(file);
+        object.text("type", perspective ? "perspective" : "orthographic");
+        object.vector("from", camera.from);
+        object.vector("at", camera.at);
+        object.vector("up", camera.up);
+        if (perspective)
+            object.number("field_of_view", camera.field_of_view);
+        else
+            object.number("height", camera.height);
+    }
+    file << ",\n\"background\": [";
+    file.list(scene.background(), ", ") << "]";
+    const core::Fog& fog = scene.fog();
+    if (fog.kind != core::FogKind::none) {
+        file << ",\n\"fog\": ";
+        Object object(file);
+        object.text("type", fog.kind == core::FogKind::linear_z ? "linear-z"
+                            : fog.kind == core::FogKind::linear ? "linear"
+                                                                : "exponential");
+        object.vector("color", fog.color);
+        if (fog.kind == core::FogKind::exponential) {
+            object.number("density", fog.density);
+        } else {
+            object.number("start", fog.start);
+            object.number("end", fog.end);
+        }
+    }
+}
+
+void write_lights(TextFile& file, const core::Scene& scene) {
+    file << ",\n\"lights\": [";
+    const char* separator = "\n";
+    for (const core::Light& light : scene.lights()) {
+        file << std::exchange(separator, ",\n");
+        const bool point = light.kind == core::LightKind::point;
+        Object object(file);
+        object.text("type", point ? "point" : "directional");
+        object.vector(point ? "position" : "direction", point ? light.position : light.direction);
+        object.vector("color", light.color);
+    }
+    file << "]";
+}
+
+} // namespace
+
+void write_json(TextFile& file, const core::Scene& scene) {
+    Object root(file);
+    file << "\n";
+    write_surroundings(root, file, scene);
+    write_lights(file, scene);
+
+    file << ",\n\"materials\": {";
+    const char* separator = "\n";
+    for (std::size_t i = 0; i < scene.materials().size(); ++i) {
+        file << std::exchange(separator, ",\n") << "\"" << std::to_string(i) << "\": ";
+        write_material(file, scene.materials()[i]);
+    }
+    file << "},\n\"objects\": [";
+    separator = "\n";
+    for_each_by_id(scene, [&](const auto& shape, core::ShapeId id) {
+        file << std::exchange(separator, ",\n");
+        Object object(file);
+        write_shape(object, shape);
+        object.text("material", std::to_string(scene.material_index_of(id)));
+    });
+    file << "\n]";
+}
+
+} // namespace raylane::scenes

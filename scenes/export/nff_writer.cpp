@@ -1,0 +1,166 @@
+#include "scenes/export/writers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace raylane::scenes {
+
+namespace {
+
+using core::Vec3d, core::Vec3f;
+
+class NffWriter {
+  public:
+    NffWriter(TextFile& file, const core::Scene& scene, LeftOut& left_out)
+        : file_(file), scene_(scene), left_out_(left_out), reach_(1000.0 * size_of(scene)) {}
+
+    void write() {
+        write_view();
+        file_ << "b ";
+        file_.list(scene_.background(), " ") << "\n";
+        if (scene_.fog().kind != core::FogKind::none) left_out_.insert("fog");
+        for (const core::Light& light : scene_.lights()) {
+            if (light.kind != core::LightKind::point) {
+                left_out_.insert("directional lights");
+                continue;
+            }
+            file_ << "l ";
+            file_.list(light.position, " ") << " ";
+            file_.list(light.color, " ") << "\n";
+        }
+        core::MaterialIndex filled = ~core::MaterialIndex{0};
+        for_each_by_id(scene_, [&](const auto& shape, core::ShapeId id) {
+            const core::MaterialIndex material = scene_.material_index_of(id);
+            if (material != filled) write_fill(scene_.materials()[material]);
+            filled = material;
+            is_inside_ = scene_.materials()[material].visible == core::Visible::inside;
+            write_shape(shape);
+        });
+    }
+
+  private:
+    /// About that of what the camera looks at, with the camera.
+    static double size_of(const core::Scene& scene) {
+        double size = static_cast<double>(core::length(scene.camera().at - scene.camera().from));
+        const core::Bounds& bounds = scene.hierarchy().bounds;
+        for (int axis = 0; axis < 3; ++axis)
+            if (bounds.lower[axis] <= bounds.upper[axis])
+                size = std::max(size, static_cast<double>(bounds.upper[axis]) -
+                                          static_cast<double>(bounds.lower[axis]));
+        return size;
+    }
+
+    /// From the middle of the first row to the middle of the last.
+    void write_view() {
+        const core::Camera& camera = scene_.camera();
+        if (camera.projection != core::Projection::perspective)
+            throw core::InvalidValue("camera", "must be a perspective one, for NFF has no other");
+        constexpr double radians = 3.14159265358979323846 / 180.0;
+        const int rows = scene_.settings().height;
+        double half = std::tan(static_cast<double>(camera.field_of_view) / 2.0 * radians);
+        if (rows > 1) half *= static_cast<double>(rows - 1) / rows;
+        file_ << "v\nfrom ";
+        file_.list(camera.from, " ") << "\nat ";
+        file_.list(camera.at, " ") << "\nup ";
+        file_.list(camera.up, " ")
+            << "\nangle " << static_cast<float>(2.0 * std::atan(half) / radians)
+            << "\nhither 0\nresolution " << scene_.settings().width << " " << rows << "\n";
+    }
+
+    void write_fill(const core::Material& m) {
+        if (m.pattern.kind != core::PatternKind::solid) left_out_.insert("patterns");
+        if (m.reflection != core::Reflection::constant) left_out_.insert("Fresnel reflection");
+        if (m.absorption != Vec3f(0.0F)) left_out_.insert("absorption");
+        if (m.visible == core::Visible::outside)
+            left_out_.insert("surfaces seen from outside only");
+        if (m.specular != m.reflectivity) left_out_.insert("highlights of their own");
+        left_out_.insert("ambient light of their own");
+        file_ << "f ";
+        file_.list(m.pattern.colors[0], " ")
+            << " " << m.diffuse << " " << m.reflectivity << " " << m.exponent << " "
+            << m.transmission * (1.0F - m.reflectivity) << " " << m.index << "\n";
+    }
+
+    float signed_radius(float radius) const { return is_inside_ ? -radius : radius; }
+
+    void write_shape(const core::Sphere& s) {
+        file_ << "s ";
+        file_.list(s.center, " ") << " " << signed_radius(s.radius) << "\n";
+    }
+    void write_frustum(const Vec3f& base, float base_radius, const Vec3f& axis, float top_radius) {
+        file_ << "c ";
+        file_.list(base, " ") << " " << signed_radius(base_radius) << " ";
+        file_.list(base + axis, " ") << " " << signed_radius(top_radius) << "\n";
+    }
+    template <core::Ends ends>
+    void write_shape(const core::Cylinder<ends>& s) {
+        if (ends == core::Ends::capped) left_out_.insert("caps");
+        write_frustum(s.base, s.radius, s.axis, s.radius);
+    }
+    template <core::Ends ends>
+    void write_shape(const core::Cone<ends>& s) {
+        if (ends == core::Ends::capped) left_out_.insert("caps");
+        write_frustum(s.base, s.base_radius, s.axis, s.top_radius);
+    }
+    void write_shape(const core::Triangle& s) {
+        file_ << "p 3\n";
+        for (const Vec3f& corner : {s.a, s.b, s.c})
+            file_.list(corner, " ") << "\n";
+    }
+    void write_shape(const core::SmoothTriangle& s) {
+        file_ << "pp 3\n";
+        for (const auto& [corner, normal] :
+             {std::pair(s.a, s.normal_a), std::pair(s.b, s.normal_b), std::pair(s.c, s.normal_c)}) {
+            file_.list(corner, " ") << " ";
+            file_.list(normal, " ") << "\n";
+        }
+    }
+    /// Its faces, seen from outside counter-clockwise.
+    void write_shape(const core::Box& s) {
+        const Vec3f all = s.edge_u + s.edge_v + s.edge_w;
+        const bool left_handed = core::dot(core::cross(s.edge_u, s.edge_v), s.edge_w) < 0.0F;
+        const std::array<std::array<Vec3f, 2>, 3> sides = {
+            {{s.edge_u, s.edge_v}, {s.edge_v, s.edge_w}, {s.edge_w, s.edge_u}}};
+        for (auto [a, b] : sides) {
+            if (left_handed) std::swap(a, b);
+            write_face(s.corner, b, a);
+            write_face(s.corner + all, -a, -b);
+        }
+    }
+    void write_face(const Vec3f& corner, const Vec3f& a, const Vec3f& b) {
+        file_ << "p 4\n";
+        for (const Vec3f& v : {corner, corner + a, corner + a + b, corner + b})
+            file_.list(v, " ") << "\n";
+    }
+    /// A square about as far as can be seen.
+    void write_shape(const core::Plane& s) {
+        left_out_.insert("the far ends of planes");
+        const Vec3d normal = core::normalized(core::convert<double>(s.normal));
+        const Vec3d aside = std::abs(normal.x) < 0.7 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+        const Vec3d across = reach_ * core::normalized(core::cross(normal, aside));
+        const Vec3d up = core::cross(normal, across);
+        write_face(s.point - core::convert<float>(Vec3d(across + up)),
+                   core::convert<float>(2.0 * across), core::convert<float>(2.0 * up));
+    }
+    void write_shape(const core::Disc&) { refuse("a disc"); }
+    void write_shape(const core::Quadric&) { refuse("a quadric"); }
+    [[noreturn]] static void refuse(const char* what) {
+        throw core::InvalidValue("",
+                                 std::string("has no word for ") + what + ": .pov and .json have");
+    }
+
+    TextFile& file_;
+    const core::Scene& scene_;
+    LeftOut& left_out_;
+    double reach_;           ///< of what has no end
+    bool is_inside_ = false; ///< what is written is seen from inside alone
+};
+
+} // namespace
+
+void write_nff(TextFile& file, const core::Scene& scene, LeftOut& left_out) {
+    NffWriter(file, scene, left_out).write();
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,228 @@
+#include "scenes/export/writers.hpp"
+
+#include <cmath>
+
+namespace raylane::scenes {
+
+namespace {
+
+using core::Vec3d, core::Vec3f;
+
+class PovWriter {
+  public:
+    PovWriter(TextFile& file, const core::Scene& scene, LeftOut& left_out)
+        : file_(file), scene_(scene), left_out_(left_out) {}
+
+    void write() {
+        file_ << "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level "
+              << scene_.settings().max_depth + 1 << " adc_bailout " << scene_.settings().min_weight
+              << " }\nbackground { color rgb ";
+        vector(scene_.background()) << " }\n";
+        write_camera();
+        write_fog();
+        for (const core::Light& light : scene_.lights())
+            write_light(light);
+        for (std::size_t i = 0; i < scene_.materials().size(); ++i)
+            write_material(i, scene_.materials()[i]);
+        for_each_by_id(scene_, [&](const auto& shape, core::ShapeId id) {
+            write_shape(shape);
+            file_ << " material { m" << std::to_string(scene_.material_index_of(id)) << " } }\n";
+        });
+    }
+
+  private:
+    template <class Real>
+    TextFile& vector(const core::Vec3<Real>& v) {
+        file_ << "<";
+        return file_.list(v, ", ") << ">";
+    }
+    template <class Real>
+    TextFile& vector(const char* word, const core::Vec3<Real>& v) {
+        file_ << " " << word << " ";
+        return vector(v);
+    }
+    TextFile& color(const core::Color& c) {
+        file_ << "color rgb ";
+        return vector(c);
+    }
+
+    void write_camera() {
+        const core::Camera& camera = scene_.camera();
+        const Vec3d from = core::convert<double>(camera.from);
+        const Vec3d forward = core::normalized(core::convert<double>(camera.at) - from);
+        const Vec3d right =
+            core::normalized(core::cross(forward, core::convert<double>(camera.up)));
+        const Vec3d up = core::cross(right, forward);
+        const bool perspective = camera.projection == core::Projection::perspective;
+        const double height = perspective
+                                  ? 2.0 * std::tan(static_cast<double>(camera.field_of_view) *
+                                                   (3.14159265358979323846 / 360.0))
+                                  : static_cast<double>(camera.height);
+        const core::Settings& settings = scene_.settings();
+        file_ << "camera { " << (perspective ? "perspective" : "orthographic");
+        vector("location", camera.from);
+        vector("direction", forward);
+        vector("right", Vec3d(height * settings.width / settings.height * right));
+        vector("up", Vec3d(height * up)) << " }\n";
+    }
+
+    void write_fog() {
+        const core::Fog& fog = scene_.fog();
+        if (fog.kind == core::FogKind::none) return;
+        if (fog.kind != core::FogKind::exponential) {
+            left_out_.insert("linear fog");
+            return;
+        }
+        file_ << "fog { fog_type 1 distance " << 1.0F / fog.density << " ";
+        color(fog.color) << " }\n";
+    }
+
+    void write_light(const core::Light& light) {
+        file_ << "light_source { ";
+        if (light.kind == core::LightKind::point) {
+            vector(light.position) << " ";
+            color(light.color) << " }\n";
+            return;
+        }
+        constexpr double far = -1e6;
+        vector(Vec3d(far * core::normalized(core::convert<double>(light.direction)))) << " ";
+        color(light.color) << " parallel point_at <0, 0, 0> }\n";
+    }
+
+    void write_pigment(const core::Material& material) {
+        const core::Pattern& pattern = material.pattern;
+        file_ << "pigment { ";
+        switch (pattern.kind) {
+        case core::PatternKind::back_plane:
+            left_out_.insert("back-plane patterns");
+            [[fallthrough]];
+        case core::PatternKind::solid:
+            color(pattern.colors[0]);
+            break;
+        case core::PatternKind::checker: {
+            // It always goes by all three axes: cells are made too long to see in the others.
+            Vec3f size, offset;
+            for (int axis = 0; axis < 3; ++axis) {
+                const bool counts = (pattern.axes >> axis & 1) != 0;
+                size[axis] = counts ? pattern.size : 1e6F;
+                offset[axis] = counts ? 0.0F : -0.5e6F;
+            }
+            file_ << "checker ";
+            color(pattern.colors[0]) << ", ";
+            color(pattern.colors[1]);
+            vector("scale", size);
+            vector("translate", offset);
+            break;
+        }
+        case core::PatternKind::stripes:
+            vector("gradient", pattern.direction) << " color_map { [0 ";
+            color(pattern.colors[0]) << "] [0.5 ";
+            color(pattern.colors[0]) << "] [0.5 ";
+            color(pattern.colors[1]) << "] [1 ";
+            color(pattern.colors[1]) << "] } scale " << 2.0F * pattern.size;
+            break;
+        case core::PatternKind::gradient:
+            left_out_.insert("the ends of gradients, which repeat");
+            vector("gradient", pattern.to - pattern.from) << " color_map { [0 ";
+            color(pattern.colors[0]) << "] [1 ";
+            color(pattern.colors[1]) << "] } scale " << core::length(pattern.to - pattern.from);
+            vector("translate", pattern.from);
+            break;
+        }
+        if (material.transmits()) file_ << " transmit " << material.transmission;
+        file_ << " }";
+    }
+
+    void write_material(std::size_t index, const core::Material& material) {
+        file_ << "#declare m" << std::to_string(index) << " = material { texture { ";
+        write_pigment(material);
+        file_ << " finish { ambient " << material.ambient << " diffuse " << material.diffuse;
+        if (material.specular > 0.0F)
+            file_ << " specular " << material.specular << " roughness "
+                  << 1.0F / std::max(material.exponent, 1.0F);
+        if (material.reflection != core::Reflection::constant)
+            file_ << " reflection { 0, 1 fresnel on } conserve_energy";
+        else if (material.reflectivity > 0.0F)
+            file_ << " reflection { " << material.reflectivity << " }";
+        file_ << " } } interior { ior " << material.index << " } }\n";
+        if (material.visible != core::Visible::both) left_out_.insert("one-sided surfaces");
+        if (material.transmits() && material.absorption != Vec3f(0.0F))
+            left_out_.insert("absorption");
+    }
+
+    void write_shape(const core::Sphere& s) {
+        file_ << "sphere { ";
+        vector(s.center) << ", " << s.radius;
+    }
+    void write_shape(const core::Plane& s) {
+        const Vec3d normal = core::normalized(core::convert<double>(s.normal));
+        file_ << "plane { ";
+        vector(normal) << ", " << core::dot(normal, core::convert<double>(s.point));
+    }
+    void write_shape(const core::Disc& s) {
+        file_ << "disc { ";
+        vector(s.center) << ", ";
+        vector(s.normal) << ", " << s.radius;
+    }
+    void write_shape(const core::Triangle& s) {
+        file_ << "triangle { ";
+        vector(s.a) << ", ";
+        vector(s.b) << ", ";
+        vector(s.c);
+    }
+    void write_shape(const core::SmoothTriangle& s) {
+        file_ << "smooth_triangle { ";
+        const char* between = "";
+        for (const Vec3f& v : {s.a, s.normal_a, s.b, s.normal_b, s.c, s.normal_c}) {
+            file_ << between;
+            vector(v);
+            between = ", ";
+        }
+    }
+    void write_shape(const core::Box& s) {
+        file_ << "box { <0, 0, 0>, <1, 1, 1> matrix <";
+        const char* between = "";
+        for (const Vec3f& v : {s.edge_u, s.edge_v, s.edge_w, s.corner}) {
+            file_ << between;
+            file_.list(v, ", ");
+            between = ", ";
+        }
+        file_ << ">";
+    }
+    template <core::Ends ends>
+    void write_shape(const core::Cylinder<ends>& s) {
+        file_ << "cylinder { ";
+        vector(s.base) << ", ";
+        vector(s.base + s.axis) << ", " << s.radius;
+        if (ends == core::Ends::open) file_ << " open";
+    }
+    template <core::Ends ends>
+    void write_shape(const core::Cone<ends>& s) {
+        file_ << "cone { ";
+        vector(s.base) << ", " << s.base_radius << ", ";
+        vector(s.base + s.axis) << ", " << s.top_radius;
+        if (ends == core::Ends::open) file_ << " open";
+    }
+    void write_shape(const core::Quadric& s) {
+        file_ << "quadric { ";
+        vector(Vec3f(s.xx, s.yy, s.zz)) << ", ";
+        vector(Vec3f(2.0F * s.xy, 2.0F * s.xz, 2.0F * s.yz)) << ", ";
+        vector(Vec3f(2.0F * s.x, 2.0F * s.y, 2.0F * s.z))
+            << ", " << s.one << " clipped_by { box { ";
+        vector(s.lower) << ", ";
+        vector(s.upper) << " } }";
+        vector("translate", s.center);
+    }
+
+    TextFile& file_;
+    const core::Scene& scene_;
+    LeftOut& left_out_;
+};
+
+} // namespace
+
+void write_pov(TextFile& file, const core::Scene& scene, LeftOut& left_out) {
+    PovWriter(file, scene, left_out).write();
+}
+
+} // namespace raylane::scenes

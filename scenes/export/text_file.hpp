@@ -1,0 +1,49 @@
+#pragma once
+
+#include "core/vector.hpp"
+#include "scenes/atomic_file.hpp"
+#include "scenes/number.hpp"
+
+#include <charconv>
+#include <string>
+#include <string_view>
+
+namespace raylane::scenes {
+
+/// Text on its way to a file. Floats and doubles are written so that they are read as
+/// the same ones.
+class TextFile {
+  public:
+    explicit TextFile(AtomicFile& file) : file_(file) {}
+
+    TextFile& operator<<(std::string_view text) {
+        text_ += text;
+        if (text_.size() > 1 << 16) flush();
+        return *this;
+    }
+    TextFile& operator<<(const char* text) { return *this << std::string_view(text); }
+    TextFile& operator<<(float value) { return *this << std::string_view(to_text(value)); }
+    TextFile& operator<<(double value) {
+        char text[32];
+        const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+        return *this << std::string_view(text, end);
+    }
+    TextFile& operator<<(int value) { return *this << std::string_view(std::to_string(value)); }
+
+    /// The components of a vector, with `between` them.
+    template <class Real>
+    TextFile& list(const core::Vec3<Real>& v, const char* between) {
+        return *this << v.x << between << v.y << between << v.z;
+    }
+
+    void flush() {
+        file_.write(text_);
+        text_.clear();
+    }
+
+  private:
+    AtomicFile& file_;
+    std::string text_;
+};
+
+} // namespace raylane::scenes

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/scene.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/export/text_file.hpp"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// What a format has no word for, in words.
+using LeftOut = std::set<std::string>;
+
+void write_json(TextFile& file, const core::Scene& scene);
+void write_nff(TextFile& file, const core::Scene& scene, LeftOut& left_out);
+void write_pov(TextFile& file, const core::Scene& scene, LeftOut& left_out);
+
+/// Calls visit(shape, id) for all shapes in the order of their ids, which decides where surfaces
+/// coincide.
+template <class Visit>
+void for_each_by_id(const core::Scene& scene, const Visit& visit) {
+    struct Place {
+        core::Slot slot;
+        core::Kind kind;
+    };
+    std::vector<Place> places(scene.shape_count());
+    core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+        for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
+            for (std::uint8_t lane = 0; lane < core::block_size; ++lane) {
+                const core::Slot slot{block, lane};
+                if (const core::ShapeId id = table.id(slot); id != core::no_shape)
+                    places[id] = {slot, core::kind_of<Shape>};
+            }
+    });
+    for (core::ShapeId id = 0; id < places.size(); ++id)
+        core::with_table(scene.shapes(), places[id].kind,
+                         [&](const auto& table) { visit(table.get(places[id].slot), id); });
+}
+
+} // namespace raylane::scenes

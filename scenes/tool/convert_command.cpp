@@ -1,0 +1,44 @@
+#include "scenes/errors.hpp"
+#include "scenes/export/export.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/command.hpp"
+
+#include <cstdio>
+#include <memory>
+
+namespace raylane::scenes {
+
+namespace {
+
+struct ConvertArguments {
+    Argument scene, output;
+};
+
+int convert(const ConvertArguments& arguments) {
+    const std::string& scene = file_argument("SCENE", *arguments.scene);
+    const std::string& output = file_argument("OUTPUT", *arguments.output);
+    require_other_file("OUTPUT", output, "SCENE", scene);
+    require_scene_ending(output);
+    std::string left_out;
+    for (const std::string& what : export_scene(output, load_scene(scene)))
+        left_out.append(left_out.empty() ? "" : ", ").append(what);
+    if (!left_out.empty())
+        std::fprintf(stderr, "%s: left out, as the format has no word for it: %s\n",
+                     printable(output, 4096).c_str(), left_out.c_str());
+    return 0;
+}
+
+} // namespace
+
+Command add_convert_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("convert", "Write a scene in another format");
+    auto arguments = std::make_shared<ConvertArguments>();
+    add_positional(*command, "SCENE", arguments->scene, "A scene in JSON or NFF");
+    add_positional(*command, "OUTPUT", arguments->output,
+                   "The file to write: .json, .nff, or .pov for POV-Ray 3.7");
+    command->footer("Example: raylane convert scenes/lattice.json lattice.pov");
+    return {command, [arguments] { return convert(*arguments); }};
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,199 @@
+#include "scenes/errors.hpp"
+#include "scenes/export/export.hpp"
+#include "scenes/export/writers.hpp"
+#include "scenes/scene_file.hpp"
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/json_scenes.hpp"
+
+#include <fstream>
+#include <iterator>
+
+using namespace raylane;
+using namespace raylane::scenes;
+
+namespace {
+
+std::filesystem::path shipped(const std::string& name) {
+    return std::filesystem::path(RAYLANE_SOURCE_DIR) / "scenes" / (name + ".json");
+}
+
+std::vector<std::filesystem::path> all_shipped() {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(RAYLANE_SOURCE_DIR) / "scenes"))
+        if (entry.path().extension() == ".json" && entry.path().stem().extension() != ".schema")
+            paths.push_back(entry.path());
+    REQUIRE(paths.size() >= 14);
+    return paths;
+}
+
+/// All floats of all shapes, in order.
+std::vector<float> floats_in(const core::Scene& scene) {
+    std::vector<float> all;
+    for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
+        const auto floats = core::floats_of(shape);
+        all.push_back(static_cast<float>(core::kind_of<std::decay_t<decltype(shape)>>));
+        all.insert(all.end(), floats.begin(), floats.end());
+    });
+    return all;
+}
+
+std::vector<core::Color> picture_of(const core::Scene& scene) {
+    core::Settings settings = scene.settings();
+    settings.height = 48 * settings.height / settings.width;
+    settings.width = 48;
+    settings.grid = std::min(settings.grid, 2);
+    return simd::render(scene, settings, {}).film.pixels();
+}
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string complaint(const std::filesystem::path& path, const core::Scene& scene) {
+    try {
+        export_scene(path, scene);
+    } catch (const BadInput& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("a scene that is written as JSON is the same scene") {
+    const tests::TemporaryDirectory directory;
+    for (const std::filesystem::path& path : all_shipped()) {
+        CAPTURE(path.filename());
+        const core::Scene scene = load_scene(path);
+        const std::filesystem::path copy = directory.path() / "copy.json";
+        CHECK(export_scene(copy, scene).empty());
+        const core::Scene again = load_scene(copy);
+        CHECK(floats_in(again) == floats_in(scene));
+        CHECK(again.settings().width == scene.settings().width);
+        CHECK(again.settings().grid == scene.settings().grid);
+        CHECK(again.settings().samples == scene.settings().samples);
+        CHECK(again.settings().max_depth == scene.settings().max_depth);
+        CHECK(again.settings().min_weight == scene.settings().min_weight);
+        CHECK(picture_of(again) == picture_of(scene));
+    }
+}
+
+TEST_CASE("every value of a scene goes into JSON") {
+    const tests::TemporaryDirectory directory;
+    const core::Scene scene = tests::scene_of(R"({
+        "camera": {"type": "orthographic", "from": [0.1, 2, 9], "at": [0, 1, 0], "up": [0, 1, 0.2],
+                   "height": 3.3},
+        "image": {"width": 30, "height": 20, "transfer": "linear"},
+        "sampling": {"grid": 3, "pattern": "stratified"},
+        "limits": {"max_depth": 3, "min_weight": 0.03},
+        "background": [0.1, 0.2, 0.3],
+        "fog": {"type": "exponential", "density": 0.05, "color": [1, 0, 0.5]},
+        "lights": [{"type": "directional", "direction": [1, -2, 0.1], "color": [2, 1, 1]},
+                   {"type": "point", "position": [3, 4, 5]}],
+        "materials": {
+            "s": {"pattern": {"type": "stripes", "colors": [[1, 0, 0], [0, 1, 0]], "width": 0.3,
+                              "direction": [1, 2, 3]}, "visible": "inside"},
+            "c": {"pattern": {"type": "checker", "colors": [[1, 0, 0], [0, 1, 0]], "size": 0.7,
+                              "axes": "yz"}, "visible": "outside"},
+            "g": {"pattern": {"type": "gradient", "colors": [[1, 0, 0], [0, 1, 0]],
+                              "from": [0, 1, 0], "to": [1, 1, 1]}, "reflection": "schlick"},
+            "w": {"ambient": 0.3, "diffuse": 0.4, "specular": 0.5, "exponent": 7,
+                  "reflection": "dielectric", "transmission": 0.9, "index": 1.7,
+                  "absorption": [0.1, 0.2, 0.3]}},
+        "objects": [
+            {"type": "triangle", "material": "s", "a": [0, 0, 0], "b": [1, 0, 0], "c": [0, 1, 0],
+             "normals": [[0, 0, 1], [0, 0.1, 1], [0.1, 0, 1]]},
+            {"type": "triangle", "material": "c", "a": [0, 0, 1], "b": [1, 0, 1], "c": [0, 1, 1]},
+            {"type": "disc", "material": "g", "center": [1, 1, 1], "normal": [0, 1, 1],
+             "radius": 0.5},
+            {"type": "cylinder", "material": "w", "base": [0, 0, 2], "axis": [0, 1, 0],
+             "radius": 0.3, "capped": false},
+            {"type": "cone", "material": "w", "base": [0, 0, 3], "axis": [0, 1, 0],
+             "base_radius": 0.3, "top_radius": 0.1, "capped": false}]
+    })");
+    const std::filesystem::path copy = directory.path() / "copy.json";
+    CHECK(export_scene(copy, scene).empty());
+    const core::Scene again = load_scene(copy);
+    CHECK(floats_in(again) == floats_in(scene));
+    CHECK(picture_of(again) == picture_of(scene));
+    // And once more, which would show a value that is lost on the way.
+    const std::filesystem::path twice = directory.path() / "twice.json";
+    export_scene(twice, again);
+    CHECK(text_of(twice) == text_of(copy));
+    for (const char* part :
+         {R"("transfer": "linear")", R"("pattern": "stratified")", R"("height": 3.3)",
+          R"("axes": "yz")", R"("visible": "inside")", R"("visible": "outside")",
+          R"("reflection": "schlick")", R"("reflection": "dielectric")", R"("density": 0.05)",
+          R"("absorption": [0.1, 0.2, 0.3])", R"("direction": [1, -2, 0.1])"}) {
+        CAPTURE(part);
+        CHECK(text_of(copy).find(part) != std::string::npos);
+    }
+}
+
+TEST_CASE("NFF takes the shapes that it has, and tells what it leaves out") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "scene.nff";
+    const core::Scene scene = load_scene(shipped("lattice"));
+    const std::vector<std::string> left_out = export_scene(path, scene);
+    for (const char* what : {"ambient light of their own", "the far ends of planes"}) {
+        CAPTURE(what);
+        CHECK(std::find(left_out.begin(), left_out.end(), what) != left_out.end());
+    }
+    const core::Scene again = load_scene(path);
+    CHECK(again.shape_count() == scene.shape_count() + 1); // the floor is two triangles
+    CHECK(std::get<core::Table<core::Sphere>>(again.shapes()).size() ==
+          std::get<core::Table<core::Sphere>>(scene.shapes()).size());
+    CHECK(again.camera().field_of_view == Approx(scene.camera().field_of_view).epsilon(1e-6));
+    CHECK(again.lights().size() == scene.lights().size());
+    CHECK(again.settings().width == scene.settings().width);
+
+    // Six faces, whose fronts look outwards: the box is lit from outside.
+    const core::Scene box = tests::scene_of(tests::with_objects(
+        R"({"type": "box", "material": "clay", "corner": [1, 2, 3],
+            "edges": [[0, 1, 0], [1, 0, 0], [0, 0, 1]]})"));
+    export_scene(path, box);
+    const core::Scene faces = load_scene(path);
+    REQUIRE(faces.shape_count() == 12);
+    for_each_by_id(faces, [](const auto& shape, core::ShapeId) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, core::Triangle>) {
+            const core::Vec3f normal = core::cross(shape.b - shape.a, shape.c - shape.a);
+            CHECK(core::dot(normal, shape.a - core::Vec3f(1.5F, 2.5F, 3.5F)) > 0.0F);
+        }
+    });
+
+    CHECK(complaint(path, load_scene(shipped("quadric"))) ==
+          path.string() + ": has no word for a quadric: .pov and .json have");
+    CHECK(load_scene(path).shape_count() == 12); // which has stayed
+}
+
+TEST_CASE("POV-Ray is told every shape and material") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "scene.pov";
+    const std::vector<std::string> left_out = export_scene(path, load_scene(shipped("birthday")));
+    CHECK(left_out == std::vector<std::string>{"back-plane patterns", "linear fog"});
+    const std::string text = text_of(path);
+    const auto count = [&](const std::string& part) {
+        int times = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos;
+             at = text.find(part, at + 1))
+            ++times;
+        return times;
+    };
+    CHECK(count("\nsphere {") == 5);
+    CHECK(count("\nplane {") == 2);
+    CHECK(count("\nbox {") == 1);
+    CHECK(count("\ncylinder {") == 2);
+    CHECK(count("\ncone {") == 1);
+    CHECK(count("\nquadric {") == 2);
+    CHECK(count("camera {") == 1);
+    CHECK(count("light_source {") == 1);
+    CHECK(count("{") == count("}"));
+}
+
+TEST_CASE("an ending that is no format's is refused") {
+    CHECK(complaint("scene.obj", tests::scene_of(tests::with_objects(""))) ==
+          "scene.obj: must end in .json, .nff or .pov");
+}
