@@ -9,11 +9,15 @@ namespace raylane::bench {
 
 namespace {
 
-std::vector<Crossed> found_in(const simd::Hits& hits) {
+/// What is left open, as surfaces touch there, is the truth: the reference goes on from it.
+std::vector<Crossed> found_in(const simd::HitFinder& finder, const std::vector<Crossed>& truths) {
+    const simd::Hits& hits = finder.hits();
     std::vector<Crossed> found(method_ray_count);
     for (std::size_t i = 0; i < found.size(); ++i)
         if (hits.slot[i] != simd::no_slot && (hits.hit[i] & simd::hit_none) == 0)
             found[i] = {hits.slot[i], (hits.hit[i] & simd::hit_entering) != 0, hits.t[i]};
+    for (const std::uint32_t i : finder.left_open())
+        found[i] = truths[i];
     return found;
 }
 
@@ -35,7 +39,7 @@ void find(benchmark::State& state, simd::Isa isa, core::Precision precision) {
         static_cast<double>(method_ray_count) * static_cast<double>(state.iterations());
     state.counters["refined"] = static_cast<double>(counters.refined) / rays;
     state.counters["left_to_the_reference"] = static_cast<double>(counters.doubtful) / rays;
-    report_errors(state, of.truths, found_in(finder.hits()));
+    report_errors(state, of.truths, found_in(finder, of.truths));
 }
 
 template <class Shape, bool hard>

@@ -44,7 +44,8 @@ inline constexpr double needed_accuracy = 0x1p-27;
 
 /// Whether a t that is off by `error` leads to a point that is off by no more than an ulp of float
 /// of its largest coordinate; or, near the coordinates' origin, by no more than double cannot help.
-/// The direction may have any length.
+/// The direction may have any length. The lanes' twin (simd/kernel/finishers) knows that it is 1,
+/// and may grant a little more.
 inline bool holds_point(const Ray<double>& ray, double t, double error) {
     const auto sum = [](const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
     const Vec3d point = mul_add(t, ray.direction, ray.origin);

@@ -158,8 +158,9 @@ class FloatMethod {
         places_.push_back({bounds, off});
     }
 
-    /// Shadows fall anywhere in the scene, and are larger than what casts them. Returns what the
-    /// shape is off by, seen from where they fall.
+    /// Shadows fall anywhere in the scene, and are larger than what casts them. Where they fall at
+    /// a slant they are displaced by more, but there the light that they take is as much weaker.
+    /// Returns what the shape is off by, seen from where they fall.
     double add_shadows(const auto& shape, const Bounds& bounds) {
         const double off = off_from(shape, extent_, largest_);
         for (const Light& light : scene_.lights()) {
@@ -191,6 +192,8 @@ void consider_floats(MethodEstimate& method, const Scene& scene, const Settings&
         method.objection = "planes have no end, nor has its error there";
     } else if (features.reflection || features.refraction) {
         method.objection = "reflections and refractions magnify its errors";
+    } else if (features.patterns) {
+        method.objection = "patterns are read where it takes the surface to be";
     } else if (scene.shape_count() > most_shapes) {
         method.objection = "too many shapes to compare each with each";
     } else {

@@ -44,13 +44,15 @@ class Searcher {
             [&](Kind kind, std::uint32_t block) {
                 cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
                     if (!hit.before(best) && !hit.coincides(best)) return;
-                    if (!(hit.t < t_most) || !counts(hit)) return;
-                    coinciding_.push_back(hit);
-                    if (hit.before(best)) best = hit;
+                    if (!(hit.t < t_most)) return;
+                    // What does not count may still lie where the ray will go on from.
+                    const bool may_be_hit = counts(hit);
+                    coinciding_.push_back({hit, DoubleDouble(hit.t), hit.error, may_be_hit});
+                    if (may_be_hit && hit.before(best)) best = hit;
                 });
                 return true;
             });
-        return best.any() ? encounter(ray, departure) : Encounter<Real>{};
+        return best.any() ? encounter(ray, departure, best) : Encounter<Real>{};
     }
 
     /// Calls visit(hit) for the crossings with t < t_most, in no order, until it returns false.
@@ -90,61 +92,90 @@ class Searcher {
         return hit;
     }
 
-    /// Of coinciding_. What is entered comes before what is left where they coincide: they touch,
-    /// there is no gap between them.
-    Encounter<Real> encounter(const Ray<Real>& ray, const Departure<Real>& departure) {
-        const auto nearest_one = [&] {
-            return *std::min_element(
-                coinciding_.begin(), coinciding_.end(),
-                [](const Hit<Real>& a, const Hit<Real>& b) { return a.before(b); });
-        };
-        Hit<Real> best = nearest_one();
+    /// A hit that may be the first, or in contact with it.
+    struct Candidate {
+        Hit<Real> hit;
+        DoubleDouble t; ///< of the hit, as well as it is known
+        double t_error; ///< of that
+        bool may_be_hit;
+
+        bool is_surely_before(const Candidate& other) const {
+            return static_cast<double>(other.t - t) > t_error + other.t_error;
+        }
+    };
+
+    /// Of coinciding_, among which is `best`. What is entered comes before what is left where they
+    /// coincide: they touch, there is no gap between them.
+    Encounter<Real> encounter(const Ray<Real>& ray, const Departure<Real>& departure,
+                              Hit<Real> best) {
         const auto drop_others = [&] {
-            std::erase_if(coinciding_, [&](const Hit<Real>& hit) { return !hit.coincides(best); });
+            std::erase_if(coinciding_, [&](const Candidate& candidate) {
+                return !candidate.hit.coincides(best);
+            });
         };
         drop_others();
         Encounter<Real> result;
         if constexpr (std::is_same_v<Real, double>)
             if (coinciding_.size() > 1 && precision_ == Precision::exact) {
-                for (Hit<double>& hit : coinciding_)
-                    sharpen(hit, ray, departure);
-                best = nearest_one();
+                for (Candidate& candidate : coinciding_)
+                    sharpen(candidate, ray, departure);
+                best = first_of_coinciding().hit;
                 drop_others();
                 result.is_close = true;
             }
-        const auto is_first = [](const Hit<Real>& a, const Hit<Real>& b) {
-            return a.entering != b.entering ? a.entering : a.shape < b.shape;
-        };
-        result.hit = *std::min_element(coinciding_.begin(), coinciding_.end(), is_first);
+        result.hit = first_of_coinciding().hit;
 
-        const Vec3<Real> point = mul_add(best.t, ray.direction, ray.origin);
+        const Vec3<Real> point = mul_add(result.hit.t, ray.direction, ray.origin);
         const auto add = [&](const Hit<Real>& hit) {
             if (result.contacts.find(hit.shape) != nullptr) return;
             result.contacts.add({hit, scene_.coplanar_with(hit.shape),
                                  outward_normal_at(hit, point), !hit.entering, hit.entering});
         };
         add(result.hit);
-        for (const Hit<Real>& hit : coinciding_)
-            add(hit);
+        for (const Candidate& candidate : coinciding_)
+            add(candidate.hit);
         return result;
     }
 
-    /// Solves in double-double, and leaves an error of no more than what double loses of the point:
-    /// what is closer together than that is in contact for a ray that goes on from there.
-    void sharpen(Hit<double>& hit, const Ray<double>& ray, const Departure<double>& departure) {
+    /// Of those that may be hit: the first for sure, or, of those that cannot be told apart from
+    /// the first, the one that the rule says.
+    const Candidate& first_of_coinciding() const {
+        const Candidate* first = nullptr;
+        for (const Candidate& candidate : coinciding_)
+            if (candidate.may_be_hit && (first == nullptr || candidate.is_surely_before(*first)))
+                first = &candidate;
+        const Candidate* chosen = first;
+        for (const Candidate& candidate : coinciding_) {
+            if (!candidate.may_be_hit || first->is_surely_before(candidate)) continue;
+            const Hit<Real>&a = candidate.hit, &b = chosen->hit;
+            if (a.entering != b.entering ? a.entering : a.shape < b.shape) chosen = &candidate;
+        }
+        return *chosen;
+    }
+
+    /// Solves in double-double. In double it leaves an error of no more than what double loses of
+    /// the point: what is closer together than that is in contact for a ray that goes on from
+    /// there.
+    void sharpen(Candidate& candidate, const Ray<double>& ray, const Departure<double>& departure) {
+        using Wide = Bounded<DoubleDouble>;
+        Hit<double>& hit = candidate.hit;
         with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-            Judge<Bounded<DoubleDouble>> judge;
-            const Crossings<double> all = detail::solve_bounded<DoubleDouble>(
-                table.get(hit.slot), ray, departure.start_on(hit.shape), judge);
+            Judge<Wide> judge;
+            const Ray<Wide> wide{convert<Wide>(ray.origin), convert<Wide>(ray.direction)};
+            const Crossings<Wide> all =
+                crossings(table.get(hit.slot), wide, departure.start_on(hit.shape), judge);
             ++counters.widened;
             const double rounding = 0x1p-53 * (std::abs(ray.origin.x) + std::abs(ray.origin.y) +
                                                std::abs(ray.origin.z) + std::abs(hit.t));
-            for (const Crossing<double>& crossing : all) {
+            for (const Crossing<Wide>& crossing : all) {
+                const auto t = static_cast<double>(crossing.t);
                 const bool same = crossing.face == hit.face && crossing.entering == hit.entering &&
-                                  std::abs(crossing.t - hit.t) <= crossing.error + hit.error;
-                if (!same || crossing.error + rounding >= hit.error) continue;
-                hit.t = crossing.t;
-                hit.error = crossing.error + rounding;
+                                  std::abs(t - hit.t) <= crossing.t.error + hit.error;
+                if (!same || crossing.t.error + rounding >= hit.error) continue;
+                candidate.t = crossing.t.value;
+                candidate.t_error = crossing.t.error;
+                hit.t = t;
+                hit.error = crossing.t.error + rounding;
                 return;
             }
         });
@@ -244,7 +275,7 @@ class Searcher {
     Search search_;
     Precision precision_;
     std::vector<Pending> pending_;      // nearest last
-    std::vector<Hit<Real>> coinciding_; // with the best so far
+    std::vector<Candidate> coinciding_; // with the best so far
 };
 
 } // namespace raylane::core

@@ -223,6 +223,8 @@ TEST_CASE("auto stays exact where float might show") {
           "shapes touch or nearly do, and it may take one for another");
     CHECK(objection(with_ellipsoids({{0, 0, 0}}, 6, 60, little_scene::mirror(0.5F))) ==
           "reflections and refractions magnify its errors");
+    CHECK(objection(with_ellipsoids({{0, 0, 0}}, 6, 60, little_scene::ruler({0, 0.001F, 0}))) ==
+          "patterns are read where it takes the surface to be");
     little_scene::Builder builder;
     builder.add_shape(Plane{{0, -2, 0}, {0, 1, 0}}, Material{});
     builder.add_shape(ellipsoid({0, 0, 0}), Material{});

@@ -6,6 +6,7 @@
 #include "tests/simd/deadline.hpp"
 
 #include <cmath>
+#include <vector>
 
 /// Surfaces that coincide, which rays walk through one by one: rounding puts each of them before or
 /// behind the others, and again before them once they are passed.
@@ -14,10 +15,11 @@ using namespace little_scene;
 
 namespace {
 
-/// Every walk ends, by every precision and engine.
+/// Every walk ends, by every precision and engine; where the reference is asked, with its colours.
 void check_ends(const Scene& scene) {
     const tests::Deadline deadline(300); // it takes a fraction of a second
-    for (const Precision precision : all_precisions)
+    for (const Precision precision : all_precisions) {
+        std::vector<Color> by_vectors;
         for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
             simd::RenderOptions options;
             options.precision = precision;
@@ -28,7 +30,12 @@ void check_ends(const Scene& scene) {
             for (const Color& pixel : rendering.film.pixels())
                 wrong += std::isfinite(pixel.x) && pixel.x >= 0.0F ? 0 : 1;
             CHECK(wrong == 0);
+            if (engine == simd::Engine::vector)
+                by_vectors = rendering.film.pixels();
+            else if (!is_single(precision))
+                CHECK(by_vectors == rendering.film.pixels());
         }
+    }
 }
 
 /// A light above a floor, and a camera that looks at it, `offset` from the origin.
