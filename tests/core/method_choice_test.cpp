@@ -167,7 +167,7 @@ TEST_CASE("no surface is displaced by more than what bounds it") {
              {look_at<Sphere>(precision), look_at<Disc>(precision), look_at<Quadric>(precision)}) {
             CAPTURE(name_of(precision), seen.bounded, seen.flipped, seen.worst);
             CHECK(seen.bounded > rounds / 40);
-            CHECK(seen.worst > 0.001); // or it would be no bound worth having
+            CHECK(seen.worst > (rounds > 2'000 ? 0.001 : 0.0001)); // or it is no bound worth having
         }
     }
     // Rays that graze are taken wrongly, or nothing has been shown.

@@ -117,8 +117,8 @@ TEST_CASE("every precision finds what is clear between a ray's limits") {
             CAPTURE(static_cast<int>(precision), clear, clear_hits);
             // A close call may escape all neighbours, and textbooks lose what is nearly parallel to
             // a cone's side: 1 and 3 of some 750 were measured.
-            const std::size_t most = precision == Precision::fast     ? clear / 100
-                                     : precision == Precision::robust ? clear / 300
+            const std::size_t most = precision == Precision::fast     ? 1 + clear / 100
+                                     : precision == Precision::robust ? 1 + clear / 300
                                                                       : 0;
             CHECK(wrong <= most);
             CHECK(wrongly_blocked <= most);
