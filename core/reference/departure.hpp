@@ -57,7 +57,8 @@ struct Contact {
 template <class Real>
 class Departure {
   public:
-    static constexpr int most_contacts = 32; ///< others are forgotten
+    static constexpr int most_contacts =
+        10; ///< others are forgotten; a path keeps as many at each bend
 
     Departure() {} // NOLINT: there is nothing yet to initialise
     Departure(const Departure& other) { copy(other); }

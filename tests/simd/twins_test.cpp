@@ -69,7 +69,7 @@ TEST_CASE("a sheet of two colours casts no shadow on itself") {
 }
 
 TEST_CASE("a shape that a scene holds many times casts no shadow on itself") {
-    for (const std::size_t times : {2, 5, 8, 24}) {
+    for (const std::size_t times : {2, 5, 10}) {
         const std::vector<Material> twins(times - 1, red);
         check(disc, red, twins);
         check(ball, red, twins);
