@@ -1,6 +1,7 @@
+#include "core/camera_rays.hpp"
 #include "scenes/export/writers.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace raylane::scenes {
 
@@ -48,22 +49,14 @@ class PovWriter {
 
     void write_camera() {
         const core::Camera& camera = scene_.camera();
-        const Vec3d from = core::convert<double>(camera.from);
-        const Vec3d forward = core::normalized(core::convert<double>(camera.at) - from);
-        const Vec3d right =
-            core::normalized(core::cross(forward, core::convert<double>(camera.up)));
-        const Vec3d up = core::cross(right, forward);
-        const bool perspective = camera.projection == core::Projection::perspective;
-        const double height = perspective
-                                  ? 2.0 * std::tan(static_cast<double>(camera.field_of_view) *
-                                                   (3.14159265358979323846 / 360.0))
-                                  : static_cast<double>(camera.height);
         const core::Settings& settings = scene_.settings();
+        const core::CameraRays<double> rays(camera, settings);
+        const bool perspective = camera.projection == core::Projection::perspective;
         file_ << "camera { " << (perspective ? "perspective" : "orthographic");
         vector("location", camera.from);
-        vector("direction", forward);
-        vector("right", Vec3d(height * settings.width / settings.height * right));
-        vector("up", Vec3d(height * up)) << " }\n";
+        vector("direction", rays.forward());
+        vector("right", Vec3d(2.0 * settings.width * rays.right()));
+        vector("up", Vec3d(2.0 * settings.height * rays.up())) << " }\n";
     }
 
     void write_fog() {
