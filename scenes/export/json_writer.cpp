@@ -9,15 +9,17 @@ namespace {
 /// Writes objects, one key after the other.
 class Object {
   public:
-    explicit Object(TextFile& file) : file_(file) { file_ << "{"; }
+    explicit Object(TextFile& file, const char* separator = ", ")
+        : file_(file), separator_(separator) {
+        file_ << "{";
+    }
     ~Object() { file_ << "}"; }
     Object(const Object&) = delete;
     Object& operator=(const Object&) = delete;
 
     TextFile& key(const char* name) {
-        file_ << (first_ ? "\"" : ", \"") << name << "\": ";
-        first_ = false;
-        return file_;
+        if (!std::exchange(first_, false)) file_ << separator_;
+        return file_ << "\"" << name << "\": ";
     }
     void text(const char* name, std::string_view value) { key(name) << "\"" << value << "\""; }
     void number(const char* name, float value) { key(name) << value; }
@@ -38,6 +40,7 @@ class Object {
 
   private:
     TextFile& file_;
+    const char* separator_;
     bool first_ = true;
 };
 
@@ -179,21 +182,20 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         image.number("height", settings.height);
         image.text("transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear");
     }
-    file << ",\n";
-    file << "\"sampling\": ";
+    root.key("sampling");
     {
         Object sampling(file);
         sampling.number("grid", settings.grid);
         sampling.text("pattern",
                       settings.samples == core::SamplePattern::regular ? "regular" : "stratified");
     }
-    file << ",\n\"limits\": ";
+    root.key("limits");
     {
         Object limits(file);
         limits.number("max_depth", settings.max_depth);
         limits.number("min_weight", settings.min_weight);
     }
-    file << ",\n\"camera\": ";
+    root.key("camera");
     {
         const core::Camera& camera = scene.camera();
         const bool perspective = camera.projection == core::Projection::perspective;
@@ -207,11 +209,10 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         else
             object.number("height", camera.height);
     }
-    file << ",\n\"background\": [";
-    file.list(scene.background(), ", ") << "]";
+    root.vector("background", scene.background());
     const core::Fog& fog = scene.fog();
     if (fog.kind != core::FogKind::none) {
-        file << ",\n\"fog\": ";
+        root.key("fog");
         Object object(file);
         object.text("type", fog.kind == core::FogKind::linear_z ? "linear-z"
                             : fog.kind == core::FogKind::linear ? "linear"
@@ -226,8 +227,8 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
     }
 }
 
-void write_lights(TextFile& file, const core::Scene& scene) {
-    file << ",\n\"lights\": [";
+void write_lights(Object& root, TextFile& file, const core::Scene& scene) {
+    root.key("lights") << "[";
     const char* separator = "\n";
     for (const core::Light& light : scene.lights()) {
         file << std::exchange(separator, ",\n");
@@ -243,18 +244,19 @@ void write_lights(TextFile& file, const core::Scene& scene) {
 } // namespace
 
 void write_json(TextFile& file, const core::Scene& scene) {
-    Object root(file);
+    Object root(file, ",\n");
     file << "\n";
     write_surroundings(root, file, scene);
-    write_lights(file, scene);
+    write_lights(root, file, scene);
 
-    file << ",\n\"materials\": {";
+    root.key("materials") << "{";
     const char* separator = "\n";
     for (std::size_t i = 0; i < scene.materials().size(); ++i) {
         file << std::exchange(separator, ",\n") << "\"" << std::to_string(i) << "\": ";
         write_material(file, scene.materials()[i]);
     }
-    file << "},\n\"objects\": [";
+    file << "}";
+    root.key("objects") << "[";
     separator = "\n";
     for_each_by_id(scene, [&](const auto& shape, core::ShapeId id) {
         file << std::exchange(separator, ",\n");
