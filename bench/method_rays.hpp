@@ -59,10 +59,8 @@ struct MethodRays {
                                                1))
         : scene(make(random)) {
         using namespace core;
-        simd::Arena measure;
-        paths.take_from(measure, method_ray_count, false);
-        arena = simd::Arena(measure.used());
-        paths.take_from(arena, method_ray_count, false);
+        arena =
+            simd::arena_for([&](simd::Arena& a) { paths.take_from(a, method_ray_count, false); });
         paths.count = method_ray_count;
         paths.start_in_the_open(0, method_ray_count);
         Searcher<double> searcher(scene, Search::every_shape);

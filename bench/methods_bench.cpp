@@ -27,10 +27,8 @@ void find(benchmark::State& state, simd::Isa isa, core::Precision precision) {
     core::ReferenceTracer<double> reference(of.scene, of.scene.settings(), core::Search::hierarchy,
                                             precision);
     simd::HitFinder finder(of.data, {&simd::kernels_of(isa), precision}, &reference);
-    simd::Arena measure;
-    finder.take_from(measure, method_ray_count);
-    simd::Arena arena(measure.used());
-    finder.take_from(arena, method_ray_count);
+    const simd::Arena arena =
+        simd::arena_for([&](simd::Arena& a) { finder.take_from(a, method_ray_count); });
     core::Counters counters;
     for (auto _ : state)
         finder.find(of.paths, nullptr, counters);

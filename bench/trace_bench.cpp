@@ -67,7 +67,7 @@ class Maker {
 struct Setup {
     core::Scene scene;
     simd::SceneData data{scene};
-    std::vector<std::unique_ptr<simd::Arena>> arenas;
+    std::vector<simd::Arena> arenas;
     std::vector<simd::Paths> waves;
     std::vector<float> t_most;
 
@@ -77,10 +77,8 @@ struct Setup {
         std::normal_distribution<double> normal;
         for (std::size_t first = 0; first < ray_count; first += wave) {
             simd::Paths paths{};
-            simd::Arena measure;
-            paths.take_from(measure, wave, false);
-            arenas.push_back(std::make_unique<simd::Arena>(measure.used()));
-            paths.take_from(*arenas.back(), wave, false);
+            arenas.push_back(
+                simd::arena_for([&](simd::Arena& a) { paths.take_from(a, wave, false); }));
             paths.count = wave;
             paths.start_in_the_open(0, wave);
             for (std::size_t i = 0; i < wave; ++i) {
@@ -114,10 +112,7 @@ void nearest(benchmark::State& state, const Setup& setup, const simd::Tracing& t
     core::ReferenceTracer<double> reference(setup.scene, setup.scene.settings(),
                                             core::Search::hierarchy, tracing.precision);
     simd::HitFinder finder(setup.data, tracing, &reference);
-    simd::Arena measure;
-    finder.take_from(measure, wave);
-    simd::Arena arena(measure.used());
-    finder.take_from(arena, wave);
+    const simd::Arena arena = simd::arena_for([&](simd::Arena& a) { finder.take_from(a, wave); });
     core::Counters counters;
     std::size_t next = 0;
     for (auto _ : state)
@@ -126,13 +121,12 @@ void nearest(benchmark::State& state, const Setup& setup, const simd::Tracing& t
 }
 
 void occluded(benchmark::State& state, const Setup& setup, const simd::Tracing& tracing) {
-    simd::Arena measure;
     simd::RoundedRays rounded{};
-    simd::take_rounded(measure, rounded, wave);
-    simd::pending_for(setup.data, measure);
-    simd::Arena arena(measure.used());
-    simd::take_rounded(arena, rounded, wave);
-    const simd::Pending pending = simd::pending_for(setup.data, arena);
+    simd::Pending pending{};
+    const simd::Arena arena = simd::arena_for([&](simd::Arena& a) {
+        simd::take_rounded(a, rounded, wave);
+        pending = simd::pending_for(setup.data, a);
+    });
     std::vector<std::uint8_t> states(wave);
     simd::TraceCounters counters{};
     std::size_t next = 0;

@@ -144,10 +144,7 @@ class StreamTracer::Worker {
           searcher_(scene, core::Search::hierarchy, tracing.precision) {
         if (data == nullptr) return;
         finder_.emplace(*data, tracing, nullptr);
-        Arena measure;
-        take_from(measure);
-        arena_ = Arena(measure.used());
-        take_from(arena_);
+        arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     }
 
     void nearest(const RayStream& rays, std::size_t first, std::size_t last,

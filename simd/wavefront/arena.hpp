@@ -43,4 +43,14 @@ class Arena {
     std::size_t used_ = 0;
 };
 
+/// The arena that holds what `take(arena)` takes of it, which is called twice.
+template <class Take>
+Arena arena_for(const Take& take) {
+    Arena measure;
+    take(measure);
+    Arena arena(measure.used());
+    take(arena);
+    return arena;
+}
+
 } // namespace raylane::simd

@@ -70,10 +70,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       shade_(tracing.kernels->shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
       finder_(scene, tracing, &reference_), shadows_(scene, tracing, reference_), sorted_(scene) {
-    Arena measure;
-    take_from(measure);
-    arena_ = Arena(measure.used());
-    take_from(arena_);
+    arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
     pending_.reserve(64);
     if (camera_rays_.regular())

@@ -39,10 +39,7 @@ class MethodRound {
     explicit MethodRound(const Shape& shape)
         : shape_(shape), scene_(scene_of(shape)), data_(scene_),
           slot_(data_.slot_of(core::kind_of<Shape>, core::Slot{0, 0})) {
-        simd::Arena measure;
-        paths_.take_from(measure, capacity, false);
-        arena_ = simd::Arena(measure.used());
-        paths_.take_from(arena_, capacity, false);
+        arena_ = simd::arena_for([&](simd::Arena& a) { paths_.take_from(a, capacity, false); });
         paths_.start_in_the_open(0, capacity);
     }
 
@@ -71,10 +68,8 @@ class MethodRound {
     /// Lets the kernels find what the twin has found. Returns how many rays hit the shape.
     int check(const simd::Kernels& kernels) const {
         simd::HitFinder finder(data_, {&kernels, precision}, nullptr);
-        simd::Arena measure;
-        finder.take_from(measure, capacity);
-        simd::Arena arena(measure.used());
-        finder.take_from(arena, capacity);
+        const simd::Arena arena =
+            simd::arena_for([&](simd::Arena& a) { finder.take_from(a, capacity); });
         core::Counters counters;
         finder.find(paths_, nullptr, counters);
 

@@ -54,10 +54,7 @@ class Trial {
             builder.add(shapes_.back(), 0);
         }
         scene_.emplace(std::move(builder).build());
-        Arena measure;
-        paths_.take_from(measure, rays_a_scene, false);
-        arena_ = Arena(measure.used());
-        paths_.take_from(arena_, rays_a_scene, false);
+        arena_ = arena_for([&](Arena& a) { paths_.take_from(a, rays_a_scene, false); });
         paths_.count = rays_a_scene;
         paths_.start_in_the_open(0, rays_a_scene);
         for (std::size_t i = 0; i < rays_a_scene; ++i) {
@@ -77,10 +74,7 @@ class Trial {
         const SceneData data(*scene_);
         ReferenceTracer<double> reference(*scene_, scene_->settings());
         HitFinder finder(data, {&kernels, Precision::exact}, &reference);
-        Arena measure;
-        finder.take_from(measure, rays_a_scene);
-        Arena arena(measure.used());
-        finder.take_from(arena, rays_a_scene);
+        const Arena arena = arena_for([&](Arena& a) { finder.take_from(a, rays_a_scene); });
         Counters counters;
         finder.find(paths_, nullptr, counters);
         tally.left += counters.doubtful;

@@ -44,10 +44,7 @@ struct Stream {
     Paths paths{};
 
     explicit Stream(std::size_t count) {
-        Arena measure;
-        paths.take_from(measure, count, false);
-        arena_ = Arena(measure.used());
-        paths.take_from(arena_, count, false);
+        arena_ = arena_for([&](Arena& a) { paths.take_from(a, count, false); });
         paths.count = count;
         paths.start_in_the_open(0, count);
     }
@@ -64,10 +61,7 @@ struct Finding {
     Finding(const SceneData& data, const Kernels& kernels, ReferenceTracer<double>& reference,
             const Paths& paths)
         : finder(data, {&kernels, Precision::exact}, &reference) {
-        Arena measure;
-        finder.take_from(measure, paths.count);
-        arena_ = Arena(measure.used());
-        finder.take_from(arena_, paths.count);
+        arena_ = arena_for([&](Arena& a) { finder.take_from(a, paths.count); });
         finder.find(paths, nullptr, counters);
     }
 

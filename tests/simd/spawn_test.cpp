@@ -40,16 +40,6 @@ Scene scene_of(const std::vector<AnyShape>& shapes) {
     return std::move(builder).build();
 }
 
-/// Arrays that outlive what uses them.
-template <class Take>
-Arena arena_for(const Take& take) {
-    Arena measure;
-    take(measure);
-    Arena arena(measure.used());
-    take(arena);
-    return arena;
-}
-
 /// Spawned rays from a shape, with what is true of them.
 class Spawning {
   public:
