@@ -2,6 +2,7 @@
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/scaled_down.hpp"
 #include "tests/scenes/shared_scene.hpp"
 
 #include <algorithm>
@@ -14,15 +15,12 @@ using namespace raylane;
 namespace {
 
 core::Settings test_settings(const core::Scene& scene) {
-    core::Settings settings = scene.settings();
 #ifdef RAYLANE_FEW_RAYS
     constexpr int longest = 64;
 #else
     constexpr int longest = 240;
 #endif
-    const int divisor = (std::max(settings.width, settings.height) + longest - 1) / longest;
-    settings.width /= divisor;
-    settings.height /= divisor;
+    core::Settings settings = tests::scaled_down(scene.settings(), longest);
     settings.grid = std::min(settings.grid, 2);
     return settings;
 }

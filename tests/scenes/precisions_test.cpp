@@ -2,6 +2,7 @@
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/scaled_down.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,15 +16,12 @@ using namespace raylane;
 namespace {
 
 core::Settings small_settings(const core::Scene& scene) {
-    core::Settings settings = scene.settings();
 #ifdef RAYLANE_FEW_RAYS
     constexpr int longest = 32;
 #else
     constexpr int longest = 64;
 #endif
-    const int divisor = (std::max(settings.width, settings.height) + longest - 1) / longest;
-    settings.width /= divisor;
-    settings.height /= divisor;
+    core::Settings settings = tests::scaled_down(scene.settings(), longest);
     settings.grid = 1;
     return settings;
 }

@@ -2,6 +2,7 @@
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scaled_scene.hpp"
+#include "tests/scenes/scaled_down.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -17,10 +18,7 @@ core::Settings test_settings(const core::Scene& scene, int longest) {
 #ifdef RAYLANE_FEW_RAYS
     longest /= 4;
 #endif
-    core::Settings settings = scene.settings();
-    const int divisor = (std::max(settings.width, settings.height) + longest - 1) / longest;
-    settings.width /= divisor;
-    settings.height /= divisor;
+    core::Settings settings = tests::scaled_down(scene.settings(), longest);
     settings.grid = 1;
     return settings;
 }
