@@ -3,11 +3,10 @@
 #include "core/ray.hpp"
 #include "core/scene.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <type_traits>
 
 namespace raylane::core {
 
@@ -60,19 +59,12 @@ class Departure {
     /// Others are forgotten. A path keeps as many at each of its bends, on the stack.
     static constexpr int most_contacts = 4;
 
-    Departure() {} // NOLINT: there is nothing yet to initialise
-    Departure(const Departure& other) { copy(other); }
-    Departure& operator=(const Departure& other) {
-        if (this != &other) copy(other);
-        return *this;
-    }
-
     void add(const Contact<Real>& contact) {
         if (size_ < most_contacts) contacts_[size_++] = contact;
     }
 
-    const Contact<Real>* begin() const { return contacts_; }
-    const Contact<Real>* end() const { return contacts_ + size_; }
+    const Contact<Real>* begin() const { return contacts_.data(); }
+    const Contact<Real>* end() const { return contacts_.data() + size_; }
 
     const Contact<Real>* find(ShapeId id) const {
         for (const Contact<Real>& contact : *this)
@@ -112,16 +104,7 @@ class Departure {
         return squared_length(cross(a, b)) <= largest_sine * largest_sine;
     }
 
-    void copy(const Departure& other) {
-        size_ = other.size_;
-        std::copy_n(other.contacts_, size_, contacts_);
-    }
-
-    // Mostly there is one: the others are neither made nor copied.
-    static_assert(std::is_trivially_copyable_v<Contact<Real>>);
-    union {
-        Contact<Real> contacts_[most_contacts];
-    };
+    std::array<Contact<Real>, most_contacts> contacts_;
     int size_ = 0;
 };
 
