@@ -64,27 +64,32 @@ double least_gradient(const Quadric& quadric, double norm, double error) {
     return least;
 }
 
-/// Of the matrix, or more: the larger of what its rows add up to.
-double norm_of_matrix(const Quadric& q) {
-    const double xy = std::abs(static_cast<double>(q.xy)), xz = std::abs(static_cast<double>(q.xz)),
-                 yz = std::abs(static_cast<double>(q.yz));
-    return std::max({std::abs(static_cast<double>(q.xx)) + xy + xz,
-                     std::abs(static_cast<double>(q.yy)) + xy + yz,
-                     std::abs(static_cast<double>(q.zz)) + xz + yz});
-}
+/// Of the matrix, the diagonal and what the rest of each row adds up to.
+struct Rows {
+    Vec3d diagonal, rest;
 
-/// The least eigenvalue of the matrix, sign apart; 0 if it may be indefinite. By Gershgorin's
-/// circles.
-double least_eigenvalue(const Quadric& q) {
-    const double xy = std::abs(static_cast<double>(q.xy)), xz = std::abs(static_cast<double>(q.xz)),
-                 yz = std::abs(static_cast<double>(q.yz));
-    const auto least = [&](double sign) {
-        return std::min({sign * static_cast<double>(q.xx) - xy - xz,
-                         sign * static_cast<double>(q.yy) - xy - yz,
-                         sign * static_cast<double>(q.zz) - xz - yz});
-    };
-    return std::max({least(1.0), least(-1.0), 0.0});
-}
+    explicit Rows(const Quadric& q) : diagonal(q.xx, q.yy, q.zz) {
+        const double xy = std::abs(static_cast<double>(q.xy)),
+                     xz = std::abs(static_cast<double>(q.xz)),
+                     yz = std::abs(static_cast<double>(q.yz));
+        rest = {xy + xz, xy + yz, xz + yz};
+    }
+
+    /// Of the matrix, or more.
+    double norm() const {
+        double norm = 0.0;
+        for (int row = 0; row < 3; ++row)
+            norm = std::max(norm, std::abs(diagonal[row]) + rest[row]);
+        return norm;
+    }
+
+    /// Or less, sign apart; 0 if the matrix may be indefinite. By Gershgorin's circles.
+    double least_eigenvalue() const {
+        const Vec3d above = diagonal - rest, below = -diagonal - rest;
+        return std::max(
+            {std::min({above.x, above.y, above.z}), std::min({below.x, below.y, below.z}), 0.0});
+    }
+};
 
 } // namespace
 
@@ -129,7 +134,8 @@ double displacement(const Quadric& quadric, Precision precision, double reach) {
         R_squared += far * far;
         aside_squared += aside * aside;
     }
-    const double m = norm_of_matrix(quadric);
+    const Rows matrix(quadric);
+    const double m = matrix.norm();
     const double l = length(Vec3d(quadric.x, quadric.y, quadric.z));
     const double R = std::sqrt(R_squared), G = m * R + l;
     const double D = reach + std::sqrt(aside_squared);
@@ -144,7 +150,7 @@ double displacement(const Quadric& quadric, Precision precision, double reach) {
         along += 16.0 * G / s * (1.0 + 3.0 * 8.0);
     } else {
         const double B = m * D + l;
-        error = (1.25 * B * B + 2.0 * m * T(D)) / least_eigenvalue(quadric) + T(R);
+        error = (1.25 * B * B + 2.0 * m * T(D)) / matrix.least_eigenvalue() + T(R);
     }
     error *= roundings;
     if (!(error < infinity)) return infinity;

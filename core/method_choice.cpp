@@ -1,5 +1,6 @@
 #include "core/method_choice.hpp"
 
+#include "core/camera_rays.hpp"
 #include "core/displacement.hpp"
 #include "core/features.hpp"
 
@@ -16,39 +17,21 @@ constexpr double good_enough = 0.1; ///< pixels
 /// All pairs of shapes are compared.
 constexpr std::size_t most_shapes = 1000;
 
-/// Time for a ray at twelve shapes of a kind, relative to exact's: the geometric mean of AVX2's and
-/// AVX-512's medians, as bench/chart.sh measures them.
-struct Cost {
-    double fast, robust, plain_double;
+/// Time for a ray at twelve shapes of a kind by each precision, relative to exact's: the geometric
+/// mean of AVX2's and AVX-512's medians, as bench/chart.sh measures them.
+constexpr double costs[kind_count][std::size(all_precisions)] = {
+    {2.29, 1.70, 1.0, 3.37}, // sphere
+    {1.43, 1.56, 1.0, 2.78}, // plane
+    {1.07, 1.18, 1.0, 2.15}, // disc
+    {1.19, 1.18, 1.0, 2.35}, // triangle
+    {1.03, 0.98, 1.0, 2.32}, // smooth triangle
+    {1.34, 1.31, 1.0, 2.41}, // box
+    {1.10, 1.08, 1.0, 1.72}, // open cylinder
+    {1.40, 1.31, 1.0, 2.31}, // capped cylinder
+    {0.92, 1.05, 1.0, 1.72}, // open cone
+    {1.45, 1.52, 1.0, 2.86}, // capped cone
+    {0.87, 1.01, 1.0, 1.77}, // quadric
 };
-constexpr Cost costs[kind_count] = {
-    {2.29, 1.70, 3.37}, // sphere
-    {1.43, 1.56, 2.78}, // plane
-    {1.07, 1.18, 2.15}, // disc
-    {1.19, 1.18, 2.35}, // triangle
-    {1.03, 0.98, 2.32}, // smooth triangle
-    {1.34, 1.31, 2.41}, // box
-    {1.10, 1.08, 1.72}, // open cylinder
-    {1.40, 1.31, 2.31}, // capped cylinder
-    {0.92, 1.05, 1.72}, // open cone
-    {1.45, 1.52, 2.86}, // capped cone
-    {0.87, 1.01, 1.77}, // quadric
-};
-
-double cost_of(Precision precision, Kind kind) {
-    const Cost& cost = costs[static_cast<std::size_t>(kind)];
-    switch (precision) {
-    case Precision::fast:
-        return cost.fast;
-    case Precision::robust:
-        return cost.robust;
-    case Precision::exact:
-        break;
-    case Precision::plain_double:
-        return cost.plain_double;
-    }
-    return 1.0;
-}
 
 /// From the box's nearest and to its farthest point.
 struct Distances {
@@ -85,16 +68,14 @@ class PixelSize {
   public:
     PixelSize(const Camera& camera, const Settings& settings)
         : orthographic_(camera.projection == Projection::orthographic) {
-        if (orthographic_) {
-            size_ = static_cast<double>(camera.height) / settings.height;
-            return;
-        }
+        const CameraRays<double> rays(camera, settings);
+        const double half_pixel = length(rays.up());
+        size_ = 2.0 * half_pixel;
+        if (orthographic_) return;
         // Towards the picture's corner a pixel is seen under a smaller angle, by the cosine
         // squared.
-        const double half =
-            std::tan(static_cast<double>(camera.field_of_view) * (3.14159265358979 / 360.0));
-        const double across = half * settings.width / settings.height;
-        size_ = 2.0 * half / settings.height / (1.0 + half * half + across * across);
+        const double half = half_pixel * settings.height, across = half_pixel * settings.width;
+        size_ /= 1.0 + half * half + across * across;
     }
 
     double at(double distance) const { return orthographic_ ? size_ : size_ * distance; }
@@ -111,6 +92,7 @@ class FloatMethod {
         : scene_(scene), pixel_(scene.camera(), settings), shadows_(shadows), precision_(precision),
           eye_(convert<double>(scene.camera().from)) {
         for_each_bounded([&](const auto&, const Bounds& bounds) { all_.include(bounds); });
+        nearest_ = distances(eye_, all_).nearest;
         largest_ = distances(Vec3d(0.0), all_).farthest;
         extent_ = length(convert<double>(all_.upper) - convert<double>(all_.lower));
         for_each_bounded([&](const auto& shape, const Bounds& bounds) { add(shape, bounds); });
@@ -169,7 +151,7 @@ class FloatMethod {
                 const Vec3d position = convert<double>(light.position);
                 larger = distances(position, all_).farthest / distances(position, bounds).nearest;
             }
-            pixels_ = std::max(pixels_, larger * off / pixel_.at(distances(eye_, all_).nearest));
+            pixels_ = std::max(pixels_, larger * off / pixel_.at(nearest_));
         }
         return off;
     }
@@ -180,14 +162,15 @@ class FloatMethod {
     Precision precision_;
     Vec3d eye_;
     Bounds all_;
+    double nearest_ = 0.0; ///< from the eye
     double extent_ = 0.0;  ///< between any two points of the scene, at most
     double largest_ = 0.0; ///< from the origin
     double pixels_ = 0.0;
     std::vector<Place> places_;
 };
 
-void consider_floats(MethodEstimate& method, const Scene& scene, const Settings& settings) {
-    const Features features = features_of(scene, settings);
+void consider_floats(MethodEstimate& method, const Scene& scene, const Settings& settings,
+                     const Features& features) {
     if (features.planes) {
         method.objection = "planes have no end, nor has its error there";
     } else if (features.reflection || features.refraction) {
@@ -209,7 +192,8 @@ void consider_floats(MethodEstimate& method, const Scene& scene, const Settings&
 double mean_cost(const Scene& scene, Precision precision) {
     double sum = 0.0;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
-        sum += static_cast<double>(table.size()) * cost_of(precision, kind_of<Shape>);
+        sum += static_cast<double>(table.size()) *
+               costs[static_cast<std::size_t>(kind_of<Shape>)][static_cast<std::size_t>(precision)];
     });
     return scene.shape_count() == 0 ? 1.0 : sum / static_cast<double>(scene.shape_count());
 }
@@ -217,11 +201,12 @@ double mean_cost(const Scene& scene, Precision precision) {
 } // namespace
 
 MethodChoice choose_method(const Scene& scene, const Settings& settings) {
+    const Features features = features_of(scene, settings);
     MethodChoice choice{Precision::exact, {}};
     for (const Precision precision : all_precisions) {
         MethodEstimate method{precision, mean_cost(scene, precision), infinity, {}};
         if (is_single(precision)) {
-            consider_floats(method, scene, settings);
+            consider_floats(method, scene, settings, features);
         } else if (precision == Precision::exact) {
             method.pixels = 0.0;
         } else {
