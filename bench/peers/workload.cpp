@@ -1,0 +1,242 @@
+#include "bench/peers/workload.hpp"
+
+#include "core/camera_rays.hpp"
+#include "scenes/scene_file.hpp"
+#include "simd/isa.hpp"
+#include "simd/wavefront/hit_finder.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace raylane::bench {
+
+namespace {
+
+using core::Ray;
+using core::Vec3d;
+using core::Vec3f;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+void add_spheres(core::SceneBuilder& builder, int count) {
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
+    const float radius = 0.3F / std::cbrt(static_cast<float>(count));
+    builder.reserve<core::Sphere>(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        Vec3f center;
+        for (int axis = 0; axis < 3; ++axis)
+            center[axis] = uniform(engine);
+        builder.add(core::Sphere{center, radius}, 0);
+    }
+}
+
+/// Each node has a ball and a stick in the direction of each axis: cylinders where the sum of its
+/// coordinates is even, else cones.
+void add_sticks(core::SceneBuilder& builder, int count) {
+    const int n = std::max(1, static_cast<int>(std::lround(std::cbrt(count / 4.0))));
+    const float spacing = 1.0F / static_cast<float>(n);
+    for (int z = 0; z < n; ++z)
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) {
+                const Vec3f node = spacing * Vec3f(core::convert<float>(core::Vec3<int>(x, y, z)));
+                builder.add(core::Sphere{node, 0.2F * spacing}, 0);
+                for (int axis = 0; axis < 3; ++axis) {
+                    Vec3f stick(0.0F);
+                    stick[axis] = spacing;
+                    if ((x + y + z) % 2 == 0)
+                        builder.add(core::CappedCylinder{node, stick, 0.08F * spacing}, 0);
+                    else
+                        builder.add(core::CappedCone{node, stick, 0.12F * spacing, 0.04F * spacing},
+                                    0);
+                }
+            }
+}
+
+/// The parts that a wavefront's tiles are made of: squares of 16 pixels a side, Morton order within
+/// 64 x 64 of them.
+template <class Visit>
+void for_each_pixel(int side, const Visit& visit) {
+    constexpr int tile = 64;
+    for (int top = 0; top < side; top += tile)
+        for (int left = 0; left < side; left += tile)
+            for (int code = 0; code < tile * tile; ++code) {
+                int x = left, y = top;
+                for (int bit = 0; bit < 6; ++bit) {
+                    x += (code >> 2 * bit & 1) << bit;
+                    y += (code >> (2 * bit + 1) & 1) << bit;
+                }
+                if (x < side && y < side) visit(x, y);
+            }
+}
+
+Vec3f light_of(const core::Scene& scene) {
+    for (const core::Light& light : scene.lights())
+        if (light.kind == core::LightKind::point) return light.position;
+    return {2.0F, 3.0F, 1.5F};
+}
+
+simd::Bundle bundle_at(const Vec3f& apex, bool towards) {
+    return {{apex.x, apex.y, apex.z}, towards, false};
+}
+
+/// What the camera's rays hit, and where rays go from there.
+void add_secondary(const core::Scene& scene, const simd::SceneData& data, const RaySet& camera,
+                   RaySet& mirror, RaySet& shadow) {
+    const simd::Tracing tracing{&simd::kernels_of(*simd::best_isa())};
+    core::ReferenceTracer<double> reference(scene, scene.settings());
+    simd::HitFinder finder(data, tracing, &reference);
+    const simd::Arena arena =
+        simd::arena_for([&](simd::Arena& a) { finder.take_from(a, RaySet::wave); });
+    core::Counters counters;
+    const Vec3d light = core::convert<double>(light_of(scene));
+    for (std::size_t begin = 0; begin < camera.count; begin += RaySet::wave) {
+        const simd::Paths paths = camera.paths(begin);
+        finder.find(paths, &*camera.bundle, counters);
+        const simd::Hits& hits = finder.hits();
+        for (std::size_t lane = 0; lane < paths.count; ++lane) {
+            if (hits.slot[lane] == simd::no_slot) continue;
+            const Ray<double> ray = camera.ray(begin + lane);
+            const Vec3d point = core::mul_add(hits.t[lane], ray.direction, ray.origin);
+            const Vec3d normal(hits.normal[0][lane], hits.normal[1][lane], hits.normal[2][lane]);
+            const double cos = core::dot(normal, ray.direction);
+            mirror.add_from({point, core::normalized(Vec3d(ray.direction - 2.0 * cos * normal))},
+                            infinity, data, hits.slot[lane], hits.hit[lane]);
+            const Vec3d to_light = light - point;
+            if (core::dot(to_light, normal) * cos > 0.0) continue; // in its own shadow
+            const double distance = core::length(to_light);
+            shadow.add_from({point, to_light / distance}, static_cast<float>(distance), data,
+                            hits.slot[lane], hits.hit[lane]);
+        }
+    }
+}
+
+} // namespace
+
+core::Scene make_workload(const std::string& name) {
+    const std::size_t slash = name.find('/');
+    const std::string kind = name.substr(0, slash);
+    if (kind != "spheres" && kind != "sticks") return scenes::load_scene(name);
+    int count = 0;
+    const char* const end = name.data() + name.size();
+    if (slash == std::string::npos ||
+        std::from_chars(name.data() + slash + 1, end, count).ptr != end || count < 1)
+        throw std::invalid_argument("must be spheres/N or sticks/N, got " + name);
+    core::SceneBuilder builder;
+    builder.wants_light = false;
+    builder.camera.from = {1.9F, 1.4F, 2.3F};
+    builder.camera.at = Vec3f(0.5F);
+    builder.camera.field_of_view = 30.0F;
+    builder.add_material({});
+    (kind == "spheres" ? add_spheres : add_sticks)(builder, count);
+    return std::move(builder).build();
+}
+
+simd::Paths RaySet::paths(std::size_t begin) const {
+    // Paths know of no arrays that are only read.
+    const auto from = [&]<class Value>(const std::vector<Value>& column) {
+        return const_cast<Value*>(column.data()) + begin;
+    };
+    simd::Paths paths{};
+    for (int axis = 0; axis < 3; ++axis) {
+        paths.origin[axis] = from(origin_[axis]);
+        paths.direction[axis] = from(direction_[axis]);
+    }
+    paths.departed_first = from(departed_first_);
+    paths.departed_last = from(departed_last_);
+    paths.departed_slot = from(departed_slot_);
+    paths.departure = from(departure_);
+    paths.count = std::min(wave, count - begin);
+    return paths;
+}
+
+Ray<double> RaySet::ray(std::size_t i) const {
+    return {{origin_[0][i], origin_[1][i], origin_[2][i]},
+            {direction_[0][i], direction_[1][i], direction_[2][i]}};
+}
+
+void RaySet::reserve(std::size_t rays) {
+    const std::size_t padded = rays + 16;
+    for (auto* columns : {&origin_, &direction_})
+        for (auto& column : *columns)
+            column.reserve(padded);
+    t_most_.reserve(padded);
+    for (auto* column : {&departed_first_, &departed_last_, &departed_slot_, &departure_})
+        column->reserve(padded);
+}
+
+void RaySet::add(const Ray<double>& ray, float t_most) {
+    for (int axis = 0; axis < 3; ++axis) {
+        origin_[axis].push_back(ray.origin[axis]);
+        direction_[axis].push_back(ray.direction[axis]);
+    }
+    t_most_.push_back(t_most);
+    for (auto* column : {&departed_first_, &departed_last_, &departed_slot_})
+        column->push_back(simd::no_slot);
+    departure_.push_back(0);
+    ++count;
+}
+
+void RaySet::add_from(const Ray<double>& ray, float t_most, const simd::SceneData& scene,
+                      std::uint32_t slot, std::uint32_t hit) {
+    add(ray, t_most);
+    paths(count - 1).start_on(0, slot, scene.occupant_of(slot), hit, /*through=*/false);
+}
+
+void RaySet::finish() {
+    const std::size_t rays = count;
+    for (int i = 0; i < 16; ++i)
+        add({Vec3d(0.0), Vec3d(0.0, 0.0, 1.0)}, 0.0F);
+    count = rays;
+}
+
+std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side) {
+    const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    std::vector<RaySet> sets(5);
+    RaySet &camera = sets[0], &mirror = sets[1], &shadow = sets[2], &incoherent = sets[3],
+           &occlusion = sets[4];
+    camera.name = "camera";
+    mirror.name = "mirror";
+    shadow.name = "shadow";
+    incoherent.name = "incoherent";
+    occlusion.name = "occlusion";
+    shadow.occlusion = occlusion.occlusion = true;
+    camera.bundle = bundle_at(scene.camera().from, false);
+    shadow.bundle = bundle_at(light_of(scene), true);
+    for (RaySet& set : sets)
+        set.reserve(pixels);
+
+    core::Settings settings;
+    settings.width = settings.height = side;
+    const core::CameraRays<double> rays(scene.camera(), settings);
+    for_each_pixel(side, [&](int x, int y) { camera.add(rays.ray(x, y, 0), infinity); });
+    camera.finish();
+    add_secondary(scene, data, camera, mirror, shadow);
+
+    std::mt19937_64 engine(2);
+    const core::Bounds& bounds = scene.hierarchy().bounds;
+    const Vec3d lower = core::convert<double>(bounds.lower);
+    const Vec3d size = core::convert<double>(bounds.upper) - lower;
+    const auto any_point = [&] {
+        Vec3d point;
+        for (int axis = 0; axis < 3; ++axis)
+            point[axis] =
+                lower[axis] + size[axis] * std::uniform_real_distribution<double>(0.0, 1.0)(engine);
+        return point;
+    };
+    for (std::size_t i = 0; i < pixels / 4; ++i) {
+        const Vec3d from = any_point(), to = any_point();
+        const double distance = core::length(to - from);
+        const Ray<double> ray{from, (to - from) / distance};
+        incoherent.add(ray, infinity);
+        occlusion.add(ray, static_cast<float>(distance));
+    }
+    for (RaySet* set : {&mirror, &shadow, &incoherent, &occlusion})
+        set->finish();
+    return sets;
+}
+
+} // namespace raylane::bench

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "core/ray.hpp"
+#include "core/scene.hpp"
+#include "simd/wavefront/paths.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Scenes and rays that raylane and others are measured on.
+namespace raylane::bench {
+
+/// `spheres/N`: N spheres of radius 0.3 / cbrt(N), uniformly in the unit cube. `sticks/N`: about N
+/// shapes of a ball-and-stick lattice in it, a quarter balls, the rest cylinders and cones. Else
+/// the path of a scene file.
+core::Scene make_workload(const std::string& name);
+
+/// Rays, structure of arrays, and what is asked of them.
+struct RaySet {
+    std::string name;
+    bool occlusion = false; ///< whether anything is hit before t_most; else what is hit first
+    std::optional<simd::Bundle> bundle; ///< what all of them have in common
+    std::size_t count = 0;
+
+    /// A wave's worth, from `begin` on.
+    static constexpr std::size_t wave = 1024;
+    simd::Paths paths(std::size_t begin) const;
+    const float* t_most(std::size_t begin) const { return t_most_.data() + begin; }
+
+    core::Ray<double> ray(std::size_t i) const;
+    bool starts_on_surface(std::size_t i) const { return departed_slot_[i] != simd::no_slot; }
+
+    void reserve(std::size_t rays);
+    /// In the open.
+    void add(const core::Ray<double>& ray, float t_most);
+    /// From what another ray has hit.
+    void add_from(const core::Ray<double>& ray, float t_most, const simd::SceneData& scene,
+                  std::uint32_t slot, std::uint32_t hit);
+    /// All rays are there: makes room to read whole packets.
+    void finish();
+
+  private:
+    std::vector<double> origin_[3], direction_[3];
+    std::vector<float> t_most_;
+    std::vector<std::uint32_t> departed_first_, departed_last_, departed_slot_, departure_;
+};
+
+/// `camera`: those of a picture of side x side pixels, tile by tile; `mirror`: what its hits
+/// reflect, and `shadow`: from these hits to a point light; `incoherent`: `side`^2 / 4 rays between
+/// any points of the scene's bounds, onwards; and `occlusion`: whether there is anything between
+/// those points.
+std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side);
+
+} // namespace raylane::bench
