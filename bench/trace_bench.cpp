@@ -122,10 +122,10 @@ void nearest(benchmark::State& state, const Setup& setup, const simd::Tracing& t
 
 void occluded(benchmark::State& state, const Setup& setup, const simd::Tracing& tracing) {
     simd::RoundedRays rounded{};
-    simd::Pending pending{};
+    simd::Workspace workspace{};
     const simd::Arena arena = simd::arena_for([&](simd::Arena& a) {
         simd::take_rounded(a, rounded, wave);
-        pending = simd::pending_for(setup.data, a);
+        workspace = simd::workspace_for(setup.data, a, wave);
     });
     std::vector<std::uint8_t> states(wave);
     simd::TraceCounters counters{};
@@ -138,8 +138,8 @@ void occluded(benchmark::State& state, const Setup& setup, const simd::Tracing& 
         tracing.kernels->rays.round_rays(wave, rounded);
         std::fill(states.begin(), states.end(), simd::open);
         tracing.method().trace.occluded(setup.data.view(), setup.data.listed_kinds(), nullptr, wave,
-                                        rounded, {&setup.t_most[at * wave], states.data()}, pending,
-                                        counters);
+                                        rounded, {&setup.t_most[at * wave], states.data()},
+                                        workspace, counters);
         left += static_cast<std::uint64_t>(
             std::count_if(states.begin(), states.end(), [](std::uint8_t found) {
                 return found != simd::open && found != simd::blocked;

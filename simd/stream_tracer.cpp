@@ -210,7 +210,7 @@ class StreamTracer::Worker {
         tracing_.kernels->rays.round_rays(count, rounded_);
         TraceCounters counters{};
         tracing_.method().trace.occluded(data_->view(), data_->listed_kinds(), nullptr, count,
-                                         rounded_, {t_most_, state_}, pending_, counters);
+                                         rounded_, {t_most_, state_}, workspace_, counters);
         for (std::size_t lane = 0; lane < count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
             const Query query(rays, i);
@@ -236,7 +236,7 @@ class StreamTracer::Worker {
         take_rounded(arena, rounded_, capacity);
         t_most_ = arena.take<float>(capacity);
         state_ = arena.take<std::uint8_t>(capacity);
-        pending_ = pending_for(*data_, arena);
+        workspace_ = workspace_for(*data_, arena, capacity);
     }
 
     /// The rays that are any, with unit directions.
@@ -270,7 +270,7 @@ class StreamTracer::Worker {
     RoundedRays rounded_{};
     float* t_most_ = nullptr;
     std::uint8_t* state_ = nullptr;
-    Pending pending_{};
+    Workspace workspace_{};
 };
 
 /// A worker as long as it is used.

@@ -54,9 +54,21 @@ inline constexpr int in_flight = 32;
 /// Where in the hierarchy rays leave what they are still to visit: for each of those in flight, 16
 /// entries per level and 16 more.
 struct Pending {
-    float* t;
+    float* t; ///< null: there is no hierarchy to walk
     std::uint32_t* child;
 };
+
+/// What kernels work in: the above, and, if `capacity` is not 0, room for so many rays (less than
+/// 65536) at a time that go together.
+struct Workspace : Pending {
+    std::size_t capacity;
+    std::byte* records;   ///< stream_record_bytes for each ray, aligned to 64
+    std::uint16_t* lists; ///< list_entries(capacity, levels) ray numbers
+};
+inline constexpr std::size_t stream_record_bytes = 64;
+constexpr std::size_t list_entries(std::size_t rays, std::uint32_t levels) {
+    return rays * (2 * std::size_t{levels} + 1) + 64;
+}
 
 struct CameraView {
     double from[3], forward[3], right[3], up[3]; ///< right and up are half a pixel long
@@ -66,6 +78,8 @@ struct CameraView {
 struct TraceCounters {
     std::uint64_t nodes;  ///< visited by a ray or a group of rays
     std::uint64_t shapes; ///< tests of a ray against a shape
+    std::uint64_t one_by_one, in_frusta, in_streams,
+        in_flight; ///< rays, as core::Counters has them
 };
 
 /// Rays that start at one point, or end there, or are parallel. Consecutive ones are near each
@@ -74,7 +88,9 @@ struct Bundle {
     float apex[3]; ///< unless they are parallel
     bool towards;  ///< they end at the apex
     bool parallel;
+    bool loose; ///< they are near each other and no more: the rest means nothing
 };
+inline constexpr Bundle neighbours{{}, false, false, true};
 
 /// What is done to rays before and after they are traced.
 struct RayKernels {
@@ -91,15 +107,15 @@ struct RayKernels {
                                   const std::uint8_t* doubtful, std::uint32_t* lanes);
 };
 
-/// The shapes of the kinds in `kind_bits` one by one, and the hierarchy if `pending` is not null.
-/// `bundle` is null if the rays have nothing in common.
+/// The shapes of the kinds in `kind_bits` one by one, and the hierarchy if there is one to walk.
+/// `bundle` is null if the rays have nothing in common, nor are near each other.
 struct TraceKernels {
     void (*nearest)(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
                     std::size_t count, const RoundedRays& rays, const Candidates& candidates,
-                    const Pending& pending, TraceCounters& counters);
+                    const Workspace& workspace, TraceCounters& counters);
     void (*occluded)(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
                      std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
-                     const Pending& pending, TraceCounters& counters);
+                     const Workspace& workspace, TraceCounters& counters);
 };
 
 /// What a ray may cross first, in no order.

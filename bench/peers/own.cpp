@@ -45,7 +45,7 @@ class Own : public Contender {
         gathered_.take_from(arena, RaySet::wave, false);
         simd::take_rounded(arena, rounded_, RaySet::wave);
         occlusions_.state = arena.take<std::uint8_t>(RaySet::wave);
-        pending_ = simd::pending_for(scene_, arena);
+        workspace_ = simd::workspace_for(scene_, arena, RaySet::wave);
     }
 
     void find(std::size_t begin) {
@@ -65,7 +65,7 @@ class Own : public Contender {
         occlusions_.t_most = t_most;
         simd::TraceCounters traced{};
         tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(), bundle, paths.count,
-                                         rounded_, occlusions_, pending_, traced);
+                                         rounded_, occlusions_, workspace_, traced);
         gathered_.count = 0;
         for (std::size_t lane = 0; lane < paths.count; ++lane)
             if (occlusions_.state[lane] == simd::doubtful) {
@@ -92,7 +92,7 @@ class Own : public Contender {
     simd::Paths gathered_{};
     simd::RoundedRays rounded_{};
     simd::Occlusions occlusions_{};
-    simd::Pending pending_{};
+    simd::Workspace workspace_{};
     simd::Arena arena_;
 };
 

@@ -80,7 +80,7 @@ Vec3f light_of(const core::Scene& scene) {
 }
 
 simd::Bundle bundle_at(const Vec3f& apex, bool towards) {
-    return {{apex.x, apex.y, apex.z}, towards, false};
+    return {{apex.x, apex.y, apex.z}, towards, false, false};
 }
 
 /// What the camera's rays hit, and where rays go from there.
@@ -205,6 +205,7 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
     occlusion.name = "occlusion";
     shadow.occlusion = occlusion.occlusion = true;
     camera.bundle = bundle_at(scene.camera().from, false);
+    mirror.bundle = simd::neighbours;
     shadow.bundle = bundle_at(light_of(scene), true);
     for (RaySet& set : sets)
         set.reserve(pixels);

@@ -169,6 +169,11 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"shapes_tested", counters.shapes},
             {"tests_beyond_double", counters.widened},
             {"shadow_rays_walked", counters.walked},
+            {"searches",
+             {{"shape_by_shape", counters.one_by_one},
+              {"frusta", counters.in_frusta},
+              {"streams", counters.in_streams},
+              {"in_flight", counters.in_flight}}},
             {"rays_refined", counters.refined},
             {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
 }

@@ -126,6 +126,17 @@ Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Flo
     return Mask<Arch>::load_unaligned(result);
 }
 
+template <class Arch>
+int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count, unsigned bit,
+         std::uint16_t* out) {
+    int picked = 0;
+    for (int k = 0; k < count; ++k) {
+        out[picked] = numbers[k];
+        picked += masks[k] >> bit & 1;
+    }
+    return picked;
+}
+
 } // namespace generic
 
 /// bits: lane i of a mask as bit i.
@@ -133,6 +144,8 @@ Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Flo
 /// mul_add: a * b + c, rounded once.
 /// least, greatest: of all lanes.
 /// narrow: doubles from memory, rounded to float.
+/// pick: those of `count` numbers whose masks have a bit, in their order, to `out`. Returns how
+/// many. May read and write 16 more.
 /// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
 template <class Arch>
 struct Lanes {
@@ -148,6 +161,10 @@ struct Lanes {
     static float least(const Floats<Arch>& values) { return generic::least<Arch>(values); }
     static float greatest(const Floats<Arch>& values) { return generic::greatest<Arch>(values); }
     static Floats<Arch> narrow(const double* from) { return generic::narrow<Arch>(from); }
+    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
+                    unsigned bit, std::uint16_t* out) {
+        return generic::pick<Arch>(numbers, masks, count, bit, out);
+    }
     static Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first,
                                const Floats<Arch>& last) {
         return generic::in_range<Arch>(id, first, last);
@@ -192,6 +209,10 @@ struct Lanes<Sse42> {
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
     }
 
+    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
+                    unsigned bit, std::uint16_t* out) {
+        return generic::pick<Sse42>(numbers, masks, count, bit, out);
+    }
     static Floats<Sse42> narrow(const double* from) {
         return _mm_movelh_ps(_mm_cvtpd_ps(_mm_loadu_pd(from)),
                              _mm_cvtpd_ps(_mm_loadu_pd(from + 2)));
@@ -278,6 +299,10 @@ struct Lanes<Avx2> {
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
     }
 
+    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
+                    unsigned bit, std::uint16_t* out) {
+        return generic::pick<Avx2>(numbers, masks, count, bit, out);
+    }
     static Floats<Avx2> narrow(const double* from) {
         return _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(from + 4)),
                                _mm256_cvtpd_ps(_mm256_loadu_pd(from)));
@@ -324,6 +349,24 @@ struct Lanes<Avx512> {
 
     static float least(const Floats<Avx512>& values) { return _mm512_reduce_min_ps(values); }
     static float greatest(const Floats<Avx512>& values) { return _mm512_reduce_max_ps(values); }
+
+    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
+                    unsigned bit, std::uint16_t* out) {
+        const __m256i wanted = _mm256_set1_epi16(static_cast<short>(1U << bit));
+        int picked = 0;
+        for (int k = 0; k < count; k += 16) {
+            std::uint32_t has_bit = _mm256_test_epi16_mask(
+                _mm256_loadu_si256(reinterpret_cast<const __m256i*>(masks + k)), wanted);
+            if (count - k < 16) has_bit &= (1U << (count - k)) - 1;
+            const __m512i some = _mm512_cvtepu16_epi32(
+                _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + k)));
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + picked),
+                                _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(
+                                    static_cast<__mmask16>(has_bit), some)));
+            picked += __builtin_popcount(has_bit);
+        }
+        return picked;
+    }
 
     static Floats<Avx512> narrow(const double* from) {
         const __m256 low = _mm512_cvtpd_ps(_mm512_loadu_pd(from));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/counters.hpp"
 #include "core/reference/departure.hpp"
 #include "simd/wavefront/paths.hpp"
 #include "simd/wavefront/scene_data.hpp"
@@ -34,6 +35,16 @@ core::Departure<Real> departure_of(const SceneData& scene, const Paths& paths, s
                    inward,
                    inward});
     return departure;
+}
+
+/// What a kernel has done, among what core counts.
+inline void count(const TraceCounters& traced, core::Counters& counters) {
+    counters.nodes += traced.nodes;
+    counters.shapes += traced.shapes;
+    counters.one_by_one += traced.one_by_one;
+    counters.in_frusta += traced.in_frusta;
+    counters.in_streams += traced.in_streams;
+    counters.in_flight += traced.in_flight;
 }
 
 } // namespace raylane::simd

@@ -22,11 +22,17 @@ void take_rounded(Arena& arena, RoundedRays& rays, std::size_t capacity) {
     rays.slack = arena.take<float>(capacity);
 }
 
-Pending pending_for(const SceneData& scene, Arena& arena) {
-    if (!scene.has_tree()) return {nullptr, nullptr};
-    const std::size_t entries = std::size_t{in_flight} * 16 * (scene.view().tree_depth + 1);
-    float* t = arena.take<float>(entries);
-    return {t, arena.take<std::uint32_t>(entries)};
+Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capacity) {
+    Workspace workspace{};
+    if (!scene.has_tree()) return workspace;
+    const std::uint32_t levels = scene.view().tree_depth;
+    const std::size_t entries = std::size_t{in_flight} * 16 * (levels + 1);
+    workspace.t = arena.take<float>(entries);
+    workspace.child = arena.take<std::uint32_t>(entries);
+    workspace.capacity = capacity;
+    workspace.records = arena.take<std::byte>(capacity * stream_record_bytes);
+    workspace.lists = arena.take<std::uint16_t>(list_entries(capacity, levels));
+    return workspace;
 }
 
 HitFinder::HitFinder(const SceneData& scene, const Tracing& tracing,
@@ -40,7 +46,7 @@ void HitFinder::take_from(Arena& arena, std::size_t capacity) {
     take_rounded(arena, rounded_, capacity);
     candidates_.first = arena.take<float>(capacity);
     candidates_.second = arena.take<float>(capacity);
-    pending_ = pending_for(scene_, arena);
+    workspace_ = workspace_for(scene_, arena, capacity);
     hits_.take_from(arena, capacity, scene_.smooth());
     doubtful_ = arena.take<std::uint8_t>(capacity);
     open_ = arena.take<std::uint32_t>(capacity);
@@ -60,9 +66,8 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
 
     TraceCounters traced{};
     tracing_.method().trace.nearest(scene_.view(), scene_.listed_kinds(), bundle, paths.count,
-                                    rounded_, candidates_, pending_, traced);
-    counters.nodes += traced.nodes;
-    counters.shapes += traced.shapes;
+                                    rounded_, candidates_, workspace_, traced);
+    count(traced, counters);
 
     if (tie_breaker_) break_ties(paths);
     tracing_.method().finish(scene_.view(), hits_.found(paths, paths.count));
@@ -72,8 +77,8 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
                                                     hits_.hit, doubtful_, lanes_)
             : 0;
     if (refines() && lane_count_ != 0)
-        lane_count_ = refinery_.refine(paths, rounded_, pending_, doubtful_, {lanes_, lane_count_},
-                                       hits_, counters);
+        lane_count_ = refinery_.refine(paths, rounded_, workspace_, doubtful_,
+                                       {lanes_, lane_count_}, hits_, counters);
     ask_reference(paths, counters);
     if (onward_ != nullptr) look_through(paths, bundle, counters);
 }
@@ -92,7 +97,7 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
         move_on(hits_, lane, to);
     }
     // They no longer start at one point.
-    if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = nullptr;
+    if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = &neighbours;
     for (int passed = 1; onward_paths_.count != 0; ++passed) {
         if (passed == longest_walk) {
             for (std::size_t i = 0; i < onward_paths_.count; ++i)

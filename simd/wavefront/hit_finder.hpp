@@ -63,7 +63,7 @@ class HitFinder {
 
     RoundedRays rounded_{};
     Candidates candidates_{};
-    Pending pending_{};
+    Workspace workspace_{};
     Hits hits_{};
     std::uint8_t* doubtful_ = nullptr;
     std::uint32_t* open_ = nullptr;
@@ -84,7 +84,7 @@ class HitFinder {
 
 /// Arrays for rounded rays, but what they leave.
 void take_rounded(Arena& arena, RoundedRays& rays, std::size_t capacity);
-/// Room for what a ray is still to visit; null where there is no hierarchy to walk.
-Pending pending_for(const SceneData& scene, Arena& arena);
+/// What kernels work in, for streams of so many rays.
+Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capacity);
 
 } // namespace raylane::simd

@@ -1,5 +1,7 @@
 #include "simd/wavefront/refinery.hpp"
 
+#include "simd/wavefront/as_core.hpp"
+
 #include <limits>
 
 namespace raylane::simd {
@@ -68,8 +70,7 @@ bool Refinery::add(const Paths& paths, const RoundedRays& rounded, const Pending
     TraceCounters traced{};
     const bool has_room = tracing_.method().refine.list_candidates(
         scene_.view(), scene_.listed_kinds(), rounded, lane, pending, list, traced);
-    counters.nodes += traced.nodes;
-    counters.shapes += traced.shapes;
+    count(traced, counters);
     if (!has_room) return false;
 
     const std::size_t begin = count_;

@@ -1,6 +1,10 @@
 #include "simd/wavefront/scene_data.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <unistd.h>
+#include <utility>
 
 namespace raylane::simd {
 
@@ -14,8 +18,14 @@ constexpr std::uint32_t table_slots = 1U << 15;
 
 /// What a core's own cache holds. Where the tree has more, it is fetched ahead of the rays, which
 /// gains there (5 to 15 % at a million spheres, measured on a noisy machine) and costs where it
-/// fits.
-constexpr std::size_t core_cache_bytes = std::size_t{2} << 20;
+/// fits; and rays that are nowhere near each other go each by themselves.
+std::size_t core_cache_bytes() {
+#ifdef _SC_LEVEL2_CACHE_SIZE
+    if (const long bytes = ::sysconf(_SC_LEVEL2_CACHE_SIZE); bytes > 0)
+        return static_cast<std::size_t>(bytes);
+#endif
+    return std::size_t{1} << 20;
+}
 
 MaterialView view_of(const core::Material& material) {
     MaterialView view{};
@@ -77,6 +87,33 @@ std::uint32_t depth_below(const std::vector<core::WideNode>& nodes, std::uint32_
     return deepest + 1;
 }
 
+/// See SceneView::orders.
+std::vector<std::uint64_t> orders_of(const std::vector<core::WideNode>& nodes) {
+    std::vector<std::uint64_t> orders;
+    orders.reserve(8 * nodes.size());
+    for (const core::WideNode& node : nodes)
+        for (int octant = 0; octant < 8; ++octant) {
+            std::array<std::pair<float, int>, core::block_size> slots;
+            for (int slot = 0; slot < core::block_size; ++slot) {
+                float distance = 0.0F;
+                for (int axis = 0; axis < 3; ++axis) {
+                    const float center =
+                        0.5F * node.lower[axis][slot] + 0.5F * node.upper[axis][slot];
+                    distance += (octant >> axis & 1) != 0 ? -center : center;
+                }
+                slots[slot] = {node.children[slot].empty() ? std::numeric_limits<float>::infinity()
+                                                           : distance,
+                               slot};
+            }
+            std::sort(slots.begin(), slots.end());
+            std::uint64_t order = 0;
+            for (int k = core::block_size; k-- > 0;)
+                order = order << 4 | static_cast<unsigned>(slots[k].second);
+            orders.push_back(order);
+        }
+    return orders;
+}
+
 } // namespace
 
 SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(scene.fog())) {
@@ -114,10 +151,14 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
     if (scene.shape_count() > few_shapes && !nodes.empty())
         view_.tree_depth = depth_below(nodes, 0);
     listed_kinds_ = has_tree() ? present & planes : present;
+    if (has_tree()) {
+        orders_ = orders_of(nodes);
+        view_.orders = orders_.data();
+    }
     view_.nodes = reinterpret_cast<const NodeView*>(nodes.data());
     std::size_t bytes = scene.hierarchy().bytes();
     core::for_each_table(scene.shapes(), [&](const auto& table) { bytes += table.bytes(); });
-    view_.large = bytes > core_cache_bytes;
+    view_.large = bytes > core_cache_bytes();
     smooth_ = (present >> static_cast<int>(core::Kind::smooth_triangle) & 1) != 0;
 
     const auto is_plain = [](const core::Material& material) {

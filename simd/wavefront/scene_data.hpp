@@ -62,6 +62,7 @@ class SceneData {
     SceneView view_{};
     std::vector<Occupant> occupants_; // by slot, in scenes that are not large
     std::vector<std::uint16_t> plain_lanes_;
+    std::vector<std::uint64_t> orders_;
     std::vector<MaterialView> materials_;
     std::vector<Medium> media_; // empty space, then what each material is inside
     std::vector<LightView> lights_;

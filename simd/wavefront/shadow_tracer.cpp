@@ -47,7 +47,7 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
     t_most_ = arena.take<float>(capacity);
     occlusions_.t_most = t_most_;
     occlusions_.state = arena.take<std::uint8_t>(capacity);
-    pending_ = pending_for(scene_, arena);
+    workspace_ = workspace_for(scene_, arena, capacity);
     walker_.take_from(arena, capacity);
     walk_.take_from(arena, capacity, with_media);
     walk_distance_ = arena.take<double>(capacity);
@@ -87,9 +87,8 @@ void ShadowTracer::find_blocked(const Wave& wave, const Bundle& bundle, core::Co
     const bool together = wave.coherent || !scene_.has_tree();
     tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(),
                                      together ? &bundle : nullptr, rays_.count, rounded_,
-                                     occlusions_, pending_, traced);
-    counters.nodes += traced.nodes;
-    counters.shapes += traced.shapes;
+                                     occlusions_, workspace_, traced);
+    count(traced, counters);
 }
 
 void ShadowTracer::start_walk(const Wave& wave, std::size_t ray) {

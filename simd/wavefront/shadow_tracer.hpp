@@ -50,7 +50,7 @@ class ShadowTracer {
     RoundedRays rounded_{};
     float* t_most_ = nullptr;
     Occlusions occlusions_{};
-    Pending pending_{};
+    Workspace workspace_{};
 
     // Rays that some surface may let through, or that may cross again what they start on: they walk
     // from surface to surface.

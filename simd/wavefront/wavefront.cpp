@@ -201,7 +201,7 @@ void Wavefront::trace() {
 
 void Wavefront::trace_wave(int depth) {
     coherent_ = depth == 0;
-    finder_.find(paths_, depth == 0 ? &camera_bundle_ : nullptr, counters_);
+    finder_.find(paths_, depth == 0 ? &camera_bundle_ : &neighbours, counters_);
     for (const std::uint32_t lane : finder_.left_open())
         follow(lane, depth); // several surfaces meet there
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.left_open());

@@ -87,10 +87,31 @@ struct LanesCheck {
         return failures;
     }
 
+    int pick_failures(int rounds) {
+        constexpr int most = 70;
+        int failures = 0;
+        for (int round = 0; round < rounds; ++round) {
+            std::uint16_t numbers[most + 16], masks[most + 16];
+            std::uint16_t native[most + 16] = {}, generic_way[most + 16] = {};
+            for (int i = 0; i < most + 16; ++i) {
+                numbers[i] = static_cast<std::uint16_t>(random());
+                masks[i] = static_cast<std::uint16_t>(random());
+            }
+            const int count = round % (most + 1);
+            const unsigned bit = random() % 16;
+            const int picked = Lanes<Arch>::pick(numbers, masks, count, bit, native);
+            failures +=
+                picked == generic::pick<Arch>(numbers, masks, count, bit, generic_way) ? 0 : 1;
+            for (int i = 0; i < picked; ++i)
+                failures += native[i] == generic_way[i] ? 0 : 1;
+        }
+        return failures;
+    }
+
     static int failures() {
         LanesCheck check;
         return check.mul_add_failures(200000) + check.compress_failures() +
-               check.mask_failures(10000);
+               check.mask_failures(10000) + check.pick_failures(1000);
     }
 };
 

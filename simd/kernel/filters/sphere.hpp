@@ -23,6 +23,19 @@ struct SphereFilter {
     explicit SphereFilter(Reader reader)
         : center(next_vector<Arch>(reader)), radius(reader.next()) {}
 
+    /// Where `bounds` may find something possible, for less.
+    [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const Vectors<Arch> from_center = rays.origin - center;
+        const F tau = negated(fast_dot(from_center, rays.direction));
+        const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
+        const F foot_squared = fast_dot(foot, foot);
+        const F outer = radius + (F(10 * half_ulp) * (xsimd::abs(tau) + radius) + rays.slack);
+        // A ray that has its foot behind it starts inside, if it meets the sphere at all.
+        const F ahead = tau + outer;
+        return (outer * outer - foot_squared >= zero<Arch>()) & (ahead >= zero<Arch>());
+    }
+
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();

@@ -9,6 +9,7 @@ namespace raylane::simd {
 
 /// Methods: how shapes are tested, one for each core::Precision. Each has
 ///   Rays       what a packet of rays is to its filters, at least FilterRays
+///   rounded_alone  whether it asks nothing of rays but what they are in float
 ///   packet     the rays of a stream from one on, one per lane
 ///   broadcast  one of them in all lanes
 ///   with_filter(kind, visit)  calls visit.operator()<its filter for the kind>()

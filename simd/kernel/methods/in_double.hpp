@@ -55,6 +55,7 @@ template <class Arch>
 struct DoubleMethod {
     using D = Double<Arch>;
     using Rays = DoubleRays<Arch>;
+    static constexpr bool rounded_alone = false;
 
     static Rays packet(const RoundedRays& rays, std::size_t i) {
         Rays result{RaysInFloat<Arch>::packet(rays, i), {}};

@@ -6,30 +6,73 @@ namespace raylane::simd {
 
 /// A ray against boxes.
 ///
-/// The boxes' planes are shifted by the slack of the origin, away from the box; a quotient is then
-/// off by 3 u and the direction by u more, relative to itself, which `allowance` grants.
+/// It meets a plane across an axis at (plane - o) / d, or, where that is one instruction, at
+/// plane / d - o / d. The planes are shifted by the slack of the origin, away from the box; o and
+/// o / d are rounded, which shifts them by as much again at most, each. The result is off by 3 u
+/// and the direction by u more, relative to itself, which `allowance` grants.
 struct BoxRay {
     static constexpr float allowance = 1 + 16 * half_ulp;
 
-    float near_origin[3], far_origin[3], inverse[3];
-    std::int32_t near_row[3], far_row[3]; ///< where the planes are in a node, in floats
+    float near_offset[3], far_offset[3]; ///< -o, or -o / d
+    float inverse[3];                    ///< 1 / d
 
-    /// The boxes that are entered before t_most, as bits, and where. `near` is 0 going in.
+    /// Whether it goes from a box's upper plane to its lower one.
+    template <class Arch>
+    bool falls(int axis) const {
+        return __builtin_bit_cast(std::int32_t, inverse[axis]) < 0;
+    }
+
+    /// Where planes are in a node that it meets first, and last, in floats.
+    struct Rows {
+        std::int32_t near[3], far[3];
+    };
+    template <class Arch>
+    Rows rows() const {
+        Rows rows;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int shift = falls<Arch>(axis) ? 48 : 0;
+            rows.near[axis] = 16 * axis + shift;
+            rows.far[axis] = 16 * axis + 48 - shift;
+        }
+        return rows;
+    }
+
+    /// The boxes that are entered before t_most, as bits, and where. `near` is 0 going in. What is
+    /// not a number, as infinity - infinity, is no bound.
     template <class Arch>
     [[gnu::always_inline]] std::uint32_t
-    enter(const NodeView& node, int from, const Floats<Arch>& t_most, Floats<Arch>& near) const {
+    enter(const Floats<Arch> (&near_planes)[3], const Floats<Arch> (&far_planes)[3],
+          const Floats<Arch>& t_most, Floats<Arch>& near) const {
         using F = Floats<Arch>;
-        const float* rows = node.lower[0] + from;
+        const auto at = [&](const F& plane, int axis, float offset) {
+            if constexpr (Lanes<Arch>::has_mul_add)
+                return Lanes<Arch>::mul_add(plane, F(inverse[axis]), F(offset));
+            else
+                return (plane + F(offset)) * F(inverse[axis]);
+        };
         F far = t_most;
         for (int axis = 0; axis < 3; ++axis) {
-            const F at_near = (F::load_unaligned(rows + near_row[axis]) - F(near_origin[axis])) *
-                              F(inverse[axis]);
-            const F at_far =
-                (F::load_unaligned(rows + far_row[axis]) - F(far_origin[axis])) * F(inverse[axis]);
-            near = xsimd::max(at_near, near);
-            far = xsimd::min(at_far, far);
+            near = xsimd::max(at(near_planes[axis], axis, near_offset[axis]), near);
+            far = xsimd::min(at(far_planes[axis], axis, far_offset[axis]), far);
         }
-        return Lanes<Arch>::bits(near <= far * F(allowance)) & Streams<Arch>::filled(node, from);
+        return Lanes<Arch>::bits(near <= far * F(allowance));
+    }
+
+    /// The same for slots of a node, from one on.
+    template <class Arch>
+    [[gnu::always_inline]] std::uint32_t enter(const NodeView& node, const Rows& rows, int from,
+                                               const Floats<Arch>& t_most,
+                                               Floats<Arch>& near) const {
+        using F = Floats<Arch>;
+        const float* const planes = node.lower[0] + from;
+        const F near_planes[] = {F::load_unaligned(planes + rows.near[0]),
+                                 F::load_unaligned(planes + rows.near[1]),
+                                 F::load_unaligned(planes + rows.near[2])};
+        const F far_planes[] = {F::load_unaligned(planes + rows.far[0]),
+                                F::load_unaligned(planes + rows.far[1]),
+                                F::load_unaligned(planes + rows.far[2])};
+        return enter<Arch>(near_planes, far_planes, t_most, near) &
+               Streams<Arch>::filled(node, from);
     }
 };
 
@@ -38,22 +81,33 @@ template <class Arch>
 struct BoxRays {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
-    float near_origin[3][16], far_origin[3][16], inverse[3][16];
+    float near_offset[3][16], far_offset[3][16], inverse[3][16];
 
     void load(const RoundedRays& rays, std::size_t begin) {
         for (std::size_t from = 0; from < 16; from += F::size) {
             const std::size_t i = begin + from;
-            const F slack = F(2.0F) * S::load(rays.slack + i);
+            const F slack = F(4.0F) * S::load(rays.slack + i);
             for (int axis = 0; axis < 3; ++axis) {
                 // A component of 0 is as good as one that leads nowhere: no 0 * infinity then.
-                const F tiny(0x1p-100F);
+                const F tiny(0x1p-80F);
                 const F given = S::load(rays.direction[axis] + i);
                 const F d = xsimd::select(xsimd::abs(given) > tiny, given, tiny);
                 const F o = S::load(rays.origin[axis] + i);
                 const F signed_slack = slack ^ (d & F(-0.0F));
-                (F(1.0F) / d).store_unaligned(inverse[axis] + from);
-                (o + signed_slack).store_unaligned(near_origin[axis] + from);
-                (o - signed_slack).store_unaligned(far_origin[axis] + from);
+                F slope = F(1.0F) / d;
+                F at_near = negated(o + signed_slack), at_far = negated(o - signed_slack);
+                if constexpr (Lanes<Arch>::has_mul_add) {
+                    at_near = at_near * slope;
+                    at_far = at_far * slope;
+                    // Too far for float: the axis bounds nothing.
+                    const auto fits = xsimd::abs(at_near) + xsimd::abs(at_far) < S::infinity();
+                    slope = xsimd::select(fits, slope, zero<Arch>());
+                    at_near = xsimd::select(fits, at_near, zero<Arch>());
+                    at_far = xsimd::select(fits, at_far, S::infinity());
+                }
+                slope.store_unaligned(inverse[axis] + from);
+                at_near.store_unaligned(near_offset[axis] + from);
+                at_far.store_unaligned(far_offset[axis] + from);
             }
         }
     }
@@ -61,12 +115,9 @@ struct BoxRays {
     BoxRay get(int lane) const {
         BoxRay ray;
         for (int axis = 0; axis < 3; ++axis) {
-            ray.near_origin[axis] = near_origin[axis][lane];
-            ray.far_origin[axis] = far_origin[axis][lane];
+            ray.near_offset[axis] = near_offset[axis][lane];
+            ray.far_offset[axis] = far_offset[axis][lane];
             ray.inverse[axis] = inverse[axis][lane];
-            const int falls = __builtin_bit_cast(std::int32_t, ray.inverse[axis]) < 0 ? 48 : 0;
-            ray.near_row[axis] = 16 * axis + falls;
-            ray.far_row[axis] = 16 * axis + 48 - falls;
         }
         return ray;
     }

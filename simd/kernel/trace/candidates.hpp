@@ -25,12 +25,13 @@ struct ListCandidates : Streams<Arch> {
         BoxRays<Arch> box_rays;
         box_rays.load(rays, i / 16 * 16);
         const BoxRay ray = box_rays.get(static_cast<int>(i % 16));
+        const BoxRay::Rows ray_rows = ray.template rows<Arch>();
         Queue<Arch> queue;
         queue.clear();
         for (std::uint32_t child = 0; child != no_child;) {
             if ((child & child_is_block) == 0) {
                 ++counters.nodes;
-                child = queue.step(scene.nodes[child], ray, list.limit, pending);
+                child = queue.step(scene.nodes[child], ray, ray_rows, list.limit, pending);
                 continue;
             }
             const auto kind = static_cast<KindNumber>(child >> 27 & 0xF);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/trace/box_ray.hpp"
 #include "simd/kernel/trace/rays.hpp"
 
 namespace raylane::simd {
@@ -10,10 +11,25 @@ struct Best {
     std::uint32_t slot;
 };
 
+/// What a list of rays in the hierarchy says of one of them.
+struct alignas(64) StreamRecord {
+    BoxRay box;
+    float limit;         ///< the t from which on nothing matters to it
+    float first, second; ///< as in Best
+    std::uint32_t slot;
+};
+static_assert(sizeof(StreamRecord) == stream_record_bytes);
+
 /// Which of a block's shapes may be crossed, and from where on.
 struct LeafHits {
     std::uint32_t lanes;
     alignas(64) float t[16]; ///< infinity in the other lanes, if there are any
+};
+
+/// Whether a filter can tell for less than its bounds cost that there are none.
+template <class Filter, class Rays>
+inline constexpr bool has_may_meet = requires(const Filter& filter, const Rays& rays) {
+    filter.may_meet(rays);
 };
 
 /// One ray against the shapes of a block.
@@ -27,6 +43,17 @@ struct Leaf : Streams<Arch> {
     static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {
         return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.departed_first[i]),
                                       S::broadcast_bits(rays.departed_last[i]));
+    }
+
+    /// Whether any of the shapes may be met. What has been left is not looked at.
+    template <class Filter>
+    [[gnu::always_inline]] static bool may_meet(const float* block,
+                                                const typename Method::Rays& ray) {
+        std::uint32_t any = 0;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size))
+            any |=
+                Lanes<Arch>::bits(Filter(BlockReader<Arch>(S::rows_of(block), from)).may_meet(ray));
+        return any != 0;
     }
 
     /// What may be crossed before `second`.

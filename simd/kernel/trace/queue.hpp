@@ -22,12 +22,13 @@ struct Queue {
     void clear() { size = spilled = 0; }
 
     /// Adds the children of a node, and pops. `first` is the t of the nearest crossing so far.
-    [[gnu::always_inline]] std::uint32_t step(const NodeView& node, const BoxRay& ray, float first,
+    [[gnu::always_inline]] std::uint32_t step(const NodeView& node, const BoxRay& ray,
+                                              const BoxRay::Rows& rows, float first,
                                               const Pending& pending) {
         const F t_most(first * culling_slack);
         for (int from = 0; from < 16; from += lanes) {
             F near = zero<Arch>();
-            const std::uint32_t bits = ray.template enter<Arch>(node, from, t_most, near);
+            const std::uint32_t bits = ray.template enter<Arch>(node, rows, from, t_most, near);
             const int more = __builtin_popcount(bits);
             if (size + more > 16) [[unlikely]]
                 spill(pending);
@@ -108,12 +109,13 @@ struct Queue<Avx512> {
         spilled = 0;
     }
 
-    [[gnu::always_inline]] std::uint32_t step(const NodeView& node, const BoxRay& ray, float first,
+    [[gnu::always_inline]] std::uint32_t step(const NodeView& node, const BoxRay& ray,
+                                              const BoxRay::Rows& rows, float first,
                                               const Pending& pending) {
         const __m512 empty = _mm512_set1_ps(__builtin_inff());
         Floats<Avx512> near = _mm512_setzero_ps();
         const auto entered =
-            static_cast<__mmask16>(ray.enter<Avx512>(node, 0, first * culling_slack, near));
+            static_cast<__mmask16>(ray.enter<Avx512>(node, rows, 0, first * culling_slack, near));
         __m512 ts = _mm512_load_ps(t);
         __m512i children = _mm512_load_si512(child);
         __mmask16 room = _mm512_cmp_ps_mask(ts, empty, _CMP_EQ_OQ);

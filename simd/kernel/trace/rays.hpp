@@ -64,6 +64,7 @@ struct RaysInFloat : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using Rays = FilterRays<Arch>;
+    static constexpr bool rounded_alone = true; ///< what they were before is not asked for
 
     /// Those from one on, one per lane.
     static Rays packet(const RoundedRays& rays, std::size_t i) {

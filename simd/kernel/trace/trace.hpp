@@ -1,158 +1,55 @@
 #pragma once
 
 #include "simd/kernel/trace/all.hpp"
-#include "simd/kernel/trace/group.hpp"
+#include "simd/kernel/trace/shadows.hpp"
+#include "simd/kernel/trace/stream.hpp"
+#include "simd/kernel/trace/towards.hpp"
+#include "simd/kernel/trace/tree.hpp"
+#include "simd/kernel/trace/walk.hpp"
 
 namespace raylane::simd {
 
-/// TraceKernels. Bundles of rays a group at a time: a node or a block is visited once for up to 256
-/// rays, and a shape is tested against those bunches of 16 that may meet it.
+/// TraceKernels. This is where it is decided how rays are traced: bundles by groups, rays that are
+/// near each other by lists, others in flight; and shape by shape where there is no hierarchy.
 template <class Arch, class Method>
 struct Trace : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using Rays = Group<Arch>;
-    static constexpr std::size_t bunch = 16;
+    using Walk = GroupWalk<Arch, Method>;
+    static constexpr std::size_t bunch = Walk::bunch;
 
-    /// What the sixteen bunches ask: the t from which on nothing matters to them.
-    struct Limits {
-        float t[16];
-        float largest;
+    /// Lists of fewer rays are too short soon.
+    static constexpr std::size_t least_listed = 64;
+    /// Shapes that a group of rays to a light may have before it: as many as it takes for its rays
+    /// to be done one by one.
+    static constexpr int most_occluders = 512;
+    static constexpr int no_budget = 0x7FFFFFFF;
 
-        explicit Limits(std::size_t bunches) {
-            for (std::size_t which = 0; which < 16; ++which)
-                t[which] = which < bunches ? __builtin_inff() : -1.0F;
-            update();
-        }
-
-        void update() {
-            largest = t[0];
-            for (int i = 1; i < 16; ++i)
-                largest = t[i] > largest ? t[i] : largest;
-        }
-    };
-
-    static bool has_tree(const Pending& pending) { return pending.t != nullptr; }
-
-    /// Visits blocks in the order of their distance: block(kind, number).
-    template <class Visit>
-    static void walk(const SceneView& scene, std::uint32_t kind_bits, const Rays& group,
-                     const Limits& limits, const Pending& pending, TraceCounters& counters,
-                     const Visit& visit_block) {
-        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
-            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
-            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
-                visit_block(kind, block);
-        }
-        if (!has_tree(pending)) return;
-        int size = 0;
-        std::uint32_t child = 0;
-        for (;;) {
-            if ((child & child_is_block) != 0) {
-                visit_block(TraceTree<Arch, Method>::kind_of(child), child & child_index);
-            } else {
-                ++counters.nodes;
-                const int before = size;
-                const NodeView& node = scene.nodes[child];
-                for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-                    F near = zero<Arch>();
-                    std::uint32_t bits = group.enter(node, from, F(limits.largest), near);
-                    float near_t[F::size];
-                    near.store_unaligned(near_t);
-                    for (; bits != 0; bits &= bits - 1) {
-                        const int slot = __builtin_ctz(bits);
-                        int place = size++;
-                        for (; place > before && pending.t[place - 1] < near_t[slot]; --place) {
-                            pending.t[place] = pending.t[place - 1];
-                            pending.child[place] = pending.child[place - 1];
-                        }
-                        pending.t[place] = near_t[slot];
-                        pending.child[place] = node.children[from + slot];
-                    }
-                }
-            }
-            while (size > 0 && pending.t[size - 1] > limits.largest)
-                --size;
-            if (size == 0) return;
-            child = pending.child[--size];
-        }
-    }
-
-    /// Calls visit(filter, id, slot, bunches) for the shapes of a block that the group may meet.
-    template <class Visit>
-    static void for_each_shape(const SceneView& scene, KindNumber kind, std::uint32_t number,
-                               const Rays& group, const Limits& limits, const Visit& visit) {
-        const TableView& table = scene.tables[kind];
-        const float* block = S::block_of(table, number);
-        const auto rows = S::rows_of(block);
-        const std::uint32_t* ids = S::ids_of(table, block);
-        BlockSpheres<Arch> spheres;
-        spheres.enclose(kind, rows);
-        std::uint32_t shapes = 0;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size))
-            shapes |= group.meet(spheres.load(from)) << from;
-        if (shapes == 0) return;
-        Method::with_filter(kind, [&]<class Filter>() {
-            for (; shapes != 0; shapes &= shapes - 1) {
-                const int lane = __builtin_ctz(shapes);
-                const SphereAround<Arch> sphere = spheres.broadcast(lane);
-                std::uint32_t bunches = 0;
-                for (std::size_t from = 0; from < 16; from += F::size)
-                    bunches |= group.bunches_that_meet(sphere, from, S::load(limits.t + from))
-                               << from;
-                if (bunches == 0) continue;
-                visit(Filter(BroadcastReader<Arch>(rows, lane)), ids[lane],
-                      table.first_slot + 16 * number + static_cast<std::uint32_t>(lane), bunches);
-            }
-        });
-    }
-
-    /// Tests a group: visit(filter, id, slot, from), for the bunch that starts at ray `from`,
-    /// returns from which t on nothing matters to it.
-    template <class Visit>
-    static void for_each_bunch(const SceneView& scene, std::uint32_t kind_bits, const Rays& group,
-                               std::size_t begin, const Pending& pending, TraceCounters& counters,
-                               const Visit& visit) {
-        Limits limits(group.bunches);
-        walk(scene, kind_bits, group, limits, pending, counters,
-             [&](KindNumber kind, std::uint32_t number) {
-                 bool changed = false;
-                 for_each_shape(scene, kind, number, group, limits,
-                                [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
-                                    std::uint32_t bunches) {
-                                    for (; bunches != 0; bunches &= bunches - 1) {
-                                        const int which = __builtin_ctz(bunches);
-                                        const std::size_t from =
-                                            begin + bunch * static_cast<std::size_t>(which);
-                                        const float limit = visit(filter, id, slot, from);
-                                        counters.shapes += bunch;
-                                        changed = changed || limit != limits.t[which];
-                                        limits.t[which] = limit;
-                                    }
-                                });
-                 if (changed) limits.update();
-             });
-    }
+    static bool is_grouped(const Bundle* bundle) { return bundle != nullptr && !bundle->loose; }
 
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
                         std::size_t count, const RoundedRays& rays, const Candidates& candidates,
-                        const Pending& pending, TraceCounters& counters) {
-        if (bundle == nullptr) {
-            nearest_one_by_one(scene, kind_bits, 0, count, rays, candidates, pending, counters);
+                        const Workspace& workspace, TraceCounters& counters) {
+        if (!is_grouped(bundle)) {
+            nearest_of_any(scene, kind_bits, bundle, 0, count, rays, candidates, workspace,
+                           counters);
             return;
         }
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
             const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
             Rays group;
-            if (group.enclose(rays, begin, end, *bundle, nullptr))
-                for_each_bunch(scene, kind_bits, group, begin, pending, counters,
-                               [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
-                                   std::size_t from) {
-                                   return test(filter, id, slot, from, end, rays, candidates);
-                               });
-            else
-                nearest_one_by_one(scene, kind_bits, begin, end, rays, candidates, pending,
-                                   counters);
+            if (!group.enclose(rays, begin, end, *bundle, nullptr)) {
+                nearest_of_any(scene, kind_bits, &neighbours, begin, end, rays, candidates,
+                               workspace, counters);
+                continue;
+            }
+            counters.in_frusta += end - begin;
+            Walk(scene, group, workspace, counters, no_budget)
+                .go(kind_bits, [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
+                                   std::size_t which) {
+                    return test(filter, id, slot, begin + bunch * which, end, rays, candidates);
+                });
         }
     }
 
@@ -173,40 +70,85 @@ struct Trace : Streams<Arch> {
 
     static void occluded(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
                          std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
-                         const Pending& pending, TraceCounters& counters) {
-        if (bundle == nullptr) {
-            occluded_one_by_one(scene, kind_bits, 0, count, rays, occlusions, pending, counters);
-            return;
-        }
-        for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
-            const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
-            Rays group;
-            if (group.enclose(rays, begin, end, *bundle, occlusions.t_most))
-                for_each_bunch(scene, kind_bits, group, begin, pending, counters,
-                               [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
-                                   std::size_t from) {
-                                   return block(scene, filter, id, slot, from, end, rays,
-                                                occlusions);
-                               });
-            else
-                occluded_one_by_one(scene, kind_bits, begin, end, rays, occlusions, pending,
-                                    counters);
+                         const Workspace& workspace, TraceCounters& counters) {
+        if (!is_grouped(bundle)) {
+            occluded_of_any(scene, kind_bits, 0, count, rays, occlusions, workspace, counters);
+        } else if (Method::rounded_alone && bundle->towards &&
+                   SortedTowards<Arch>::has_room(count, workspace)) {
+            const SortedTowards<Arch> sorted(rays, occlusions, count, workspace);
+            occluded_groups(scene, kind_bits, *bundle, count, sorted.rays, sorted.occlusions,
+                            workspace, counters);
+            sorted.hand_back(occlusions, count);
+        } else {
+            occluded_groups(scene, kind_bits, *bundle, count, rays, occlusions, workspace,
+                            counters);
         }
     }
 
-    /// The same for shadow rays, to which nothing matters once all of them are blocked.
+    static void occluded_groups(const SceneView& scene, std::uint32_t kind_bits,
+                                const Bundle& bundle, std::size_t count, const RoundedRays& rays,
+                                const Occlusions& occlusions, const Workspace& workspace,
+                                TraceCounters& counters) {
+        for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
+            const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
+            Rays group;
+            if (!group.enclose(rays, begin, end, bundle, occlusions.t_most)) {
+                occluded_of_any(scene, kind_bits, begin, end, rays, occlusions, workspace,
+                                counters);
+                continue;
+            }
+            GroupOcclusions found(occlusions.state + begin, end - begin);
+            const bool done = Walk(scene, group, workspace, counters, most_occluders)
+                                  .go(kind_bits, [&](const auto& filter, std::uint32_t id,
+                                                     std::uint32_t slot, std::size_t which) {
+                                      return block(scene, filter, id, slot, begin + bunch * which,
+                                                   which, rays, occlusions, found);
+                                  });
+            found.store(occlusions.state + begin, end - begin);
+            if (!done) { // nor will those that follow be, as a rule
+                occluded_of_any(scene, kind_bits, begin, count, rays, occlusions, workspace,
+                                counters);
+                return;
+            }
+            counters.in_frusta += end - begin;
+        }
+    }
+
+    /// Of a group's rays, by bunch, as bits.
+    struct GroupOcclusions {
+        std::uint32_t blocked_rays[16] = {}, doubtful_rays[16] = {};
+
+        /// Lanes that are not there are blocked.
+        GroupOcclusions(const std::uint8_t* state, std::size_t count) {
+            for (std::size_t i = 0; i < 256; ++i)
+                blocked_rays[i / 16] |=
+                    static_cast<std::uint32_t>(i >= count || state[i] == blocked) << i % 16;
+        }
+        void store(std::uint8_t* state, std::size_t count) const {
+            for (std::size_t i = 0; i < count; ++i) {
+                const bool is_blocked = (blocked_rays[i / 16] >> i % 16 & 1) != 0;
+                const bool is_doubtful = (doubtful_rays[i / 16] >> i % 16 & 1) != 0;
+                const std::uint8_t found = is_blocked ? blocked : is_doubtful ? doubtful : open;
+                state[i] = found > state[i] ? found : state[i];
+            }
+        }
+    };
+
+    /// One shape against a bunch of shadow rays, to which nothing matters once all of them are
+    /// blocked.
     template <class Filter>
     static float block(const SceneView& scene, const Filter& filter, std::uint32_t id,
-                       std::uint32_t slot, std::size_t from, std::size_t end,
-                       const RoundedRays& stream, const Occlusions& occlusions) {
+                       std::uint32_t slot, std::size_t from, std::size_t which,
+                       const RoundedRays& stream, const Occlusions& occlusions,
+                       GroupOcclusions& group) {
         const bool plain = S::is_plain(scene, slot);
-        bool all_blocked = true;
-        for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
-            PacketOcclusions<Arch> found(occlusions, i);
-            found.test(filter, id, plain, Packet<Arch, Method>(stream, i));
-            if (!found.store(occlusions.state + i, end - i)) all_blocked = false;
+        for (std::size_t lane = 0; lane < bunch; lane += F::size) {
+            PacketOcclusions<Arch> found(occlusions, from + lane);
+            found.test(filter, id, plain, Packet<Arch, Method>(stream, from + lane));
+            group.blocked_rays[which] |= found.sure << lane;
+            group.doubtful_rays[which] |= found.some << lane;
         }
-        return all_blocked ? -1.0F : __builtin_inff();
+        return group.blocked_rays[which] == 0xFFFF ? -1.0F : __builtin_inff();
     }
 
     /// Streams from one ray on.
@@ -224,29 +166,44 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
-    static void nearest_one_by_one(const SceneView& scene, std::uint32_t kind_bits,
-                                   std::size_t begin, std::size_t end, const RoundedRays& rays,
-                                   const Candidates& candidates, const Pending& pending,
-                                   TraceCounters& counters) {
+    /// Rays that have no more in common than `bundle` says, which is loose or null.
+    static void nearest_of_any(const SceneView& scene, std::uint32_t kind_bits,
+                               const Bundle* bundle, std::size_t begin, std::size_t end,
+                               const RoundedRays& rays, const Candidates& candidates,
+                               const Workspace& workspace, TraceCounters& counters) {
         const RoundedRays some = from_ray(rays, begin);
         const Candidates theirs{candidates.first + begin, candidates.second + begin,
                                 candidates.slot + begin};
+        const std::size_t count = end - begin;
         if (kind_bits != 0)
-            TraceAll<Arch, Method>::nearest(scene, kind_bits, end - begin, some, theirs, counters);
-        if (has_tree(pending))
-            TraceTree<Arch, Method>::nearest(scene, end - begin, some, theirs, pending, counters);
+            TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
+        if (workspace.t == nullptr) {
+            counters.one_by_one += count;
+        } else if ((bundle != nullptr || !scene.large) && count >= least_listed &&
+                   count <= workspace.capacity) {
+            counters.in_streams += count;
+            TraceStream<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
+        } else {
+            counters.in_flight += count;
+            TraceTree<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
+        }
     }
 
-    static void occluded_one_by_one(const SceneView& scene, std::uint32_t kind_bits,
-                                    std::size_t begin, std::size_t end, const RoundedRays& rays,
-                                    const Occlusions& occlusions, const Pending& pending,
-                                    TraceCounters& counters) {
+    static void occluded_of_any(const SceneView& scene, std::uint32_t kind_bits, std::size_t begin,
+                                std::size_t end, const RoundedRays& rays,
+                                const Occlusions& occlusions, const Workspace& workspace,
+                                TraceCounters& counters) {
         const RoundedRays some = from_ray(rays, begin);
         const Occlusions theirs{occlusions.t_most + begin, occlusions.state + begin};
         if (kind_bits != 0)
             TraceAll<Arch, Method>::occluded(scene, kind_bits, end - begin, some, theirs, counters);
-        if (has_tree(pending))
-            TraceTree<Arch, Method>::occluded(scene, end - begin, some, theirs, pending, counters);
+        if (workspace.t == nullptr) {
+            counters.one_by_one += end - begin;
+        } else {
+            counters.in_flight += end - begin;
+            TraceShadows<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
+                                                 counters);
+        }
     }
 
     static constexpr TraceKernels table() { return {nearest, occluded}; }

@@ -141,6 +141,7 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "shapes_tested",
                                            "tests_beyond_double",
                                            "shadow_rays_walked",
+                                           "searches",
                                            "rays_refined",
                                            "left_to_the_reference"});
     CHECK(figures["version"] == RAYLANE_VERSION);
@@ -160,6 +161,12 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(figures["rays"]["total"] == figures["rays"]["primary"].get<int>() +
                                           figures["rays"]["reflected"].get<int>() +
                                           figures["rays"]["shadow"].get<int>());
+    // The reference has one way.
+    CHECK(figures["searches"]["shape_by_shape"] == 0);
+    const nlohmann::ordered_json vector = stats({"--engine", "vector"});
+    CHECK(vector["searches"]["shape_by_shape"].get<int>() +
+              vector["searches"]["frusta"].get<int>() >=
+          vector["rays"]["primary"].get<int>());
     for (const char* phase : {"load", "render", "write"})
         CHECK(figures["seconds"][phase] >= 0.0);
     CHECK(stats({"--threads", "4"})["rays"] == stats({"--threads", "1"})["rays"]);

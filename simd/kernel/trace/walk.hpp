@@ -1,0 +1,137 @@
+#pragma once
+
+#include "simd/kernel/trace/group.hpp"
+#include "simd/kernel/trace/in_flight.hpp"
+
+namespace raylane::simd {
+
+/// What the sixteen bunches of a group ask: the t from which on nothing matters to them.
+struct GroupLimits {
+    float t[16];
+    float largest;
+};
+
+/// A group's way through the scene: a node or a block is visited once for all of its rays, and a
+/// shape is tested against those bunches of 16 that may meet it.
+template <class Arch, class Method>
+struct GroupWalk : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using Rays = Group<Arch>;
+    static constexpr std::size_t bunch = 16;
+
+    const SceneView& scene;
+    const Rays& group;
+    const Workspace& workspace;
+    TraceCounters& counters;
+    /// Shapes that are still worth a look. Where the group is so wide that there are more, its rays
+    /// are better off one by one.
+    int budget;
+    GroupLimits limits;
+
+    GroupWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
+              TraceCounters& trace_counters, int most_shapes)
+        : scene(scene_view), group(rays), workspace(space), counters(trace_counters),
+          budget(most_shapes) {
+        for (std::size_t which = 0; which < 16; ++which)
+            limits.t[which] = which < group.bunches ? __builtin_inff() : -1.0F;
+        update_limits();
+    }
+
+    void update_limits() {
+        limits.largest = limits.t[0];
+        for (int i = 1; i < 16; ++i)
+            limits.largest = limits.t[i] > limits.largest ? limits.t[i] : limits.largest;
+    }
+
+    /// Calls visit(filter, id, slot, which) for each bunch, by number, that may meet a shape; it
+    /// returns the t from which on nothing matters to the bunch. The shapes come in the order of
+    /// their nodes' distances. Returns whether the budget was enough.
+    template <class Visit>
+    bool go(std::uint32_t kind_bits, const Visit& visit) {
+        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
+            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
+            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
+                at_block(kind, block, visit);
+        }
+        if (workspace.t == nullptr) return true;
+        int size = 0;
+        std::uint32_t child = 0;
+        while (budget >= 0) {
+            if ((child & child_is_block) != 0)
+                at_block(InFlight<Arch, Method>::kind_of(child), child & child_index, visit);
+            else
+                size = at_node(scene.nodes[child], size);
+            while (size > 0 && workspace.t[size - 1] > limits.largest)
+                --size;
+            if (size == 0) return true;
+            child = workspace.child[--size];
+        }
+        return false;
+    }
+
+  private:
+    /// Puts a node's children on the stack, the nearest on top.
+    int at_node(const NodeView& node, int size) {
+        ++counters.nodes;
+        const int before = size;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            F near = zero<Arch>();
+            std::uint32_t bits = group.enter(node, from, F(limits.largest), near);
+            float near_t[F::size];
+            near.store_unaligned(near_t);
+            for (; bits != 0; bits &= bits - 1) {
+                const int slot = __builtin_ctz(bits);
+                int place = size++;
+                for (; place > before && workspace.t[place - 1] < near_t[slot]; --place) {
+                    workspace.t[place] = workspace.t[place - 1];
+                    workspace.child[place] = workspace.child[place - 1];
+                }
+                workspace.t[place] = near_t[slot];
+                workspace.child[place] = node.children[from + slot];
+            }
+        }
+        return size;
+    }
+
+    template <class Visit>
+    void at_block(KindNumber kind, std::uint32_t number, const Visit& visit) {
+        const TableView& table = scene.tables[kind];
+        const float* block = S::block_of(table, number);
+        const auto rows = S::rows_of(block);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        BlockSpheres<Arch> spheres;
+        spheres.enclose(kind, rows);
+        std::uint32_t shapes = 0;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size))
+            shapes |= group.meet(spheres.load(from)) << from;
+        if (shapes == 0) return;
+        budget -= __builtin_popcount(shapes);
+        bool changed = false;
+        Method::with_filter(kind, [&]<class Filter>() {
+            for (; shapes != 0; shapes &= shapes - 1) {
+                const int lane = __builtin_ctz(shapes);
+                const SphereAround<Arch> sphere = spheres.broadcast(lane);
+                std::uint32_t bunches = 0;
+                for (std::size_t from = 0; from < 16; from += F::size)
+                    bunches |= group.bunches_that_meet(sphere, from, S::load(limits.t + from))
+                               << from;
+                if (bunches == 0) continue;
+                const Filter filter(BroadcastReader<Arch>(rows, lane));
+                const std::uint32_t slot =
+                    table.first_slot + 16 * number + static_cast<std::uint32_t>(lane);
+                for (; bunches != 0; bunches &= bunches - 1) {
+                    const int which = __builtin_ctz(bunches);
+                    const float limit =
+                        visit(filter, ids[lane], slot, static_cast<std::size_t>(which));
+                    counters.shapes += bunch;
+                    changed = changed || limit != limits.t[which];
+                    limits.t[which] = limit;
+                }
+            }
+        });
+        if (changed) update_limits();
+    }
+};
+
+} // namespace raylane::simd
