@@ -103,6 +103,8 @@ class SceneBuilder {
     /// Fields are those above, and "lights", "lights/0/position", ... Shapes are named by number
     /// unless `name_of_shape` knows better.
     Scene build(const NameOfShape& name_of_shape = nullptr) &&;
+    /// The same, with workers for the hierarchy. The scene does not depend on them.
+    Scene build(Workers& workers, const NameOfShape& name_of_shape = nullptr) &&;
 
   private:
     void require_material(MaterialIndex material) const;
@@ -112,6 +114,7 @@ class SceneBuilder {
     ShapeId append(const Shape& shape, MaterialIndex material);
 
     Scene scene_;
+    ShapeLists lists_;
 };
 
 } // namespace raylane::core
