@@ -53,7 +53,7 @@ SlotCosts build_part(std::span<Item> items, std::span<std::uint32_t> positions, 
                      TreePart& part, Workers& workers) {
     if (range.size() <= most_in_a_part) {
         const SlotCosts costs = PartBuilder(items, positions).build(range, part);
-        workers.placed(range.size());
+        workers.placed(range.size(), items.size());
         return costs;
     }
     const Halves halves = split_by_bins(items, range, workers);

@@ -72,6 +72,8 @@ ShapeId SceneBuilder::append(const Shape& shape, MaterialIndex material) {
     const auto id = static_cast<ShapeId>(shape_count());
     std::get<ShapeList<Shape>>(lists_).add(shape, id);
     scene_.material_of_.push_back(material);
+    constexpr std::size_t now_and_then = std::size_t{1} << 16;
+    if (shape_count() % now_and_then == 0 && workers != nullptr) workers->added(shape_count());
     return id;
 }
 
@@ -98,17 +100,11 @@ ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, Materi
     return first;
 }
 
-template <class Shape>
 void SceneBuilder::reserve(std::size_t count) {
     scene_.material_of_.reserve(shape_count() + count);
 }
 
 Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
-    Workers alone;
-    return std::move(*this).build(alone, name_of_shape);
-}
-
-Scene SceneBuilder::build(Workers& workers, const NameOfShape& name_of_shape) && {
     validate_in("settings", settings);
     validate_in("camera", camera);
     validate_in("fog", fog);
@@ -117,7 +113,9 @@ Scene SceneBuilder::build(Workers& workers, const NameOfShape& name_of_shape) &&
         throw InvalidValue("lights",
                            "must have at least one light where there are objects, got none");
 
-    scene_.hierarchy_ = build_hierarchy(lists_, camera.from, workers, scene_.shapes_);
+    Workers alone;
+    scene_.hierarchy_ =
+        build_hierarchy(lists_, camera.from, workers != nullptr ? *workers : alone, scene_.shapes_);
     lists_ = {};
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
         const Light& light = scene_.lights_[i];
@@ -136,9 +134,7 @@ Scene SceneBuilder::build(Workers& workers, const NameOfShape& name_of_shape) &&
     return std::move(scene_);
 }
 
-#define RAYLANE_INSTANTIATE(Shape)                                                                 \
-    template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);                               \
-    template void SceneBuilder::reserve<Shape>(std::size_t);
+#define RAYLANE_INSTANTIATE(Shape) template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);
 RAYLANE_INSTANTIATE(Sphere)
 RAYLANE_INSTANTIATE(Plane)
 RAYLANE_INSTANTIATE(Disc)

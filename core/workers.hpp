@@ -5,8 +5,8 @@
 
 namespace raylane::core {
 
-/// Who does the work of a build: here, the caller's thread alone. Whoever has threads overrides
-/// this. Nothing that is built depends on it.
+/// Who does the work of a build: here, the caller's thread alone, and nobody is told how far it is.
+/// Whoever has threads, or somebody to tell, overrides this. Nothing that is built depends on it.
 class Workers {
   public:
     using Task = std::function<void()>;
@@ -26,8 +26,15 @@ class Workers {
         for (std::size_t i = 0; i < count; ++i)
             task(i);
     }
-    /// So many shapes more have found their place in the hierarchy. For whom it may concern.
-    virtual void placed(std::size_t count) { static_cast<void>(count); }
+
+    /// So many shapes have been added to the scene so far. Called every now and then.
+    virtual void added(std::size_t count) { static_cast<void>(count); }
+    /// `count` more of the bounded shapes, `all` in all, have found their place in the hierarchy.
+    /// Called by whatever thread has placed them.
+    virtual void placed(std::size_t count, std::size_t all) {
+        static_cast<void>(count);
+        static_cast<void>(all);
+    }
 };
 
 } // namespace raylane::core
