@@ -54,7 +54,7 @@ ProgressLine::~ProgressLine() {
     if (!thread_.joinable()) return;
     thread_.request_stop();
     thread_.join();
-    std::fputs("\r\x1B[K", stderr);
+    if (drawn_) std::fputs("\r\x1B[K", stderr);
 }
 
 void ProgressLine::run(const std::stop_token& stop) {
@@ -64,9 +64,10 @@ void ProgressLine::run(const std::stop_token& stop) {
         draw();
 }
 
-void ProgressLine::draw() const {
+void ProgressLine::draw() {
     const std::string text = text_();
     if (text.empty() || is_ending()) return;
+    drawn_ = true;
     std::fprintf(stderr, "\r%s\x1B[K", text.c_str());
     std::fflush(stderr);
 }

@@ -32,9 +32,10 @@ class ProgressLine {
 
   private:
     void run(const std::stop_token& stop);
-    void draw() const;
+    void draw();
 
     std::function<std::string()> text_;
+    bool drawn_ = false; // read once the thread has ended
     std::mutex mutex_;
     std::condition_variable_any wake_;
     std::jthread thread_; // the last: the others must outlive it
