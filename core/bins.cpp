@@ -30,8 +30,8 @@ class Grid {
             // All in one bin where the centres are too close to divide by their distance.
             scale_[axis] = std::isfinite(scale) ? scale : 0.0F;
         }
-        // The fourth component of an item is no number.
-        lower_[3] = scale_[3] = 0.0F;
+        // The fourth component of an item means nothing, but may be slow: denormal numbers are.
+        lower_[3] = 0.0F;
     }
 
     Int4 bins_of(const Item& item) const {
