@@ -171,10 +171,20 @@ class Emitter {
             for (int lane = 0; lane < leaf.count; ++lane) {
                 const Listed<Shape>& listed = list[positions_[leaf.first + lane]];
                 block.set(lane, listed.shape, listed.id);
+                fetch_ahead(list, leaf.first + lane);
             }
             blocks_of<Shape>()[index] = block;
         });
         return Child::block(leaf.kind, index);
+    }
+
+    /// Leaves come in the order of their items. What a later one asks for is all over the list.
+    template <class Shape>
+    void fetch_ahead(const ShapeList<Shape>& list, std::size_t at) const {
+        constexpr std::size_t ahead = 4 * block_size;
+        if (at + ahead >= positions_.size()) return;
+        const std::uint32_t position = positions_[at + ahead];
+        if (position < list.size()) __builtin_prefetch(&list[position]); // it may be another kind's
     }
 
     const BigArray<std::uint32_t>& positions_;
