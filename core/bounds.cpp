@@ -61,9 +61,17 @@ Bounds corner_bounds(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 
 } // namespace
 
+/// In float, as there may be millions: a sum is off by half an ulp, or exact where it underflows,
+/// and 2^-23 of it is an ulp at least.
 Bounds bounds_of(const Sphere& sphere) {
-    const Vec3d center = convert<double>(sphere.center);
-    return around(center, Vec3d(static_cast<double>(sphere.radius)), absolute(center));
+    Bounds bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float lower = sphere.center[axis] - sphere.radius;
+        const float upper = sphere.center[axis] + sphere.radius;
+        bounds.lower[axis] = lower - 0x1p-23F * std::abs(lower);
+        bounds.upper[axis] = upper + 0x1p-23F * std::abs(upper);
+    }
+    return bounds;
 }
 
 Bounds bounds_of(const Disc& disc) {

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "core/bounds.hpp"
+#include "core/shape_list.hpp"
 #include "core/shape_table.hpp"
+#include "core/workers.hpp"
 
 #include <cstdint>
-#include <vector>
 
 namespace raylane::core {
 
@@ -48,18 +49,17 @@ struct alignas(64) WideNode {
 /// Bounding volume hierarchy over the bounded shapes of a scene. Its leaves are the blocks of the
 /// scene's tables. Planes are not in it.
 struct Hierarchy {
-    std::vector<WideNode> nodes; ///< the root first; empty if there are no bounded shapes
-    Bounds bounds;               ///< of everything in it
+    BigArray<WideNode> nodes; ///< the root first; empty if there are no bounded shapes
+    Bounds bounds;            ///< of everything in it
 
-    std::size_t bytes() const { return nodes.capacity() * sizeof(WideNode); }
+    std::size_t bytes() const { return nodes.bytes(); }
 };
 
-/// Builds the hierarchy by the binned surface-area heuristic (Wald 2007), whose cost counts blocks
-/// of 16 rather than shapes, and collapses the binary tree into wide nodes by dynamic programming
-/// (Ylitie, Karras and Laine 2017). Rearranges the tables so that each leaf is one block. The
-/// result depends on the shapes alone.
-///
-/// Bounds are padded by `padding` on each side: what a traversal in float may be off by.
-Hierarchy build_hierarchy(Tables& shapes, float padding);
+/// Builds the hierarchy by the binned surface-area heuristic, whose cost counts blocks of 16 rather
+/// than shapes, and collapses the binary tree into wide nodes. Fills the tables, so that each leaf
+/// is one block. The result depends on the shapes alone, whoever the workers are; the bounds are
+/// padded by what a traversal in float may be off by, from `eye` as from anywhere in the scene.
+Hierarchy build_hierarchy(const ShapeLists& lists, const Vec3f& eye, Workers& workers,
+                          Tables& tables);
 
 } // namespace raylane::core

@@ -4,8 +4,6 @@
 #include "core/validate.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace raylane::core {
 
@@ -18,26 +16,6 @@ void validate_in(const std::string& place, const Value& value) {
     } catch (const InvalidValue& invalid) {
         throw InvalidValue(place + "/" + invalid.field, invalid.expectation);
     }
-}
-
-/// What a traversal in float may be off by: six roundings of the largest coordinate that takes
-/// part.
-float traversal_padding(const Tables& shapes, const Camera& camera) {
-    float extent = 0.0F;
-    const auto include = [&](const Vec3f& p) {
-        for (int axis = 0; axis < 3; ++axis)
-            extent = std::max(extent, std::abs(p[axis]));
-    };
-    include(camera.from);
-    for_each_table(shapes, [&]<class Shape>(const Table<Shape>& table) {
-        if constexpr (kind_of<Shape> != Kind::plane)
-            for_each_shape(table, [&](const Shape& shape, ShapeId) {
-                const Bounds bounds = bounds_of(shape);
-                include(bounds.lower);
-                include(bounds.upper);
-            });
-    });
-    return 6.0F * 0x1p-24F * extent;
 }
 
 } // namespace
@@ -92,8 +70,10 @@ void SceneBuilder::add_light(const Light& light) {
 template <class Shape>
 ShapeId SceneBuilder::append(const Shape& shape, MaterialIndex material) {
     const auto id = static_cast<ShapeId>(shape_count());
-    std::get<Table<Shape>>(scene_.shapes_).add(shape, id);
+    std::get<ShapeList<Shape>>(lists_).add(shape, id);
     scene_.material_of_.push_back(material);
+    constexpr std::size_t now_and_then = std::size_t{1} << 16;
+    if (shape_count() % now_and_then == 0 && workers != nullptr) workers->added(shape_count());
     return id;
 }
 
@@ -120,10 +100,7 @@ ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, Materi
     return first;
 }
 
-template <class Shape>
 void SceneBuilder::reserve(std::size_t count) {
-    auto& table = std::get<Table<Shape>>(scene_.shapes_);
-    table.reserve(table.size() + count);
     scene_.material_of_.reserve(shape_count() + count);
 }
 
@@ -136,7 +113,10 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
         throw InvalidValue("lights",
                            "must have at least one light where there are objects, got none");
 
-    scene_.hierarchy_ = build_hierarchy(scene_.shapes_, traversal_padding(scene_.shapes_, camera));
+    Workers alone;
+    scene_.hierarchy_ =
+        build_hierarchy(lists_, camera.from, workers != nullptr ? *workers : alone, scene_.shapes_);
+    lists_ = {};
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
         const Light& light = scene_.lights_[i];
         if (light.kind != LightKind::point) continue;
@@ -154,9 +134,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     return std::move(scene_);
 }
 
-#define RAYLANE_INSTANTIATE(Shape)                                                                 \
-    template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);                               \
-    template void SceneBuilder::reserve<Shape>(std::size_t);
+#define RAYLANE_INSTANTIATE(Shape) template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);
 RAYLANE_INSTANTIATE(Sphere)
 RAYLANE_INSTANTIATE(Plane)
 RAYLANE_INSTANTIATE(Disc)

@@ -71,11 +71,12 @@ class Scene {
 /// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was.
 class SceneBuilder {
   public:
-    Camera camera;           ///< checked by build(), field "camera/..."
-    Color background{0.0F};  ///< checked by build(), field "background"
-    Fog fog;                 ///< checked by build(), field "fog/..."
-    Settings settings;       ///< checked by build(), field "settings/..."
-    bool wants_light = true; ///< whether build() refuses shapes without a light
+    Camera camera;              ///< checked by build(), field "camera/..."
+    Color background{0.0F};     ///< checked by build(), field "background"
+    Fog fog;                    ///< checked by build(), field "fog/..."
+    Settings settings;          ///< checked by build(), field "settings/..."
+    bool wants_light = true;    ///< whether build() refuses shapes without a light
+    Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
@@ -92,7 +93,6 @@ class SceneBuilder {
     ShapeId add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material);
 
     /// Makes room for `count` more shapes, so that adding them copies nothing.
-    template <class Shape>
     void reserve(std::size_t count);
 
     std::size_t shape_count() const { return scene_.material_of_.size(); }
@@ -112,6 +112,7 @@ class SceneBuilder {
     ShapeId append(const Shape& shape, MaterialIndex material);
 
     Scene scene_;
+    ShapeLists lists_;
 };
 
 } // namespace raylane::core

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "core/big_array.hpp"
+#include "core/shape_list.hpp"
 #include "core/shapes.hpp"
 
 #include <cstddef>
 #include <tuple>
+#include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace raylane::core {
 
@@ -48,31 +50,33 @@ struct Slot {
     std::uint8_t lane;
 };
 
-/// All shapes of one kind. In a finished scene each block is a leaf of the hierarchy, so blocks may
-/// be partly empty.
+/// All shapes of one kind, in a finished scene. Each block of a bounded kind is a leaf of the
+/// hierarchy, so blocks may be partly empty.
 template <class Shape>
 class Table {
   public:
-    std::size_t size() const { return size_; }
-    const std::vector<Block<Shape>>& blocks() const { return blocks_; }
-    Shape get(Slot slot) const { return blocks_[slot.block].get(slot.lane); }
-    ShapeId id(Slot slot) const { return blocks_[slot.block].ids[slot.lane]; }
-    std::size_t bytes() const { return blocks_.capacity() * sizeof(Block<Shape>); }
-
-    void reserve(std::size_t count) { blocks_.reserve((count + block_size - 1) / block_size); }
-
-    void add(const Shape& shape, ShapeId id) {
-        const int lane = static_cast<int>(size_ % block_size);
-        if (lane == 0) blocks_.emplace_back();
-        blocks_.back().set(lane, shape, id);
-        ++size_;
+    Table() = default;
+    /// `size` shapes in all.
+    Table(BigArray<Block<Shape>> blocks, std::size_t size)
+        : blocks_(std::move(blocks)), size_(size) {}
+    /// In the list's order.
+    explicit Table(const ShapeList<Shape>& list)
+        : blocks_((list.size() + block_size - 1) / block_size), size_(list.size()) {
+        for (std::size_t i = 0; i < size_; ++i) {
+            Block<Shape>& block = blocks_[i / block_size];
+            if (i % block_size == 0) block = Block<Shape>();
+            block.set(static_cast<int>(i % block_size), list[i].shape, list[i].id);
+        }
     }
 
-    /// Puts blocks that hold the same shapes in another arrangement in place of these.
-    void rearrange(std::vector<Block<Shape>> blocks) { blocks_ = std::move(blocks); }
+    std::size_t size() const { return size_; }
+    const BigArray<Block<Shape>>& blocks() const { return blocks_; }
+    Shape get(Slot slot) const { return blocks_[slot.block].get(slot.lane); }
+    ShapeId id(Slot slot) const { return blocks_[slot.block].ids[slot.lane]; }
+    std::size_t bytes() const { return blocks_.bytes(); }
 
   private:
-    std::vector<Block<Shape>> blocks_;
+    BigArray<Block<Shape>> blocks_;
     std::size_t size_ = 0;
 };
 
@@ -83,34 +87,42 @@ using Tables =
                Table<CappedCone>, Table<Quadric>>;
 static_assert(std::tuple_size_v<Tables> == kind_count);
 
-/// Calls `visit(table)` with the table of `kind`.
-template <class TablesRef, class Visit>
-decltype(auto) with_table(TablesRef&& tables, Kind kind, Visit&& visit) {
+/// Calls `visit(std::type_identity<Shape>())` with the type of shape that `kind` is.
+template <class Visit>
+decltype(auto) with_shape_type(Kind kind, Visit&& visit) {
     switch (kind) {
     case Kind::sphere:
-        return visit(std::get<Table<Sphere>>(tables));
+        return visit(std::type_identity<Sphere>());
     case Kind::plane:
-        return visit(std::get<Table<Plane>>(tables));
+        return visit(std::type_identity<Plane>());
     case Kind::disc:
-        return visit(std::get<Table<Disc>>(tables));
+        return visit(std::type_identity<Disc>());
     case Kind::triangle:
-        return visit(std::get<Table<Triangle>>(tables));
+        return visit(std::type_identity<Triangle>());
     case Kind::smooth_triangle:
-        return visit(std::get<Table<SmoothTriangle>>(tables));
+        return visit(std::type_identity<SmoothTriangle>());
     case Kind::box:
-        return visit(std::get<Table<Box>>(tables));
+        return visit(std::type_identity<Box>());
     case Kind::open_cylinder:
-        return visit(std::get<Table<OpenCylinder>>(tables));
+        return visit(std::type_identity<OpenCylinder>());
     case Kind::capped_cylinder:
-        return visit(std::get<Table<CappedCylinder>>(tables));
+        return visit(std::type_identity<CappedCylinder>());
     case Kind::open_cone:
-        return visit(std::get<Table<OpenCone>>(tables));
+        return visit(std::type_identity<OpenCone>());
     case Kind::capped_cone:
-        return visit(std::get<Table<CappedCone>>(tables));
+        return visit(std::type_identity<CappedCone>());
     case Kind::quadric:
         break;
     }
-    return visit(std::get<Table<Quadric>>(tables));
+    return visit(std::type_identity<Quadric>());
+}
+
+/// Calls `visit(table)` with the table of `kind`.
+template <class TablesRef, class Visit>
+decltype(auto) with_table(TablesRef&& tables, Kind kind, Visit&& visit) {
+    return with_shape_type(kind, [&]<class Shape>(std::type_identity<Shape>) -> decltype(auto) {
+        return visit(std::get<Table<Shape>>(tables));
+    });
 }
 
 /// Calls `visit(shape, id)` for every shape of a table.
@@ -121,7 +133,7 @@ void for_each_shape(const Table<Shape>& table, const Visit& visit) {
             visit(block.get(lane), block.ids[lane]);
 }
 
-/// Calls `visit(table)` for every kind in order.
+/// Calls `visit(table)` for every kind in order; so it does with lists.
 template <class TablesRef, class Visit>
 void for_each_table(TablesRef&& tables, Visit&& visit) {
     std::apply([&](auto&... table) { (visit(table), ...); }, tables);

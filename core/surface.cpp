@@ -35,7 +35,7 @@ ShapeId surface_through(const Scene& scene, const Vec3f& point) {
     for (const Block<Plane>& block : std::get<Table<Plane>>(scene.shapes()).blocks())
         lowest = std::min(lowest, lowest_in_block(block, point));
 
-    const std::vector<WideNode>& nodes = scene.hierarchy().nodes;
+    const BigArray<WideNode>& nodes = scene.hierarchy().nodes;
     std::vector<Child> pending;
     if (!nodes.empty()) pending.push_back(Child::node(0));
     while (!pending.empty()) {

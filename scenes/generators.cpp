@@ -34,9 +34,8 @@ void require_positive(const char* field, float value) {
 
 /// Makes room for exactly as many, but not for a few where there are many: a long row of small
 /// generators would copy everything each time.
-template <class Shape>
 void reserve(core::SceneBuilder& builder, std::size_t count) {
-    if (count >= builder.shape_count() / 2) builder.reserve<Shape>(count);
+    if (count >= builder.shape_count() / 2) builder.reserve(count);
 }
 
 /// The centres of nine spheres around one, as unit vectors in a frame whose z axis is the tip. They
@@ -116,7 +115,7 @@ void add(core::SceneBuilder& builder, const Sphereflake& flake, core::MaterialIn
     std::size_t count = 0;
     for (int level = 0; level <= flake.depth; ++level)
         count = 9 * count + 1;
-    reserve<core::Sphere>(builder, count);
+    reserve(builder, count);
     FlakeBuilder(builder, flake, material)
         .grow(core::convert<double>(flake.center), static_cast<double>(flake.radius),
               {0.0, 0.0, 1.0}, flake.depth);
@@ -145,11 +144,10 @@ void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialInde
                     visit(node(x, y, z));
     };
     const std::size_t count = static_cast<std::size_t>(n);
-    reserve<core::Sphere>(builder, count * count * count);
+    reserve(builder, count * count * count + 3 * count * count * (count - 1));
     for_each_node(Vec3i(n), [&](const Vec3f& center) {
         builder.add(core::Sphere{center, lattice.sphere_radius}, material);
     });
-    reserve<core::OpenCylinder>(builder, 3 * count * count * (count - 1));
     for (int axis = 0; axis < 3; ++axis) {
         Vec3i end(n);
         end[axis] = n - 1;

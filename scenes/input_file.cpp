@@ -77,6 +77,7 @@ bool InputFile::rewind() {
     if (descriptor_ >= 0) {
         if (::lseek(descriptor_, 0, SEEK_SET) != 0) return false;
         head_.clear();
+        bytes_read_ = 0;
     }
     head_used_ = 0;
     return true;
@@ -85,7 +86,11 @@ bool InputFile::rewind() {
 std::size_t InputFile::read_some(std::span<char> buffer) {
     while (descriptor_ >= 0) {
         const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
-        if (count >= 0) return static_cast<std::size_t>(count);
+        if (count >= 0) {
+            bytes_read_ += static_cast<std::uint64_t>(count);
+            if (on_read) on_read(bytes_read_, size_);
+            return static_cast<std::size_t>(count);
+        }
         if (errno != EINTR) throw SystemRefused(name_, "read", errno);
     }
     return 0;

@@ -3,11 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace raylane::scenes {
+
+/// Is told how many bytes have been read so far, and how many there are or 0.
+using OnRead = std::function<void(std::uint64_t bytes, std::uint64_t of)>;
 
 /// A file, or anything else that can be read from start to end.
 class InputFile {
@@ -20,6 +24,8 @@ class InputFile {
     ~InputFile();
     InputFile(const InputFile&) = delete;
     InputFile& operator=(const InputFile&) = delete;
+
+    OnRead on_read; ///< called whenever bytes of a file have been read
 
     /// As the user wrote it, for messages.
     const std::string& name() const { return name_; }
@@ -42,6 +48,7 @@ class InputFile {
     std::string name_;
     int descriptor_ = -1; // none for a text
     std::uint64_t size_ = 0;
+    std::uint64_t bytes_read_ = 0;
     std::string head_; // read ahead; all of a text
     std::size_t head_used_ = 0;
 };

@@ -39,21 +39,23 @@ bool is_json(InputFile& file) {
     return looks_like_json(file.head());
 }
 
-core::Scene read_scene(InputFile& file) {
+core::Scene read_scene(InputFile& file, const LoadOptions& options) {
+    file.on_read = options.on_read;
     if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
-    return is_json(file) ? read_json(file) : read_nff(file);
+    return is_json(file) ? read_json(file, options.workers) : read_nff(file, options.workers);
 }
 
 } // namespace
 
-core::Scene load_scene(const std::filesystem::path& path) {
+core::Scene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
     InputFile file(path);
-    return read_scene(file);
+    return read_scene(file, options);
 }
 
-core::Scene parse_scene(const std::string& name, std::string_view text) {
+core::Scene parse_scene(const std::string& name, std::string_view text,
+                        const LoadOptions& options) {
     InputFile file(name, text);
-    return read_scene(file);
+    return read_scene(file, options);
 }
 
 } // namespace raylane::scenes

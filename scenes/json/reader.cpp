@@ -29,7 +29,9 @@ std::string key_of_material_field(const std::string& field, core::PatternKind pa
 /// Collects a scene from the items of its file.
 class SceneReader {
   public:
-    explicit SceneReader(std::string_view file) : file_(file) {}
+    SceneReader(std::string_view file, core::Workers* workers) : file_(file) {
+        builder_.workers = workers;
+    }
 
     void take(const RootKey& key, std::string_view name, const JsonDocument& item);
     core::Scene finish();
@@ -161,8 +163,8 @@ core::Scene SceneReader::finish() {
 
 } // namespace
 
-core::Scene read_json(InputFile& file) {
-    SceneReader reader(file.name());
+core::Scene read_json(InputFile& file, core::Workers* workers) {
+    SceneReader reader(file.name(), workers);
     read_items(file, SceneReader::keys,
                [&](const RootKey& key, std::string_view name, const JsonDocument& item) {
                    reader.take(key, name, item);

@@ -5,6 +5,7 @@
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
 #include "scenes/scene_file.hpp"
+#include "simd/workers.hpp"
 
 #include <string>
 #include <utility>
@@ -155,15 +156,19 @@ Scene SceneBuilder::build() {
     library::copy(taken.fog, builder.fog);
     library::copy(taken.settings, builder.settings);
     builder.wants_light = false;
+    simd::ParallelWorkers workers;
+    builder.workers = &workers;
     return translated([&] { return owning(std::move(builder).build()); });
 }
 
 Scene load(const std::filesystem::path& path) {
-    return translated([&] { return owning(scenes::load_scene(path)); });
+    simd::ParallelWorkers workers;
+    return translated([&] { return owning(scenes::load_scene(path, {&workers, {}})); });
 }
 
 Scene parse(std::string_view text, const std::string& name) {
-    return translated([&] { return owning(scenes::parse_scene(name, text)); });
+    simd::ParallelWorkers workers;
+    return translated([&] { return owning(scenes::parse_scene(name, text, {&workers, {}})); });
 }
 
 } // namespace raylane

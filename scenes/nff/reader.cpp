@@ -29,7 +29,9 @@ constexpr std::uint64_t sample_size = 1 << 20;
 
 class Reader {
   public:
-    explicit Reader(InputFile& file) : file_(file), fields_(file) {}
+    Reader(InputFile& file, core::Workers* workers) : file_(file), fields_(file) {
+        builder_.workers = workers;
+    }
     core::Scene read();
 
   private:
@@ -48,15 +50,9 @@ class Reader {
     void read_cone();
     void read_polygon(bool with_normals);
 
-    template <class Shape>
-    void add(const Shape& shape, core::MaterialIndex material) {
-        builder_.add(shape, material);
-        ++counts_[static_cast<std::size_t>(core::kind_of<Shape>)];
-    }
     template <class Triangle>
     void add_polygon(const std::vector<Triangle>& triangles) {
         builder_.add_polygon<Triangle>(triangles, material(Visible::both));
-        counts_[static_cast<std::size_t>(core::kind_of<Triangle>)] += triangles.size();
     }
     void reserve_rest();
 
@@ -75,7 +71,6 @@ class Reader {
     NffFill fill_;
     std::optional<core::MaterialIndex> both_sides_, inside_; // fill_'s materials
 
-    std::array<std::size_t, core::kind_count> counts_{}; // shapes so far
     bool reserved_ = false;
 
     std::vector<Vec3f> vertices_;
@@ -159,7 +154,7 @@ void Reader::read_sphere() {
     core::Sphere sphere{fields_.vector("center"), fields_.number("radius")};
     const Visible visible = sphere.radius < 0.0F ? Visible::inside : Visible::both;
     sphere.radius = std::abs(sphere.radius);
-    add(sphere, material(visible));
+    builder_.add(sphere, material(visible));
 }
 
 void Reader::read_cone() {
@@ -177,9 +172,10 @@ void Reader::read_cone() {
     const core::MaterialIndex index = material(inside ? Visible::inside : Visible::both);
     // The text has the smaller radius at the apex. Nothing depends on that.
     if (base_radius == apex_radius)
-        add(core::OpenCylinder{base, apex - base, std::abs(base_radius)}, index);
+        builder_.add(core::OpenCylinder{base, apex - base, std::abs(base_radius)}, index);
     else
-        add(core::OpenCone{base, apex - base, std::abs(base_radius), std::abs(apex_radius)}, index);
+        builder_.add(
+            core::OpenCone{base, apex - base, std::abs(base_radius), std::abs(apex_radius)}, index);
 }
 
 /// The front is where the vertices run counter-clockwise, by the area of the whole polygon. The
@@ -221,7 +217,7 @@ void Reader::read_polygon(bool with_normals) {
     }
 }
 
-/// Makes room for as many shapes as there will be if the file goes on as it began, so that no table
+/// Makes room for as many shapes as there will be if the file goes on as it began, so that nothing
 /// is copied as it grows.
 void Reader::reserve_rest() {
     reserved_ = true;
@@ -230,16 +226,7 @@ void Reader::reserve_rest() {
     constexpr double margin = 17.0 / 16.0;
     const double rest =
         margin * static_cast<double>(file_.size() - passed) / static_cast<double>(passed);
-    const auto reserve = [&]<class Shape>(std::in_place_type_t<Shape>) {
-        const auto count =
-            static_cast<double>(counts_[static_cast<std::size_t>(core::kind_of<Shape>)]);
-        builder_.reserve<Shape>(static_cast<std::size_t>(rest * count));
-    };
-    reserve(std::in_place_type<core::Sphere>);
-    reserve(std::in_place_type<core::OpenCylinder>);
-    reserve(std::in_place_type<core::OpenCone>);
-    reserve(std::in_place_type<core::Triangle>);
-    reserve(std::in_place_type<core::SmoothTriangle>);
+    builder_.reserve(static_cast<std::size_t>(rest * static_cast<double>(builder_.shape_count())));
 }
 
 void Reader::require_no_objects() const {
@@ -291,8 +278,8 @@ core::Scene Reader::build() {
 
 } // namespace
 
-core::Scene read_nff(InputFile& file) {
-    return Reader(file).read();
+core::Scene read_nff(InputFile& file, core::Workers* workers) {
+    return Reader(file, workers).read();
 }
 
 } // namespace raylane::scenes

@@ -13,7 +13,8 @@ namespace raylane::scenes {
 /// - opaque objects are seen from both sides, but from inside alone where the radius is negative;
 /// - objects before the first f are a matte grey;
 /// - Ks is what is reflected as well; an index of refraction of 0 is 1 where T is 0.
+/// `workers` build the hierarchy, if there are any.
 /// Throws BadInput, whose place is "line N", and SystemRefused.
-core::Scene read_nff(InputFile& file);
+core::Scene read_nff(InputFile& file, core::Workers* workers = nullptr);
 
 } // namespace raylane::scenes

@@ -1,8 +1,8 @@
 #include "scenes/errors.hpp"
 #include "scenes/export/export.hpp"
-#include "scenes/scene_file.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/loading.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -21,7 +21,7 @@ int convert(const ConvertArguments& arguments) {
     require_other_file("OUTPUT", output, "SCENE", scene);
     require_scene_ending(output);
     std::string left_out;
-    for (const std::string& what : export_scene(output, load_scene(scene)))
+    for (const std::string& what : export_scene(output, load_with_progress(scene)))
         left_out.append(left_out.empty() ? "" : ", ").append(what);
     if (!left_out.empty())
         std::fprintf(stderr, "%s: left out, as the format has no word for it: %s\n",

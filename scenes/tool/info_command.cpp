@@ -2,9 +2,9 @@
 #include "core/method_choice.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
-#include "scenes/scene_file.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/loading.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -163,7 +163,7 @@ void print(const Json& info) {
 
 int info(const InfoArguments& arguments) {
     const std::string& scene = file_argument("SCENE", *arguments.scene);
-    const Json info = info_of(scene, load_scene(scene));
+    const Json info = info_of(scene, load_with_progress(scene));
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <unistd.h>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -37,39 +38,48 @@ std::string duration_text(double seconds) {
     return formatted("%lld h %02lld min", whole / 3600, whole / 60 % 60);
 }
 
-ProgressBar::ProgressBar(const simd::Progress& progress, std::int64_t pixels)
-    : progress_(progress), pixels_(pixels) {
+std::string bar_text(double done) {
+    constexpr int cells = 24;
+    std::string bar(cells, '.');
+    std::fill_n(bar.begin(), static_cast<int>(done * cells), '#');
+    return formatted("[%s] %3d %%", bar.c_str(), static_cast<int>(done * 100.0));
+}
+
+ProgressLine::ProgressLine(std::function<std::string()> text) : text_(std::move(text)) {
     if (::isatty(STDERR_FILENO) == 1)
         thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
-ProgressBar::~ProgressBar() {
+ProgressLine::~ProgressLine() {
     if (!thread_.joinable()) return;
     thread_.request_stop();
     thread_.join();
-    std::fputs("\r\x1B[K", stderr);
+    if (drawn_) std::fputs("\r\x1B[K", stderr);
 }
 
-void ProgressBar::run(const std::stop_token& stop) {
+void ProgressLine::run(const std::stop_token& stop) {
     constexpr std::chrono::milliseconds pause{100};
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, stop, pause, [] { return false; }) && !stop.stop_requested())
         draw();
 }
 
-void ProgressBar::draw() const {
-    constexpr int cells = 24;
+void ProgressLine::draw() {
+    const std::string text = text_();
+    if (text.empty() || is_ending()) return;
+    drawn_ = true;
+    std::fprintf(stderr, "\r%s\x1B[K", text.c_str());
+    std::fflush(stderr);
+}
+
+ProgressBar::ProgressBar(const simd::Progress& progress, std::int64_t pixels)
+    : progress_(progress), pixels_(pixels), line_([this] { return text(); }) {}
+
+std::string ProgressBar::text() const {
     const double seconds = seconds_since(start_);
     const double done = static_cast<double>(progress_.pixels) / static_cast<double>(pixels_);
-    const int filled = static_cast<int>(done * cells);
-    const std::string bar = std::string(filled, '#') + std::string(cells - filled, '.');
-    const std::string left =
-        done > 0.0 ? duration_text(seconds * (1.0 - done) / done) + " left" : "";
-    if (is_ending()) return;
-    std::fprintf(stderr, "\r[%s] %3d %%  %srays/s  %s\x1B[K", bar.c_str(),
-                 static_cast<int>(done * 100.0),
-                 with_prefix(static_cast<double>(progress_.rays) / seconds).c_str(), left.c_str());
-    std::fflush(stderr);
+    return bar_text(done) + "  " + with_prefix(static_cast<double>(progress_.rays) / seconds) +
+           "rays/s  " + (done > 0.0 ? duration_text(seconds * (1.0 - done) / done) + " left" : "");
 }
 
 } // namespace raylane::scenes

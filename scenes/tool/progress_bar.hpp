@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -16,25 +17,42 @@ std::string with_prefix(double value);
 /// "12.3 s", "4 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);
 
-/// One line on standard error that shows how far a rendering is, as long as this lives: percentage,
-/// rays per second, time left. Shows nothing where standard error is no terminal.
-class ProgressBar {
+/// "[######..................]  25 %"
+std::string bar_text(double done);
+
+/// One line on standard error that is drawn anew every so often, as long as this lives, and then
+/// wiped away. Shows nothing where standard error is no terminal.
+class ProgressLine {
   public:
-    ProgressBar(const simd::Progress& progress, std::int64_t pixels);
-    ~ProgressBar();
-    ProgressBar(const ProgressBar&) = delete;
-    ProgressBar& operator=(const ProgressBar&) = delete;
+    /// `text` is called by a thread of its own; the line stays as it is where it returns nothing.
+    explicit ProgressLine(std::function<std::string()> text);
+    ~ProgressLine();
+    ProgressLine(const ProgressLine&) = delete;
+    ProgressLine& operator=(const ProgressLine&) = delete;
 
   private:
     void run(const std::stop_token& stop);
-    void draw() const;
+    void draw();
+
+    std::function<std::string()> text_;
+    bool drawn_ = false; // read once the thread has ended
+    std::mutex mutex_;
+    std::condition_variable_any wake_;
+    std::jthread thread_; // the last: the others must outlive it
+};
+
+/// How far a rendering is: percentage, rays per second, time left.
+class ProgressBar {
+  public:
+    ProgressBar(const simd::Progress& progress, std::int64_t pixels);
+
+  private:
+    std::string text() const;
 
     const simd::Progress& progress_;
     std::int64_t pixels_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    std::mutex mutex_;
-    std::condition_variable_any wake_;
-    std::jthread thread_; // the last: the others must outlive it
+    ProgressLine line_; // the last: it asks for the text
 };
 
 } // namespace raylane::scenes

@@ -1,9 +1,9 @@
 #include "core/method_choice.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/image/writer.hpp"
-#include "scenes/scene_file.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/loading.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/render.hpp"
 #include "simd/tiles.hpp"
@@ -188,7 +188,7 @@ int render(const RenderArguments& arguments) {
     if (files.stats) stats.emplace(*files.stats);
 
     Stopwatch stopwatch;
-    const core::Scene scene = load_scene(files.scene);
+    const core::Scene scene = load_with_progress(files.scene, options.threads);
     const core::Settings settings = overrides.applied_to(scene.settings());
     options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     output.reserve(settings.width, settings.height);

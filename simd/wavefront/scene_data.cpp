@@ -79,7 +79,7 @@ FogView view_of(const core::Fog& fog) {
     return view;
 }
 
-std::uint32_t depth_below(const std::vector<core::WideNode>& nodes, std::uint32_t index) {
+std::uint32_t depth_below(const core::BigArray<core::WideNode>& nodes, std::uint32_t index) {
     std::uint32_t deepest = 0;
     for (const core::Child child : nodes[index].children)
         if (!child.empty() && !child.is_block())
@@ -147,7 +147,7 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
         occupants_ = std::move(occupants);
     }
     const std::uint32_t planes = 1U << static_cast<int>(core::Kind::plane);
-    const std::vector<core::WideNode>& nodes = scene.hierarchy().nodes;
+    const core::BigArray<core::WideNode>& nodes = scene.hierarchy().nodes;
     if (scene.shape_count() > few_shapes && !nodes.empty())
         view_.tree_depth = depth_below(nodes, 0);
     listed_kinds_ = has_tree() ? present & planes : present;

@@ -181,9 +181,11 @@ void add_rays(Rays& rays, const Tables& tables, bool lattice, bool adverse, int 
 
 template <class Shape>
 void add_shapes(Tables& tables, bool lattice, int count, Random& random) {
+    ShapeList<Shape> list;
     for (int i = 0; i < count; ++i)
-        std::get<Table<Shape>>(tables).add(ray_sets::Target<Shape>::make(random, lattice),
-                                           static_cast<ShapeId>(random.integer(0, 1000) * 64 + i));
+        list.add(ray_sets::Target<Shape>::make(random, lattice),
+                 static_cast<ShapeId>(random.integer(0, 1000) * 64 + i));
+    std::get<Table<Shape>>(tables) = Table<Shape>(list);
 }
 
 struct Share {

@@ -62,6 +62,36 @@ TEST_CASE("a rendering shows its progress on a terminal, and at the end a summar
     CHECK(end == "out/pictureNpng: N x N pixels, N samples each, in N s, N rays/s\r\n");
 }
 
+TEST_CASE("reading and building show their progress on a terminal, and nothing in a pipe") {
+    const Workshop workshop;
+    // Seconds of work, which are told of every tenth of one.
+    workshop.write("scene.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+        "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
+        "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
+                     "depth": 7}]})");
+    const Outcome shown = workshop.run({"info", "scene.json"}, on_terminal());
+    CHECK(shown.code == 0);
+    CHECK(form_of(shown.err).find("\rN million shapes read\x1B[K") != std::string::npos);
+    CHECK(form_of(shown.err).find("\r[N] N % of N million shapes placed\x1B[K") !=
+          std::string::npos);
+    CHECK(shown.err.ends_with("\r\x1B[K"));
+    CHECK(workshop.run({"info", "scene.json"}).err.empty());
+}
+
+TEST_CASE("reading a file shows how much of it has been read") {
+    const Workshop workshop;
+    // Some tenths of a second's reading.
+    const std::string line = "s 0 0 0 1\n";
+    std::string text = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 4 4\n"
+                       "l 9 9 9\n";
+    while (text.size() < (std::size_t{24} << 20))
+        text += line;
+    workshop.write("scene.nff", text);
+    const Outcome shown = workshop.run({"info", "scene.nff"}, on_terminal());
+    CHECK(shown.code == 0);
+    CHECK(form_of(shown.err).find("\r[N] N % N million shapes read\x1B[K") != std::string::npos);
+}
+
 TEST_CASE("an error is one line on a terminal, too") {
     const Workshop workshop;
     CHECK(workshop.run({"render", "none.json"}, on_terminal()).err ==

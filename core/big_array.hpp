@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace raylane::core {
+
+/// Memory for large tables, in huge pages where the system has them: rays that jump about in many
+/// megabytes then seldom wait for an address to be translated. Throws std::bad_alloc.
+void* allocate_big(std::size_t bytes);
+void free_big(void* memory, std::size_t bytes) noexcept;
+
+/// Plain data of a size that is set once. Its elements begin undefined, so that memory is touched
+/// first by what fills it, which may be many threads, and never twice.
+template <class T>
+class BigArray {
+    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);
+
+  public:
+    BigArray() = default;
+    explicit BigArray(std::size_t size)
+        : data_(static_cast<T*>(size > 0 ? allocate_big(size * sizeof(T)) : nullptr)), size_(size) {
+    }
+    BigArray(const BigArray& other) : BigArray(other.size_) {
+        if (size_ > 0) std::memcpy(static_cast<void*>(data_), other.data_, bytes());
+    }
+    BigArray(BigArray&& other) noexcept
+        : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+    BigArray& operator=(BigArray other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+        return *this;
+    }
+    ~BigArray() {
+        if (data_ != nullptr) free_big(data_, bytes());
+    }
+
+    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return size_; }
+    std::size_t bytes() const { return size_ * sizeof(T); }
+
+    T* data() { return data_; }
+    const T* data() const { return data_; }
+    T& operator[](std::size_t i) { return data_[i]; }
+    const T& operator[](std::size_t i) const { return data_[i]; }
+    T* begin() { return data_; }
+    T* end() { return data_ + size_; }
+    const T* begin() const { return data_; }
+    const T* end() const { return data_ + size_; }
+    const T& front() const { return data_[0]; }
+
+  private:
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+} // namespace raylane::core

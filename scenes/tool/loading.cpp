@@ -1,0 +1,65 @@
+#include "scenes/tool/loading.hpp"
+
+#include "scenes/scene_file.hpp"
+#include "scenes/tool/progress_bar.hpp"
+#include "simd/workers.hpp"
+
+#include <atomic>
+#include <cstdio>
+#include <string>
+
+namespace raylane::scenes {
+
+namespace {
+
+std::string millions(std::size_t shapes) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.1f million shapes", static_cast<double>(shapes) / 1e6);
+    return text;
+}
+
+/// Reads and builds, and knows how far it is; for another thread to ask.
+class Loader : public simd::ParallelWorkers {
+  public:
+    using ParallelWorkers::ParallelWorkers;
+
+    core::Scene load(const std::filesystem::path& path) {
+        return load_scene(path, {this, [this](std::uint64_t bytes, std::uint64_t of) {
+                                     bytes_ = bytes;
+                                     all_bytes_ = of;
+                                 }});
+    }
+
+    void added(std::size_t count) override { added_ = count; }
+    void placed(std::size_t count, std::size_t all) override {
+        to_place_ = all;
+        placed_ += count;
+    }
+
+    std::string text() const {
+        const auto share = [](auto done, auto all) {
+            return static_cast<double>(done) / static_cast<double>(all);
+        };
+        if (to_place_ > 0)
+            return bar_text(share(placed_.load(), to_place_.load())) + "  of " +
+                   millions(to_place_) + " placed";
+        const std::string read = millions(added_) + " read";
+        // A pipe has no end in sight, and a few bytes may stand for many shapes.
+        if (bytes_ >= all_bytes_) return read;
+        return bar_text(share(bytes_.load(), all_bytes_.load())) + "  " + read;
+    }
+
+  private:
+    std::atomic<std::uint64_t> bytes_ = 0, all_bytes_ = 0;
+    std::atomic<std::size_t> added_ = 0, placed_ = 0, to_place_ = 0;
+};
+
+} // namespace
+
+core::Scene load_with_progress(const std::filesystem::path& path, int threads) {
+    Loader loader(threads);
+    const ProgressLine line([&] { return loader.text(); });
+    return loader.load(path);
+}
+
+} // namespace raylane::scenes

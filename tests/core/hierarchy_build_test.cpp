@@ -1,0 +1,228 @@
+#include "core/hierarchy.hpp"
+#include "tests/catch.hpp"
+#include "tests/ray_sets.hpp"
+
+#include <map>
+
+using namespace raylane;
+using namespace raylane::core;
+using ray_sets::Random;
+
+namespace {
+
+struct Built {
+    Tables tables;
+    Hierarchy hierarchy;
+};
+
+Built build(const ShapeLists& lists, const Vec3f& eye = Vec3f(0.0F)) {
+    Workers alone;
+    Built built;
+    built.hierarchy = build_hierarchy(lists, eye, alone, built.tables);
+    return built;
+}
+
+template <class Shape>
+ShapeId add(ShapeLists& lists, const Shape& shape) {
+    ShapeId next = 0;
+    for_each_table(lists, [&](const auto& list) { next += static_cast<ShapeId>(list.size()); });
+    std::get<ShapeList<Shape>>(lists).add(shape, next);
+    return next;
+}
+
+ShapeLists all_kinds(int of_each, Random& random, bool lattice) {
+    ShapeLists lists;
+    for_each_table(lists, [&]<class Shape>(ShapeList<Shape>&) {
+        for (int i = 0; i < of_each; ++i)
+            add(lists, ray_sets::Target<Shape>::make(random, lattice));
+    });
+    return lists;
+}
+
+/// Whether `outer` contains `inner` and `margin` on each side.
+bool surrounds(const Bounds& outer, const Bounds& inner, double margin) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (static_cast<double>(outer.lower[axis]) >
+                static_cast<double>(inner.lower[axis]) - margin ||
+            static_cast<double>(outer.upper[axis]) <
+                static_cast<double>(inner.upper[axis]) + margin)
+            return false;
+    return true;
+}
+
+/// Walks a hierarchy and notes whatever is wrong with it.
+class Audit {
+  public:
+    Audit(const Built& built, const Vec3f& eye) : built_(built) {
+        double extent = 0.0;
+        const auto include = [&](const Vec3f& p) {
+            for (int axis = 0; axis < 3; ++axis)
+                extent = std::max(extent, std::abs(static_cast<double>(p[axis])));
+        };
+        include(eye);
+        for_each_table(built.tables, [&]<class Shape>(const Table<Shape>& table) {
+            if constexpr (kind_of<Shape> != Kind::plane)
+                for_each_shape(table, [&](const Shape& shape, ShapeId) {
+                    include(bounds_of(shape).lower);
+                    include(bounds_of(shape).upper);
+                });
+        });
+        margin_ = 6.0 * 0x1p-24 * extent * (1.0 - 0x1p-20);
+        visit(0, {built.hierarchy.bounds});
+    }
+
+    std::map<ShapeId, int> found; // how often each shape
+    int loose = 0;                // shapes that stick out of a node above them
+    int gaps = 0;                 // slots or lanes that are filled behind empty ones
+    std::size_t blocks = 0, nodes = 0;
+
+  private:
+    void visit(std::uint32_t index, std::vector<Bounds> above) {
+        ++nodes;
+        const WideNode& node = built_.hierarchy.nodes[index];
+        bool ended = false;
+        for (int slot = 0; slot < block_size; ++slot) {
+            const Child child = node.children[slot];
+            if (child.empty()) {
+                ended = true;
+                // Nothing may be found there.
+                if (!(node.lower[0][slot] > node.upper[0][slot])) ++gaps;
+                continue;
+            }
+            if (ended) ++gaps;
+            above.push_back(node.bounds(slot));
+            if (child.is_block())
+                with_table(built_.tables, child.kind(),
+                           [&](const auto& table) { visit(table.blocks()[child.index()], above); });
+            else
+                visit(child.index(), above);
+            above.pop_back();
+        }
+    }
+
+    template <class Shape>
+    void visit(const Block<Shape>& block, const std::vector<Bounds>& above) {
+        ++blocks;
+        if constexpr (kind_of<Shape> != Kind::plane) {
+            bool ended = false;
+            for (int lane = 0; lane < block_size; ++lane) {
+                if (block.ids[lane] == no_shape) {
+                    ended = true;
+                    if (!std::isnan(block.values[0][lane])) ++gaps;
+                    continue;
+                }
+                if (ended) ++gaps;
+                ++found[block.ids[lane]];
+                const Bounds bounds = bounds_of(block.get(lane));
+                for (const Bounds& outer : above)
+                    if (!surrounds(outer, bounds, margin_)) ++loose;
+            }
+        }
+    }
+
+    const Built& built_;
+    double margin_;
+};
+
+/// Of the shapes that are no planes, each must be there once, with its own values.
+Audit check(const ShapeLists& lists, const Vec3f& eye = Vec3f(0.0F)) {
+    const Built built = build(lists, eye);
+    Audit audit(built, eye);
+    CHECK(audit.loose == 0);
+    CHECK(audit.gaps == 0);
+    CHECK(audit.nodes == built.hierarchy.nodes.size());
+    std::size_t shapes = 0, blocks = 0;
+    int missing = 0;
+    for_each_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
+        const Table<Shape>& table = std::get<Table<Shape>>(built.tables);
+        CHECK(table.size() == list.size());
+        std::map<ShapeId, Floats<Shape>> values;
+        for_each_shape(table,
+                       [&](const Shape& shape, ShapeId id) { values[id] = floats_of(shape); });
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (values[list[i].id] != floats_of(list[i].shape)) ++missing;
+        if constexpr (kind_of<Shape> != Kind::plane) {
+            blocks += table.blocks().size();
+            shapes += list.size();
+            for (std::size_t i = 0; i < list.size(); ++i)
+                if (audit.found[list[i].id] != 1) ++missing;
+        }
+    });
+    CHECK(missing == 0);
+    CHECK(audit.found.size() == shapes);
+    CHECK(audit.blocks == blocks);
+    return audit;
+}
+
+ShapeLists spheres(int count, const auto& make) {
+    ShapeLists lists;
+    for (int i = 0; i < count; ++i)
+        add(lists, make(i));
+    return lists;
+}
+
+} // namespace
+
+TEST_CASE("each bounded shape of any kind is once in the hierarchy, inside of all above it") {
+    Random random(31);
+    for (const bool lattice : {false, true})
+        for (const int of_each : {1, 2, 16, 17, 150, 2000}) {
+            CAPTURE(lattice, of_each);
+            check(all_kinds(of_each, random, lattice), {100.0F, 0.0F, 0.0F});
+        }
+}
+
+TEST_CASE("a hierarchy of a few shapes") {
+    CHECK(build({}).hierarchy.nodes.empty());
+    const auto in_a_row = [](int i) { return Sphere{{static_cast<float>(3 * i), 0, 0}, 1}; };
+    for (const int count : {1, 2, 15, 16, 17, 31, 128, 129, 257}) {
+        CAPTURE(count);
+        const Audit audit = check(spheres(count, in_a_row));
+        CHECK(audit.nodes <= audit.blocks);
+        // Nothing keeps neighbours on a line apart: as few blocks as there can be.
+        if (count <= 128) CHECK(audit.blocks == static_cast<std::size_t>((count + 15) / 16));
+    }
+}
+
+TEST_CASE("a hierarchy of shapes that nothing tells apart") {
+    for (const int count : {17, 128, 129, 3000, 70'000}) {
+        CAPTURE(count);
+        const Audit audit = check(spheres(count, [](int) { return Sphere{{1, 2, 3}, 1}; }));
+        CHECK(audit.blocks < static_cast<std::size_t>(count) / 8 + 2);
+        // Around one centre, but of many sizes.
+        check(spheres(count, [](int i) { return Sphere{{0, 0, 0}, std::exp2(float(i % 60))}; }));
+    }
+}
+
+TEST_CASE("a hierarchy in which sizes are as different as floats can be") {
+    Random random(32);
+    for (const float scale : {1e-30F, 1e-15F, 1.0F, 1e15F, 1e28F}) {
+        CAPTURE(scale);
+        const Audit audit = check(spheres(5000, [&](int) {
+            return Sphere{scale * convert<float>(random.cube(100.0)), scale};
+        }));
+        // As full whatever the unit.
+        CHECK(audit.blocks < 5000 / 10);
+        CHECK(audit.nodes < audit.blocks / 6);
+    }
+    const Audit audit = check(spheres(5000, [&](int) {
+        const auto size = static_cast<float>(random.log_uniform(1e-30, 1e28));
+        return Sphere{size * convert<float>(random.cube(100.0)), size};
+    }));
+    CHECK(audit.nodes < audit.blocks);
+}
+
+TEST_CASE("a hierarchy over flat shapes in one plane") {
+    Random random(33);
+    ShapeLists lists;
+    for (int i = 0; i < 3000; ++i) {
+        Vec3f a = convert<float>(random.cube(10.0)), b = a, c = a;
+        a.z = b.z = c.z = 0.0F;
+        b.x += 0.1F;
+        c.y += 0.1F;
+        add(lists, Triangle{a, b, c});
+    }
+    const Audit audit = check(lists);
+    CHECK(audit.blocks < 3000 / 10);
+    CHECK(audit.nodes < audit.blocks / 6);
+}

@@ -1,0 +1,99 @@
+#include "scenes/generators.hpp"
+#include "tests/catch.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <malloc.h>
+#include <new>
+#include <random>
+
+/// In a program of its own: it counts what is asked of the heap.
+namespace {
+
+std::atomic<std::size_t> live = 0, peak = 0;
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+    void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    if (memory == nullptr) throw std::bad_alloc();
+    live += ::malloc_usable_size(memory);
+    peak = std::max(peak.load(), live.load());
+    return memory;
+}
+
+void discounted(void* memory) {
+    if (memory != nullptr) live -= ::malloc_usable_size(memory);
+    std::free(memory);
+}
+
+} // namespace
+
+void* operator new(std::size_t bytes) {
+    return counted(bytes, alignof(std::max_align_t));
+}
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+    return counted(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept {
+    discounted(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    discounted(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+    discounted(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+    discounted(memory);
+}
+
+using namespace raylane;
+
+namespace {
+
+/// What a finished scene may take for each sphere, and what building it may.
+constexpr double most_bytes = 40.0, most_at_peak = 2.5 * most_bytes;
+
+template <class Fill>
+void check_memory(const Fill& fill) {
+    const std::size_t before = live;
+    peak = before;
+    core::SceneBuilder builder;
+    builder.wants_light = false;
+    builder.add_material({});
+    fill(builder);
+    const core::Scene scene = std::move(builder).build();
+    const auto each = [&](std::size_t bytes) {
+        return static_cast<double>(bytes) / static_cast<double>(scene.shape_count());
+    };
+    CAPTURE(scene.shape_count(), each(scene.bytes()), each(live - before), each(peak - before));
+    CHECK(each(scene.bytes()) <= most_bytes);
+    CHECK(each(peak - before) <= most_at_peak);
+    // What the scene says of itself is what it holds, but for what does not grow with it: mostly
+    // what the heap spends on aligning huge pages.
+    constexpr std::size_t overhead = std::size_t{3} << 20;
+    CHECK(scene.bytes() <= live - before);
+    CHECK(live - before <= scene.bytes() + overhead);
+}
+
+void add_uniform(core::SceneBuilder& builder, int count) {
+    std::mt19937 engine(1);
+    std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
+    builder.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        const float x = uniform(engine), y = uniform(engine), z = uniform(engine);
+        builder.add(core::Sphere{{x, y, z}, 0.3F / std::cbrt(static_cast<float>(count))}, 0);
+    }
+}
+
+} // namespace
+
+TEST_CASE("a sphere takes 40 bytes, and 100 while the scene is built") {
+    for (const int count : {20'000, 200'000, 1'000'000})
+        check_memory([&](core::SceneBuilder& builder) { add_uniform(builder, count); });
+    for (const int depth : {5, 6})
+        check_memory([&](core::SceneBuilder& builder) {
+            scenes::add(builder, scenes::Sphereflake{{0, 0, 0}, 1.0F, depth}, 0);
+        });
+}
