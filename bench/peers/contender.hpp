@@ -35,8 +35,8 @@ using Contenders = std::vector<std::unique_ptr<Contender>>;
 /// raylane itself.
 std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa, int threads);
 
-/// Embree: its calls for one ray, for 16, for 16 that are said to be coherent, and for a stream of
-/// such. None if it does not have the scene's shapes, or was not there when this was built.
+/// Embree: its calls for one ray, for 16, and for 16 that are said to be coherent. None if it does
+/// not have the scene's shapes, or was not there when this was built.
 Contenders make_embree(const core::Scene& scene, simd::Isa isa);
 
 } // namespace raylane::bench

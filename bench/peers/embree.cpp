@@ -8,15 +8,10 @@ namespace raylane::bench {
 
 namespace {
 
-enum class Call { single, wide, coherent, stream };
-constexpr Call calls[] = {Call::single, Call::wide, Call::coherent, Call::stream};
-constexpr const char* call_names[] = {"embree 1", "embree 16", "embree 16 coherent",
-                                      "embree stream"};
-
-/// Whether its rays come in packets.
-constexpr bool is_wide(Call call) {
-    return call == Call::wide || call == Call::coherent;
-}
+/// Its calls for streams, which are gone from Embree 4, have been the fastest nowhere.
+enum class Call { single, wide, coherent };
+constexpr Call calls[] = {Call::single, Call::wide, Call::coherent};
+constexpr const char* call_names[] = {"embree 1", "embree 16", "embree 16 coherent"};
 
 constexpr std::size_t width = 16;
 
@@ -43,7 +38,7 @@ class Embree : public Contender {
         rays_ = &rays;
         single_.clear();
         wide_.clear();
-        if (is_wide(call_))
+        if (is_wide())
             wide_.resize((rays.count + width - 1) / width);
         else
             single_.resize(rays.count);
@@ -58,7 +53,7 @@ class Embree : public Contender {
             ray.dir_z = from.direction.z;
             ray.tnear = rays.t_least(i);
             ray.mask = ~0U;
-            if (is_wide(call_))
+            if (is_wide())
                 set_ray(wide_[i / width].ray, i % width, ray);
             else
                 single_[i].ray = ray;
@@ -69,11 +64,10 @@ class Embree : public Contender {
         const NoDenormals no_denormals;
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        if (call_ == Call::coherent || call_ == Call::stream)
-            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        if (call_ == Call::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
         for (; begin < end; begin += RaySet::wave) {
             const std::size_t count = std::min(RaySet::wave, end - begin);
-            if (is_wide(call_))
+            if (is_wide())
                 run_wide(begin, count, context);
             else
                 run_single(begin, count, context);
@@ -84,7 +78,7 @@ class Embree : public Contender {
         std::vector<std::uint32_t> all;
         for (std::size_t i = 0; i < rays_->count; ++i) {
             const std::size_t packet = i / width, lane = i % width;
-            const bool wide = is_wide(call_);
+            const bool wide = is_wide();
             const float tfar = wide ? wide_[packet].ray.tfar[lane] : single_[i].ray.tfar;
             const unsigned geometry = wide ? wide_[packet].hit.geomID[lane] : single_[i].hit.geomID;
             const unsigned primitive =
@@ -96,6 +90,8 @@ class Embree : public Contender {
     }
 
   private:
+    bool is_wide() const { return call_ != Call::single; }
+
     static void set_ray(RTCRay16& packet, std::size_t lane, const RTCRay& ray) {
         packet.org_x[lane] = ray.org_x;
         packet.org_y[lane] = ray.org_y;
@@ -115,14 +111,6 @@ class Embree : public Contender {
             rays[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
         }
         const RTCScene scene = built_->scene.get();
-        if (call_ == Call::stream) {
-            const auto all = static_cast<unsigned>(count);
-            if (rays_->occlusion)
-                rtcOccluded1M(scene, &context, &rays->ray, all, sizeof(RTCRayHit));
-            else
-                rtcIntersect1M(scene, &context, rays, all, sizeof(RTCRayHit));
-            return;
-        }
         for (std::size_t i = 0; i < count; ++i)
             if (rays_->occlusion)
                 rtcOccluded1(scene, &context, &rays[i].ray);
