@@ -13,7 +13,7 @@ namespace {
 
 /// All rays once, on several threads by shares of some waves.
 void run(Contender& contender, const RaySet& rays, int threads) {
-    constexpr std::size_t share = 16 * RaySet::wave;
+    constexpr std::size_t share = 4 * RaySet::wave;
     std::atomic<std::size_t> next = 0;
     const auto work = [&](int thread) {
         for (std::size_t begin; (begin = next.fetch_add(share)) < rays.count;)
