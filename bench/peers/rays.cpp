@@ -5,24 +5,33 @@
 
 #include <algorithm>
 #include <atomic>
+#include <barrier>
 #include <thread>
 
 namespace raylane::bench {
 
 namespace {
 
-/// All rays once, on several threads by shares of some waves.
-void run(Contender& contender, const RaySet& rays, int threads) {
+/// All rays once, on several threads by shares of some waves. Seconds, once all threads run.
+double run(Contender& contender, const RaySet& rays, int threads) {
     constexpr std::size_t share = 4 * RaySet::wave;
     std::atomic<std::size_t> next = 0;
+    std::barrier all_run(threads);
     const auto work = [&](int thread) {
         for (std::size_t begin; (begin = next.fetch_add(share)) < rays.count;)
             contender.run(begin, std::min(begin + share, rays.count), thread);
     };
     std::vector<std::jthread> others;
     for (int thread = 1; thread < threads; ++thread)
-        others.emplace_back(work, thread);
-    work(0);
+        others.emplace_back([&, thread] {
+            all_run.arrive_and_wait();
+            work(thread);
+        });
+    all_run.arrive_and_wait();
+    return seconds_of([&] {
+        work(0);
+        others.clear(); // joins
+    });
 }
 
 /// Knows for sure what rays hit.
