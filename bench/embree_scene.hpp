@@ -1,9 +1,9 @@
 #pragma once
 
+#include "bench/embree.hpp"
 #include "core/scene.hpp"
 #include "simd/isa.hpp"
 
-#include <embree3/rtcore.h>
 #include <memory>
 #include <pmmintrin.h>
 #include <vector>

@@ -62,15 +62,13 @@ class Embree : public Contender {
 
     void run(std::size_t begin, std::size_t end, int /*thread*/) override {
         const NoDenormals no_denormals;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        if (call_ == Call::coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        EmbreeQuery query(call_ == Call::coherent);
         for (; begin < end; begin += RaySet::wave) {
             const std::size_t count = std::min(RaySet::wave, end - begin);
             if (is_wide())
-                run_wide(begin, count, context);
+                run_wide(begin, count, query);
             else
-                run_single(begin, count, context);
+                run_single(begin, count, query);
         }
     }
 
@@ -103,7 +101,7 @@ class Embree : public Contender {
         packet.mask[lane] = ray.mask;
     }
 
-    void run_single(std::size_t begin, std::size_t count, RTCIntersectContext& context) {
+    void run_single(std::size_t begin, std::size_t count, EmbreeQuery& query) {
         const float* const t_most = rays_->t_most(begin);
         RTCRayHit* const rays = &single_[begin];
         for (std::size_t i = 0; i < count; ++i) {
@@ -113,12 +111,12 @@ class Embree : public Contender {
         const RTCScene scene = built_->scene.get();
         for (std::size_t i = 0; i < count; ++i)
             if (rays_->occlusion)
-                rtcOccluded1(scene, &context, &rays[i].ray);
+                query.occluded(scene, rays[i].ray);
             else
-                rtcIntersect1(scene, &context, &rays[i]);
+                query.nearest(scene, rays[i]);
     }
 
-    void run_wide(std::size_t begin, std::size_t count, RTCIntersectContext& context) {
+    void run_wide(std::size_t begin, std::size_t count, EmbreeQuery& query) {
         alignas(64) int valid[width];
         for (std::size_t first = 0; first < count; first += width) {
             RTCRayHit16& rays = wide_[(begin + first) / width];
@@ -127,9 +125,9 @@ class Embree : public Contender {
             std::copy_n(rays_->t_most(begin + first), width, rays.ray.tfar);
             std::fill_n(rays.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
             if (rays_->occlusion)
-                rtcOccluded16(valid, built_->scene.get(), &context, &rays.ray);
+                query.occluded(built_->scene.get(), valid, rays.ray);
             else
-                rtcIntersect16(valid, built_->scene.get(), &context, &rays);
+                query.nearest(built_->scene.get(), valid, rays);
         }
     }
 
@@ -141,6 +139,10 @@ class Embree : public Contender {
 };
 
 } // namespace
+
+const char* embree_version() {
+    return RTC_VERSION_STRING;
+}
 
 Contenders make_embree(const core::Scene& scene, simd::Isa isa) {
     Contenders all;

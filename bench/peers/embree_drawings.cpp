@@ -34,7 +34,7 @@ struct Traversal {
     Traversal(const simd::SceneData& data, simd::Isa isa, bool filters)
         : device(make_embree_device(isa)),
           scene(device.get(), data.scene(),
-                filters ? RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION : RTC_SCENE_FLAG_NONE,
+                filters ? EmbreeQuery::filter_flag : RTC_SCENE_FLAG_NONE,
                 RTC_BUILD_QUALITY_MEDIUM) {
         scene.commit();
         std::vector<std::uint32_t> slot_of(data.scene().shape_count());
@@ -55,15 +55,9 @@ struct Traversal {
 const Traversal* traversal = nullptr;
 Way way{};
 
-/// What the filter is told.
-struct Context {
-    RTCIntersectContext base;
-    const simd::RoundedRays* rays;
-};
-
 /// Rejects hits of the shapes that rays leave.
 void reject_departed(const RTCFilterFunctionNArguments* hits) {
-    const simd::RoundedRays& rays = *reinterpret_cast<const Context*>(hits->context)->rays;
+    const auto& rays = *static_cast<const simd::RoundedRays*>(EmbreeQuery::data_for(*hits));
     for (unsigned i = 0; i < hits->N; ++i) {
         if (hits->valid[i] == 0) continue;
         const unsigned lane = RTCRayN_id(hits->ray, hits->N, i);
@@ -72,15 +66,6 @@ void reject_departed(const RTCFilterFunctionNArguments* hits) {
                                                         RTCHitN_primID(hits->hit, hits->N, i));
         if (departed.contains(id)) hits->valid[i] = 0;
     }
-}
-
-Context context_for(const simd::RoundedRays& rays, const simd::Bundle* bundle) {
-    Context context{};
-    rtcInitIntersectContext(&context.base);
-    if (bundle != nullptr) context.base.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    if (way.filters) context.base.filter = reject_departed;
-    context.rays = &rays;
-    return context;
 }
 
 /// A ten-thousandth of the largest coordinate. A thirtieth of it, as RaySet::t_least has it, makes
@@ -136,7 +121,8 @@ void nearest(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
              const simd::Candidates& candidates, const simd::Pending& /*pending*/,
              simd::TraceCounters& /*counters*/) {
     const NoDenormals no_denormals;
-    Context context = context_for(rays, bundle);
+    EmbreeQuery query(/*coherent=*/bundle != nullptr);
+    if (way.filters) query.set_filter(reject_departed, &rays);
     const RTCScene scene = traversal->scene.get();
     const auto keep = [&](std::size_t lane, float t, unsigned geometry, unsigned primitive) {
         if (geometry == RTC_INVALID_GEOMETRY_ID) return;
@@ -148,7 +134,7 @@ void nearest(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
             if (!is_any(rays, lane)) continue;
             RTCRayHit ray{ray_of(rays, lane, candidates.first[lane]), {}};
             ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            rtcIntersect1(scene, &context.base, &ray);
+            query.nearest(scene, ray);
             keep(lane, ray.ray.tfar, ray.hit.geomID, ray.hit.primID);
         }
         return;
@@ -160,7 +146,7 @@ void nearest(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
         std::fill_n(packet.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
         for (std::size_t i = 0; i < width; ++i)
             valid[i] = begin + i < count && is_any(rays, begin + i) ? -1 : 0;
-        rtcIntersect16(valid, scene, &context.base, &packet);
+        query.nearest(scene, valid, packet);
         for (std::size_t i = 0; i < width; ++i)
             keep(begin + i, packet.ray.tfar[i], packet.hit.geomID[i], packet.hit.primID[i]);
     }
@@ -171,13 +157,14 @@ void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
               const simd::Occlusions& occlusions, const simd::Pending& /*pending*/,
               simd::TraceCounters& /*counters*/) {
     const NoDenormals no_denormals;
-    Context context = context_for(rays, bundle);
+    EmbreeQuery query(/*coherent=*/bundle != nullptr);
+    if (way.filters) query.set_filter(reject_departed, &rays);
     const RTCScene scene = traversal->scene.get();
     if (!way.by_16) {
         for (std::size_t lane = 0; lane < count; ++lane) {
             if (!is_any(rays, lane)) continue;
             RTCRay ray = ray_of(rays, lane, occlusions.t_most[lane]);
-            rtcOccluded1(scene, &context.base, &ray);
+            query.occluded(scene, ray);
             if (ray.tfar < 0.0F) occlusions.state[lane] = simd::blocked;
         }
         return;
@@ -188,7 +175,7 @@ void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
         fill(packet, rays, begin, occlusions.t_most);
         for (std::size_t i = 0; i < width; ++i)
             valid[i] = begin + i < count && is_any(rays, begin + i) ? -1 : 0;
-        rtcOccluded16(valid, scene, &context.base, &packet);
+        query.occluded(scene, valid, packet);
         for (std::size_t i = 0; i < width && begin + i < count; ++i)
             if (packet.tfar[i] < 0.0F) occlusions.state[begin + i] = simd::blocked;
     }

@@ -67,6 +67,9 @@ void measure(const std::string& name, const std::vector<std::string>& wanted, co
 
 /// Whether raylane is right everywhere.
 bool measure_all(const Arguments& arguments, simd::Isa isa) {
+    const char* const embree = embree_version();
+    std::printf("Embree %s\n",
+                embree != nullptr ? embree : "was not there to build with, left out");
     Json rows = Json::array();
     bool right = true;
     for (const std::string& name : arguments.scenes)
@@ -82,7 +85,8 @@ bool measure_all(const Arguments& arguments, simd::Isa isa) {
                 });
     if (!arguments.json.empty()) {
         std::ofstream file(arguments.json);
-        file << Json{{"rows", rows}}.dump(2) << std::endl;
+        file << Json{{"embree", embree != nullptr ? Json(embree) : Json()}, {"rows", rows}}.dump(2)
+             << std::endl;
         if (!file) throw Unwritable(arguments.json + ": cannot be written");
     }
     return right;

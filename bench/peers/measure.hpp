@@ -46,6 +46,9 @@ struct Row {
 /// Times all, alternating; the first round warms up.
 std::vector<Result> alternate(const std::vector<TimedRun>& runs, int repetitions);
 
+/// Of Embree; null if it was not there when this was built.
+const char* embree_version();
+
 struct Measuring {
     simd::Isa isa;
     int threads;

@@ -4,6 +4,10 @@
 /// What stands in for Embree where it is not.
 namespace raylane::bench {
 
+const char* embree_version() {
+    return nullptr;
+}
+
 Contenders make_embree(const core::Scene& /*scene*/, simd::Isa /*isa*/) {
     return {};
 }

@@ -6,7 +6,7 @@
 #                                         FOLDER: where peers.json and the scenes go; default
 #                                         build/peers
 #
-# Embree, where it was there when raylane was configured (Debian's libembree-dev): rays of several
+# Embree 3 or 4, where it was there when raylane was configured (Debian's libembree-dev): rays of several
 # sorts on 10 to 10,000,000 balls and on a lattice of 1,000,000 balls and sticks; building; two
 # threads; and whole pictures by raylane's wavefront with Embree's calls inside. POV-Ray 3.7 and
 # Tachyon 0.99 (Debian's povray and tachyon): whole pictures, whole processes. It wants python3.
@@ -43,7 +43,6 @@ command -v python3 >/dev/null || fail "no python3 here"
 for peer in povray tachyon; do
     command -v $peer >/dev/null || echo "$peer: not here, left out"
 done
-ldd "$build/bin/raylane-peers" | grep -q embree || echo "Embree: not built in, left out"
 mkdir -p "$folder/parts"
 rm -f "$folder"/parts/*.json
 
