@@ -21,7 +21,7 @@ core::SceneBuilder shapes_of(const core::Scene& scene) {
 } // namespace
 
 Row measure_building(const core::Scene& scene, const Measuring& how) {
-    std::vector<TimedRun> runs = {{"raylane", [&] {
+    std::vector<TimedRun> runs = {{"raylane", [&](int /*threads*/) {
                                        core::SceneBuilder builder = shapes_of(scene);
                                        std::optional<core::Scene> built;
                                        std::optional<simd::SceneData> data;
@@ -31,7 +31,9 @@ Row measure_building(const core::Scene& scene, const Measuring& how) {
                                        });
                                    }}};
     if (auto peer = embree_building(scene, how.isa)) runs.push_back(std::move(*peer));
-    return {"build", scene.shape_count(), /*is_speed=*/false, alternate(runs, how.repetitions)};
+    Measuring alone = how;
+    alone.threads = 1;
+    return {"build", scene.shape_count(), /*is_speed=*/false, alternate(runs, alone)};
 }
 
 } // namespace raylane::bench

@@ -155,7 +155,7 @@ Contenders make_embree(const core::Scene& scene, simd::Isa isa) {
 
 std::optional<TimedRun> embree_building(const core::Scene& scene, simd::Isa isa) {
     if (!EmbreeScene::can_hold(scene)) return std::nullopt;
-    return TimedRun{"embree", [&scene, isa] {
+    return TimedRun{"embree", [&scene, isa](int /*threads*/) {
                         const EmbreeDevice device = make_embree_device(isa);
                         EmbreeScene built(device.get(), scene, RTC_SCENE_FLAG_NONE,
                                           RTC_BUILD_QUALITY_MEDIUM);

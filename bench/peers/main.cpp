@@ -40,7 +40,9 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
         ->check(CLI::IsMember(sets));
     app.add_option("--isa", arguments.isa, "which Embree is held to as well (the best there is)")
         ->check(CLI::IsMember(isas));
-    app.add_option("--threads", arguments.threads, "(1)")->check(CLI::Range(1, 1024));
+    app.add_option("--threads", arguments.threads,
+                   "(1); of several, how many times one they are is measured, too")
+        ->check(CLI::Range(1, 1024));
     app.add_option("--repetitions", arguments.repetitions, "(5), of which the median counts")
         ->check(CLI::Range(1, 1000));
     app.add_option("--size", arguments.side, "of pictures, in pixels (1024)")

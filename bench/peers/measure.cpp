@@ -29,17 +29,22 @@ double seconds_of(const std::function<void()>& run) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::vector<Result> alternate(const std::vector<TimedRun>& runs, int repetitions) {
-    std::vector<std::vector<double>> seconds(runs.size());
-    for (int round = 0; round <= repetitions; ++round)
+std::vector<Result> alternate(const std::vector<TimedRun>& runs, const Measuring& how) {
+    std::vector<std::vector<double>> seconds(runs.size()), alone(runs.size());
+    for (int round = 0; round <= how.repetitions; ++round)
         for (std::size_t i = 0; i < runs.size(); ++i) {
-            const double time = runs[i].seconds();
-            if (round != 0) seconds[i].push_back(time);
+            const double time = runs[i].seconds(how.threads);
+            const double time_alone = how.threads > 1 ? runs[i].seconds(1) : time;
+            if (round == 0) continue;
+            seconds[i].push_back(time);
+            alone[i].push_back(time_alone);
         }
     std::vector<Result> results;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto [least, most] = std::minmax_element(seconds[i].begin(), seconds[i].end());
-        results.push_back({runs[i].name, median_of(seconds[i]), *least, *most, {}});
+        Result& result = results.emplace_back(
+            Result{runs[i].name, median_of(seconds[i]), *least, *most, {}, {}});
+        if (how.threads > 1) result.alone = median_of(alone[i]);
     }
     return results;
 }
@@ -63,6 +68,7 @@ nlohmann::ordered_json Row::json() const {
                               {"least", result.least},
                               {"most", result.most}});
         if (result.wrong) json["by"].back()["wrong"] = *result.wrong;
+        if (result.alone) json["by"].back()["alone"] = *result.alone;
     }
     if (const std::optional<double> times = ratio()) json["ratio"] = *times;
     return json;
@@ -72,6 +78,9 @@ void Row::print() const {
     std::printf("  %-10s", what.c_str());
     for (const Result& result : by) {
         std::printf(is_speed ? "  %s %.2f" : "  %s %.4f s", result.name.c_str(), result.median);
+        if (result.alone)
+            std::printf(" (%.2f times one thread)",
+                        is_speed ? result.median / *result.alone : *result.alone / result.median);
         if (result.wrong.value_or(0) != 0) std::printf(" (%zu wrong)", *result.wrong);
     }
     if (const std::optional<double> times = ratio()) std::printf("  ratio %.2f", *times);

@@ -15,10 +15,10 @@
 /// What raylane-peers measures: raylane and others in turn, medians of several runs.
 namespace raylane::bench {
 
-/// Something to be timed: it says how many seconds it took.
+/// Something to be timed: it says how many seconds it took, by so many threads.
 struct TimedRun {
     std::string name;
-    std::function<double()> seconds;
+    std::function<double(int threads)> seconds;
 };
 
 double seconds_of(const std::function<void()>& run);
@@ -28,6 +28,7 @@ struct Result {
     std::string name;
     double median, least, most;       ///< in the row's unit
     std::optional<std::size_t> wrong; ///< how many of its answers
+    std::optional<double> alone;      ///< the median by one thread, where there are several
 };
 
 /// One measurement of all contenders, raylane first. What is raylane's is called so.
@@ -43,9 +44,6 @@ struct Row {
     void print() const;
 };
 
-/// Times all, alternating; the first round warms up.
-std::vector<Result> alternate(const std::vector<TimedRun>& runs, int repetitions);
-
 /// Of Embree; null if it was not there when this was built.
 const char* embree_version();
 
@@ -55,6 +53,10 @@ struct Measuring {
     int repetitions;
     int side; ///< of pictures, in pixels
 };
+
+/// Times all, alternating; the first round warms up. Of several threads, one alone takes its turn,
+/// too.
+std::vector<Result> alternate(const std::vector<TimedRun>& runs, const Measuring& how);
 
 /// Rays of the sorts that are `wanted`, of ray_set_names. Each row is handed over when it is done.
 void measure_rays(const simd::SceneData& scene, const std::vector<std::string>& wanted,

@@ -42,16 +42,16 @@ Row measure_picture(const simd::SceneData& scene, const Measuring& how) {
     core::Settings settings = scene.scene().settings();
     settings.width = settings.height = how.side;
     settings.grid = 1;
-    simd::RenderOptions options;
-    options.threads = how.threads;
     std::vector<std::optional<core::Film>> films(drawings.size());
     std::vector<TimedRun> runs;
     for (std::size_t i = 0; i < drawings.size(); ++i)
-        runs.push_back({drawings[i].name, [&, i] {
+        runs.push_back({drawings[i].name, [&, i](int threads) {
+                            simd::RenderOptions options;
+                            options.threads = threads;
                             return seconds_of(
                                 [&] { films[i] = drawings[i].draw(settings, options).film; });
                         }});
-    Row row{"picture", 0, /*is_speed=*/false, alternate(runs, how.repetitions)};
+    Row row{"picture", 0, /*is_speed=*/false, alternate(runs, how)};
     row.count = films[0]->pixels().size();
     for (std::size_t i = 0; i < films.size(); ++i)
         row.by[i].wrong = different_pixels(*films[i], *films[0]);

@@ -6,32 +6,32 @@
 #include <algorithm>
 #include <atomic>
 #include <barrier>
+#include <chrono>
 #include <thread>
+#include <utility>
 
 namespace raylane::bench {
 
 namespace {
 
-/// All rays once, on several threads by shares of some waves. Seconds, once all threads run.
+/// All rays once, on several threads by shares of some waves. Seconds, once all threads are there.
 double run(Contender& contender, const RaySet& rays, int threads) {
+    using Clock = std::chrono::steady_clock;
     constexpr std::size_t share = 4 * RaySet::wave;
+    Clock::time_point start;
     std::atomic<std::size_t> next = 0;
-    std::barrier all_run(threads);
+    std::barrier are_there(threads, [&]() noexcept { start = Clock::now(); });
     const auto work = [&](int thread) {
+        are_there.arrive_and_wait();
         for (std::size_t begin; (begin = next.fetch_add(share)) < rays.count;)
             contender.run(begin, std::min(begin + share, rays.count), thread);
     };
     std::vector<std::jthread> others;
     for (int thread = 1; thread < threads; ++thread)
-        others.emplace_back([&, thread] {
-            all_run.arrive_and_wait();
-            work(thread);
-        });
-    all_run.arrive_and_wait();
-    return seconds_of([&] {
-        work(0);
-        others.clear(); // joins
-    });
+        others.emplace_back(work, thread);
+    work(0);
+    others.clear(); // joins
+    return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 /// Knows for sure what rays hit.
@@ -89,17 +89,20 @@ Row measure_set(const simd::SceneData& scene, const RaySet& rays, const Contende
     std::vector<TimedRun> runs;
     for (const auto& contender : contenders) {
         contender->prepare(rays);
-        runs.push_back({contender->name(),
-                        [&] { return seconds_of([&] { run(*contender, rays, how.threads); }); }});
+        runs.push_back(
+            {contender->name(), [&](int threads) { return run(*contender, rays, threads); }});
     }
-    row.by = alternate(runs, how.repetitions);
+    row.by = alternate(runs, how);
     count_wrong(scene, rays, contenders, row.by);
     const auto speed = [&](double seconds) {
         return static_cast<double>(rays.count) / seconds / 1e6;
     };
-    for (Result& result : row.by)
-        result = {result.name, speed(result.median), speed(result.most), speed(result.least),
-                  result.wrong};
+    for (Result& result : row.by) {
+        result.median = speed(result.median);
+        result.least = std::exchange(result.most, speed(result.least));
+        result.least = speed(result.least);
+        if (result.alone) result.alone = speed(*result.alone);
+    }
     return row;
 }
 

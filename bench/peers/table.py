@@ -47,27 +47,21 @@ def print_table(rows):
                         for column, (cell, width) in enumerate(zip(line, widths))).rstrip())
 
 
-def gain(row, alone, name):
-    """By threads, for the contender of a name in both rows."""
-    medians = [next(result["median"] for result in each["by"] if result["name"] == name)
-               for each in (row, alone)]
-    return medians[0] / medians[1] if row["unit"] == "Mrays/s" else medians[1] / medians[0]
+def gain(row, result):
+    more, alone = result["median"], result["alone"]
+    return more / alone if row["unit"] == "Mrays/s" else alone / more
 
 
 def print_scaling(rows):
-    """Several threads against one, where both have been measured."""
-    def key(row):
-        return row["scene"], row["what"], row.get("isa")
-
-    alone = {key(row): row for row in rows if row["threads"] == 1}
+    """Several threads against one, which took turns."""
     for row in rows:
-        if row["threads"] == 1 or key(row) not in alone:
-            continue
-        names = [result["name"] for result in (row["by"][0], best_peer(row)) if result]
-        print("%s, %s: %d threads are %s" % (
-            row["scene"], row["what"], row["threads"],
-            ", ".join("%.2f times one by %s" % (gain(row, alone[key(row)], name), name)
-                      for name in names)))
+        results = [result for result in (row["by"][0], best_peer(row))
+                   if result and "alone" in result]
+        if results:
+            print("%s, %s: %d threads are %s" % (
+                row["scene"], row["what"], row["threads"],
+                ", ".join("%.2f times one by %s" % (gain(row, result), result["name"])
+                          for result in results)))
 
 
 def main():
