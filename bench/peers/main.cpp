@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <new>
 
 /// raylane and Embree, in turn, on the same scenes and rays. See run.sh.
 
@@ -117,6 +118,8 @@ int main(int argc, char** argv) {
         return fail(2, error.what());
     } catch (const Unwritable& error) {
         return fail(3, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(3, "out of memory");
     } catch (const std::exception& error) {
         return fail(2, error.what());
     }
