@@ -1,7 +1,9 @@
-"""Turns the JSON of raylane-bench into gnuplot's commands for the figures of chart.sh.
+"""Turns the JSON of raylane-bench, and of peers/run.sh, into gnuplot's commands for the figures of
+chart.sh.
 
     chart.py JSON methods RAYS ISA
     chart.py JSON pictures
+    chart.py JSON peers
 """
 
 import json
@@ -14,6 +16,7 @@ COLORS = {
     "exact": "#0072b2",
     "double": "#666666",
     "Embree": "#009e73",
+    "raylane": "#0072b2",
 }
 GREY = "#999999"
 
@@ -168,6 +171,48 @@ def pictures_figure(source):
     print("unset multiplot")
 
 
+def speeds_by_count(rows, what):
+    """Of spheres: (number, raylane's speed, Embree's best)."""
+    points = []
+    for row in rows:
+        kind, _, count = row["scene"].partition("/")
+        if kind != "spheres" or row["what"] != what:
+            continue
+        own, *others = [result["median"] for result in row["by"]]
+        points.append((int(count), own, max(others, default=0)))
+    return sorted(points)
+
+
+def peers_figure(source):
+    with open(source) as file:
+        rows = json.load(file)["rows"]
+    rows = [row for row in rows if row["threads"] == 1 and row.get("isa") == rows[0].get("isa")]
+    if not speeds_by_count(rows, "camera"):
+        sys.exit("chart.sh: no measurements of spheres in %s" % source)
+
+    begin("Uniform spheres of radius 0.3/n^{1/3} in the unit cube: one thread, %s" %
+          rows[0]["isa"], "1,2", "n, spheres", "million rays/s")
+    print("set logscale x\nset format x '10^{%L}'\nset format y '%g'\nset yrange [0.3:300]")
+    print("set key top right samplen 2 spacing 1.3 font ',10'")
+    for what in ("camera", "incoherent"):
+        points = speeds_by_count(rows, what)
+        print("set title '%s rays' offset 0,-0.6" % what)
+        print("set xrange [%g:%g]" % (points[0][0] / 2, points[-1][0] * 2))
+        plot = Plot()
+        plot.add([(count, own, "%.1f" % (own / other) if other else "")
+                  for count, own, other in points],
+                 "with linespoints pt 7 lw 2 lc '%s' title "
+                 "'raylane, and how many times Embree'" % COLORS["raylane"])
+        plot.again("using 1:2:3 with labels center offset 0,0.9 font ',9' tc '%s' notitle" %
+                   COLORS["raylane"])
+        if all(other for *_, other in points):
+            plot.add([(count, other) for count, _, other in points],
+                     "with linespoints pt 7 lw 2 lc '%s' title 'Embree, its best call'" %
+                     COLORS["Embree"])
+        plot.draw()
+    print("unset multiplot")
+
+
 if __name__ == "__main__":
-    figures = {"methods": methods_figure, "pictures": pictures_figure}
+    figures = {"methods": methods_figure, "pictures": pictures_figure, "peers": peers_figure}
     figures[sys.argv[2]](sys.argv[1], *sys.argv[3:])

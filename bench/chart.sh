@@ -1,17 +1,18 @@
 #!/bin/sh
 # Draws speed against accuracy from raylane-bench, in two figures: solvers, one panel per shape and
 # one mark per precision (and for Embree, where raylane-bench was built with it); and whole pictures,
-# seconds against their difference from one of 64 samples in double.
+# seconds against their difference from one of 64 samples in double. Or else, from what
+# bench/peers/run.sh has measured, rays per second against the number of shapes, beside Embree's.
 #
 #   bench/chart.sh [BUILD [FOLDER]]   BUILD: a Release build with raylane-bench; default
 #                                     build/release. FOLDER: where chart.svg, chart.png,
-#                                     pictures.svg, pictures.png and chart.json go; default
-#                                     build/chart
+#                                     pictures.svg, pictures.png and chart.json go, or peers.svg
+#                                     and peers.png; default build/chart
 #
 # Environment: ISA (avx512 where the processor has it, else avx2, else sse4.2); RAYS, random or hard
 # (random); REPETITIONS of each measurement (5), of which the median counts; JSON, a file to draw
-# instead of measuring. It wants gnuplot and python3
-# (Debian's packages gnuplot-nox and python3).
+# instead of measuring; PEERS, a peers.json, to draw that and nothing else. It wants gnuplot and
+# python3 (Debian's packages gnuplot-nox and python3).
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
@@ -26,21 +27,7 @@ fail() {
 for program in gnuplot python3; do
     command -v $program >/dev/null || fail "no $program here; see Debian's gnuplot-nox and python3"
 done
-if [ -z "${ISA:-}" ]; then
-    ISA=sse4.2
-    for flag in avx2:avx2 avx512dq:avx512; do
-        if grep -q "${flag%:*}" /proc/cpuinfo; then ISA=${flag#*:}; fi
-    done
-fi
 mkdir -p "$folder"
-json=${JSON:-$folder/chart.json}
-if [ -z "${JSON:-}" ]; then
-    [ -x "$build/bin/raylane-bench" ] ||
-        fail "no $build/bin/raylane-bench; cmake --preset release leads to one"
-    "$build/bin/raylane-bench" --benchmark_filter="^methods/.*/$rays/.*/$ISA\$|^picture/" \
-        --benchmark_repetitions="$repetitions" --benchmark_enable_random_interleaving=true \
-        --benchmark_min_time=0.05 --benchmark_out="$json" --benchmark_out_format=json >/dev/null
-fi
 
 draw() { # figure, size, arguments of chart.py
     figure=$1 size=$2
@@ -50,10 +37,30 @@ draw() { # figure, size, arguments of chart.py
         case $terminal in svg*) ending=svg ;; *) ending=png ;; esac
         {
             printf "set terminal %s\nset output '%s'\n" "$terminal" "$folder/$figure.$ending"
-            python3 bench/chart.py "$json" "$@"
+            python3 bench/chart.py "$@"
         } | gnuplot
         echo "$folder/$figure.$ending"
     done
 }
-draw chart 1200,860 methods "$rays" "$ISA"
-draw pictures 1200,760 pictures
+if [ -n "${PEERS:-}" ]; then
+    draw peers 1200,480 "$PEERS" peers
+    exit
+fi
+
+if [ -z "${ISA:-}" ]; then
+    ISA=sse4.2
+    for flag in avx2:avx2 avx512dq:avx512; do
+        if grep -q "${flag%:*}" /proc/cpuinfo; then ISA=${flag#*:}; fi
+    done
+fi
+json=${JSON:-$folder/chart.json}
+if [ -z "${JSON:-}" ]; then
+    [ -x "$build/bin/raylane-bench" ] ||
+        fail "no $build/bin/raylane-bench; cmake --preset release leads to one"
+    "$build/bin/raylane-bench" --benchmark_filter="^methods/.*/$rays/.*/$ISA\$|^picture/" \
+        --benchmark_repetitions="$repetitions" --benchmark_enable_random_interleaving=true \
+        --benchmark_min_time=0.05 --benchmark_out="$json" --benchmark_out_format=json >/dev/null
+fi
+
+draw chart 1200,860 "$json" methods "$rays" "$ISA"
+draw pictures 1200,760 "$json" pictures

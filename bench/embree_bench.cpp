@@ -82,17 +82,16 @@ void find(benchmark::State& state, simd::Isa isa, bool single) {
     WideRays packets = rays;
     alignas(64) int valid[wide];
     std::fill_n(valid, wide, -1);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    EmbreeQuery query(/*coherent=*/false);
     for (auto _ : state) {
         if (single) {
             lone = lone_start;
             for (RTCRayHit& ray : lone)
-                rtcIntersect1(scene.get(), &context, &ray);
+                query.nearest(scene.get(), ray);
         } else {
             packets = rays;
             for (std::size_t i = 0; i < packets.size(); ++i)
-                rtcIntersect16(valid, scene.get(), &context, &packets[i]);
+                query.nearest(scene.get(), valid, packets[i]);
         }
     }
     state.SetItemsProcessed(static_cast<std::int64_t>(method_ray_count) * state.iterations());

@@ -1,5 +1,8 @@
 #include "bench/embree_scene.hpp"
 
+#include "bench/by_id.hpp"
+
+#include <algorithm>
 #include <string>
 
 namespace raylane::bench {
@@ -104,7 +107,9 @@ EmbreeDevice make_embree_device(simd::Isa isa) {
 }
 
 bool EmbreeScene::can_hold(const core::Scene& scene) {
-    bool all = true;
+    bool all = std::all_of(
+        scene.materials().begin(), scene.materials().end(),
+        [](const core::Material& material) { return material.visible == core::Visible::both; });
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         all = all && (embree_has<Shape> || table.size() == 0);
     });
@@ -122,10 +127,10 @@ EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFla
             RTCGeometry geometry = rtcNewGeometry(device, geometry_type<Shape>());
             const Buffers<Shape> buffers(geometry, table.size());
             std::vector<core::ShapeId>& ids = ids_.emplace_back();
-            core::for_each_shape(table, [&](const Shape& shape, core::ShapeId id) {
-                buffers.set(static_cast<unsigned>(ids.size()), shape);
+            for (const auto& [id, slot] : slots_by_id(table)) {
+                buffers.set(static_cast<unsigned>(ids.size()), table.get(slot));
                 ids.push_back(id);
-            });
+            }
             rtcSetGeometryBuildQuality(geometry, quality);
             rtcCommitGeometry(geometry);
             rtcAttachGeometry(scene_.get(), geometry); // numbers them from 0 on

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "bench/embree.hpp"
 #include "core/scene.hpp"
 #include "simd/isa.hpp"
 
-#include <embree3/rtcore.h>
 #include <memory>
+#include <pmmintrin.h>
 #include <vector>
+#include <xmmintrin.h>
 
 namespace raylane::bench {
 
@@ -17,11 +19,24 @@ using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDel
 /// For one thread, held to an instruction set.
 EmbreeDevice make_embree_device(simd::Isa isa);
 
+/// Embree wants numbers too small to be normal taken for 0, by the calling thread.
+class NoDenormals {
+  public:
+    NoDenormals() { _mm_setcsr(before_ | _MM_FLUSH_ZERO_MASK | _MM_DENORMALS_ZERO_MASK); }
+    ~NoDenormals() { _mm_setcsr(before_); }
+    NoDenormals(const NoDenormals&) = delete;
+    NoDenormals& operator=(const NoDenormals&) = delete;
+
+  private:
+    unsigned before_ = _mm_getcsr();
+};
+
 /// A scene as Embree has it: spheres, discs and triangles as they are, cylinders and cones, open
-/// ones too, as linear cone curves, whose ends are closed. One geometry for each kind of shape.
+/// ones too, as linear cone curves, whose ends are closed. One geometry for each kind of shape, in
+/// the order of their ids.
 class EmbreeScene {
   public:
-    /// Whether it has all of the scene's shapes.
+    /// Whether it has all of the scene's shapes. It knows none that are seen from one side only.
     static bool can_hold(const core::Scene& scene);
 
     EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFlags flags,
@@ -32,6 +47,9 @@ class EmbreeScene {
     /// Builds its hierarchy; what is above only hands over the shapes.
     void commit() { rtcCommitScene(scene_.get()); }
 
+    /// The shapes of a geometry, by primitive.
+    const std::vector<core::ShapeId>& shapes(unsigned geometry) const { return ids_[geometry]; }
+    std::size_t geometry_count() const { return ids_.size(); }
     /// What has been hit; no_shape: nothing.
     core::ShapeId shape(unsigned geometry, unsigned primitive) const {
         return geometry == RTC_INVALID_GEOMETRY_ID ? core::no_shape : ids_[geometry][primitive];

@@ -50,23 +50,22 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
         settings, options);
 }
 
-Rendering render_vector(const core::Scene& scene, const core::Settings& settings,
-                        const RenderOptions& options, Isa isa) {
-    const Tracing tracing{&kernels_of(isa), options.precision};
-    const SceneData data(scene);
+} // namespace
+
+Rendering render_vector(const SceneData& scene, const core::Settings& settings,
+                        const RenderOptions& options, const Tracing& tracing) {
     const int tile = options.tile != 0 ? std::clamp(options.tile, 1, Wavefront::max_region) : 32;
-    return render_by<Wavefront>([&] { return Wavefront(data, settings, tracing); }, tile, settings,
+    return render_by<Wavefront>([&] { return Wavefront(scene, settings, tracing); }, tile, settings,
                                 options);
 }
-
-} // namespace
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& options) {
     core::validate(settings);
     const std::optional<Isa> isa = options.isa ? options.isa : best_isa();
     if (options.engine == Engine::vector && isa)
-        return render_vector(scene, settings, options, *isa);
+        return render_vector(SceneData(scene), settings, options,
+                             {&kernels_of(*isa), options.precision});
     return core::is_single(options.precision) ? render_reference<float>(scene, settings, options)
                                               : render_reference<double>(scene, settings, options);
 }

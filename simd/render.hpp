@@ -13,6 +13,9 @@
 
 namespace raylane::simd {
 
+class SceneData;
+struct Tracing;
+
 enum class Engine : std::uint8_t {
     vector,    ///< Wavefront; where a processor has none of its instruction sets, the reference
     reference, ///< core::ReferenceTracer
@@ -50,5 +53,9 @@ struct Rendering {
 /// and what `after_tile` throws.
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& options);
+
+/// The vector engine alone, by kernels of the caller's choice.
+Rendering render_vector(const SceneData& scene, const core::Settings& settings,
+                        const RenderOptions& options, const Tracing& tracing);
 
 } // namespace raylane::simd

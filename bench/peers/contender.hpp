@@ -7,16 +7,18 @@
 
 namespace raylane::bench {
 
-/// Who answers rays, on one thread.
+/// Who answers rays.
 class Contender {
   public:
     virtual ~Contender() = default;
 
     /// Makes ready for a set, which must stay there until the next one.
     virtual void prepare(const RaySet& rays) = 0;
-    /// Answers all of them. This is what is timed.
-    virtual void run() = 0;
-    /// By ray: the id of the shape hit or no_shape; or, of occlusion, 1 or 0. After a run.
+    /// Answers rays begin to end; begin is a multiple of RaySet::wave. This is what is timed. Of
+    /// several threads each has its own number, from 0 on, and its own rays.
+    virtual void run(std::size_t begin, std::size_t end, int thread) = 0;
+    /// By ray, after all have been answered: the id of the shape hit or no_shape; or, of occlusion,
+    /// 1 or 0.
     virtual std::vector<std::uint32_t> answers() = 0;
 
     const std::string& name() const { return name_; }
@@ -28,15 +30,13 @@ class Contender {
     std::string name_;
 };
 
+using Contenders = std::vector<std::unique_ptr<Contender>>;
+
 /// raylane itself.
-std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa);
+std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa, int threads);
 
-/// Embree: its calls for one ray, for 16 and, of rays that have something in common, for 16 that
-/// are said to be coherent. None if it does not have the scene's shapes, or was not there when this
-/// was built.
-std::vector<std::unique_ptr<Contender>> make_embree(const core::Scene& scene, simd::Isa isa);
-
-/// Seconds that Embree takes to build its hierarchy of the scene's shapes; negative if it cannot.
-double embree_build_seconds(const core::Scene& scene, simd::Isa isa);
+/// Embree: its calls for one ray, for 16, and for 16 that are said to be coherent. None if it does
+/// not have the scene's shapes, or was not there when this was built.
+Contenders make_embree(const core::Scene& scene, simd::Isa isa);
 
 } // namespace raylane::bench

@@ -1,16 +1,17 @@
 #include "bench/embree_scene.hpp"
 #include "bench/peers/contender.hpp"
+#include "bench/peers/measure.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 
 namespace raylane::bench {
 
 namespace {
 
+/// Its calls for streams, which are gone from Embree 4, have been the fastest nowhere.
 enum class Call { single, wide, coherent };
-constexpr const char* call_names[] = {"embree single", "embree 16", "embree 16 coherent"};
+constexpr Call calls[] = {Call::single, Call::wide, Call::coherent};
+constexpr const char* call_names[] = {"embree 1", "embree 16", "embree 16 coherent"};
 
 constexpr std::size_t width = 16;
 
@@ -31,60 +32,55 @@ struct Built {
 class Embree : public Contender {
   public:
     Embree(std::shared_ptr<const Built> built, Call call)
-        : Contender(call_names[static_cast<int>(call)]), built_(std::move(built)), call_(call) {
-        rtcInitIntersectContext(&context_);
-        if (call == Call::coherent) context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    }
+        : Contender(call_names[static_cast<int>(call)]), built_(std::move(built)), call_(call) {}
 
     void prepare(const RaySet& rays) override {
         rays_ = &rays;
         single_.clear();
         wide_.clear();
-        if (call_ == Call::single)
-            single_.resize(rays.count);
-        else
+        if (is_wide())
             wide_.resize((rays.count + width - 1) / width);
+        else
+            single_.resize(rays.count);
         for (std::size_t i = 0; i < rays.count; ++i) {
             RTCRay ray{};
-            const core::Ray<double> from = rays.ray(i);
-            ray.org_x = static_cast<float>(from.origin.x);
-            ray.org_y = static_cast<float>(from.origin.y);
-            ray.org_z = static_cast<float>(from.origin.z);
-            ray.dir_x = static_cast<float>(from.direction.x);
-            ray.dir_y = static_cast<float>(from.direction.y);
-            ray.dir_z = static_cast<float>(from.direction.z);
-            // It knows nothing of what a ray leaves.
-            ray.tnear = rays.starts_on_surface(i) ? 1e-4F : 0.0F;
+            const core::Ray<float> from = rays.ray_in_float(i);
+            ray.org_x = from.origin.x;
+            ray.org_y = from.origin.y;
+            ray.org_z = from.origin.z;
+            ray.dir_x = from.direction.x;
+            ray.dir_y = from.direction.y;
+            ray.dir_z = from.direction.z;
+            ray.tnear = rays.t_least(i);
             ray.mask = ~0U;
-            if (call_ == Call::single)
-                single_[i].ray = ray;
+            if (is_wide())
+                set_ray(wide_[i / width].ray, i % width, ray);
             else
-                set_ray(wide_ray(i / width), i % width, ray);
+                single_[i].ray = ray;
         }
     }
 
-    void run() override {
-        if (call_ == Call::single)
-            run_single();
-        else
-            run_wide();
+    void run(std::size_t begin, std::size_t end, int /*thread*/) override {
+        const NoDenormals no_denormals;
+        EmbreeQuery query(call_ == Call::coherent);
+        for (; begin < end; begin += RaySet::wave) {
+            const std::size_t count = std::min(RaySet::wave, end - begin);
+            if (is_wide())
+                run_wide(begin, count, query);
+            else
+                run_single(begin, count, query);
+        }
     }
 
     std::vector<std::uint32_t> answers() override {
         std::vector<std::uint32_t> all;
         for (std::size_t i = 0; i < rays_->count; ++i) {
-            float tfar = 0.0F;
-            unsigned geometry = 0, primitive = 0;
-            if (call_ == Call::single) {
-                tfar = single_[i].ray.tfar;
-                geometry = single_[i].hit.geomID;
-                primitive = single_[i].hit.primID;
-            } else {
-                const RTCRayHit16& packet = wide_[i / width];
-                tfar = packet.ray.tfar[i % width];
-                geometry = packet.hit.geomID[i % width];
-                primitive = packet.hit.primID[i % width];
-            }
+            const std::size_t packet = i / width, lane = i % width;
+            const bool wide = is_wide();
+            const float tfar = wide ? wide_[packet].ray.tfar[lane] : single_[i].ray.tfar;
+            const unsigned geometry = wide ? wide_[packet].hit.geomID[lane] : single_[i].hit.geomID;
+            const unsigned primitive =
+                wide ? wide_[packet].hit.primID[lane] : single_[i].hit.primID;
             all.push_back(rays_->occlusion ? (tfar < 0.0F ? 1U : 0U)
                                            : built_->scene.shape(geometry, primitive));
         }
@@ -92,51 +88,51 @@ class Embree : public Contender {
     }
 
   private:
-    RTCRayN* wide_ray(std::size_t packet) { return reinterpret_cast<RTCRayN*>(&wide_[packet].ray); }
-    static void set_ray(RTCRayN* rays, std::size_t lane, const RTCRay& ray) {
-        const auto i = static_cast<unsigned>(lane);
-        constexpr auto n = static_cast<unsigned>(width);
-        RTCRayN_org_x(rays, n, i) = ray.org_x;
-        RTCRayN_org_y(rays, n, i) = ray.org_y;
-        RTCRayN_org_z(rays, n, i) = ray.org_z;
-        RTCRayN_dir_x(rays, n, i) = ray.dir_x;
-        RTCRayN_dir_y(rays, n, i) = ray.dir_y;
-        RTCRayN_dir_z(rays, n, i) = ray.dir_z;
-        RTCRayN_tnear(rays, n, i) = ray.tnear;
-        RTCRayN_mask(rays, n, i) = ray.mask;
+    bool is_wide() const { return call_ != Call::single; }
+
+    static void set_ray(RTCRay16& packet, std::size_t lane, const RTCRay& ray) {
+        packet.org_x[lane] = ray.org_x;
+        packet.org_y[lane] = ray.org_y;
+        packet.org_z[lane] = ray.org_z;
+        packet.dir_x[lane] = ray.dir_x;
+        packet.dir_y[lane] = ray.dir_y;
+        packet.dir_z[lane] = ray.dir_z;
+        packet.tnear[lane] = ray.tnear;
+        packet.mask[lane] = ray.mask;
     }
 
-    void run_single() {
-        const float* const t_most = rays_->t_most(0);
-        for (std::size_t i = 0; i < rays_->count; ++i) {
-            single_[i].ray.tfar = t_most[i];
-            single_[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            if (rays_->occlusion)
-                rtcOccluded1(built_->scene.get(), &context_, &single_[i].ray);
-            else
-                rtcIntersect1(built_->scene.get(), &context_, &single_[i]);
+    void run_single(std::size_t begin, std::size_t count, EmbreeQuery& query) {
+        const float* const t_most = rays_->t_most(begin);
+        RTCRayHit* const rays = &single_[begin];
+        for (std::size_t i = 0; i < count; ++i) {
+            rays[i].ray.tfar = t_most[i];
+            rays[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
         }
+        const RTCScene scene = built_->scene.get();
+        for (std::size_t i = 0; i < count; ++i)
+            if (rays_->occlusion)
+                query.occluded(scene, rays[i].ray);
+            else
+                query.nearest(scene, rays[i]);
     }
 
-    void run_wide() {
+    void run_wide(std::size_t begin, std::size_t count, EmbreeQuery& query) {
         alignas(64) int valid[width];
-        for (std::size_t packet = 0; packet < wide_.size(); ++packet) {
-            RTCRayHit16& rays = wide_[packet];
-            const std::size_t count = std::min(width, rays_->count - packet * width);
+        for (std::size_t first = 0; first < count; first += width) {
+            RTCRayHit16& rays = wide_[(begin + first) / width];
             for (std::size_t lane = 0; lane < width; ++lane)
-                valid[lane] = lane < count ? -1 : 0;
-            std::copy_n(rays_->t_most(packet * width), width, rays.ray.tfar);
+                valid[lane] = first + lane < count ? -1 : 0;
+            std::copy_n(rays_->t_most(begin + first), width, rays.ray.tfar);
             std::fill_n(rays.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
             if (rays_->occlusion)
-                rtcOccluded16(valid, built_->scene.get(), &context_, &rays.ray);
+                query.occluded(built_->scene.get(), valid, rays.ray);
             else
-                rtcIntersect16(valid, built_->scene.get(), &context_, &rays);
+                query.nearest(built_->scene.get(), valid, rays);
         }
     }
 
     std::shared_ptr<const Built> built_;
     Call call_;
-    RTCIntersectContext context_;
     const RaySet* rays_ = nullptr;
     std::vector<RTCRayHit> single_;
     std::vector<RTCRayHit16> wide_;
@@ -144,22 +140,28 @@ class Embree : public Contender {
 
 } // namespace
 
-std::vector<std::unique_ptr<Contender>> make_embree(const core::Scene& scene, simd::Isa isa) {
-    std::vector<std::unique_ptr<Contender>> all;
+const char* embree_version() {
+    return RTC_VERSION_STRING;
+}
+
+Contenders make_embree(const core::Scene& scene, simd::Isa isa) {
+    Contenders all;
     if (!EmbreeScene::can_hold(scene)) return all;
     const auto built = std::make_shared<const Built>(scene, isa);
-    for (const Call call : {Call::single, Call::wide, Call::coherent})
+    for (const Call call : calls)
         all.push_back(std::make_unique<Embree>(built, call));
     return all;
 }
 
-double embree_build_seconds(const core::Scene& scene, simd::Isa isa) {
-    if (!EmbreeScene::can_hold(scene)) return -1.0;
-    const EmbreeDevice device = make_embree_device(isa);
-    EmbreeScene built(device.get(), scene, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
-    const auto start = std::chrono::steady_clock::now();
-    built.commit();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+std::optional<TimedRun> embree_building(const core::Scene& scene, simd::Isa isa) {
+    if (!EmbreeScene::can_hold(scene)) return std::nullopt;
+    return TimedRun{"embree", [&scene, isa](int /*threads*/) {
+                        const EmbreeDevice device = make_embree_device(isa);
+                        EmbreeScene built(device.get(), scene, RTC_SCENE_FLAG_NONE,
+                                          RTC_BUILD_QUALITY_MEDIUM);
+                        const NoDenormals no_denormals;
+                        return seconds_of([&] { built.commit(); });
+                    }};
 }
 
 } // namespace raylane::bench

@@ -1,14 +1,23 @@
 #include "bench/peers/contender.hpp"
+#include "bench/peers/measure.hpp"
 
+/// What stands in for Embree where it is not.
 namespace raylane::bench {
 
-std::vector<std::unique_ptr<Contender>> make_embree(const core::Scene& /*scene*/,
-                                                    simd::Isa /*isa*/) {
+const char* embree_version() {
+    return nullptr;
+}
+
+Contenders make_embree(const core::Scene& /*scene*/, simd::Isa /*isa*/) {
     return {};
 }
 
-double embree_build_seconds(const core::Scene& /*scene*/, simd::Isa /*isa*/) {
-    return -1.0;
+std::optional<TimedRun> embree_building(const core::Scene& /*scene*/, simd::Isa /*isa*/) {
+    return std::nullopt;
+}
+
+std::vector<Drawing> embree_drawings(const simd::SceneData& /*scene*/, simd::Isa /*isa*/) {
+    return {};
 }
 
 } // namespace raylane::bench

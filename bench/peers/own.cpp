@@ -7,35 +7,28 @@ namespace raylane::bench {
 
 namespace {
 
-/// As the wavefront has it: rays in double, wave by wave, every decision certified.
-class Own : public Contender {
+/// One thread's. As the wavefront has it: rays in double, wave by wave, every decision certified.
+class Worker {
   public:
-    Own(const simd::SceneData& scene, simd::Isa isa)
-        : Contender("raylane"), scene_(scene), tracing_{&simd::kernels_of(isa)},
+    Worker(const simd::SceneData& scene, simd::Isa isa)
+        : scene_(scene), tracing_{&simd::kernels_of(isa)},
           reference_(scene.scene(), scene.scene().settings()),
           finder_(scene, tracing_, &reference_), doubtful_(scene, tracing_, &reference_),
           arena_(simd::arena_for([this](simd::Arena& arena) { take_from(arena); })) {}
+    Worker(const Worker&) = delete; // parts of it refer to others
+    Worker& operator=(const Worker&) = delete;
 
-    void prepare(const RaySet& rays) override { rays_ = &rays; }
-
-    void run() override {
-        for (std::size_t begin = 0; begin < rays_->count; begin += RaySet::wave)
-            find(begin);
-    }
-
-    std::vector<std::uint32_t> answers() override {
-        std::vector<std::uint32_t> all;
-        for (std::size_t begin = 0; begin < rays_->count; begin += RaySet::wave) {
-            find(begin);
-            const std::size_t count = std::min(RaySet::wave, rays_->count - begin);
-            for (std::size_t lane = 0; lane < count; ++lane)
-                all.push_back(rays_->occlusion
-                                  ? (occlusions_.state[lane] == simd::blocked ? 1U : 0U)
-                              : finder_.hits().slot[lane] == simd::no_slot
-                                  ? core::no_shape
-                                  : scene_.id_of(finder_.hits().slot[lane]));
+    /// Of a wave: slots, or, of occlusion, simd::Occlusion.
+    void answer(const RaySet& rays, std::size_t begin, std::uint32_t* answers) {
+        const simd::Bundle* const bundle = rays.bundle ? &*rays.bundle : nullptr;
+        const simd::Paths paths = rays.paths(begin);
+        if (rays.occlusion) {
+            find_blocked(paths, rays.t_most(begin), bundle);
+            std::copy_n(occlusions_.state, paths.count, answers);
+        } else {
+            finder_.find(paths, bundle, counters_);
+            std::copy_n(finder_.hits().slot, paths.count, answers);
         }
-        return all;
     }
 
   private:
@@ -46,15 +39,6 @@ class Own : public Contender {
         simd::take_rounded(arena, rounded_, RaySet::wave);
         occlusions_.state = arena.take<std::uint8_t>(RaySet::wave);
         workspace_ = simd::workspace_for(scene_, arena, RaySet::wave);
-    }
-
-    void find(std::size_t begin) {
-        const simd::Bundle* const bundle = rays_->bundle ? &*rays_->bundle : nullptr;
-        const simd::Paths paths = rays_->paths(begin);
-        if (rays_->occlusion)
-            find_blocked(paths, rays_->t_most(begin), bundle);
-        else
-            finder_.find(paths, bundle, counters_);
     }
 
     /// What is in doubt is decided by its nearest hit.
@@ -88,7 +72,6 @@ class Own : public Contender {
     core::ReferenceTracer<double> reference_;
     simd::HitFinder finder_, doubtful_;
     core::Counters counters_;
-    const RaySet* rays_ = nullptr;
     simd::Paths gathered_{};
     simd::RoundedRays rounded_{};
     simd::Occlusions occlusions_{};
@@ -96,10 +79,45 @@ class Own : public Contender {
     simd::Arena arena_;
 };
 
+class Own : public Contender {
+  public:
+    Own(const simd::SceneData& scene, simd::Isa isa, int threads)
+        : Contender("raylane"), scene_(scene) {
+        for (int i = 0; i < threads; ++i)
+            workers_.push_back(std::make_unique<Worker>(scene, isa));
+    }
+
+    void prepare(const RaySet& rays) override {
+        rays_ = &rays;
+        answers_.assign(rays.count, 0);
+    }
+
+    void run(std::size_t begin, std::size_t end, int thread) override {
+        for (; begin < end; begin += RaySet::wave)
+            workers_[static_cast<std::size_t>(thread)]->answer(*rays_, begin, &answers_[begin]);
+    }
+
+    std::vector<std::uint32_t> answers() override {
+        std::vector<std::uint32_t> all = answers_;
+        for (std::uint32_t& answer : all)
+            if (rays_->occlusion)
+                answer = answer == simd::blocked ? 1 : 0;
+            else
+                answer = answer == simd::no_slot ? core::no_shape : scene_.id_of(answer);
+        return all;
+    }
+
+  private:
+    const simd::SceneData& scene_;
+    std::vector<std::unique_ptr<Worker>> workers_;
+    const RaySet* rays_ = nullptr;
+    std::vector<std::uint32_t> answers_; // by ray, as Worker has them
+};
+
 } // namespace
 
-std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa) {
-    return std::make_unique<Own>(scene, isa);
+std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa, int threads) {
+    return std::make_unique<Own>(scene, isa, threads);
 }
 
 } // namespace raylane::bench

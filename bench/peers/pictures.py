@@ -1,9 +1,8 @@
-"""Times whole pictures by raylane and by the peers that are found: see run.sh.
+"""Times whole pictures, whole processes, by raylane and by the peers that are found: see run.sh.
 
-    pictures.py RAYLANE FOLDER SIZE THREADS REPETITIONS
+    pictures.py JSON RAYLANE FOLDER SIZE THREADS REPETITIONS
 
-FOLDER holds SCENE.nff and SCENE.pov; peers.json goes there: seconds of each run, by scene and
-program.
+FOLDER holds SCENE.nff and SCENE.pov; rows as those of raylane-peers go to JSON.
 """
 
 import json
@@ -15,12 +14,12 @@ import subprocess
 import sys
 import time
 
-raylane, folder, size, threads, repetitions = sys.argv[1:]
+output, raylane, folder, size, threads, repetitions = sys.argv[1:]
 folder = pathlib.Path(folder)
 
 
 def commands(scene):
-    """What draws a scene, by the program's name."""
+    """What draws a scene, by the program's name. All follow four reflections."""
     nff, pov, out = (str(folder / (scene + end)) for end in (".nff", ".pov", ""))
     every = {
         "raylane": [raylane, "render", nff, "-o", out + ".raylane.png", "--size",
@@ -28,7 +27,7 @@ def commands(scene):
         "povray": ["povray", "+I" + pov, "+O" + out + ".povray.png", "+W" + size, "+H" + size,
                    "-A", "-D", "-V", "+WT" + threads],
         "tachyon": ["tachyon", nff, "-res", size, size, "-numthreads", threads, "-fullshade",
-                    "-o", out + ".tachyon.tga"],
+                    "-raydepth", "5", "-o", out + ".tachyon.tga"],
     }
     return {name: command for name, command in every.items() if shutil.which(command[0])}
 
@@ -44,27 +43,29 @@ def seconds(command):
     return passed
 
 
+def measure(scene):
+    """One row: the programs in turn; the first round warms up."""
+    times = {name: [] for name in commands(scene)}
+    for _ in range(1 + int(repetitions)):
+        for name, command in commands(scene).items():
+            times[name].append(seconds(command))
+    by = [{"name": name, "median": statistics.median(runs[1:]), "least": min(runs[1:]),
+           "most": max(runs[1:])} for name, runs in times.items()]
+    row = {"scene": scene, "what": "process", "count": int(size) ** 2, "unit": "s", "by": by,
+           "threads": int(threads)}
+    if len(by) > 1:
+        row["ratio"] = min(other["median"] for other in by[1:]) / by[0]["median"]
+    print("  %-14s" % scene + "  ".join(
+        "%s %.3f s" % (result["name"], result["median"]) for result in by), flush=True)
+    return row
+
+
 def main():
     scenes = sorted(path.stem for path in folder.glob("*.nff") if path.with_suffix(".pov").exists())
-    times = {}
-    print("%s x %s pixels, %s thread(s), medians of %s runs, in seconds" %
-          (size, size, threads, repetitions))
-    for scene in scenes:
-        by_program = {name: [] for name in commands(scene)}
-        for _ in range(1 + int(repetitions)):  # the first warms up
-            for name, command in commands(scene).items():
-                by_program[name].append(seconds(command))
-        times[scene] = {name: runs[1:] for name, runs in by_program.items()}
-        medians = {name: statistics.median(runs) for name, runs in times[scene].items()}
-        own = medians["raylane"]
-        print("%-12s" % scene + "  ".join(
-            "%s %.3f (%.3f to %.3f%s)" %
-            (name, median, min(times[scene][name]), max(times[scene][name]),
-             "" if name == "raylane" else ", %.1f times raylane's" % (median / own))
-            for name, median in medians.items()), flush=True)
-    with open(folder / "peers.json", "w") as file:
-        json.dump({"size": int(size), "threads": int(threads), "seconds": times}, file, indent=2)
-    print(folder / "peers.json")
+    print("whole pictures, whole processes: %s x %s pixels, %s thread(s)" % (size, size, threads))
+    rows = [measure(scene) for scene in scenes]
+    with open(output, "w") as file:
+        json.dump({"rows": rows}, file, indent=2)
 
 
 main()

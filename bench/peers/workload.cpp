@@ -5,6 +5,7 @@
 #include "simd/isa.hpp"
 #include "simd/wavefront/hit_finder.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -79,6 +80,10 @@ Vec3f light_of(const core::Scene& scene) {
     return {2.0F, 3.0F, 1.5F};
 }
 
+Ray<float> in_float(const Ray<double>& ray) {
+    return {core::convert<float>(ray.origin), core::convert<float>(ray.direction)};
+}
+
 simd::Bundle bundle_at(const Vec3f& apex, bool towards) {
     return {{apex.x, apex.y, apex.z}, towards, false, false};
 }
@@ -104,12 +109,12 @@ void add_secondary(const core::Scene& scene, const simd::SceneData& data, const 
             const Vec3d normal(hits.normal[0][lane], hits.normal[1][lane], hits.normal[2][lane]);
             const double cos = core::dot(normal, ray.direction);
             mirror.add_from({point, core::normalized(Vec3d(ray.direction - 2.0 * cos * normal))},
-                            infinity, data, hits.slot[lane], hits.hit[lane]);
+                            infinity, data, hits.slot[lane], hits.hit[lane], hits.t[lane]);
             const Vec3d to_light = light - point;
             if (core::dot(to_light, normal) * cos > 0.0) continue; // in its own shadow
             const double distance = core::length(to_light);
             shadow.add_from({point, to_light / distance}, static_cast<float>(distance), data,
-                            hits.slot[lane], hits.hit[lane]);
+                            hits.slot[lane], hits.hit[lane], hits.t[lane]);
         }
     }
 }
@@ -158,31 +163,52 @@ Ray<double> RaySet::ray(std::size_t i) const {
             {direction_[0][i], direction_[1][i], direction_[2][i]}};
 }
 
+core::Ray<float> RaySet::ray_in_float(std::size_t i) const {
+    return in_float_[i];
+}
+
 void RaySet::reserve(std::size_t rays) {
     const std::size_t padded = rays + 16;
     for (auto* columns : {&origin_, &direction_})
         for (auto& column : *columns)
             column.reserve(padded);
+    in_float_.reserve(padded);
     t_most_.reserve(padded);
+    t_least_.reserve(padded);
     for (auto* column : {&departed_first_, &departed_last_, &departed_slot_, &departure_})
         column->reserve(padded);
 }
 
 void RaySet::add(const Ray<double>& ray, float t_most) {
+    const Ray<float> asked = in_float(ray);
+    append({core::convert<double>(asked.origin),
+            core::normalized(core::convert<double>(asked.direction))},
+           asked, t_most);
+}
+
+void RaySet::append(const Ray<double>& ray, const Ray<float>& in_float, float t_most) {
     for (int axis = 0; axis < 3; ++axis) {
         origin_[axis].push_back(ray.origin[axis]);
         direction_[axis].push_back(ray.direction[axis]);
     }
+    in_float_.push_back(in_float);
     t_most_.push_back(t_most);
+    t_least_.push_back(0.0F);
     for (auto* column : {&departed_first_, &departed_last_, &departed_slot_})
         column->push_back(simd::no_slot);
     departure_.push_back(0);
     ++count;
 }
 
+/// t_least is what Embree's own path tracer (tutorials/pathtracer) takes: 32 times the precision of
+/// the largest number that the hit was made of.
 void RaySet::add_from(const Ray<double>& ray, float t_most, const simd::SceneData& scene,
-                      std::uint32_t slot, std::uint32_t hit) {
-    add(ray, t_most);
+                      std::uint32_t slot, std::uint32_t hit, double t) {
+    append(ray, in_float(ray), t_most);
+    double largest = t;
+    for (int axis = 0; axis < 3; ++axis)
+        largest = std::max(largest, std::abs(ray.origin[axis]));
+    t_least_.back() = 32.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(largest);
     paths(count - 1).start_on(0, slot, scene.occupant_of(slot), hit, /*through=*/false);
 }
 
@@ -195,14 +221,11 @@ void RaySet::finish() {
 
 std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side) {
     const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    std::vector<RaySet> sets(5);
+    std::vector<RaySet> sets(std::size(ray_set_names));
     RaySet &camera = sets[0], &mirror = sets[1], &shadow = sets[2], &incoherent = sets[3],
            &occlusion = sets[4];
-    camera.name = "camera";
-    mirror.name = "mirror";
-    shadow.name = "shadow";
-    incoherent.name = "incoherent";
-    occlusion.name = "occlusion";
+    for (std::size_t i = 0; i < sets.size(); ++i)
+        sets[i].name = ray_set_names[i];
     shadow.occlusion = occlusion.occlusion = true;
     camera.bundle = bundle_at(scene.camera().from, false);
     mirror.bundle = simd::neighbours;

@@ -16,7 +16,9 @@ namespace raylane::bench {
 /// the path of a scene file.
 core::Scene make_workload(const std::string& name);
 
-/// Rays, structure of arrays, and what is asked of them.
+/// Rays, structure of arrays, and what is asked of them. Those in the open have directions of float
+/// precision, brought to unit length in double, so that those who know only floats are asked the
+/// same.
 struct RaySet {
     std::string name;
     bool occlusion = false; ///< whether anything is hit before t_most; else what is hit first
@@ -29,22 +31,31 @@ struct RaySet {
     const float* t_most(std::size_t begin) const { return t_most_.data() + begin; }
 
     core::Ray<double> ray(std::size_t i) const;
-    bool starts_on_surface(std::size_t i) const { return departed_slot_[i] != simd::no_slot; }
+    core::Ray<float> ray_in_float(std::size_t i) const;
+    /// For those who know of no departures: how far ahead a ray has to start lest it hits what it
+    /// leaves.
+    float t_least(std::size_t i) const { return t_least_[i]; }
 
     void reserve(std::size_t rays);
     /// In the open.
     void add(const core::Ray<double>& ray, float t_most);
-    /// From what another ray has hit.
+    /// From what another ray has hit after a length of t.
     void add_from(const core::Ray<double>& ray, float t_most, const simd::SceneData& scene,
-                  std::uint32_t slot, std::uint32_t hit);
+                  std::uint32_t slot, std::uint32_t hit, double t);
     /// All rays are there: makes room to read whole packets.
     void finish();
 
   private:
+    void append(const core::Ray<double>& ray, const core::Ray<float>& in_float, float t_most);
+
     std::vector<double> origin_[3], direction_[3];
-    std::vector<float> t_most_;
+    std::vector<core::Ray<float>> in_float_;
+    std::vector<float> t_most_, t_least_;
     std::vector<std::uint32_t> departed_first_, departed_last_, departed_slot_, departure_;
 };
+
+inline constexpr const char* ray_set_names[] = {"camera", "mirror", "shadow", "incoherent",
+                                                "occlusion"};
 
 /// `camera`: those of a picture of side x side pixels, tile by tile; `mirror`: what its hits
 /// reflect, and `shadow`: from these hits to a point light; `incoherent`: `side`^2 / 4 rays between
