@@ -31,9 +31,9 @@ struct NodeView {
 
 struct SceneView {
     TableView tables[kinds];
-    const NodeView* nodes;    ///< the root first
-    /// By 8 times the node and the octant of a ray's direction (bit a: component a is negative): the
-    /// node's slots in the order of their distance, 4 bits each, the nearest lowest.
+    const NodeView* nodes; ///< the root first
+    /// By 8 times the node and the octant of a ray's direction (bit a: component a is negative):
+    /// the node's slots in the order of their distance, 4 bits each, the nearest lowest.
     const std::uint64_t* orders;
     std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
     bool large;               ///< nodes and shapes do not fit in the cache of a core

@@ -82,15 +82,17 @@ struct TraceCounters {
         in_flight; ///< rays, as core::Counters has them
 };
 
-/// Rays that start at one point, or end there, or are parallel. Consecutive ones are near each
-/// other, so that what many of them miss need be found only once.
+/// Rays that start at one point, or end there, or are parallel; or that would have come from one
+/// point, as those that a flat mirror reflects. Consecutive ones are near each other, so that what
+/// many of them miss need be found only once.
 struct Bundle {
     float apex[3]; ///< unless they are parallel
     bool towards;  ///< they end at the apex
     bool parallel;
-    bool loose; ///< they are near each other and no more: the rest means nothing
+    bool loose;  ///< they are near each other and no more: the rest means nothing
+    bool beyond; ///< they start beyond the apex
 };
-inline constexpr Bundle neighbours{{}, false, false, true};
+constexpr Bundle neighbours{{}, false, false, true, false};
 
 /// What is done to rays before and after they are traced.
 struct RayKernels {

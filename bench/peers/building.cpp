@@ -11,7 +11,7 @@ core::SceneBuilder shapes_of(const core::Scene& scene) {
     builder.wants_light = false;
     builder.add_material({});
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
-        builder.reserve<Shape>(table.size());
+        builder.reserve(table.size());
         for (const auto& [id, slot] : slots_by_id(table))
             builder.add(table.get(slot), 0);
     });

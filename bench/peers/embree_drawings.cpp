@@ -118,10 +118,10 @@ void fill(RTCRay16& packet, const simd::RoundedRays& rays, std::size_t begin, co
 
 void nearest(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
              const simd::Bundle* bundle, std::size_t count, const simd::RoundedRays& rays,
-             const simd::Candidates& candidates, const simd::Pending& /*pending*/,
+             const simd::Candidates& candidates, const simd::Workspace& /*workspace*/,
              simd::TraceCounters& /*counters*/) {
     const NoDenormals no_denormals;
-    EmbreeQuery query(/*coherent=*/bundle != nullptr);
+    EmbreeQuery query(/*coherent=*/bundle != nullptr && !bundle->loose);
     if (way.filters) query.set_filter(reject_departed, &rays);
     const RTCScene scene = traversal->scene.get();
     const auto keep = [&](std::size_t lane, float t, unsigned geometry, unsigned primitive) {
@@ -154,10 +154,10 @@ void nearest(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
 
 void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
               const simd::Bundle* bundle, std::size_t count, const simd::RoundedRays& rays,
-              const simd::Occlusions& occlusions, const simd::Pending& /*pending*/,
+              const simd::Occlusions& occlusions, const simd::Workspace& /*workspace*/,
               simd::TraceCounters& /*counters*/) {
     const NoDenormals no_denormals;
-    EmbreeQuery query(/*coherent=*/bundle != nullptr);
+    EmbreeQuery query(/*coherent=*/bundle != nullptr && !bundle->loose);
     if (way.filters) query.set_filter(reject_departed, &rays);
     const RTCScene scene = traversal->scene.get();
     if (!way.by_16) {

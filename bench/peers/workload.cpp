@@ -26,7 +26,7 @@ void add_spheres(core::SceneBuilder& builder, int count) {
     std::mt19937 engine(1);
     std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
     const float radius = 0.3F / std::cbrt(static_cast<float>(count));
-    builder.reserve<core::Sphere>(static_cast<std::size_t>(count));
+    builder.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         Vec3f center;
         for (int axis = 0; axis < 3; ++axis)
@@ -85,7 +85,7 @@ Ray<float> in_float(const Ray<double>& ray) {
 }
 
 simd::Bundle bundle_at(const Vec3f& apex, bool towards) {
-    return {{apex.x, apex.y, apex.z}, towards, false, false};
+    return {{apex.x, apex.y, apex.z}, towards, false, false, false};
 }
 
 /// What the camera's rays hit, and where rays go from there.

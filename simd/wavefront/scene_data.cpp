@@ -88,7 +88,7 @@ std::uint32_t depth_below(const core::BigArray<core::WideNode>& nodes, std::uint
 }
 
 /// See SceneView::orders.
-std::vector<std::uint64_t> orders_of(const std::vector<core::WideNode>& nodes) {
+std::vector<std::uint64_t> orders_of(const core::BigArray<core::WideNode>& nodes) {
     std::vector<std::uint64_t> orders;
     orders.reserve(8 * nodes.size());
     for (const core::WideNode& node : nodes)

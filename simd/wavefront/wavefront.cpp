@@ -201,7 +201,11 @@ void Wavefront::trace() {
 
 void Wavefront::trace_wave(int depth) {
     coherent_ = depth == 0;
-    finder_.find(paths_, depth == 0 ? &camera_bundle_ : &neighbours, counters_);
+    finder_.find(paths_,
+                 depth == 0   ? &camera_bundle_
+                 : depth == 1 ? &second_bundle_
+                              : &neighbours,
+                 counters_);
     for (const std::uint32_t lane : finder_.left_open())
         follow(lane, depth); // several surfaces meet there
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.left_open());
@@ -284,7 +288,7 @@ void Wavefront::shade(int depth) {
         add(paths_.sample[sorted_.order()[i]], surfaces_.radiance[0][i], surfaces_.radiance[1][i],
             surfaces_.radiance[2][i]);
     add_lights();
-    if (depth < settings_.max_depth) spawn();
+    if (depth < settings_.max_depth) spawn(depth);
 }
 
 void Wavefront::add_lights() {
@@ -303,7 +307,7 @@ void Wavefront::add_lights() {
     }
 }
 
-void Wavefront::spawn() {
+void Wavefront::spawn(int depth) {
     SpawnedRays reflected{};
     for (int axis = 0; axis < 3; ++axis) {
         reflected.origin[axis] = next_.origin[axis];
@@ -318,6 +322,8 @@ void Wavefront::spawn() {
                          with_media_ ? &media_ : nullptr, surfaces_, reflected, transmitted_);
     counters_.reflected += reflected.count;
     counters_.refracted += transmitted_.count;
+    if (depth == 0)
+        second_bundle_ = transmitted_.count == 0 ? bundle_off_mirror(reflected) : neighbours;
     add_to_next(reflected, /*through=*/false);
     if (transmitted_.count == 0) return;
     for (int axis = 0; axis < 3; ++axis) {
@@ -329,6 +335,38 @@ void Wavefront::spawn() {
                     next_.throughput[axis] + next_.count);
     }
     add_to_next(transmitted_, /*through=*/true);
+}
+
+/// Rays from the camera that one flat shape has reflected seem to come from its mirror image.
+Bundle Wavefront::bundle_off_mirror(const SpawnedRays& reflected) const {
+    if (camera_.orthographic || reflected.count == 0) return neighbours;
+    const auto normal_at = [&](std::size_t position) {
+        return core::Vec3d(surfaces_.normal[0][position], surfaces_.normal[1][position],
+                           surfaces_.normal[2][position]);
+    };
+    const auto shape_at = [&](std::size_t position) {
+        return scene_.occupant_of(finder_.hits().slot[sorted_.order()[position]]);
+    };
+    const auto first = static_cast<std::size_t>(reflected.parent[0]);
+    const core::Kind kind = shape_at(first).kind;
+    if (kind > core::Kind::box || kind == core::Kind::sphere || kind == core::Kind::smooth_triangle)
+        return neighbours;
+    const core::Vec3d normal = normal_at(first);
+    const core::ShapeId coplanar = shape_at(first).coplanar.first;
+    for (std::size_t k = 1; k < reflected.count; ++k) {
+        const auto position = static_cast<std::size_t>(reflected.parent[k]);
+        if (normal_at(position) != normal || shape_at(position).coplanar.first != coplanar)
+            return neighbours;
+    }
+    core::Vec3d to_mirror(0.0);
+    for (int axis = 0; axis < 3; ++axis)
+        to_mirror[axis] = surfaces_.point[axis][first] - camera_.from[axis];
+    const core::Vec3d across = 2.0 * core::dot(to_mirror, normal) * normal;
+    Bundle bundle{};
+    for (int axis = 0; axis < 3; ++axis)
+        bundle.apex[axis] = static_cast<float>(camera_.from[axis] + across[axis]);
+    bundle.beyond = true;
+    return bundle;
 }
 
 /// The columns that the kernels do not write.

@@ -56,7 +56,8 @@ class Wavefront {
     void shade(int depth);
     void fill_media();
     void add_lights();
-    void spawn();
+    void spawn(int depth);
+    Bundle bundle_off_mirror(const SpawnedRays& reflected) const;
     void add_to_next(const SpawnedRays& spawned, bool through);
     void split_next(int depth);
     void take_deferred(int& depth);
@@ -69,6 +70,7 @@ class Wavefront {
     core::CameraRays<double> camera_rays_;
     CameraView camera_{};
     Bundle camera_bundle_{};
+    Bundle second_bundle_ = neighbours; ///< of what the camera's rays leave for depth 1
     bool with_media_;
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;

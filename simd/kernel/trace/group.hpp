@@ -67,10 +67,9 @@ struct Group : Streams<Arch> {
         least_w = bundle.towards ? 0.0F : __builtin_inff();
         greatest_w = bundle.towards && t_most != nullptr ? 0.0F : __builtin_inff();
         // Towards the apex, what is far from it is near.
-        latest_start = bundle.parallel  ? -__builtin_inff()
-                       : bundle.towards ? __builtin_inff()
-                                        : 0.0F;
-        if (!bundle.towards && !bundle.parallel) least_w = 0.0F;
+        const bool anywhere = bundle.parallel || bundle.beyond; // they start
+        latest_start = anywhere ? -__builtin_inff() : bundle.towards ? __builtin_inff() : 0.0F;
+        if (!bundle.towards && !anywhere) least_w = 0.0F;
         float slowest = 1.0F;
         for (int side = 0; side < 2; ++side) {
             above[side].slope = above[side].offset = -__builtin_inff();
@@ -128,7 +127,7 @@ struct Group : Streams<Arch> {
             }
             slowest = least(slowest, Lanes<Arch>::least(speeds_low));
             fastest = greatest(fastest, Lanes<Arch>::greatest(speeds_high));
-            if (bundle.parallel) {
+            if (anywhere) {
                 least_w = least(least_w, Lanes<Arch>::least(starts_low));
                 latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
             }
