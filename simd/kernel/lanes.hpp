@@ -172,6 +172,45 @@ struct Lanes {
 };
 
 #ifdef __SSE4_2__
+/// Lanes::pick, eight numbers at a time.
+template <class Arch>
+struct PickByShuffle {
+    struct alignas(16) Order {
+        std::uint8_t bytes[16];
+    };
+    static constexpr std::array<Order, 256> orders = [] {
+        std::array<Order, 256> all{};
+        for (unsigned wanted = 0; wanted < 256; ++wanted) {
+            unsigned to = 0;
+            for (unsigned lane = 0; lane < 8; ++lane)
+                if ((wanted >> lane & 1) != 0)
+                    for (unsigned byte = 0; byte < 2; ++byte)
+                        all[wanted].bytes[to++] = static_cast<std::uint8_t>(2 * lane + byte);
+        }
+        return all;
+    }();
+
+    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
+                    unsigned bit, std::uint16_t* out) {
+        const __m128i wanted = _mm_set1_epi16(static_cast<short>(1U << bit));
+        int picked = 0;
+        for (int k = 0; k < count; k += 8) {
+            const __m128i mask = _mm_loadu_si128(reinterpret_cast<const __m128i*>(masks + k));
+            const __m128i has = _mm_cmpeq_epi16(_mm_and_si128(mask, wanted), wanted);
+            auto bits = static_cast<std::uint32_t>(
+                _mm_movemask_epi8(_mm_packs_epi16(has, _mm_setzero_si128())));
+            if (count - k < 8) bits &= (1U << (count - k)) - 1;
+            const __m128i order =
+                _mm_load_si128(reinterpret_cast<const __m128i*>(orders[bits].bytes));
+            const __m128i some = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers + k));
+            _mm_storeu_si128(reinterpret_cast<__m128i*>(out + picked),
+                             _mm_shuffle_epi8(some, order));
+            picked += __builtin_popcount(bits);
+        }
+        return picked;
+    }
+};
+
 template <>
 struct Lanes<Sse42> {
     static constexpr bool has_mul_add = false;
@@ -211,7 +250,7 @@ struct Lanes<Sse42> {
 
     static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
                     unsigned bit, std::uint16_t* out) {
-        return generic::pick<Sse42>(numbers, masks, count, bit, out);
+        return PickByShuffle<Sse42>::pick(numbers, masks, count, bit, out);
     }
     static Floats<Sse42> narrow(const double* from) {
         return _mm_movelh_ps(_mm_cvtpd_ps(_mm_loadu_pd(from)),
@@ -301,7 +340,7 @@ struct Lanes<Avx2> {
 
     static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
                     unsigned bit, std::uint16_t* out) {
-        return generic::pick<Avx2>(numbers, masks, count, bit, out);
+        return PickByShuffle<Avx2>::pick(numbers, masks, count, bit, out);
     }
     static Floats<Avx2> narrow(const double* from) {
         return _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(from + 4)),

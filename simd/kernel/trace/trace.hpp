@@ -24,7 +24,8 @@ struct Trace : Streams<Arch> {
     /// Shapes that a group of rays to a light may have before it: as many as it takes for its rays
     /// to be done one by one.
     static constexpr int most_occluders = 512;
-    static constexpr int no_budget = 0x7FFFFFFF;
+    /// And a group that looks for the nearest.
+    static constexpr int most_candidates = 2048;
 
     static bool is_grouped(const Bundle* bundle) { return bundle != nullptr && !bundle->loose; }
 
@@ -44,14 +45,43 @@ struct Trace : Streams<Arch> {
                                workspace, counters);
                 continue;
             }
+            const Before before(candidates, begin, end - begin);
+            if (!Walk(scene, group, workspace, counters, most_candidates)
+                     .go(kind_bits, [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
+                                        std::size_t which) {
+                         return test(filter, id, slot, begin + bunch * which, end, rays,
+                                     candidates);
+                     })) {
+                before.restore(candidates, begin); // or shapes would be met twice
+                nearest_of_any(scene, kind_bits, &neighbours, begin, count, rays, candidates,
+                               workspace, counters);
+                return;
+            }
             counters.in_frusta += end - begin;
-            Walk(scene, group, workspace, counters, no_budget)
-                .go(kind_bits, [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
-                                   std::size_t which) {
-                    return test(filter, id, slot, begin + bunch * which, end, rays, candidates);
-                });
         }
     }
+
+    /// A group's candidates as they were.
+    struct Before {
+        float first[Rays::most_rays], second[Rays::most_rays];
+        std::uint32_t slot[Rays::most_rays];
+        std::size_t count;
+
+        Before(const Candidates& candidates, std::size_t begin, std::size_t size) : count(size) {
+            for (std::size_t i = 0; i < count; ++i) {
+                first[i] = candidates.first[begin + i];
+                second[i] = candidates.second[begin + i];
+                slot[i] = candidates.slot[begin + i];
+            }
+        }
+        void restore(const Candidates& candidates, std::size_t begin) const {
+            for (std::size_t i = 0; i < count; ++i) {
+                candidates.first[begin + i] = first[i];
+                candidates.second[begin + i] = second[i];
+                candidates.slot[begin + i] = slot[i];
+            }
+        }
+    };
 
     /// One shape against a bunch of rays. Returns from which t on nothing matters to them.
     template <class Filter>
@@ -179,7 +209,7 @@ struct Trace : Streams<Arch> {
             TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
         if (workspace.t == nullptr) {
             counters.one_by_one += count;
-        } else if ((bundle != nullptr || !scene.large) && count >= least_listed &&
+        } else if ((bundle != nullptr || scene.small) && count >= least_listed &&
                    count <= workspace.capacity) {
             counters.in_streams += count;
             TraceStream<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
