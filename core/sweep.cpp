@@ -87,7 +87,7 @@ SlotCosts Sweep::grow(int first, int last, std::uint32_t node) {
     if (last - first <= block_size) {
         const Kind kind = items_[order_[0][first]].kind();
         const auto is_same = [&](Index i) { return items_[i].kind() == kind; };
-        if (!mixed_ || std::all_of(&order_[0][first], &order_[0][last], is_same))
+        if (!mixed_ || std::all_of(order_[0].begin() + first, order_[0].begin() + last, is_same))
             return leaf(first, last, node);
         split = split_by_kind(first, last);
     } else {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -340,9 +341,8 @@ void Wavefront::spawn(int depth) {
 /// Rays from the camera that one flat shape has reflected seem to come from its mirror image.
 Bundle Wavefront::bundle_off_mirror(const SpawnedRays& reflected) const {
     if (camera_.orthographic || reflected.count == 0) return neighbours;
-    const auto normal_at = [&](std::size_t position) {
-        return core::Vec3d(surfaces_.normal[0][position], surfaces_.normal[1][position],
-                           surfaces_.normal[2][position]);
+    const auto vector_at = [](double* const(&columns)[3], std::size_t position) {
+        return core::Vec3d(columns[0][position], columns[1][position], columns[2][position]);
     };
     const auto shape_at = [&](std::size_t position) {
         return scene_.occupant_of(finder_.hits().slot[sorted_.order()[position]]);
@@ -351,20 +351,22 @@ Bundle Wavefront::bundle_off_mirror(const SpawnedRays& reflected) const {
     const core::Kind kind = shape_at(first).kind;
     if (kind > core::Kind::box || kind == core::Kind::sphere || kind == core::Kind::smooth_triangle)
         return neighbours;
-    const core::Vec3d normal = normal_at(first);
-    const core::ShapeId coplanar = shape_at(first).coplanar.first;
-    for (std::size_t k = 1; k < reflected.count; ++k) {
+    const core::Vec3d from(camera_.from[0], camera_.from[1], camera_.from[2]);
+    const core::Vec3d normal = vector_at(surfaces_.normal, first);
+    const double height = core::dot(vector_at(surfaces_.point, first) - from, normal);
+    for (std::size_t k = 0; k < reflected.count; ++k) {
         const auto position = static_cast<std::size_t>(reflected.parent[k]);
-        if (normal_at(position) != normal || shape_at(position).coplanar.first != coplanar)
+        if (vector_at(surfaces_.normal, position) != normal) return neighbours;
+        // In one plane, by less than the group grants its rays for their roundings to float.
+        const core::Vec3d point = vector_at(surfaces_.point, position);
+        const double size = std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
+        if (!(std::abs(core::dot(point - from, normal) - height) <= 0x1p-28 * size))
             return neighbours;
     }
-    core::Vec3d to_mirror(0.0);
-    for (int axis = 0; axis < 3; ++axis)
-        to_mirror[axis] = surfaces_.point[axis][first] - camera_.from[axis];
-    const core::Vec3d across = 2.0 * core::dot(to_mirror, normal) * normal;
+    const core::Vec3d image = from + 2.0 * height * normal;
     Bundle bundle{};
     for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(camera_.from[axis] + across[axis]);
+        bundle.apex[axis] = static_cast<float>(image[axis]);
     bundle.beyond = true;
     return bundle;
 }

@@ -1,10 +1,12 @@
 #include "core/reference/search.hpp"
 #include "simd/isa.hpp"
+#include "simd/stream_tracer.hpp"
 #include "simd/wavefront/hit_finder.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/sanitized.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -225,6 +227,37 @@ void check_light(const Kernels& kernels, bool overlapping) {
 }
 
 } // namespace
+
+TEST_CASE("crossings whose squares are too large for float are met however rays go") {
+    SceneBuilder builder;
+    builder.wants_light = false;
+    builder.add_material({});
+    builder.add(Sphere{{0, 0, 0}, 1e20F}, 0);
+    for (int i = 0; i < 60; ++i) // off the rays, and enough for a tree
+        builder.add(
+            Sphere{{1e19F * static_cast<float>(i % 8), -4e20F, 1e19F * static_cast<float>(i / 8)},
+                   1e18F},
+            0);
+    const Scene scene = std::move(builder).build();
+    const std::size_t count = 100;
+    std::vector<float> x(count, -1e21F), y(count), zero(count, 0.0F), one(count, 1.0F);
+    for (std::size_t i = 0; i < count; ++i)
+        y[i] = 5e19F + 1e17F * static_cast<float>(i);
+    const RayStream rays{
+        count, {x.data(), y.data(), zero.data()}, {one.data(), zero.data(), zero.data()}};
+    for (const Isa isa : all_isas) {
+        if (!is_available(isa)) continue;
+        const StreamTracer tracer(scene, 1, isa);
+        std::vector<ShapeId> shape(count);
+        std::vector<std::uint8_t> occluded(count);
+        HitStream hits;
+        hits.shape = shape.data();
+        tracer.nearest(rays, hits);
+        tracer.occluded(rays, occluded.data());
+        CHECK(std::count(shape.begin(), shape.end(), ShapeId{0}) == static_cast<int>(count));
+        CHECK(std::count(occluded.begin(), occluded.end(), 1) == static_cast<int>(count));
+    }
+}
 
 TEST_CASE("rays to a light are put in another order for nobody to notice") {
     for (const Isa isa : all_isas) {

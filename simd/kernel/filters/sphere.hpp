@@ -23,7 +23,7 @@ struct SphereFilter {
     explicit SphereFilter(Reader reader)
         : center(next_vector<Arch>(reader)), radius(reader.next()) {}
 
-    /// Where `bounds` may find something possible, for less.
+    /// Whether a ray may meet the sphere, for less than its bounds.
     [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const Vectors<Arch> from_center = rays.origin - center;
@@ -31,9 +31,11 @@ struct SphereFilter {
         const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
         const F foot_squared = fast_dot(foot, foot);
         const F outer = radius + (F(10 * half_ulp) * (xsimd::abs(tau) + radius) + rays.slack);
-        // A ray that has its foot behind it starts inside, if it meets the sphere at all.
-        const F ahead = tau + outer;
-        return (outer * outer - foot_squared >= zero<Arch>()) & (ahead >= zero<Arch>());
+        // A ray that has its foot behind it starts inside, if it meets the sphere at all. What
+        // overflows proves nothing.
+        const F o = zero<Arch>();
+        const Mask<Arch> missed = (outer * outer - foot_squared < o) | (tau + outer < o);
+        return is_number<Arch>(from_center.x) & ~missed;
     }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {

@@ -9,6 +9,7 @@ namespace raylane::simd {
 
 /// Methods: how shapes are tested, one for each core::Precision. Each has
 ///   Rays       what a packet of rays is to its filters, at least FilterRays
+///   certifies  whether its answers are the same however rays go together
 ///   rounded_alone  whether it asks nothing of rays but what they are in float
 ///   packet     the rays of a stream from one on, one per lane
 ///   broadcast  one of them in all lanes
@@ -19,6 +20,7 @@ namespace raylane::simd {
 /// This one is core::Precision::exact: bounds in float, and what they leave in double.
 template <class Arch>
 struct ExactMethod : RaysInFloat<Arch> {
+    static constexpr bool certifies = true;
     template <class Visit>
     static void with_filter(KindNumber kind, const Visit& visit) {
         simd::with_filter<Arch>(kind, visit);

@@ -56,6 +56,7 @@ struct DoubleMethod {
     using D = Double<Arch>;
     using Rays = DoubleRays<Arch>;
     static constexpr bool rounded_alone = false;
+    static constexpr bool certifies = true;
 
     static Rays packet(const RoundedRays& rays, std::size_t i) {
         Rays result{RaysInFloat<Arch>::packet(rays, i), {}};

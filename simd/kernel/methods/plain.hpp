@@ -23,6 +23,7 @@ struct PlainFilter {
 /// core::Precision::robust and, by the textbooks, fast.
 template <class Arch, bool textbook>
 struct PlainMethod : RaysInFloat<Arch> {
+    static constexpr bool certifies = false;
     template <class Visit>
     static void with_filter(KindNumber kind, const Visit& visit) {
         with_lanes<Arch, textbook>(

@@ -15,8 +15,6 @@ class TraceStream : Streams<Arch> {
     using Number = std::uint16_t; ///< of a ray
     using Record = StreamRecord;
 
-    /// Lists that are shorter are not worth the work on them.
-    static constexpr int short_list = 2;
     /// Rays whose bounds a block finds at a time.
     static constexpr int batch = 64;
 

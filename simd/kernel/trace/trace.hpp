@@ -19,13 +19,12 @@ struct Trace : Streams<Arch> {
     using Walk = GroupWalk<Arch, Method>;
     static constexpr std::size_t bunch = Walk::bunch;
 
-    /// Lists of fewer rays are too short soon.
-    static constexpr std::size_t least_listed = 64;
-    /// Shapes that a group of rays to a light may have before it: as many as it takes for its rays
-    /// to be done one by one.
-    static constexpr int most_occluders = 512;
-    /// And a group that looks for the nearest.
-    static constexpr int most_candidates = 2048;
+    /// Shapes that a group of rays to a light, and one that looks for the nearest, may have before
+    /// it: as many as it takes for its rays to be done otherwise. What a float method makes of a
+    /// ray may depend on that, so its groups are left alone; nor are they put in another order.
+    static constexpr int unlimited = 0x7FFFFFFF;
+    static constexpr int most_occluders = Method::certifies ? 512 : unlimited;
+    static constexpr int most_candidates = Method::certifies ? 2048 : unlimited;
 
     static bool is_grouped(const Bundle* bundle) { return bundle != nullptr && !bundle->loose; }
 
@@ -103,7 +102,7 @@ struct Trace : Streams<Arch> {
                          const Workspace& workspace, TraceCounters& counters) {
         if (!is_grouped(bundle)) {
             occluded_of_any(scene, kind_bits, 0, count, rays, occlusions, workspace, counters);
-        } else if (Method::rounded_alone && bundle->towards &&
+        } else if (Method::certifies && Method::rounded_alone && bundle->towards &&
                    SortedTowards<Arch>::has_room(count, workspace)) {
             const SortedTowards<Arch> sorted(rays, occlusions, count, workspace);
             occluded_groups(scene, kind_bits, *bundle, count, sorted.rays, sorted.occlusions,
@@ -196,7 +195,9 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
-    /// Rays that have no more in common than `bundle` says, which is loose or null.
+    /// Rays that have no more in common than `bundle` says, which is loose or null. However many
+    /// there are, the way is the same: what a float method makes of a ray then does not depend on
+    /// who goes with it.
     static void nearest_of_any(const SceneView& scene, std::uint32_t kind_bits,
                                const Bundle* bundle, std::size_t begin, std::size_t end,
                                const RoundedRays& rays, const Candidates& candidates,
@@ -209,8 +210,7 @@ struct Trace : Streams<Arch> {
             TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
         if (workspace.t == nullptr) {
             counters.one_by_one += count;
-        } else if ((bundle != nullptr || scene.small) && count >= least_listed &&
-                   count <= workspace.capacity) {
+        } else if ((bundle != nullptr || scene.small) && count <= workspace.capacity) {
             counters.in_streams += count;
             TraceStream<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
         } else {

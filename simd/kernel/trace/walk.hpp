@@ -26,13 +26,14 @@ struct GroupWalk : Streams<Arch> {
     TraceCounters& counters;
     /// Shapes that are still worth a look. Where the group is so wide that there are more, its rays
     /// are better off one by one.
-    int budget;
+    const int most_shapes;
+    int budget = 0;
     GroupLimits limits;
 
     GroupWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
-              TraceCounters& trace_counters, int most_shapes)
+              TraceCounters& trace_counters, int shapes)
         : scene(scene_view), group(rays), workspace(space), counters(trace_counters),
-          budget(most_shapes) {
+          most_shapes(shapes) {
         for (std::size_t which = 0; which < 16; ++which)
             limits.t[which] = which < group.bunches ? __builtin_inff() : -1.0F;
         update_limits();
@@ -55,6 +56,7 @@ struct GroupWalk : Streams<Arch> {
                 at_block(kind, block, visit);
         }
         if (workspace.t == nullptr) return true;
+        budget = most_shapes; // what is listed has to be tested whatever the way
         int size = 0;
         std::uint32_t child = 0;
         while (budget >= 0) {
