@@ -192,7 +192,7 @@ void check_light(const Kernels& kernels, bool overlapping) {
     CAPTURE(std::string(kernels.name), overlapping);
     const Scene scene = make_scene(overlapping);
     const SceneData data(scene);
-    Rays rays(tests::sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
+    Rays rays(3001, overlapping ? 9.0 : 12.0);
     const Vec3d light(20.0, 15.0, 10.0);
     for (std::size_t i = 0; i < rays.count; ++i) {
         const Ray<double> ray = rays.get(i);
