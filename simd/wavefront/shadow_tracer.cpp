@@ -1,24 +1,12 @@
 #include "simd/wavefront/shadow_tracer.hpp"
 
 #include "core/optics.hpp"
+#include "simd/wavefront/bundles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace raylane::simd {
-
-namespace {
-
-Bundle bundle_of(const LightView& light) {
-    Bundle bundle{};
-    for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(light.position[axis]);
-    bundle.towards = light.is_point;
-    bundle.parallel = !light.is_point;
-    return bundle;
-}
-
-} // namespace
 
 void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
     arena.take(rays.origin, capacity);

@@ -2,10 +2,10 @@
 
 #include "core/fog.hpp"
 #include "core/optics.hpp"
+#include "simd/wavefront/bundles.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -52,14 +52,6 @@ CameraView view_of(const core::CameraRays<double>& rays) {
     }
     view.orthographic = rays.orthographic();
     return view;
-}
-
-Bundle bundle_of(const CameraView& camera) {
-    Bundle bundle{};
-    for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(camera.from[axis]);
-    bundle.parallel = camera.orthographic;
-    return bundle;
 }
 
 } // namespace
@@ -324,7 +316,10 @@ void Wavefront::spawn(int depth) {
     counters_.reflected += reflected.count;
     counters_.refracted += transmitted_.count;
     if (depth == 0)
-        second_bundle_ = transmitted_.count == 0 ? bundle_off_mirror(reflected) : neighbours;
+        second_bundle_ = transmitted_.count == 0
+                             ? bundle_off_mirror(camera_, scene_, surfaces_, sorted_.order(),
+                                                 finder_.hits().slot, reflected)
+                             : neighbours;
     add_to_next(reflected, /*through=*/false);
     if (transmitted_.count == 0) return;
     for (int axis = 0; axis < 3; ++axis) {
@@ -336,39 +331,6 @@ void Wavefront::spawn(int depth) {
                     next_.throughput[axis] + next_.count);
     }
     add_to_next(transmitted_, /*through=*/true);
-}
-
-/// Rays from the camera that one flat shape has reflected seem to come from its mirror image.
-Bundle Wavefront::bundle_off_mirror(const SpawnedRays& reflected) const {
-    if (camera_.orthographic || reflected.count == 0) return neighbours;
-    const auto vector_at = [](double* const(&columns)[3], std::size_t position) {
-        return core::Vec3d(columns[0][position], columns[1][position], columns[2][position]);
-    };
-    const auto shape_at = [&](std::size_t position) {
-        return scene_.occupant_of(finder_.hits().slot[sorted_.order()[position]]);
-    };
-    const auto first = static_cast<std::size_t>(reflected.parent[0]);
-    const core::Kind kind = shape_at(first).kind;
-    if (kind > core::Kind::box || kind == core::Kind::sphere || kind == core::Kind::smooth_triangle)
-        return neighbours;
-    const core::Vec3d from(camera_.from[0], camera_.from[1], camera_.from[2]);
-    const core::Vec3d normal = vector_at(surfaces_.normal, first);
-    const double height = core::dot(vector_at(surfaces_.point, first) - from, normal);
-    for (std::size_t k = 0; k < reflected.count; ++k) {
-        const auto position = static_cast<std::size_t>(reflected.parent[k]);
-        if (vector_at(surfaces_.normal, position) != normal) return neighbours;
-        // In one plane, by less than the group grants its rays for their roundings to float.
-        const core::Vec3d point = vector_at(surfaces_.point, position);
-        const double size = std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
-        if (!(std::abs(core::dot(point - from, normal) - height) <= 0x1p-28 * size))
-            return neighbours;
-    }
-    const core::Vec3d image = from + 2.0 * height * normal;
-    Bundle bundle{};
-    for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(image[axis]);
-    bundle.beyond = true;
-    return bundle;
 }
 
 /// The columns that the kernels do not write.

@@ -57,7 +57,6 @@ class Wavefront {
     void fill_media();
     void add_lights();
     void spawn(int depth);
-    Bundle bundle_off_mirror(const SpawnedRays& reflected) const;
     void add_to_next(const SpawnedRays& spawned, bool through);
     void split_next(int depth);
     void take_deferred(int& depth);

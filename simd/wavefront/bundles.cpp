@@ -1,0 +1,57 @@
+#include "simd/wavefront/bundles.hpp"
+
+#include "core/vector.hpp"
+
+#include <cmath>
+
+namespace raylane::simd {
+
+Bundle bundle_of(const CameraView& camera) {
+    Bundle bundle{};
+    for (int axis = 0; axis < 3; ++axis)
+        bundle.apex[axis] = static_cast<float>(camera.from[axis]);
+    bundle.parallel = camera.orthographic;
+    return bundle;
+}
+
+Bundle bundle_of(const LightView& light) {
+    Bundle bundle{};
+    for (int axis = 0; axis < 3; ++axis)
+        bundle.apex[axis] = static_cast<float>(light.position[axis]);
+    bundle.towards = light.is_point;
+    bundle.parallel = !light.is_point;
+    return bundle;
+}
+
+Bundle bundle_off_mirror(const CameraView& camera, const SceneData& scene, const Surfaces& surfaces,
+                         const std::uint32_t* order, const std::uint32_t* slots,
+                         const SpawnedRays& reflected) {
+    if (camera.orthographic || reflected.count == 0) return neighbours;
+    const auto vector_at = [](double* const(&columns)[3], std::size_t position) {
+        return core::Vec3d(columns[0][position], columns[1][position], columns[2][position]);
+    };
+    const auto first = static_cast<std::size_t>(reflected.parent[0]);
+    const core::Kind kind = scene.occupant_of(slots[order[first]]).kind;
+    if (kind > core::Kind::box || kind == core::Kind::sphere || kind == core::Kind::smooth_triangle)
+        return neighbours;
+    const core::Vec3d from(camera.from[0], camera.from[1], camera.from[2]);
+    const core::Vec3d normal = vector_at(surfaces.normal, first);
+    const double height = core::dot(vector_at(surfaces.point, first) - from, normal);
+    for (std::size_t k = 0; k < reflected.count; ++k) {
+        const auto position = static_cast<std::size_t>(reflected.parent[k]);
+        if (vector_at(surfaces.normal, position) != normal) return neighbours;
+        // In one plane, by less than the group grants its rays for their roundings to float.
+        const core::Vec3d point = vector_at(surfaces.point, position);
+        const double size = std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
+        if (!(std::abs(core::dot(point - from, normal) - height) <= 0x1p-28 * size))
+            return neighbours;
+    }
+    const core::Vec3d image = from + 2.0 * height * normal;
+    Bundle bundle{};
+    for (int axis = 0; axis < 3; ++axis)
+        bundle.apex[axis] = static_cast<float>(image[axis]);
+    bundle.beyond = true;
+    return bundle;
+}
+
+} // namespace raylane::simd
