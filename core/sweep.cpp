@@ -83,15 +83,14 @@ SlotCosts Sweep::leaf(int first, int last, std::uint32_t node) {
 }
 
 SlotCosts Sweep::grow(int first, int last, std::uint32_t node) {
-    Split split;
-    if (last - first <= block_size) {
-        const Kind kind = items_[order_[0][first]].kind();
-        const auto is_same = [&](Index i) { return items_[i].kind() == kind; };
-        if (!mixed_ || std::all_of(order_[0].begin() + first, order_[0].begin() + last, is_same))
-            return leaf(first, last, node);
-        split = split_by_kind(first, last);
-    } else {
-        split = best_split(first, last, unit_of((*nodes_)[node].bounds));
+    const bool several_kinds = mixed_ && has_several_kinds(first, last);
+    if (!several_kinds && last - first <= block_size) return leaf(first, last, node);
+    const float unit = unit_of((*nodes_)[node].bounds);
+    Split split = best_split(first, last, unit);
+    if (several_kinds) {
+        // Where few blocks are left, halves in space would need as many each.
+        const Split other = best_split_by_kind(first, last, unit);
+        if (!(split.cost < other.cost)) split = other;
     }
     divide(first, split, last);
 
@@ -104,6 +103,12 @@ SlotCosts Sweep::grow(int first, int last, std::uint32_t node) {
     parent.first = left;
     parent.count = 0;
     return collapse(parent.bounds.half_area(), left_costs, right_costs, parent.shares);
+}
+
+bool Sweep::has_several_kinds(int first, int last) const {
+    const Kind kind = items_[order_[0][first]].kind();
+    return std::any_of(order_[0].begin() + first, order_[0].begin() + last,
+                       [&](Index i) { return items_[i].kind() != kind; });
 }
 
 /// blocks_before_[i]: what the first i of the items need in blocks; blocks_from_[i]: the others.
@@ -135,8 +140,7 @@ void Sweep::count_blocks(int axis, int first, int last) {
 
 /// Expected work is the chance to be hit (by surface area) times the blocks of 16 to be tested.
 Sweep::Split Sweep::best_split(int first, int last, float unit) {
-    Split best{-1, 0, {}, {}};
-    float best_cost = std::numeric_limits<float>::infinity();
+    Split best;
     for (int axis = 0; axis < 3; ++axis) {
         if (axis == 0 || mixed_) count_blocks(axis, first, last);
         const Index* const order = &order_[axis][first];
@@ -151,37 +155,48 @@ Sweep::Split Sweep::best_split(int first, int last, float unit) {
             left.include(items_[order[i - 1]]);
             const float cost = left.half_area(unit) * float(blocks_before_[i]) +
                                right_boxes_[i].half_area(unit) * float(blocks_from_[i]);
-            if (cost < best_cost) {
-                best_cost = cost;
-                best = {axis, first + i, left, right_boxes_[i]};
-            }
+            if (cost < best.cost) best = {cost, axis, first + i, left, right_boxes_[i], {}};
         }
     }
     return best;
 }
 
-/// The first kind to the left. Few items of several kinds: where they are matters less than full
-/// blocks.
-Sweep::Split Sweep::split_by_kind(int first, int last) {
-    Split split{-1, first, {}, {}};
-    Kind least = Kind::quadric;
-    for (int i = first; i < last; ++i)
-        least = std::min(least, items_[order_[0][i]].kind());
+/// One kind to the left, the others to the right. By the same measure.
+Sweep::Split Sweep::best_split_by_kind(int first, int last, float unit) {
+    std::array<Box4, kind_count> boxes;
+    std::array<int, kind_count> counts{};
     for (int i = first; i < last; ++i) {
         const Item& item = items_[order_[0][i]];
-        const bool is_left = item.kind() == least;
-        is_left_[order_[0][i]] = is_left;
-        (is_left ? split.left : split.right).include(item);
-        if (is_left) ++split.middle;
+        const auto kind = static_cast<std::size_t>(item.kind());
+        boxes[kind].include(item);
+        ++counts[kind];
     }
-    return split;
+    Split best;
+    for (std::size_t kind = 0; kind < kind_count; ++kind) {
+        if (counts[kind] == 0) continue;
+        Box4 others;
+        int blocks = 0;
+        for (std::size_t other = 0; other < kind_count; ++other) {
+            if (other == kind || counts[other] == 0) continue;
+            others.include(boxes[other]);
+            blocks += blocks_for(counts[other]);
+        }
+        const float cost = boxes[kind].half_area(unit) * float(blocks_for(counts[kind])) +
+                           others.half_area(unit) * float(blocks);
+        if (cost < best.cost)
+            best = {cost, -1, first + counts[kind], boxes[kind], others, static_cast<Kind>(kind)};
+    }
+    return best;
 }
 
 /// Puts the split's left half in front, in the order along each axis.
 void Sweep::divide(int first, const Split& split, int last) {
-    if (split.axis >= 0)
-        for (int i = first; i < last; ++i)
+    for (int i = first; i < last; ++i) {
+        if (split.axis >= 0)
             is_left_[order_[split.axis][i]] = i < split.middle;
+        else
+            is_left_[order_[0][i]] = items_[order_[0][i]].kind() == split.kind;
+    }
     for (int axis = 0; axis < 3; ++axis) {
         if (axis == split.axis) continue;
         std::array<Index, most_items> right;

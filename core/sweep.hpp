@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,16 +30,19 @@ class Sweep {
     using BlockCounts = std::array<std::uint8_t, most_items + 1>;
 
     struct Split {
-        int axis;
-        int middle;
-        Box4 left, right;
+        float cost = std::numeric_limits<float>::infinity();
+        int axis = -1; ///< none: by kind
+        int middle = 0;
+        Box4 left{}, right{};
+        Kind kind{}; ///< that is left, where there is no axis
     };
 
     void sort(int axis, const Box4& centers);
     SlotCosts grow(int first, int last, std::uint32_t node);
     SlotCosts leaf(int first, int last, std::uint32_t node);
     Split best_split(int first, int last, float unit);
-    Split split_by_kind(int first, int last);
+    Split best_split_by_kind(int first, int last, float unit);
+    bool has_several_kinds(int first, int last) const;
     void count_blocks(int axis, int first, int last);
     void divide(int first, const Split& split, int last);
 

@@ -184,6 +184,20 @@ TEST_CASE("a hierarchy of a few shapes") {
     }
 }
 
+TEST_CASE("blocks are well filled where kinds are mixed") {
+    ShapeLists lists;
+    constexpr int side = 20;
+    for (int i = 0; i < side * side * side; ++i) { // a lattice of balls, sticks and cones
+        const Vec3f at(float(i % side), float(i / side % side), float(i / side / side));
+        add(lists, Sphere{at, 0.2F});
+        add(lists, CappedCylinder{at, {1, 0, 0}, 0.1F});
+        add(lists, CappedCone{at, {0, 1, 0}, 0.1F, 0.05F});
+    }
+    const Audit audit = check(lists);
+    CHECK(audit.blocks < std::size_t{side * side * side} * 3 / 7);
+    CHECK(audit.nodes < audit.blocks / 6);
+}
+
 TEST_CASE("a hierarchy of shapes that nothing tells apart") {
     for (const int count : {17, 128, 129, 3000, 70'000}) {
         CAPTURE(count);

@@ -89,7 +89,8 @@ TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
             CHECK(blocked_otherwise == 0);
             CHECK(hits > static_cast<int>(aimed.rays.size()) / 3);
             if (of_each_kind == 150)
-                CHECK(by_hierarchy.counters.shapes < by_trying.counters.shapes / 2);
+                // Blocks of 16 are full, whatever is in a heap that fills its box many times.
+                CHECK(by_hierarchy.counters.shapes < by_trying.counters.shapes * 3 / 5);
         }
 }
 
