@@ -51,12 +51,15 @@ enum Occlusion : std::uint8_t {
 /// cache.
 inline constexpr int in_flight = 32;
 
-/// Where in the hierarchy rays leave what they are still to visit: for each of those in flight, 16
-/// entries per level and 16 more.
+/// Where in the hierarchy rays leave what they are still to visit: for each of those in flight,
+/// pending_entries(levels).
 struct Pending {
-    float* t; ///< null: there is no hierarchy to walk
+    std::uint16_t* key; ///< null: there is no hierarchy to walk
     std::uint32_t* child;
 };
+constexpr std::size_t pending_entries(std::uint32_t levels) {
+    return std::size_t{16} * (levels + 3);
+}
 
 /// What kernels work in: the above, and, if `capacity` is not 0, room for so many rays (less than
 /// 65536) at a time that go together.

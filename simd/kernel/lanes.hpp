@@ -126,17 +126,6 @@ Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Flo
     return Mask<Arch>::load_unaligned(result);
 }
 
-template <class Arch>
-int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count, unsigned bit,
-         std::uint16_t* out) {
-    int picked = 0;
-    for (int k = 0; k < count; ++k) {
-        out[picked] = numbers[k];
-        picked += masks[k] >> bit & 1;
-    }
-    return picked;
-}
-
 } // namespace generic
 
 /// bits: lane i of a mask as bit i.
@@ -144,8 +133,6 @@ int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count, un
 /// mul_add: a * b + c, rounded once.
 /// least, greatest: of all lanes.
 /// narrow: doubles from memory, rounded to float.
-/// pick: those of `count` numbers whose masks have a bit, in their order, to `out`. Returns how
-/// many. May read and write 16 more.
 /// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
 template <class Arch>
 struct Lanes {
@@ -161,10 +148,6 @@ struct Lanes {
     static float least(const Floats<Arch>& values) { return generic::least<Arch>(values); }
     static float greatest(const Floats<Arch>& values) { return generic::greatest<Arch>(values); }
     static Floats<Arch> narrow(const double* from) { return generic::narrow<Arch>(from); }
-    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
-                    unsigned bit, std::uint16_t* out) {
-        return generic::pick<Arch>(numbers, masks, count, bit, out);
-    }
     static Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first,
                                const Floats<Arch>& last) {
         return generic::in_range<Arch>(id, first, last);
@@ -172,45 +155,6 @@ struct Lanes {
 };
 
 #ifdef __SSE4_2__
-/// Lanes::pick, eight numbers at a time.
-template <class Arch>
-struct PickByShuffle {
-    struct alignas(16) Order {
-        std::uint8_t bytes[16];
-    };
-    static constexpr std::array<Order, 256> orders = [] {
-        std::array<Order, 256> all{};
-        for (unsigned wanted = 0; wanted < 256; ++wanted) {
-            unsigned to = 0;
-            for (unsigned lane = 0; lane < 8; ++lane)
-                if ((wanted >> lane & 1) != 0)
-                    for (unsigned byte = 0; byte < 2; ++byte)
-                        all[wanted].bytes[to++] = static_cast<std::uint8_t>(2 * lane + byte);
-        }
-        return all;
-    }();
-
-    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
-                    unsigned bit, std::uint16_t* out) {
-        const __m128i wanted = _mm_set1_epi16(static_cast<short>(1U << bit));
-        int picked = 0;
-        for (int k = 0; k < count; k += 8) {
-            const __m128i mask = _mm_loadu_si128(reinterpret_cast<const __m128i*>(masks + k));
-            const __m128i has = _mm_cmpeq_epi16(_mm_and_si128(mask, wanted), wanted);
-            auto bits = static_cast<std::uint32_t>(
-                _mm_movemask_epi8(_mm_packs_epi16(has, _mm_setzero_si128())));
-            if (count - k < 8) bits &= (1U << (count - k)) - 1;
-            const __m128i order =
-                _mm_load_si128(reinterpret_cast<const __m128i*>(orders[bits].bytes));
-            const __m128i some = _mm_loadu_si128(reinterpret_cast<const __m128i*>(numbers + k));
-            _mm_storeu_si128(reinterpret_cast<__m128i*>(out + picked),
-                             _mm_shuffle_epi8(some, order));
-            picked += __builtin_popcount(bits);
-        }
-        return picked;
-    }
-};
-
 template <>
 struct Lanes<Sse42> {
     static constexpr bool has_mul_add = false;
@@ -248,10 +192,6 @@ struct Lanes<Sse42> {
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
     }
 
-    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
-                    unsigned bit, std::uint16_t* out) {
-        return PickByShuffle<Sse42>::pick(numbers, masks, count, bit, out);
-    }
     static Floats<Sse42> narrow(const double* from) {
         return _mm_movelh_ps(_mm_cvtpd_ps(_mm_loadu_pd(from)),
                              _mm_cvtpd_ps(_mm_loadu_pd(from + 2)));
@@ -338,10 +278,6 @@ struct Lanes<Avx2> {
         return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
     }
 
-    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
-                    unsigned bit, std::uint16_t* out) {
-        return PickByShuffle<Avx2>::pick(numbers, masks, count, bit, out);
-    }
     static Floats<Avx2> narrow(const double* from) {
         return _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(from + 4)),
                                _mm256_cvtpd_ps(_mm256_loadu_pd(from)));
@@ -388,24 +324,6 @@ struct Lanes<Avx512> {
 
     static float least(const Floats<Avx512>& values) { return _mm512_reduce_min_ps(values); }
     static float greatest(const Floats<Avx512>& values) { return _mm512_reduce_max_ps(values); }
-
-    static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
-                    unsigned bit, std::uint16_t* out) {
-        const __m256i wanted = _mm256_set1_epi16(static_cast<short>(1U << bit));
-        int picked = 0;
-        for (int k = 0; k < count; k += 16) {
-            std::uint32_t has_bit = _mm256_test_epi16_mask(
-                _mm256_loadu_si256(reinterpret_cast<const __m256i*>(masks + k)), wanted);
-            if (count - k < 16) has_bit &= (1U << (count - k)) - 1;
-            const __m512i some = _mm512_cvtepu16_epi32(
-                _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + k)));
-            _mm256_storeu_si256(reinterpret_cast<__m256i*>(out + picked),
-                                _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(
-                                    static_cast<__mmask16>(has_bit), some)));
-            picked += __builtin_popcount(has_bit);
-        }
-        return picked;
-    }
 
     static Floats<Avx512> narrow(const double* from) {
         const __m256 low = _mm512_cvtpd_ps(_mm512_loadu_pd(from));

@@ -26,8 +26,8 @@ Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capaci
     Workspace workspace{};
     if (!scene.has_tree()) return workspace;
     const std::uint32_t levels = scene.view().tree_depth;
-    const std::size_t entries = std::size_t{in_flight} * 16 * (levels + 1);
-    workspace.t = arena.take<float>(entries);
+    const std::size_t entries = in_flight * pending_entries(levels);
+    workspace.key = arena.take<std::uint16_t>(entries);
     workspace.child = arena.take<std::uint32_t>(entries);
     workspace.capacity = capacity;
     workspace.records = arena.take<std::byte>(capacity * stream_record_bytes);

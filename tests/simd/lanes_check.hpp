@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/lanes.hpp"
+#include "simd/kernel/short_lanes.hpp"
 
 /// The native forms of `Lanes` against the generic ones. For units that are built for one
 /// instruction set, so without anything inline that others share.
@@ -99,7 +99,7 @@ struct LanesCheck {
             }
             const int count = round % (most + 1);
             const unsigned bit = random() % 16;
-            const int picked = Lanes<Arch>::pick(numbers, masks, count, bit, native);
+            const int picked = ShortLanes<Arch>::pick(numbers, masks, count, bit, native);
             failures +=
                 picked == generic::pick<Arch>(numbers, masks, count, bit, generic_way) ? 0 : 1;
             for (int i = 0; i < picked; ++i)
@@ -108,10 +108,33 @@ struct LanesCheck {
         return failures;
     }
 
+    int key_failures(int rounds) {
+        int failures = 0;
+        for (int round = 0; round < rounds; ++round) {
+            float values[size];
+            for (float& value : values) // as distances are: not negative, but perhaps -0
+                value = round % 16 == 0 ? -0.0F : __builtin_fabsf(random_float(false));
+            const std::uint32_t wanted = random() & ((1U << size) - 1);
+            const auto x = Floats<Arch>::load_unaligned(values);
+            std::uint16_t native[16] = {}, generic_way[16] = {};
+            ShortLanes<Arch>::compress_keys(native, x, wanted);
+            generic::compress_keys<Arch>(generic_way, x, wanted);
+            for (int i = 0; i < __builtin_popcount(wanted); ++i)
+                failures += native[i] == generic_way[i] ? 0 : 1;
+
+            std::uint16_t keys[16];
+            for (std::uint16_t& key : keys)
+                key = static_cast<std::uint16_t>(random() >> (round % 3 == 0 ? 30 : 16));
+            failures +=
+                ShortLanes<Arch>::least_of_16(keys) == generic::least_of_16<Arch>(keys) ? 0 : 1;
+        }
+        return failures;
+    }
+
     static int failures() {
         LanesCheck check;
         return check.mul_add_failures(200000) + check.compress_failures() +
-               check.mask_failures(10000) + check.pick_failures(1000);
+               check.mask_failures(10000) + check.pick_failures(1000) + check.key_failures(10000);
     }
 };
 

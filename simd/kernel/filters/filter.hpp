@@ -9,6 +9,9 @@
 /// Each filter stands for one kind of shape, is loaded like its solver (solvers/shapes.hpp), and
 /// has
 ///   Bounds<Arch> bounds(const FilterRays<Arch>&) const
+/// and may have
+///   Mask<Arch> may_meet(const FilterRays<Arch>&) const
+/// which is true wherever there is a crossing.
 /// The bounds hold whether or not mul_add is fused, and for every ray whose floats are within the
 /// stated errors.
 ///
@@ -38,6 +41,18 @@ struct Bounds {
     Floats<Arch> lower;  ///< where possible: none is before this; >= 0, finite if there is one
     Mask<Arch> certain;  ///< there is one
     Floats<Arch> upper;  ///< where certain: the first is not behind this
+};
+
+/// Whether a filter can tell for less than its bounds cost that there are none.
+template <class Filter, class Rays>
+inline constexpr bool has_may_meet = requires(const Filter& filter, const Rays& rays) {
+    filter.may_meet(rays);
+};
+
+/// Whether that is worth it for a packet of rays, a few of which meet the shape as a rule.
+template <class Filter, class Rays>
+inline constexpr bool sifts_packets = has_may_meet<Filter, Rays>&& requires {
+    Filter::is_costly;
 };
 
 /// Half an ulp of 1: what one operation is off by, relative to its result.

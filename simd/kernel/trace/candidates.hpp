@@ -20,23 +20,23 @@ struct ListCandidates : Streams<Arch> {
             for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
                 if (!visit(scene, kind, block, rays, i, list, counters)) return false;
         }
-        if (pending.t == nullptr) return true;
+        if (pending.key == nullptr) return true;
 
         BoxRays<Arch> box_rays;
         box_rays.load(rays, i / 16 * 16);
         const BoxRay ray = box_rays.get(static_cast<int>(i % 16));
         const BoxRay::Rows ray_rows = ray.template rows<Arch>();
         Queue<Arch> queue;
-        queue.clear();
-        for (std::uint32_t child = 0; child != no_child;) {
+        queue.place(pending, 0, scene.tree_depth);
+        queue.start(0);
+        for (std::uint32_t child; (child = queue.pop(list.limit)) != no_child;) {
             if ((child & child_is_block) == 0) {
                 ++counters.nodes;
-                child = queue.step(scene.nodes[child], ray, ray_rows, list.limit, pending);
-                continue;
+                queue.enter(scene.nodes[child], ray, ray_rows, list.limit);
+            } else if (!visit(scene, S::kind_of(child), child & child_index, rays, i, list,
+                              counters)) {
+                return false;
             }
-            const auto kind = static_cast<KindNumber>(child >> 27 & 0xF);
-            if (!visit(scene, kind, child & child_index, rays, i, list, counters)) return false;
-            child = queue.pop(list.limit, pending);
         }
         return true;
     }

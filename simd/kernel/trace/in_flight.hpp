@@ -6,61 +6,125 @@
 namespace raylane::simd {
 
 /// Many rays at a time through the wide hierarchy, each by itself: while one waits for memory, or
-/// for its own last result, others go on. In a round, all that are at nodes take a step, then all
-/// that are at blocks; what would branch for each ray on its own sorts them into lists. This is
-/// what TraceTree and TraceShadows share.
+/// for its own last result, others go on. In a round, all take the next of what they are still to
+/// visit, then those that are at nodes look into them, then those that are at blocks; what would
+/// branch for each ray on its own sorts them into lists.
 template <class Arch, class Method>
 struct InFlight : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
 
-    /// The rays that are at nodes and at blocks, and those that are done.
-    struct Lists {
-        int at_nodes[in_flight], at_blocks[in_flight], done[in_flight];
-        int node_count = 0, block_count = 0, done_count = 0;
+    /// A ray on its way.
+    struct Traveller {
+        BoxRay box;
+        BoxRay::Rows rows;
+        std::uint32_t child; ///< to visit next
+        std::size_t i;       ///< in the stream
 
-        /// Where each of `count` rays is to go.
-        template <class Traveller>
-        void sort(const int* which, int count, const Traveller* rays) {
-            for (int k = 0; k < count; ++k) {
-                const int ray = which[k];
-                const std::uint32_t child = rays[ray].child;
-                at_nodes[node_count] = at_blocks[block_count] = done[done_count] = ray;
+        void set_out(const BoxRays<Arch>& rays, std::size_t number) {
+            i = number;
+            box = rays.get(static_cast<int>(number % 16));
+            rows = box.template rows<Arch>();
+        }
+    };
+
+    /// Takes all rays that `travels` starts to their ends. Of `travellers`, `travels` knows
+    /// - start(traveller): makes it the next ray, at the root, if there is one
+    /// - next(traveller): the child to visit, or no_child
+    /// - at_node(traveller, node)
+    /// - at_blocks(which, count): those of the travellers that are at blocks
+    /// - land(traveller)
+    template <class Traveller, class Travels>
+    [[gnu::always_inline]] static void go(const SceneView& scene, Traveller* travellers,
+                                          std::size_t count, Travels& travels,
+                                          TraceCounters& counters) {
+        int at_nodes[2 * in_flight], at_blocks[in_flight], done[in_flight];
+        const Places places(scene);
+        int under_way = 0;
+        while (under_way < in_flight && static_cast<std::size_t>(under_way) < count &&
+               travels.start(travellers[under_way])) {
+            at_nodes[under_way] = under_way;
+            ++under_way;
+        }
+        int node_count = under_way, block_count = 0;
+        while (under_way != 0) {
+            for (int k = 0; k < node_count; ++k) {
+                Traveller& traveller = travellers[at_nodes[k]];
+                travels.at_node(traveller, scene.nodes[traveller.child]);
+            }
+            counters.nodes += static_cast<std::uint64_t>(node_count);
+            travels.at_blocks(at_blocks, block_count);
+            counters.shapes += 16 * static_cast<std::uint64_t>(block_count);
+
+            for (int k = 0; k < block_count; ++k)
+                at_nodes[node_count + k] = at_blocks[k];
+            under_way = node_count + block_count;
+            node_count = block_count = 0;
+            int done_count = 0;
+            for (int k = 0; k < under_way; ++k) {
+                const int which = at_nodes[k];
+                const std::uint32_t child = travels.next(travellers[which]);
+                travellers[which].child = child;
+                if (scene.large) places.fetch(child);
+                at_nodes[node_count] = at_blocks[block_count] = done[done_count] = which;
                 node_count += static_cast<int>((child & child_is_block) == 0);
                 block_count += static_cast<int>((child & child_is_block) != 0 && child != no_child);
                 done_count += static_cast<int>(child == no_child);
             }
+            for (int k = 0; k < done_count; ++k) {
+                travels.land(travellers[done[k]]);
+                if (!travels.start(travellers[done[k]])) {
+                    --under_way;
+                    continue;
+                }
+                travellers[done[k]].child = 0;
+                at_nodes[node_count++] = done[k];
+            }
+        }
+    }
+
+    /// Where children are in memory: what fetches them ahead without a branch for each ray.
+    struct Places {
+        static constexpr std::size_t lines = (sizeof(NodeView) + 63) / 64;
+        struct Place {
+            const char* from;
+            std::uint32_t bytes; ///< from one to the next
+            std::uint32_t last;  ///< byte that is fetched
+        } of[32];                ///< by the bits of a child above its index
+
+        explicit Places(const SceneView& scene) {
+            const Place nodes{reinterpret_cast<const char*>(scene.nodes), sizeof(NodeView),
+                              sizeof(NodeView) - 64};
+            for (Place& place : of)
+                place = nodes;
+            for (int kind = 0; kind < kinds; ++kind) {
+                const TableView& table = scene.tables[kind];
+                const auto bytes = static_cast<std::uint32_t>(table.block_floats * sizeof(float));
+                of[16 + kind] = {reinterpret_cast<const char*>(table.blocks), bytes, bytes - 64};
+            }
+            of[31].bytes = 0; // no_child
+        }
+
+        [[gnu::always_inline]] void fetch(std::uint32_t child) const {
+            const Place& place = of[child >> 27];
+            const char* const from =
+                place.from + static_cast<std::size_t>(child & child_index) * place.bytes;
+            for (std::uint32_t line = 0; line < lines; ++line)
+                __builtin_prefetch(from + (64 * line < place.last ? 64 * line : place.last));
         }
     };
 
-    static KindNumber kind_of(std::uint32_t child) {
-        return static_cast<KindNumber>(child >> 27 & 0xF);
-    }
-
-    static void fetch_ahead(const SceneView& scene, std::uint32_t child) {
-        if (child == no_child) return;
-        const char* from = reinterpret_cast<const char*>(scene.nodes + child);
-        std::size_t bytes = sizeof(NodeView);
-        if ((child & child_is_block) != 0) {
-            const TableView& table = scene.tables[kind_of(child)];
-            from = reinterpret_cast<const char*>(S::block_of(table, child & child_index));
-            bytes = table.block_floats * sizeof(float);
-        }
-        for (std::size_t at = 0; at < bytes; at += 64)
-            __builtin_prefetch(from + at);
-    }
-
-    /// Calls visit.operator()<Filter>(ray, table) for those at blocks that may meet something
+    /// Calls visit.operator()<Filter>(traveller, table) for those at blocks that may meet something
     /// there, those of a kind in turn.
     template <class Traveller, class Visit>
     static void for_each_at_block(const SceneView& scene, const RoundedRays& stream,
                                   const int* which, int count, Traveller* rays,
                                   const Visit& visit) {
         for (int k = 0; k < count;) {
-            const KindNumber kind = kind_of(rays[which[k]].child);
+            const KindNumber kind = S::kind_of(rays[which[k]].child);
             int end = k + 1;
-            while (end < count && kind_of(rays[which[end]].child) == kind)
+            while (end < count && S::kind_of(rays[which[end]].child) == kind)
                 ++end;
             Method::with_filter(kind, [&]<class Filter>() {
                 for_each_of_kind<Filter>(stream, scene.tables[kind], which + k, end - k, rays,

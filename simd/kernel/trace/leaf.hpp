@@ -26,12 +26,6 @@ struct LeafHits {
     alignas(64) float t[16]; ///< infinity in the other lanes, if there are any
 };
 
-/// Whether a filter can tell for less than its bounds cost that there are none.
-template <class Filter, class Rays>
-inline constexpr bool has_may_meet = requires(const Filter& filter, const Rays& rays) {
-    filter.may_meet(rays);
-};
-
 /// One ray against the shapes of a block.
 template <class Arch, class Method>
 struct Leaf : Streams<Arch> {

@@ -48,6 +48,9 @@ struct Streams {
         return (plain_lanes(scene, slot) >> slot % 16 & 1) != 0;
     }
 
+    static KindNumber kind_of(std::uint32_t child) {
+        return static_cast<KindNumber>(child >> 27 & 0xF);
+    }
     static const float* block_of(const TableView& table, std::uint32_t block) {
         return table.blocks + static_cast<std::size_t>(block) * table.block_floats;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "simd/kernel/trace/in_flight.hpp"
+#include "simd/kernel/short_lanes.hpp"
+#include "simd/kernel/trace/leaf.hpp"
 
 namespace raylane::simd {
 
@@ -98,7 +99,7 @@ class TraceStream : Streams<Arch> {
             const auto slot = static_cast<unsigned>(order & 15);
             if ((any >> slot & 1) == 0) continue;
             any &= ~(1U << slot);
-            const int some = Lanes<Arch>::pick(list, masks, count, slot, entered);
+            const int some = ShortLanes<Arch>::pick(list, masks, count, slot, entered);
             free_ = entered + some;
             at_child(node.children[slot], entered, some);
         }
@@ -153,7 +154,7 @@ class TraceStream : Streams<Arch> {
     }
 
     void at_block(std::uint32_t child, const Number* list, int count) {
-        const KindNumber kind = InFlight<Arch, Method>::kind_of(child);
+        const KindNumber kind = S::kind_of(child);
         counters_.shapes += 16 * static_cast<std::uint64_t>(count);
         Method::with_filter(kind, [&]<class Filter>() {
             test<Filter>(scene_.tables[kind], child & child_index, list, count);

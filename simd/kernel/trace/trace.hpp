@@ -16,8 +16,9 @@ struct Trace : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using Rays = Group<Arch>;
-    using Walk = GroupWalk<Arch, Method>;
-    static constexpr std::size_t bunch = Walk::bunch;
+    template <bool nearest_first>
+    using Walk = GroupWalk<Arch, Method, nearest_first>;
+    static constexpr std::size_t bunch = Walk<true>::bunch;
 
     /// Shapes that a group of rays to a light, and one that looks for the nearest, may have before
     /// it: as many as it takes for its rays to be done otherwise. What a float method makes of a
@@ -45,7 +46,7 @@ struct Trace : Streams<Arch> {
                 continue;
             }
             const Before before(candidates, begin, end - begin);
-            if (!Walk(scene, group, workspace, counters, most_candidates)
+            if (!Walk<true>(scene, group, workspace, counters, most_candidates)
                      .go(kind_bits, [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
                                         std::size_t which) {
                          return test(filter, id, slot, begin + bunch * which, end, rays,
@@ -127,7 +128,7 @@ struct Trace : Streams<Arch> {
                 continue;
             }
             GroupOcclusions found(occlusions.state + begin, end - begin);
-            const bool done = Walk(scene, group, workspace, counters, most_occluders)
+            const bool done = Walk<false>(scene, group, workspace, counters, most_occluders)
                                   .go(kind_bits, [&](const auto& filter, std::uint32_t id,
                                                      std::uint32_t slot, std::size_t which) {
                                       return block(scene, filter, id, slot, begin + bunch * which,
@@ -208,7 +209,7 @@ struct Trace : Streams<Arch> {
         const std::size_t count = end - begin;
         if (kind_bits != 0)
             TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
-        if (workspace.t == nullptr) {
+        if (workspace.key == nullptr) {
             counters.one_by_one += count;
         } else if ((bundle != nullptr || scene.small) && count <= workspace.capacity) {
             counters.in_streams += count;
@@ -227,7 +228,7 @@ struct Trace : Streams<Arch> {
         const Occlusions theirs{occlusions.t_most + begin, occlusions.state + begin};
         if (kind_bits != 0)
             TraceAll<Arch, Method>::occluded(scene, kind_bits, end - begin, some, theirs, counters);
-        if (workspace.t == nullptr) {
+        if (workspace.key == nullptr) {
             counters.one_by_one += end - begin;
         } else {
             counters.in_flight += end - begin;

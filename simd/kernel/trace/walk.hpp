@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/trace/group.hpp"
-#include "simd/kernel/trace/in_flight.hpp"
+#include "simd/kernel/trace/queue.hpp"
 
 namespace raylane::simd {
 
@@ -12,8 +12,9 @@ struct GroupLimits {
 };
 
 /// A group's way through the scene: a node or a block is visited once for all of its rays, and a
-/// shape is tested against those bunches of 16 that may meet it.
-template <class Arch, class Method>
+/// shape is tested against those bunches of 16 that may meet it. Nodes are visited in the order of
+/// their distance; or, where that is of no use, what is below one before its neighbours.
+template <class Arch, class Method, bool nearest_first>
 struct GroupWalk : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
@@ -55,45 +56,31 @@ struct GroupWalk : Streams<Arch> {
             for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
                 at_block(kind, block, visit);
         }
-        if (workspace.t == nullptr) return true;
+        if (workspace.key == nullptr) return true;
         budget = most_shapes; // what is listed has to be tested whatever the way
-        int size = 0;
-        std::uint32_t child = 0;
+        Queue<Arch> queue;
+        queue.place(workspace, 0, scene.tree_depth);
+        queue.start(0);
         while (budget >= 0) {
+            const std::uint32_t child =
+                nearest_first ? queue.pop_before(limits.largest) : queue.pop_last();
+            if (child == no_child || limits.largest < 0) return true;
             if ((child & child_is_block) != 0)
-                at_block(InFlight<Arch, Method>::kind_of(child), child & child_index, visit);
+                at_block(S::kind_of(child), child & child_index, visit);
             else
-                size = at_node(scene.nodes[child], size);
-            while (size > 0 && workspace.t[size - 1] > limits.largest)
-                --size;
-            if (size == 0) return true;
-            child = workspace.child[--size];
+                at_node(scene.nodes[child], queue);
         }
         return false;
     }
 
   private:
-    /// Puts a node's children on the stack, the nearest on top.
-    int at_node(const NodeView& node, int size) {
+    void at_node(const NodeView& node, Queue<Arch>& queue) {
         ++counters.nodes;
-        const int before = size;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
-            std::uint32_t bits = group.enter(node, from, F(limits.largest), near);
-            float near_t[F::size];
-            near.store_unaligned(near_t);
-            for (; bits != 0; bits &= bits - 1) {
-                const int slot = __builtin_ctz(bits);
-                int place = size++;
-                for (; place > before && workspace.t[place - 1] < near_t[slot]; --place) {
-                    workspace.t[place] = workspace.t[place - 1];
-                    workspace.child[place] = workspace.child[place - 1];
-                }
-                workspace.t[place] = near_t[slot];
-                workspace.child[place] = node.children[from + slot];
-            }
+            const std::uint32_t bits = group.enter(node, from, F(limits.largest), near);
+            queue.add(near, node.children + from, bits);
         }
-        return size;
     }
 
     template <class Visit>
