@@ -14,8 +14,8 @@ struct FilterStream {
     const float* origin[3];
     const float* direction[3];
     const float* slack;
-    /// Out: Bounds, the masks as 1 or 0.
-    float *possible, *lower, *certain, *upper;
+    /// Out: Bounds, the masks as 1 or 0; and may_meet, 1 for filters that have none.
+    float *possible, *lower, *certain, *upper, *may_meet;
 };
 
 struct FilterChecks {

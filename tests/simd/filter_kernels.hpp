@@ -11,7 +11,14 @@ struct FilterChecksOf {
 
     static F load(const float* from) { return F::load_unaligned(from); }
 
-    static void store(const Bounds<Arch>& bounds, const FilterStream& stream, std::size_t i) {
+    template <class Filter>
+    static void store(const Filter& filter, const FilterRays<Arch>& rays,
+                      const FilterStream& stream, std::size_t i) {
+        const Bounds<Arch> bounds = filter.bounds(rays);
+        F may_meet(1.0F);
+        if constexpr (has_may_meet<Filter, FilterRays<Arch>>)
+            may_meet = xsimd::select(filter.may_meet(rays), F(1.0F), F(0.0F));
+        may_meet.store_unaligned(stream.may_meet + i);
         xsimd::select(bounds.possible, F(1.0F), F(0.0F)).store_unaligned(stream.possible + i);
         bounds.lower.store_unaligned(stream.lower + i);
         xsimd::select(bounds.certain, F(1.0F), F(0.0F)).store_unaligned(stream.certain + i);
@@ -23,11 +30,12 @@ struct FilterChecksOf {
         with_filter<Arch>(kind, [&]<class Filter>() {
             const Filter filter(BroadcastReader<Arch>(block.values, lane));
             for (std::size_t i = 0; i < stream.count; i += F::size)
-                store(filter.bounds({{load(stream.origin[0] + i), load(stream.origin[1] + i),
-                                      load(stream.origin[2] + i)},
-                                     {load(stream.direction[0] + i), load(stream.direction[1] + i),
-                                      load(stream.direction[2] + i)},
-                                     load(stream.slack + i)}),
+                store(filter,
+                      {{load(stream.origin[0] + i), load(stream.origin[1] + i),
+                        load(stream.origin[2] + i)},
+                       {load(stream.direction[0] + i), load(stream.direction[1] + i),
+                        load(stream.direction[2] + i)},
+                       load(stream.slack + i)},
                       stream, i);
         });
     }
@@ -41,8 +49,8 @@ struct FilterChecksOf {
             const FilterRays<Arch> rays = {broadcast(stream.origin), broadcast(stream.direction),
                                            F(stream.slack[ray])};
             for (std::size_t lane = 0; lane < 16; lane += F::size)
-                store(Filter(BlockReader<Arch>(block.values, static_cast<int>(lane))).bounds(rays),
-                      stream, lane);
+                store(Filter(BlockReader<Arch>(block.values, static_cast<int>(lane))), rays, stream,
+                      lane);
         });
     }
 

@@ -83,6 +83,7 @@ struct Answer {
     double lower;
     bool certain;
     double upper;
+    bool may_meet;
 };
 
 /// Owns the arrays of a stream.
@@ -113,19 +114,20 @@ class Stream {
                 out_[0].data(),
                 out_[1].data(),
                 out_[2].data(),
-                out_[3].data()};
+                out_[3].data(),
+                out_[4].data()};
     }
 
     Answer answer(std::size_t i) const {
         return {out_[0][i] != 0.0F, static_cast<double>(out_[1][i]), out_[2][i] != 0.0F,
-                static_cast<double>(out_[3][i])};
+                static_cast<double>(out_[3][i]), out_[4][i] != 0.0F};
     }
     std::size_t padded() const { return slack_.size(); }
 
   private:
     std::array<std::vector<float>, 3> origin_, direction_;
     std::vector<float> slack_;
-    std::array<std::vector<float>, 4> out_;
+    std::array<std::vector<float>, 5> out_;
 };
 
 template <class Shape>
@@ -137,6 +139,7 @@ ShapeBlock view_of(const Block<Shape>& block) {
 inline const char* lie(const Answer& answer, const First& truth) {
     if (!truth.known) return nullptr;
     if (truth.exists() && !answer.possible) return "a crossing was said to be impossible";
+    if (truth.exists() && !answer.may_meet) return "a crossing was said not to be worth a look";
     if (truth.exists() && !(answer.lower <= truth.t + truth.error)) return "lower is too high";
     if (answer.possible && !(answer.lower >= 0.0)) return "lower is negative";
     if (answer.certain && !truth.exists()) return "a crossing was said to be certain";

@@ -29,20 +29,23 @@ struct AxialFilter {
     using F = Floats<Arch>;
 
     Vectors<Arch> base, axis; ///< of length 1
+    Vectors<Arch> whole_axis;
+    F largest_radius;
     F half_length, base_radius, narrowing;
     F reach;             ///< all is this close to the base
     Mask<Arch> ordinary; ///< |axis|^2 neither overflows nor underflows
     F body_factor, body_error, slope_factor, slope_error;
 
     AxialFilter(const Vectors<Arch>& base_, const Vectors<Arch>& axis_, const F& r0, const F& r1)
-        : base(base_), base_radius(r0), narrowing(zero<Arch>()) {
+        : base(base_), whole_axis(axis_), largest_radius(cone ? xsimd::max(r0, r1) : r0),
+          base_radius(r0), narrowing(zero<Arch>()) {
         const F axis_squared = fast_dot(axis_, axis_);
         const F length = xsimd::sqrt(axis_squared);
         const F inverse = F(1.0F) / length;
         axis = {axis_.x * inverse, axis_.y * inverse, axis_.z * inverse};
         half_length = F(0.5F) * length;
         ordinary = (axis_squared > F(0x1p-90F)) & (axis_squared < F(0x1p+120F));
-        reach = (length + (cone ? xsimd::max(r0, r1) : r0)) * F(1 + 0x1p-10F);
+        reach = (length + largest_radius) * F(1 + 0x1p-10F);
         if constexpr (cone) {
             narrowing = (r1 - r0) * inverse;
             const F k = xsimd::abs(narrowing);
@@ -53,6 +56,46 @@ struct AxialFilter {
             slope_error = r0 * F(4 * half_ulp);
         }
         body_error = r0 * F(16 * half_ulp);
+    }
+
+    /// Whether a ray may meet the shape, for less than its bounds.
+    ///
+    /// With the axis a as given, c = d x a and R the largest radius, the ray passes the line
+    /// through the axis at a distance of |f . c| / |c|, nearest to base + s a where
+    /// s |c|^2 = P = f . a - (f . d)(d . a). It is nearer than R where s is off by less than
+    /// R |d . a| / |c|^2. So it misses if |f . c| > R |c|, and if P is not within R |d . a| of 0 to
+    /// |c|^2.
+    ///
+    /// With f off by slack + u |f| and d by u, f . c is off by |a| (slack + 8 u |f|), |c| by
+    /// 3.5 u |a|, P by |a| (2 slack + 16 u |f|), |c|^2 by 12 u |a|^2 and d . a by 4 u |a|.
+    [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
+        const F o = zero<Arch>();
+        const Vectors<Arch> a = whole_axis;
+        const F size = xsimd::abs(a.x) + xsimd::abs(a.y) + xsimd::abs(a.z) + F(0x1p-100F);
+        const F radius = (largest_radius + F(0x1p-60F)) * F(1 + 0x1p-19F);
+        const F radius_squared = radius * radius;
+
+        const Vectors<Arch> f = rays.origin - base;
+        const Vectors<Arch> c = fast_cross(rays.direction, a);
+        const F c_squared = fast_dot(c, c) + F(0x1p-110F);
+        const F rise = fast_dot(rays.direction, a);
+        const F far = xsimd::abs(f.x) + xsimd::abs(f.y) + xsimd::abs(f.z);
+        const F error = size * fast_mul_add<Arch>(F(10 * half_ulp), far,
+                                                  fast_mul_add<Arch>(F(8 * half_ulp), radius,
+                                                                     rays.slack + rays.slack));
+        const F beside = xsimd::abs(fast_dot(f, c)) - error;
+        const F beside_squared = beside * beside;
+        const F along =
+            fast_mul_add<Arch>(fast_dot(f, rays.direction), negated(rise), fast_dot(f, a));
+        const F half_way = F(0.5F) * c_squared;
+        const F room = fast_mul_add<Arch>(radius, xsimd::abs(rise), error + error) +
+                       fast_mul_add<Arch>(F(20 * half_ulp) * size, size, half_way);
+        const Mask<Arch> missed =
+            ((beside > o) &
+             (beside_squared > fast_mul_add<Arch>(radius_squared, c_squared, F(underflow)))) |
+            (xsimd::abs(along - half_way) > room);
+        const Mask<Arch> known = beside_squared + xsimd::abs(along) < F(__builtin_inff());
+        return is_number<Arch>(f.x) & ~(missed & known);
     }
 
     struct Crossing {

@@ -6,10 +6,15 @@ namespace raylane::simd {
 
 template <class Arch, bool capped>
 struct ConeFilter {
+    static constexpr bool is_costly = true;
     AxialFilter<Arch, true> axial;
 
     template <class Reader>
     explicit ConeFilter(Reader reader) : axial(read(reader)) {}
+
+    [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
+        return axial.may_meet(rays);
+    }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         if constexpr (capped)

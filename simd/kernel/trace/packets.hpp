@@ -45,6 +45,8 @@ struct PacketCandidates {
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id,
                                      std::uint32_t this_slot, const Packet<Arch, Method>& packet) {
+        if constexpr (sifts_packets<Filter, typename Method::Rays>)
+            if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
         const Bounds<Arch> bounds = filter.bounds(packet.rays);
         const F t =
             xsimd::select(bounds.possible & packet.elsewhere(id), bounds.lower, S::infinity());
@@ -72,6 +74,8 @@ struct PacketOcclusions {
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
                                      const Packet<Arch, Method>& packet) {
+        if constexpr (sifts_packets<Filter, typename Method::Rays>)
+            if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
         const Bounds<Arch> bounds = filter.bounds(packet.rays);
         const Mask<Arch> possible =
             bounds.possible & packet.elsewhere(id) & (bounds.lower < perhaps_before);
