@@ -7,6 +7,7 @@ namespace raylane::simd {
 template <class Arch, bool capped>
 struct ConeFilter {
     static constexpr bool is_costly = true;
+    static constexpr int values = 8;
     AxialFilter<Arch, true> axial;
 
     template <class Reader>

@@ -7,6 +7,7 @@ namespace raylane::simd {
 template <class Arch, bool capped>
 struct CylinderFilter {
     static constexpr bool is_costly = true;
+    static constexpr int values = 7;
     AxialFilter<Arch, false> axial;
 
     template <class Reader>

@@ -31,7 +31,7 @@ class BroadcastReader {
 };
 
 template <class Arch, class Reader>
-Vectors<Arch> next_vector(Reader& reader) {
+[[gnu::always_inline]] inline Vectors<Arch> next_vector(Reader& reader) {
     const Floats<Arch> x = reader.next(), y = reader.next(), z = reader.next();
     return {x, y, z};
 }

@@ -236,43 +236,88 @@ struct Group : Streams<Arch> {
         return xsimd::max(beyond, zero<Arch>());
     }
 
-    /// The spheres of which a part may be between the rays' sides along across[side].
-    [[gnu::always_inline]] M reach_between(const SideLanes& high, const SideLanes& low, int side,
-                                           const SphereAround<Arch>& spheres,
-                                           const F& w_along) const {
-        const F w_across = component(spheres.center, across[side]) - F(apex[across[side]]);
-        const F room = grace(w_along, w_across);
-        return (w_across - high.slope * w_along - (room + spheres.radius * high.norm) <=
-                high.offset) &
-               (w_across - low.slope * w_along + (room + spheres.radius * low.norm) >= low.offset);
+    /// Of what is between two spheres a part may be on each side of a plane where one of them has
+    /// some there. Here: in front of the ends, and inside of the four sides.
+    struct Reach {
+        M along[2], inside_high[2], inside_low[2];
+
+        Reach& operator|=(const Reach& other) {
+            for (int i = 0; i < 2; ++i) {
+                along[i] = along[i] | other.along[i];
+                inside_high[i] = inside_high[i] | other.inside_high[i];
+                inside_low[i] = inside_low[i] | other.inside_low[i];
+            }
+            return *this;
+        }
+        std::uint32_t all() const {
+            return Lanes<Arch>::bits(along[0] & along[1] & inside_high[0] & inside_high[1] &
+                                     inside_low[0] & inside_low[1]);
+        }
+    };
+
+    /// Fills in `inside_high` and `inside_low`.
+    [[gnu::always_inline]] void reach_inside(const SideLanes (&high)[2], const SideLanes (&low)[2],
+                                             const F& w_along, const F (&center)[2],
+                                             const F& radius, Reach& reach) const {
+        for (int side = 0; side < 2; ++side) {
+            const F w_across = center[side] - F(apex[across[side]]);
+            const F room = grace(w_along, w_across);
+            reach.inside_high[side] =
+                w_across - high[side].slope * w_along - (room + radius * high[side].norm) <=
+                high[side].offset;
+            reach.inside_low[side] =
+                w_across - low[side].slope * w_along + (room + radius * low[side].norm) >=
+                low[side].offset;
+        }
     }
 
-    /// The spheres that the group may meet, as bits.
-    std::uint32_t meet(const SphereAround<Arch>& spheres) const {
-        const F w_along = component(spheres.center, along) - F(apex[along]);
-        const F w = F(sense) * w_along;
-        const F room_k = grace(w_along, zero<Arch>()) + spheres.radius;
-        M meets = (w + room_k >= F(least_w)) & (w - room_k <= F(greatest_w));
-        for (int side = 0; side < 2; ++side)
-            meets = meets & reach_between(above[side].of_group(), below[side].of_group(), side,
-                                          spheres, w_along);
-        return Lanes<Arch>::bits(meets);
+    /// The shapes that the group may meet, from one on, as bits.
+    [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from) const {
+        const SideLanes high[] = {above[0].of_group(), above[1].of_group()};
+        const SideLanes low[] = {below[0].of_group(), below[1].of_group()};
+        const auto reach_of = [&](int end) {
+            const auto& center = spheres.center[end];
+            const F radius = S::load(spheres.radius[end] + from);
+            const F w_along = S::load(center[along] + from) - F(apex[along]);
+            const F w = F(sense) * w_along;
+            const F room = grace(w_along, zero<Arch>()) + radius;
+            Reach reach;
+            reach.along[0] = w + room >= F(least_w);
+            reach.along[1] = w - room <= F(greatest_w);
+            reach_inside(high, low, w_along,
+                         {S::load(center[across[0]] + from), S::load(center[across[1]] + from)},
+                         radius, reach);
+            return reach;
+        };
+        Reach reach = reach_of(0);
+        if (spheres.ends == 1) [[likely]]
+            return reach.all();
+        reach |= reach_of(1);
+        return reach.all();
     }
 
-    /// The bunches, from one on, that one sphere may meet, as bits. All lanes hold the sphere.
-    std::uint32_t bunches_that_meet(const SphereAround<Arch>& sphere, std::size_t from,
-                                    const F& t_most) const {
-        const F w_along = component(sphere.center, along) - F(apex[along]);
-        M meets =
-            near_t(F(sense) * w_along - grace(w_along, zero<Arch>()) - sphere.radius) <= t_most;
-        for (int side = 0; side < 2; ++side)
-            meets = meets & reach_between(above[side].of_bunches(from),
-                                          below[side].of_bunches(from), side, sphere, w_along);
-        return Lanes<Arch>::bits(meets);
-    }
-
-    static const F& component(const Vectors<Arch>& v, int axis) {
-        return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+    /// The bunches, from one on, that one shape may meet, as bits.
+    [[gnu::always_inline]] std::uint32_t bunches_that_meet(const BlockSpheres<Arch>& spheres,
+                                                           int lane, std::size_t from,
+                                                           const F& t_most) const {
+        const SideLanes high[] = {above[0].of_bunches(from), above[1].of_bunches(from)};
+        const SideLanes low[] = {below[0].of_bunches(from), below[1].of_bunches(from)};
+        const auto reach_of = [&](int end) {
+            const auto& center = spheres.center[end];
+            const F radius(spheres.radius[end][lane]);
+            const F w_along = F(center[along][lane]) - F(apex[along]);
+            Reach reach;
+            reach.along[0] = reach.along[1] =
+                near_t(F(sense) * w_along - grace(w_along, zero<Arch>()) - radius) <= t_most;
+            reach_inside(high, low, w_along,
+                         {F(center[across[0]][lane]), F(center[across[1]][lane])}, radius, reach);
+            return reach;
+        };
+        Reach reach = reach_of(0);
+        if (spheres.ends == 1) [[likely]]
+            return reach.all();
+        reach |= reach_of(1);
+        return reach.all();
     }
 };
 

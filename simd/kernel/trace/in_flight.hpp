@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/trace/leaf.hpp"
+#include "simd/kernel/trace/pairs.hpp"
 #include "simd/kernel/trace/queue.hpp"
 
 namespace raylane::simd {
@@ -115,43 +115,69 @@ struct InFlight : Streams<Arch> {
         }
     };
 
-    /// Calls visit.operator()<Filter>(traveller, table) for those at blocks that may meet something
-    /// there, those of a kind in turn.
+    /// Calls visit.template all<Filter>(traveller, table) for those at blocks that may meet
+    /// something there, those of a kind in turn; or, where these are few but costly,
+    /// visit.template some<Filter>(pairs), with the travellers' numbers.
     template <class Traveller, class Visit>
     static void for_each_at_block(const SceneView& scene, const RoundedRays& stream,
-                                  const int* which, int count, Traveller* rays,
-                                  const Visit& visit) {
-        for (int k = 0; k < count;) {
-            const KindNumber kind = S::kind_of(rays[which[k]].child);
-            int end = k + 1;
-            while (end < count && S::kind_of(rays[which[end]].child) == kind)
-                ++end;
+                                  const int* which, int count, Traveller* rays, Visit& visit) {
+        int rest[in_flight], same[in_flight];
+        for (int k = 0; k < count; ++k)
+            rest[k] = which[k];
+        while (count != 0) {
+            const KindNumber kind = S::kind_of(rays[rest[0]].child);
+            int same_count = 0, others = 0;
+            for (int k = 0; k < count; ++k) {
+                const int ray = rest[k];
+                const bool is_same = S::kind_of(rays[ray].child) == kind;
+                same[same_count] = rest[others] = ray;
+                same_count += static_cast<int>(is_same);
+                others += static_cast<int>(!is_same);
+            }
+            count = others;
             Method::with_filter(kind, [&]<class Filter>() {
-                for_each_of_kind<Filter>(stream, scene.tables[kind], which + k, end - k, rays,
-                                         visit);
+                for_each_of_kind<Filter>(stream, scene.tables[kind], same, same_count, rays, visit);
             });
-            k = end;
         }
     }
     /// A function to itself: in one for all kinds, compilers run out of patience for inlining.
     template <class Filter, class Traveller, class Visit>
     [[gnu::noinline, gnu::flatten]] static void
     for_each_of_kind(const RoundedRays& stream, const TableView& table, const int* which, int count,
-                     Traveller* rays, const Visit& visit) {
-        int some[in_flight];
-        if constexpr (has_may_meet<Filter, typename Method::Rays>) {
-            int found = 0;
+                     Traveller* rays, Visit& visit) {
+        if constexpr (packs_pairs<Filter, Method>) {
+            Pairs<Arch, Method> pairs;
             for (int k = 0; k < count; ++k) {
                 const Traveller& ray = rays[which[k]];
-                some[found] = which[k];
-                found += static_cast<int>(Leaf<Arch, Method>::template may_meet<Filter>(
-                    S::block_of(table, ray.child & child_index), Method::broadcast(stream, ray.i)));
+                const std::uint32_t number = ray.child & child_index;
+                std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
+                    S::block_of(table, number), Method::broadcast(stream, ray.i));
+                for (; bits != 0; bits &= bits - 1) {
+                    pairs.add(table, number, __builtin_ctz(bits), stream, ray.i, which[k]);
+                    if (!pairs.full()) continue;
+                    visit.template some<Filter>(pairs);
+                    pairs.count = 0;
+                }
             }
-            which = some;
-            count = found;
+            if (pairs.count != 0) visit.template some<Filter>(pairs);
+        } else {
+            int some[in_flight];
+            if constexpr (has_may_meet<Filter, typename Method::Rays>) {
+                int found = 0;
+                for (int k = 0; k < count; ++k) {
+                    const Traveller& ray = rays[which[k]];
+                    some[found] = which[k];
+                    const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
+                        S::block_of(table, ray.child & child_index),
+                        Method::broadcast(stream, ray.i));
+                    found += static_cast<int>(bits != 0);
+                }
+                which = some;
+                count = found;
+            }
+            for (int k = 0; k < count; ++k)
+                visit.template all<Filter>(rays[which[k]], table);
         }
-        for (int k = 0; k < count; ++k)
-            visit.template operator()<Filter>(rays[which[k]], table);
     }
 };
 

@@ -39,15 +39,16 @@ struct Leaf : Streams<Arch> {
                                       S::broadcast_bits(rays.departed_last[i]));
     }
 
-    /// Whether any of the shapes may be met. What has been left is not looked at.
+    /// The shapes that may be met, as bits. What has been left is not looked at.
     template <class Filter>
-    [[gnu::always_inline]] static bool may_meet(const float* block,
-                                                const typename Method::Rays& ray) {
-        std::uint32_t any = 0;
+    [[gnu::always_inline]] static std::uint32_t may_meet(const float* block,
+                                                         const typename Method::Rays& ray) {
+        std::uint32_t some = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size))
-            any |=
-                Lanes<Arch>::bits(Filter(BlockReader<Arch>(S::rows_of(block), from)).may_meet(ray));
-        return any != 0;
+            some |=
+                Lanes<Arch>::bits(Filter(BlockReader<Arch>(S::rows_of(block), from)).may_meet(ray))
+                << from;
+        return some;
     }
 
     /// What may be crossed before `second`.
@@ -91,6 +92,15 @@ struct Leaf : Streams<Arch> {
         best.slot =
             nearer ? first_slot + static_cast<std::uint32_t>(__builtin_ctz(at_first)) : best.slot;
         best.first = nearer ? first : best.first;
+    }
+
+    /// The same of one crossing.
+    [[gnu::always_inline]] static void take(float t, std::uint32_t slot, Best& best) {
+        const bool nearer = t < best.first;
+        const float behind = t < best.second ? t : best.second;
+        best.second = nearer ? best.first : behind;
+        best.slot = nearer ? slot : best.slot;
+        best.first = nearer ? t : best.first;
     }
 
     template <class Filter>

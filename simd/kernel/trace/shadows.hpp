@@ -80,15 +80,43 @@ class TraceShadows : InFlight<Arch, Method> {
     }
 
     void at_blocks(const int* which, int count) {
-        Base::for_each_at_block(
-            scene_, rays_, which, count, shadows_,
-            [&]<class Filter>(Shadow & shadow, const TableView& table)
-                __attribute__((always_inline)) {
-                    const std::uint8_t state = Leaf<Arch, Method>::template occluded<Filter>(
-                        scene_, table, shadow.child & child_index, rays_, shadow.i, shadow.t_most);
-                    shadow.state = state > shadow.state ? state : shadow.state;
-                    shadow.top = state == blocked ? shadow.bottom + 1 : shadow.top;
-                });
+        Base::for_each_at_block(scene_, rays_, which, count, shadows_, *this);
+    }
+
+    /// Looks for what is in the way in the block that a ray is at.
+    template <class Filter>
+    [[gnu::always_inline]] void all(Shadow& shadow, const TableView& table) const {
+        take(shadow, Leaf<Arch, Method>::template occluded<Filter>(scene_, table,
+                                                                   shadow.child & child_index,
+                                                                   rays_, shadow.i, shadow.t_most));
+    }
+    /// The same of some pairs.
+    template <class Filter>
+    [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
+        float t_most[16];
+        std::uint32_t plain = 0;
+        for (int k = 0; k < pairs.count; ++k) {
+            t_most[k] = shadows_[pairs.whose[k]].t_most;
+            plain |= static_cast<std::uint32_t>(S::is_plain(scene_, pairs.slot[k])) << k;
+        }
+        pairs.template bound<Filter>([&](int from, const Bounds<Arch>& bounds) {
+            const F limit = S::load(t_most + from);
+            const auto possible = bounds.possible & (bounds.lower < limit * F(perhaps_within));
+            const auto certain =
+                possible & bounds.certain & (bounds.upper < limit * F(surely_within));
+            const std::uint32_t sure = Lanes<Arch>::bits(certain) & plain >> from;
+            std::uint32_t bits = Lanes<Arch>::bits(possible);
+            for (; bits != 0; bits &= bits - 1) {
+                const int lane = __builtin_ctz(bits);
+                take(shadows_[pairs.whose[from + lane]],
+                     (sure >> lane & 1) != 0 ? blocked : doubtful);
+            }
+        });
+    }
+
+    static void take(Shadow& shadow, std::uint8_t state) {
+        shadow.state = state > shadow.state ? state : shadow.state;
+        shadow.top = state == blocked ? shadow.bottom + 1 : shadow.top;
     }
 
     void land(const Shadow& shadow) const { occlusions_.state[shadow.i] = shadow.state; }

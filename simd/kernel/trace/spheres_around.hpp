@@ -29,7 +29,8 @@ Vectors<Arch> half(const Vectors<Arch>& v) {
     return {v.x * h, v.y * h, v.z * h};
 }
 
-/// By the number of the kind. Planes have none: their radius is infinite.
+/// By the number of the kind, but for cylinders and cones. Planes have none: their radius is
+/// infinite.
 template <class Arch, class Reader>
 SphereAround<Arch> sphere_around(int kind, Reader reader) {
     using F = Floats<Arch>;
@@ -59,21 +60,6 @@ SphereAround<Arch> sphere_around(int kind, Reader reader) {
                                      xsimd::max(length<Arch>(u - v + w), length<Arch>(u - v - w)));
         return rounded_up<Arch>(first + u + v + w, longest);
     }
-    case 6:
-    case 7: { // cylinder
-        const Vectors<Arch> axis = half<Arch>(next_vector<Arch>(reader));
-        const F radius = reader.next();
-        return rounded_up<Arch>(first + axis,
-                                xsimd::sqrt(squared_length<Arch>(axis) + radius * radius));
-    }
-    case 8:
-    case 9: { // cone
-        const Vectors<Arch> axis = half<Arch>(next_vector<Arch>(reader));
-        const F base = reader.next(), top = reader.next();
-        const F radius = xsimd::max(base, top);
-        return rounded_up<Arch>(first + axis,
-                                xsimd::sqrt(squared_length<Arch>(axis) + radius * radius));
-    }
     default: { // quadric
         for (int skipped = 0; skipped < 10; ++skipped)
             reader.next();
@@ -84,35 +70,57 @@ SphereAround<Arch> sphere_around(int kind, Reader reader) {
     }
 }
 
-/// Spheres around the shapes of a block.
+/// What each shape of a block is in, where it is in memory: spheres, which are the block's own if
+/// that is what it holds; or, of cylinders and cones, what is between spheres around both ends.
 template <class Arch>
-struct BlockSpheres {
+class BlockSpheres {
     using F = Floats<Arch>;
 
-    float center[3][16], radius[16];
+  public:
+    const float *center[2][3], *radius[2]; ///< by end, of 16 shapes
+    int ends;
 
     void enclose(int kind, const float (*rows)[16]) {
+        const bool are_spheres = kind == 0;
+        ends = kind >= 6 && kind <= 9 ? 2 : 1;
+        for (int end = 0; end < 2; ++end) {
+            for (int axis = 0; axis < 3; ++axis)
+                center[end][axis] = are_spheres ? rows[axis] : own_[end][axis];
+            radius[end] = are_spheres ? rows[3] : own_[end][3];
+        }
+        if (are_spheres) return;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-            const SphereAround<Arch> spheres =
-                sphere_around<Arch>(kind, BlockReader<Arch>(rows, from));
-            spheres.center.x.store_unaligned(center[0] + from);
-            spheres.center.y.store_unaligned(center[1] + from);
-            spheres.center.z.store_unaligned(center[2] + from);
-            spheres.radius.store_unaligned(radius + from);
+            BlockReader<Arch> reader(rows, from);
+            if (ends == 1) {
+                store(sphere_around<Arch>(kind, reader), 0, from);
+                continue;
+            }
+            const Vectors<Arch> base = next_vector<Arch>(reader), axis = next_vector<Arch>(reader);
+            const F base_radius = reader.next();
+            store(rounded_up<Arch>(base, base_radius), 0, from);
+            store(rounded_up<Arch>(base + axis, kind < 8 ? base_radius : reader.next()), 1, from);
         }
     }
 
-    /// Those from lane `from` on.
-    SphereAround<Arch> load(int from) const {
-        return {{F::load_unaligned(center[0] + from), F::load_unaligned(center[1] + from),
-                 F::load_unaligned(center[2] + from)},
-                F::load_unaligned(radius + from)};
+    BlockSpheres() = default;
+    BlockSpheres(const BlockSpheres&) = delete; // refers to itself
+    BlockSpheres& operator=(const BlockSpheres&) = delete;
+
+    /// The one around a shape that has one, to all lanes.
+    SphereAround<Arch> broadcast(int lane) const {
+        return {{F(center[0][0][lane]), F(center[0][1][lane]), F(center[0][2][lane])},
+                F(radius[0][lane])};
     }
 
-    /// That of lane `lane` alone, to all lanes.
-    SphereAround<Arch> broadcast(int lane) const {
-        return {{F(center[0][lane]), F(center[1][lane]), F(center[2][lane])}, F(radius[lane])};
+  private:
+    void store(const SphereAround<Arch>& spheres, int end, int from) {
+        spheres.center.x.store_unaligned(own_[end][0] + from);
+        spheres.center.y.store_unaligned(own_[end][1] + from);
+        spheres.center.z.store_unaligned(own_[end][2] + from);
+        spheres.radius.store_unaligned(own_[end][3] + from);
     }
+
+    float own_[2][4][16];
 };
 
 } // namespace raylane::simd

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/short_lanes.hpp"
-#include "simd/kernel/trace/leaf.hpp"
+#include "simd/kernel/trace/pairs.hpp"
 
 namespace raylane::simd {
 
@@ -165,14 +165,28 @@ class TraceStream : Streams<Arch> {
     template <class Filter>
     [[gnu::noinline, gnu::flatten]] void test(const TableView& table, std::uint32_t number,
                                               const Number* list, int count) const {
-        if constexpr (has_may_meet<Filter, typename Method::Rays>) {
+        if constexpr (packs_pairs<Filter, Method>) {
+            Pairs<Arch, Method> pairs;
+            for (int k = 0; k < count; ++k) {
+                std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
+                    S::block_of(table, number), Method::broadcast(rays_, list[k]));
+                for (; bits != 0; bits &= bits - 1) {
+                    pairs.add(table, number, __builtin_ctz(bits), rays_, list[k], list[k]);
+                    if (!pairs.full()) continue;
+                    take<Filter>(pairs);
+                    pairs.count = 0;
+                }
+            }
+            if (pairs.count != 0) take<Filter>(pairs);
+        } else if constexpr (has_may_meet<Filter, typename Method::Rays>) {
             for (int begin = 0; begin < count; begin += batch) {
                 Number some[batch];
                 int found = 0;
                 for (int k = begin; k < begin + batch && k < count; ++k) {
                     some[found] = list[k];
-                    found += static_cast<int>(Leaf<Arch, Method>::template may_meet<Filter>(
-                        S::block_of(table, number), Method::broadcast(rays_, list[k])));
+                    const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
+                        S::block_of(table, number), Method::broadcast(rays_, list[k]));
+                    found += static_cast<int>(bits != 0);
                 }
                 for (int k = 0; k < found; ++k)
                     take<Filter>(table, number, some[k]);
@@ -192,6 +206,26 @@ class TraceStream : Streams<Arch> {
         if (hits.lanes == 0) return;
         Best best{record.first, record.second, record.slot};
         Leaf<Arch, Method>::take(hits, table.first_slot + 16 * number, best);
+        set(record, best);
+    }
+
+    template <class Filter>
+    [[gnu::always_inline]] void take(const Pairs<Arch, Method>& pairs) const {
+        pairs.template bound<Filter>([&](int from, const Bounds<Arch>& bounds) {
+            float t[F::size];
+            bounds.lower.store_unaligned(t);
+            std::uint32_t bits = Lanes<Arch>::bits(bounds.possible);
+            for (; bits != 0; bits &= bits - 1) {
+                const int lane = __builtin_ctz(bits);
+                Record& record = records_[pairs.whose[from + lane]];
+                Best best{record.first, record.second, record.slot};
+                Leaf<Arch, Method>::take(t[lane], pairs.slot[from + lane], best);
+                set(record, best);
+            }
+        });
+    }
+
+    static void set(Record& record, const Best& best) {
         record.first = best.first;
         record.second = best.second;
         record.slot = best.slot;

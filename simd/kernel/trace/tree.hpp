@@ -9,6 +9,7 @@ namespace raylane::simd {
 template <class Arch, class Method>
 class TraceTree : InFlight<Arch, Method> {
     using S = Streams<Arch>;
+    using typename S::F;
     using Base = InFlight<Arch, Method>;
 
     struct Flight : Base::Traveller {
@@ -61,14 +62,7 @@ class TraceTree : InFlight<Arch, Method> {
     void at_blocks(const int* which, int count) {
         for (int k = 0; k < count; ++k)
             flights_[which[k]].hits.lanes = 0;
-        Base::for_each_at_block(
-            scene_, rays_, which, count, flights_,
-            [&]<class Filter>(Flight & flight, const TableView& table)
-                __attribute__((always_inline)) {
-                    Leaf<Arch, Method>::template find<Filter>(table, flight.child & child_index,
-                                                              rays_, flight.i, flight.best.second,
-                                                              flight.hits);
-                });
+        Base::for_each_at_block(scene_, rays_, which, count, flights_, *this);
         int hit[in_flight], hit_count = 0;
         for (int k = 0; k < count; ++k) {
             hit[hit_count] = which[k];
@@ -80,6 +74,27 @@ class TraceTree : InFlight<Arch, Method> {
             Leaf<Arch, Method>::take(
                 flight.hits, table.first_slot + 16 * (flight.child & child_index), flight.best);
         }
+    }
+
+    /// Finds what may be crossed in the block that a ray is at.
+    template <class Filter>
+    [[gnu::always_inline]] void all(Flight& flight, const TableView& table) const {
+        Leaf<Arch, Method>::template find<Filter>(table, flight.child & child_index, rays_,
+                                                  flight.i, flight.best.second, flight.hits);
+    }
+    /// Takes account of what may be crossed of some pairs.
+    template <class Filter>
+    [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
+        pairs.template bound<Filter>([&](int from, const Bounds<Arch>& bounds) {
+            float t[F::size];
+            bounds.lower.store_unaligned(t);
+            std::uint32_t bits = Lanes<Arch>::bits(bounds.possible);
+            for (; bits != 0; bits &= bits - 1) {
+                const int lane = __builtin_ctz(bits);
+                Leaf<Arch, Method>::take(t[lane], pairs.slot[from + lane],
+                                         flights_[pairs.whose[from + lane]].best);
+            }
+        });
     }
 
     void land(const Flight& flight) const {

@@ -93,18 +93,18 @@ struct GroupWalk : Streams<Arch> {
         spheres.enclose(kind, rows);
         std::uint32_t shapes = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size))
-            shapes |= group.meet(spheres.load(from)) << from;
+            shapes |= group.meet(spheres, from) << from;
         if (shapes == 0) return;
         budget -= __builtin_popcount(shapes);
         bool changed = false;
         Method::with_filter(kind, [&]<class Filter>() {
             for (; shapes != 0; shapes &= shapes - 1) {
                 const int lane = __builtin_ctz(shapes);
-                const SphereAround<Arch> sphere = spheres.broadcast(lane);
                 std::uint32_t bunches = 0;
                 for (std::size_t from = 0; from < 16; from += F::size)
-                    bunches |= group.bunches_that_meet(sphere, from, S::load(limits.t + from))
-                               << from;
+                    bunches |=
+                        group.bunches_that_meet(spheres, lane, from, S::load(limits.t + from))
+                        << from;
                 if (bunches == 0) continue;
                 const Filter filter(BroadcastReader<Arch>(rows, lane));
                 const std::uint32_t slot =

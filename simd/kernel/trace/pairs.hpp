@@ -1,0 +1,73 @@
+#pragma once
+
+#include "simd/kernel/trace/leaf.hpp"
+
+namespace raylane::simd {
+
+/// Whether a filter tells which rays of a packet are worth the cost of its bounds.
+template <class Filter, class Method>
+inline constexpr bool packs_pairs =
+    Method::rounded_alone&& sifts_packets<Filter, typename Method::Rays>;
+
+/// Pairs of a ray and a shape that it may meet, one per lane: of the shapes in a block, a ray may
+/// meet one or two.
+template <class Arch, class Method>
+class Pairs : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+    static constexpr int most_values = 8;
+
+    float values_[most_values][16];
+    float origin_[3][16], direction_[3][16], slack_[16];
+    std::uint32_t id_[16], departed_first_[16], departed_last_[16];
+
+  public:
+    std::uint32_t slot[16];
+    int whose[16]; ///< the caller's number of the ray
+    int count = 0;
+
+    bool full() const { return count == 16; }
+
+    void add(const TableView& table, std::uint32_t number, int lane, const RoundedRays& rays,
+             std::size_t i, int owner) {
+        const float* const block = S::block_of(table, number);
+        const auto rows = S::rows_of(block);
+        for (std::uint32_t value = 0; value < table.values; ++value)
+            values_[value][count] = rows[value][lane];
+        for (int axis = 0; axis < 3; ++axis) {
+            origin_[axis][count] = rays.origin[axis][i];
+            direction_[axis][count] = rays.direction[axis][i];
+        }
+        slack_[count] = rays.slack[i];
+        departed_first_[count] = rays.departed_first[i];
+        departed_last_[count] = rays.departed_last[i];
+        id_[count] = S::ids_of(table, block)[lane];
+        slot[count] = table.first_slot + 16 * number + static_cast<std::uint32_t>(lane);
+        whose[count++] = owner;
+    }
+
+    /// Calls visit(from, bounds) for a register's worth at a time; only what is there is possible,
+    /// and none of what rays leave.
+    template <class Filter, class Visit>
+    [[gnu::always_inline]] void bound(const Visit& visit) const {
+        static_assert(Filter::values <= most_values);
+        for (int from = 0; from < count; from += static_cast<int>(F::size)) {
+            const auto load = [&](const float(&rows)[3][16]) {
+                return Vectors<Arch>{S::load(rows[0] + from), S::load(rows[1] + from),
+                                     S::load(rows[2] + from)};
+            };
+            Bounds<Arch> bounds =
+                Filter(BlockReader<Arch>(values_, from))
+                    .bounds({load(origin_), load(direction_), S::load(slack_ + from)});
+            bounds.possible = bounds.possible &
+                              S::first_lanes(static_cast<std::size_t>(count - from)) &
+                              ~Lanes<Arch>::in_range(S::load_bits(id_ + from),
+                                                     S::load_bits(departed_first_ + from),
+                                                     S::load_bits(departed_last_ + from));
+            visit(from, bounds);
+        }
+    }
+};
+
+} // namespace raylane::simd
