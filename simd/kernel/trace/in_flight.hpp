@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/trace/pairs.hpp"
+#include "simd/kernel/trace/places.hpp"
 #include "simd/kernel/trace/queue.hpp"
 
 namespace raylane::simd {
@@ -40,7 +41,7 @@ struct InFlight : Streams<Arch> {
                                           std::size_t count, Travels& travels,
                                           TraceCounters& counters) {
         int at_nodes[2 * in_flight], at_blocks[in_flight], done[in_flight];
-        const Places places(scene);
+        const Places<Arch> places(scene);
         int under_way = 0;
         while (under_way < in_flight && static_cast<std::size_t>(under_way) < count &&
                travels.start(travellers[under_way])) {
@@ -83,37 +84,6 @@ struct InFlight : Streams<Arch> {
             }
         }
     }
-
-    /// Where children are in memory: what fetches them ahead without a branch for each ray.
-    struct Places {
-        static constexpr std::size_t lines = (sizeof(NodeView) + 63) / 64;
-        struct Place {
-            const char* from;
-            std::uint32_t bytes; ///< from one to the next
-            std::uint32_t last;  ///< byte that is fetched
-        } of[32];                ///< by the bits of a child above its index
-
-        explicit Places(const SceneView& scene) {
-            const Place nodes{reinterpret_cast<const char*>(scene.nodes), sizeof(NodeView),
-                              sizeof(NodeView) - 64};
-            for (Place& place : of)
-                place = nodes;
-            for (int kind = 0; kind < kinds; ++kind) {
-                const TableView& table = scene.tables[kind];
-                const auto bytes = static_cast<std::uint32_t>(table.block_floats * sizeof(float));
-                of[16 + kind] = {reinterpret_cast<const char*>(table.blocks), bytes, bytes - 64};
-            }
-            of[31].bytes = 0; // no_child
-        }
-
-        [[gnu::always_inline]] void fetch(std::uint32_t child) const {
-            const Place& place = of[child >> 27];
-            const char* const from =
-                place.from + static_cast<std::size_t>(child & child_index) * place.bytes;
-            for (std::uint32_t line = 0; line < lines; ++line)
-                __builtin_prefetch(from + (64 * line < place.last ? 64 * line : place.last));
-        }
-    };
 
     /// Calls visit.template all<Filter>(traveller, table) for those at blocks that may meet
     /// something there, those of a kind in turn; or, where these are few but costly,

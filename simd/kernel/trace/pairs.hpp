@@ -9,6 +9,13 @@ template <class Filter, class Method>
 inline constexpr bool packs_pairs =
     Method::rounded_alone&& sifts_packets<Filter, typename Method::Rays>;
 
+/// Bounds of pairs, with the masks as bits. Only what is there is possible, and none of what rays
+/// leave.
+struct PairBounds {
+    float lower[16], upper[16];
+    std::uint32_t possible, certain;
+};
+
 /// Pairs of a ray and a shape that it may meet, one per lane: of the shapes in a block, a ray may
 /// meet one or two.
 template <class Arch, class Method>
@@ -47,26 +54,30 @@ class Pairs : Streams<Arch> {
         whose[count++] = owner;
     }
 
-    /// Calls visit(from, bounds) for a register's worth at a time; only what is there is possible,
-    /// and none of what rays leave.
-    template <class Filter, class Visit>
-    [[gnu::always_inline]] void bound(const Visit& visit) const {
+    /// A function to itself: it is the same for all who ask.
+    template <class Filter>
+    [[gnu::noinline]] PairBounds bound() const {
         static_assert(Filter::values <= most_values);
+        PairBounds result{};
         for (int from = 0; from < count; from += static_cast<int>(F::size)) {
             const auto load = [&](const float(&rows)[3][16]) {
                 return Vectors<Arch>{S::load(rows[0] + from), S::load(rows[1] + from),
                                      S::load(rows[2] + from)};
             };
-            Bounds<Arch> bounds =
+            const Bounds<Arch> bounds =
                 Filter(BlockReader<Arch>(values_, from))
                     .bounds({load(origin_), load(direction_), S::load(slack_ + from)});
-            bounds.possible = bounds.possible &
-                              S::first_lanes(static_cast<std::size_t>(count - from)) &
-                              ~Lanes<Arch>::in_range(S::load_bits(id_ + from),
-                                                     S::load_bits(departed_first_ + from),
-                                                     S::load_bits(departed_last_ + from));
-            visit(from, bounds);
+            const M possible = bounds.possible &
+                               S::first_lanes(static_cast<std::size_t>(count - from)) &
+                               ~Lanes<Arch>::in_range(S::load_bits(id_ + from),
+                                                      S::load_bits(departed_first_ + from),
+                                                      S::load_bits(departed_last_ + from));
+            result.possible |= Lanes<Arch>::bits(possible) << from;
+            result.certain |= Lanes<Arch>::bits(possible & bounds.certain) << from;
+            bounds.lower.store_unaligned(result.lower + from);
+            bounds.upper.store_unaligned(result.upper + from);
         }
+        return result;
     }
 };
 

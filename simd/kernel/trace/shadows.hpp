@@ -93,25 +93,15 @@ class TraceShadows : InFlight<Arch, Method> {
     /// The same of some pairs.
     template <class Filter>
     [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
-        float t_most[16];
-        std::uint32_t plain = 0;
-        for (int k = 0; k < pairs.count; ++k) {
-            t_most[k] = shadows_[pairs.whose[k]].t_most;
-            plain |= static_cast<std::uint32_t>(S::is_plain(scene_, pairs.slot[k])) << k;
+        const PairBounds bounds = pairs.template bound<Filter>();
+        for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
+            const int k = __builtin_ctz(bits);
+            Shadow& shadow = shadows_[pairs.whose[k]];
+            if (!(bounds.lower[k] < shadow.t_most * perhaps_within)) continue;
+            const bool certain =
+                (bounds.certain >> k & 1) != 0 && bounds.upper[k] < shadow.t_most * surely_within;
+            take(shadow, certain && S::is_plain(scene_, pairs.slot[k]) ? blocked : doubtful);
         }
-        pairs.template bound<Filter>([&](int from, const Bounds<Arch>& bounds) {
-            const F limit = S::load(t_most + from);
-            const auto possible = bounds.possible & (bounds.lower < limit * F(perhaps_within));
-            const auto certain =
-                possible & bounds.certain & (bounds.upper < limit * F(surely_within));
-            const std::uint32_t sure = Lanes<Arch>::bits(certain) & plain >> from;
-            std::uint32_t bits = Lanes<Arch>::bits(possible);
-            for (; bits != 0; bits &= bits - 1) {
-                const int lane = __builtin_ctz(bits);
-                take(shadows_[pairs.whose[from + lane]],
-                     (sure >> lane & 1) != 0 ? blocked : doubtful);
-            }
-        });
     }
 
     static void take(Shadow& shadow, std::uint8_t state) {

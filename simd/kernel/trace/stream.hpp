@@ -211,18 +211,14 @@ class TraceStream : Streams<Arch> {
 
     template <class Filter>
     [[gnu::always_inline]] void take(const Pairs<Arch, Method>& pairs) const {
-        pairs.template bound<Filter>([&](int from, const Bounds<Arch>& bounds) {
-            float t[F::size];
-            bounds.lower.store_unaligned(t);
-            std::uint32_t bits = Lanes<Arch>::bits(bounds.possible);
-            for (; bits != 0; bits &= bits - 1) {
-                const int lane = __builtin_ctz(bits);
-                Record& record = records_[pairs.whose[from + lane]];
-                Best best{record.first, record.second, record.slot};
-                Leaf<Arch, Method>::take(t[lane], pairs.slot[from + lane], best);
-                set(record, best);
-            }
-        });
+        const PairBounds bounds = pairs.template bound<Filter>();
+        for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
+            const int k = __builtin_ctz(bits);
+            Record& record = records_[pairs.whose[k]];
+            Best best{record.first, record.second, record.slot};
+            Leaf<Arch, Method>::take(bounds.lower[k], pairs.slot[k], best);
+            set(record, best);
+        }
     }
 
     static void set(Record& record, const Best& best) {

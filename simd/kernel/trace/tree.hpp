@@ -9,7 +9,6 @@ namespace raylane::simd {
 template <class Arch, class Method>
 class TraceTree : InFlight<Arch, Method> {
     using S = Streams<Arch>;
-    using typename S::F;
     using Base = InFlight<Arch, Method>;
 
     struct Flight : Base::Traveller {
@@ -85,16 +84,11 @@ class TraceTree : InFlight<Arch, Method> {
     /// Takes account of what may be crossed of some pairs.
     template <class Filter>
     [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
-        pairs.template bound<Filter>([&](int from, const Bounds<Arch>& bounds) {
-            float t[F::size];
-            bounds.lower.store_unaligned(t);
-            std::uint32_t bits = Lanes<Arch>::bits(bounds.possible);
-            for (; bits != 0; bits &= bits - 1) {
-                const int lane = __builtin_ctz(bits);
-                Leaf<Arch, Method>::take(t[lane], pairs.slot[from + lane],
-                                         flights_[pairs.whose[from + lane]].best);
-            }
-        });
+        const PairBounds bounds = pairs.template bound<Filter>();
+        for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
+            const int k = __builtin_ctz(bits);
+            Leaf<Arch, Method>::take(bounds.lower[k], pairs.slot[k], flights_[pairs.whose[k]].best);
+        }
     }
 
     void land(const Flight& flight) const {

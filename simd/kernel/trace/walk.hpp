@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/trace/group.hpp"
+#include "simd/kernel/trace/places.hpp"
 #include "simd/kernel/trace/queue.hpp"
 
 namespace raylane::simd {
@@ -58,6 +59,7 @@ struct GroupWalk : Streams<Arch> {
         }
         if (workspace.key == nullptr) return true;
         budget = most_shapes; // what is listed has to be tested whatever the way
+        const Places<Arch> places(scene);
         Queue<Arch> queue;
         queue.place(workspace, 0, scene.tree_depth);
         queue.start(0);
@@ -68,18 +70,22 @@ struct GroupWalk : Streams<Arch> {
             if ((child & child_is_block) != 0)
                 at_block(S::kind_of(child), child & child_index, visit);
             else
-                at_node(scene.nodes[child], queue);
+                at_node(scene.nodes[child], queue, places);
         }
         return false;
     }
 
   private:
-    void at_node(const NodeView& node, Queue<Arch>& queue) {
+    void at_node(const NodeView& node, Queue<Arch>& queue, const Places<Arch>& places) {
         ++counters.nodes;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
             const std::uint32_t bits = group.enter(node, from, F(limits.largest), near);
+            const int before = queue.size;
             queue.add(near, node.children + from, bits);
+            if (!scene.large) continue;
+            for (int k = before; k < queue.size; ++k)
+                places.fetch(queue.child[k]);
         }
     }
 
