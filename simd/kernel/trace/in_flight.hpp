@@ -91,7 +91,7 @@ struct InFlight : Streams<Arch> {
     template <class Traveller, class Visit>
     static void for_each_at_block(const SceneView& scene, const RoundedRays& stream,
                                   const int* which, int count, Traveller* rays, Visit& visit) {
-        int rest[in_flight], same[in_flight];
+        int rest[in_flight] = {}, same[in_flight];
         for (int k = 0; k < count; ++k)
             rest[k] = which[k];
         while (count != 0) {
