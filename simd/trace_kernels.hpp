@@ -57,8 +57,10 @@ struct Pending {
     std::uint16_t* key; ///< null: there is no hierarchy to walk
     std::uint32_t* child;
 };
+/// 16 that are none, and then up to 30 a level: whichever of the last 16 is taken, its children
+/// come behind the other 15. What is written at once may reach 20 beyond.
 constexpr std::size_t pending_entries(std::uint32_t levels) {
-    return std::size_t{16} * (levels + 3);
+    return std::size_t{16} * (2 * levels + 1);
 }
 
 /// What kernels work in: the above, and, if `capacity` is not 0, room for so many rays (less than
