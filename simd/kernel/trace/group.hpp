@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simd/kernel/trace/rays.hpp"
 #include "simd/kernel/trace/spheres_around.hpp"
-#include "simd/kernel/trace/tree.hpp"
 
 namespace raylane::simd {
 
@@ -255,6 +255,17 @@ struct Group : Streams<Arch> {
         }
     };
 
+    /// What has a part everywhere, as bits, by the Reach of each end.
+    template <class ReachOf>
+    [[gnu::always_inline]] static std::uint32_t reached(const BlockSpheres<Arch>& spheres,
+                                                        const ReachOf& reach_of) {
+        Reach reach = reach_of(0);
+        if (spheres.ends == 1) [[likely]]
+            return reach.all();
+        reach |= reach_of(1);
+        return reach.all();
+    }
+
     /// Fills in `inside_high` and `inside_low`.
     [[gnu::always_inline]] void reach_inside(const SideLanes (&high)[2], const SideLanes (&low)[2],
                                              const F& w_along, const F (&center)[2],
@@ -289,11 +300,7 @@ struct Group : Streams<Arch> {
                          radius, reach);
             return reach;
         };
-        Reach reach = reach_of(0);
-        if (spheres.ends == 1) [[likely]]
-            return reach.all();
-        reach |= reach_of(1);
-        return reach.all();
+        return reached(spheres, reach_of);
     }
 
     /// The bunches, from one on, that one shape may meet, as bits.
@@ -313,11 +320,7 @@ struct Group : Streams<Arch> {
                          {F(center[across[0]][lane]), F(center[across[1]][lane])}, radius, reach);
             return reach;
         };
-        Reach reach = reach_of(0);
-        if (spheres.ends == 1) [[likely]]
-            return reach.all();
-        reach |= reach_of(1);
-        return reach.all();
+        return reached(spheres, reach_of);
     }
 };
 

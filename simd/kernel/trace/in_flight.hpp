@@ -2,7 +2,6 @@
 
 #include "simd/kernel/trace/pairs.hpp"
 #include "simd/kernel/trace/places.hpp"
-#include "simd/kernel/trace/queue.hpp"
 
 namespace raylane::simd {
 
@@ -13,8 +12,6 @@ namespace raylane::simd {
 template <class Arch, class Method>
 struct InFlight : Streams<Arch> {
     using S = Streams<Arch>;
-    using typename S::F;
-    using typename S::M;
 
     /// A ray on its way.
     struct Traveller {
@@ -25,6 +22,7 @@ struct InFlight : Streams<Arch> {
 
         void set_out(const BoxRays<Arch>& rays, std::size_t number) {
             i = number;
+            child = 0;
             box = rays.get(static_cast<int>(number % 16));
             rows = box.template rows<Arch>();
         }
@@ -38,13 +36,11 @@ struct InFlight : Streams<Arch> {
     /// - land(traveller)
     template <class Traveller, class Travels>
     [[gnu::always_inline]] static void go(const SceneView& scene, Traveller* travellers,
-                                          std::size_t count, Travels& travels,
-                                          TraceCounters& counters) {
+                                          Travels& travels, TraceCounters& counters) {
         int at_nodes[2 * in_flight], at_blocks[in_flight], done[in_flight];
         const Places<Arch> places(scene);
         int under_way = 0;
-        while (under_way < in_flight && static_cast<std::size_t>(under_way) < count &&
-               travels.start(travellers[under_way])) {
+        while (under_way < in_flight && travels.start(travellers[under_way])) {
             at_nodes[under_way] = under_way;
             ++under_way;
         }
@@ -79,7 +75,6 @@ struct InFlight : Streams<Arch> {
                     --under_way;
                     continue;
                 }
-                travellers[done[k]].child = 0;
                 at_nodes[node_count++] = done[k];
             }
         }
@@ -117,19 +112,13 @@ struct InFlight : Streams<Arch> {
                      Traveller* rays, Visit& visit) {
         if constexpr (packs_pairs<Filter, Method>) {
             Pairs<Arch, Method> pairs;
+            const auto take = [&] { visit.template some<Filter>(pairs); };
             for (int k = 0; k < count; ++k) {
                 const Traveller& ray = rays[which[k]];
-                const std::uint32_t number = ray.child & child_index;
-                std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
-                    S::block_of(table, number), Method::broadcast(stream, ray.i));
-                for (; bits != 0; bits &= bits - 1) {
-                    pairs.add(table, number, __builtin_ctz(bits), stream, ray.i, which[k]);
-                    if (!pairs.full()) continue;
-                    visit.template some<Filter>(pairs);
-                    pairs.count = 0;
-                }
+                pairs.template gather<Filter>(table, ray.child & child_index, stream, ray.i,
+                                              which[k], take);
             }
-            if (pairs.count != 0) visit.template some<Filter>(pairs);
+            pairs.finish(take);
         } else {
             int some[in_flight];
             if constexpr (has_may_meet<Filter, typename Method::Rays>) {

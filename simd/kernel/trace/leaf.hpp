@@ -14,9 +14,7 @@ struct Best {
 /// What a list of rays in the hierarchy says of one of them.
 struct alignas(64) StreamRecord {
     BoxRay box;
-    float limit;         ///< the t from which on nothing matters to it
-    float first, second; ///< as in Best
-    std::uint32_t slot;
+    Best best;
 };
 static_assert(sizeof(StreamRecord) == stream_record_bytes);
 
@@ -32,6 +30,15 @@ struct Leaf : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
+
+    static Best best_of(const Candidates& candidates, std::size_t i) {
+        return {candidates.first[i], candidates.second[i], candidates.slot[i]};
+    }
+    static void store(const Best& best, const Candidates& candidates, std::size_t i) {
+        candidates.first[i] = best.first;
+        candidates.second[i] = best.second;
+        candidates.slot[i] = best.slot;
+    }
 
     /// The shapes that the ray does not leave.
     static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {

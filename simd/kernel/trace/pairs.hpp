@@ -23,35 +23,29 @@ class Pairs : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
-    static constexpr int most_values = 8;
-
-    float values_[most_values][16];
-    float origin_[3][16], direction_[3][16], slack_[16];
-    std::uint32_t id_[16], departed_first_[16], departed_last_[16];
 
   public:
     std::uint32_t slot[16];
     int whose[16]; ///< the caller's number of the ray
-    int count = 0;
 
-    bool full() const { return count == 16; }
-
-    void add(const TableView& table, std::uint32_t number, int lane, const RoundedRays& rays,
-             std::size_t i, int owner) {
-        const float* const block = S::block_of(table, number);
-        const auto rows = S::rows_of(block);
-        for (std::uint32_t value = 0; value < table.values; ++value)
-            values_[value][count] = rows[value][lane];
-        for (int axis = 0; axis < 3; ++axis) {
-            origin_[axis][count] = rays.origin[axis][i];
-            direction_[axis][count] = rays.direction[axis][i];
+    /// Adds those of a ray and what it may meet in a block. Whenever there are 16, calls take() and
+    /// goes on without them.
+    template <class Filter, class Take>
+    [[gnu::always_inline]] void gather(const TableView& table, std::uint32_t number,
+                                       const RoundedRays& rays, std::size_t i, int owner,
+                                       const Take& take) {
+        std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
+            S::block_of(table, number), Method::broadcast(rays, i));
+        for (; bits != 0; bits &= bits - 1) {
+            add(table, number, __builtin_ctz(bits), rays, i, owner);
+            if (count_ == 16) finish(take);
         }
-        slack_[count] = rays.slack[i];
-        departed_first_[count] = rays.departed_first[i];
-        departed_last_[count] = rays.departed_last[i];
-        id_[count] = S::ids_of(table, block)[lane];
-        slot[count] = table.first_slot + 16 * number + static_cast<std::uint32_t>(lane);
-        whose[count++] = owner;
+    }
+    /// Calls take() for what is left.
+    template <class Take>
+    [[gnu::always_inline]] void finish(const Take& take) {
+        if (count_ != 0) take();
+        count_ = 0;
     }
 
     /// A function to itself: it is the same for all who ask.
@@ -59,7 +53,7 @@ class Pairs : Streams<Arch> {
     [[gnu::noinline]] PairBounds bound() const {
         static_assert(Filter::values <= most_values);
         PairBounds result{};
-        for (int from = 0; from < count; from += static_cast<int>(F::size)) {
+        for (int from = 0; from < count_; from += static_cast<int>(F::size)) {
             const auto load = [&](const float(&rows)[3][16]) {
                 return Vectors<Arch>{S::load(rows[0] + from), S::load(rows[1] + from),
                                      S::load(rows[2] + from)};
@@ -68,7 +62,7 @@ class Pairs : Streams<Arch> {
                 Filter(BlockReader<Arch>(values_, from))
                     .bounds({load(origin_), load(direction_), S::load(slack_ + from)});
             const M possible = bounds.possible &
-                               S::first_lanes(static_cast<std::size_t>(count - from)) &
+                               S::first_lanes(static_cast<std::size_t>(count_ - from)) &
                                ~Lanes<Arch>::in_range(S::load_bits(id_ + from),
                                                       S::load_bits(departed_first_ + from),
                                                       S::load_bits(departed_last_ + from));
@@ -79,6 +73,32 @@ class Pairs : Streams<Arch> {
         }
         return result;
     }
+
+  private:
+    void add(const TableView& table, std::uint32_t number, int lane, const RoundedRays& rays,
+             std::size_t i, int owner) {
+        const float* const block = S::block_of(table, number);
+        const auto rows = S::rows_of(block);
+        for (std::uint32_t value = 0; value < table.values; ++value)
+            values_[value][count_] = rows[value][lane];
+        for (int axis = 0; axis < 3; ++axis) {
+            origin_[axis][count_] = rays.origin[axis][i];
+            direction_[axis][count_] = rays.direction[axis][i];
+        }
+        slack_[count_] = rays.slack[i];
+        departed_first_[count_] = rays.departed_first[i];
+        departed_last_[count_] = rays.departed_last[i];
+        id_[count_] = S::ids_of(table, block)[lane];
+        slot[count_] = table.first_slot + 16 * number + static_cast<std::uint32_t>(lane);
+        whose[count_++] = owner;
+    }
+
+    static constexpr int most_values = 8;
+
+    float values_[most_values][16];
+    float origin_[3][16], direction_[3][16], slack_[16];
+    std::uint32_t id_[16], departed_first_[16], departed_last_[16];
+    int count_ = 0;
 };
 
 } // namespace raylane::simd

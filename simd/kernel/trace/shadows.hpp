@@ -40,7 +40,7 @@ class TraceShadows : InFlight<Arch, Method> {
                          const Occlusions& occlusions, const Pending& pending,
                          TraceCounters& counters) {
         TraceShadows all(scene, count, rays, occlusions, pending);
-        Base::go(scene, all.shadows_, count, all, counters);
+        Base::go(scene, all.shadows_, all, counters);
     }
 
     /// Those that are blocked already are passed over.
@@ -56,7 +56,6 @@ class TraceShadows : InFlight<Arch, Method> {
         shadow.t_most = occlusions_.t_most[next_];
         shadow.state = occlusions_.state[next_];
         shadow.top = shadow.bottom + 1;
-        shadow.child = 0;
         ++next_;
         return true;
     }

@@ -36,19 +36,11 @@ class TraceStream : Streams<Arch> {
                         const Candidates& candidates, const Workspace& workspace,
                         TraceCounters& counters) {
         TraceStream stream(scene, rays, workspace, counters);
-        for (std::size_t i = 0; i < count; ++i) {
-            Record& record = stream.records_[i];
-            record.first = candidates.first[i];
-            record.second = candidates.second[i];
-            record.slot = candidates.slot[i];
-            record.limit = record.first * culling_slack;
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            stream.records_[i].best = Leaf<Arch, Method>::best_of(candidates, i);
         stream.descend(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            candidates.first[i] = stream.records_[i].first;
-            candidates.second[i] = stream.records_[i].second;
-            candidates.slot[i] = stream.records_[i].slot;
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            Leaf<Arch, Method>::store(stream.records_[i].best, candidates, i);
     }
 
   private:
@@ -141,9 +133,10 @@ class TraceStream : Streams<Arch> {
             const std::uint32_t filled = S::filled(node, from);
             for (int k = 0; k < count; ++k) {
                 const Record& record = records_[list[k]];
+                const F t_most(record.best.first * culling_slack);
                 F near = zero<Arch>();
                 const std::uint32_t bits =
-                    record.box.template enter<Arch>(near_planes, far_planes, F(record.limit), near);
+                    record.box.template enter<Arch>(near_planes, far_planes, t_most, near);
                 const std::uint32_t before = from == 0 ? 0U : masks[k];
                 masks[k] = static_cast<Number>(before | (bits & filled) << from);
                 any |= bits << from;
@@ -167,17 +160,10 @@ class TraceStream : Streams<Arch> {
                                               const Number* list, int count) const {
         if constexpr (packs_pairs<Filter, Method>) {
             Pairs<Arch, Method> pairs;
-            for (int k = 0; k < count; ++k) {
-                std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
-                    S::block_of(table, number), Method::broadcast(rays_, list[k]));
-                for (; bits != 0; bits &= bits - 1) {
-                    pairs.add(table, number, __builtin_ctz(bits), rays_, list[k], list[k]);
-                    if (!pairs.full()) continue;
-                    take<Filter>(pairs);
-                    pairs.count = 0;
-                }
-            }
-            if (pairs.count != 0) take<Filter>(pairs);
+            const auto take_them = [&] { take<Filter>(pairs); };
+            for (int k = 0; k < count; ++k)
+                pairs.template gather<Filter>(table, number, rays_, list[k], list[k], take_them);
+            pairs.finish(take_them);
         } else if constexpr (has_may_meet<Filter, typename Method::Rays>) {
             for (int begin = 0; begin < count; begin += batch) {
                 Number some[batch];
@@ -200,13 +186,10 @@ class TraceStream : Streams<Arch> {
     template <class Filter>
     [[gnu::always_inline]] void take(const TableView& table, std::uint32_t number,
                                      std::size_t i) const {
-        Record& record = records_[i];
+        Best& best = records_[i].best;
         LeafHits hits;
-        Leaf<Arch, Method>::template find<Filter>(table, number, rays_, i, record.second, hits);
-        if (hits.lanes == 0) return;
-        Best best{record.first, record.second, record.slot};
-        Leaf<Arch, Method>::take(hits, table.first_slot + 16 * number, best);
-        set(record, best);
+        Leaf<Arch, Method>::template find<Filter>(table, number, rays_, i, best.second, hits);
+        if (hits.lanes != 0) Leaf<Arch, Method>::take(hits, table.first_slot + 16 * number, best);
     }
 
     template <class Filter>
@@ -214,18 +197,8 @@ class TraceStream : Streams<Arch> {
         const PairBounds bounds = pairs.template bound<Filter>();
         for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
-            Record& record = records_[pairs.whose[k]];
-            Best best{record.first, record.second, record.slot};
-            Leaf<Arch, Method>::take(bounds.lower[k], pairs.slot[k], best);
-            set(record, best);
+            Leaf<Arch, Method>::take(bounds.lower[k], pairs.slot[k], records_[pairs.whose[k]].best);
         }
-    }
-
-    static void set(Record& record, const Best& best) {
-        record.first = best.first;
-        record.second = best.second;
-        record.slot = best.slot;
-        record.limit = best.first * culling_slack;
     }
 };
 

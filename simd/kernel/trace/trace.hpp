@@ -63,23 +63,16 @@ struct Trace : Streams<Arch> {
 
     /// A group's candidates as they were.
     struct Before {
-        float first[Rays::most_rays], second[Rays::most_rays];
-        std::uint32_t slot[Rays::most_rays];
+        Best best[Rays::most_rays];
         std::size_t count;
 
         Before(const Candidates& candidates, std::size_t begin, std::size_t size) : count(size) {
-            for (std::size_t i = 0; i < count; ++i) {
-                first[i] = candidates.first[begin + i];
-                second[i] = candidates.second[begin + i];
-                slot[i] = candidates.slot[begin + i];
-            }
+            for (std::size_t i = 0; i < count; ++i)
+                best[i] = Leaf<Arch, Method>::best_of(candidates, begin + i);
         }
         void restore(const Candidates& candidates, std::size_t begin) const {
-            for (std::size_t i = 0; i < count; ++i) {
-                candidates.first[begin + i] = first[i];
-                candidates.second[begin + i] = second[i];
-                candidates.slot[begin + i] = slot[i];
-            }
+            for (std::size_t i = 0; i < count; ++i)
+                Leaf<Arch, Method>::store(best[i], candidates, begin + i);
         }
     };
 

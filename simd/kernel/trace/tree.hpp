@@ -37,7 +37,7 @@ class TraceTree : InFlight<Arch, Method> {
                         const Candidates& candidates, const Pending& pending,
                         TraceCounters& counters) {
         TraceTree all(scene, count, rays, candidates, pending);
-        Base::go(scene, all.flights_, count, all, counters);
+        Base::go(scene, all.flights_, all, counters);
     }
 
     bool start(Flight& flight) {
@@ -45,9 +45,7 @@ class TraceTree : InFlight<Arch, Method> {
         if (next_ % 16 == 0) box_rays_.load(rays_, next_);
         flight.set_out(box_rays_, next_);
         flight.queue.size = 0;
-        flight.best = {candidates_.first[next_], candidates_.second[next_],
-                       candidates_.slot[next_]};
-        flight.child = 0;
+        flight.best = Leaf<Arch, Method>::best_of(candidates_, next_);
         ++next_;
         return true;
     }
@@ -92,9 +90,7 @@ class TraceTree : InFlight<Arch, Method> {
     }
 
     void land(const Flight& flight) const {
-        candidates_.first[flight.i] = flight.best.first;
-        candidates_.second[flight.i] = flight.best.second;
-        candidates_.slot[flight.i] = flight.best.slot;
+        Leaf<Arch, Method>::store(flight.best, candidates_, flight.i);
     }
 };
 
