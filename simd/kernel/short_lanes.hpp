@@ -2,7 +2,7 @@
 
 #include "simd/kernel/lanes.hpp"
 
-/// Lanes of 16 bits: ray numbers, sets of children, distances for order.
+/// Lanes of 16 and of 8 bits: ray numbers, sets of children, distances for order, states.
 namespace raylane::simd {
 
 /// By loops over memory, as in lanes.hpp.
@@ -36,6 +36,20 @@ std::uint32_t least_of_16(const std::uint16_t* keys) {
     return std::uint32_t{keys[least]} << 16 | least;
 }
 
+template <class Arch>
+std::uint32_t equal_16(const std::uint8_t* bytes, std::uint8_t value) {
+    std::uint32_t equal = 0;
+    for (std::uint32_t i = 0; i < 16; ++i)
+        equal |= static_cast<std::uint32_t>(bytes[i] == value) << i;
+    return equal;
+}
+
+template <class Arch>
+void raise_16(std::uint8_t* bytes, std::uint32_t which, std::uint8_t least) {
+    for (std::uint32_t i = 0; i < 16; ++i)
+        if ((which >> i & 1) != 0 && bytes[i] < least) bytes[i] = least;
+}
+
 } // namespace generic
 
 /// pick: those of `count` numbers whose masks have a bit, in their order, to `out`. Returns how
@@ -43,6 +57,8 @@ std::uint32_t least_of_16(const std::uint16_t* keys) {
 /// compress_keys: bits 15 to 30 of the wanted lanes, which are in the order of the values where
 /// these are positive; in their order, to `out`. May write as many as there are lanes, 8 at least.
 /// least_of_16: the first place that has the least of 16 numbers; and, 16 bits higher, that number.
+/// equal_16: which of 16 bytes have a value, as bits.
+/// raise_16: raises those of 16 bytes, by bits, that are less than a value to it.
 template <class Arch>
 struct ShortLanes {
     static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
@@ -55,6 +71,12 @@ struct ShortLanes {
     }
     static std::uint32_t least_of_16(const std::uint16_t* keys) {
         return generic::least_of_16<Arch>(keys);
+    }
+    static std::uint32_t equal_16(const std::uint8_t* bytes, std::uint8_t value) {
+        return generic::equal_16<Arch>(bytes, value);
+    }
+    static void raise_16(std::uint8_t* bytes, std::uint32_t which, std::uint8_t least) {
+        generic::raise_16<Arch>(bytes, which, least);
     }
 };
 
@@ -72,6 +94,23 @@ struct EightLanes {
         const __m128i low_first = _mm_shufflelo_epi16(low, 1);
         const __m128i high_first = _mm_add_epi32(_mm_shufflelo_epi16(high, 1), _mm_set1_epi32(8));
         return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_min_epu32(low_first, high_first)));
+    }
+
+    static std::uint32_t equal_16(const std::uint8_t* bytes, std::uint8_t value) {
+        const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes));
+        const __m128i equal = _mm_cmpeq_epi8(all, _mm_set1_epi8(static_cast<char>(value)));
+        return static_cast<std::uint32_t>(_mm_movemask_epi8(equal));
+    }
+
+    static void raise_16(std::uint8_t* bytes, std::uint32_t which, std::uint8_t least) {
+        auto* const place = reinterpret_cast<__m128i*>(bytes);
+        // The low half of `which` eight times, then the high half, and of each one bit.
+        const __m128i halves = _mm_shuffle_epi8(_mm_cvtsi32_si128(static_cast<int>(which)),
+                                                _mm_set_epi32(0x01010101, 0x01010101, 0, 0));
+        const __m128i bits = _mm_set1_epi64x(static_cast<long long>(0x8040201008040201ULL));
+        const __m128i wanted = _mm_cmpeq_epi8(_mm_and_si128(halves, bits), bits);
+        const __m128i value = _mm_set1_epi8(static_cast<char>(least));
+        _mm_storeu_si128(place, _mm_max_epu8(_mm_loadu_si128(place), _mm_and_si128(wanted, value)));
     }
 
     /// The wanted ones, in their order.
@@ -139,11 +178,7 @@ struct ShortLanes<Avx2> : EightLanes<Avx2> {
 
 #ifdef __AVX512F__
 template <>
-struct ShortLanes<Avx512> {
-    static std::uint32_t least_of_16(const std::uint16_t* keys) {
-        return EightLanes<Avx512>::least_of_16(keys);
-    }
-
+struct ShortLanes<Avx512> : EightLanes<Avx512> {
     static void compress_keys(std::uint16_t* out, const Floats<Avx512>& values,
                               std::uint32_t wanted) {
         const __m512i some = _mm512_maskz_compress_epi32(static_cast<__mmask16>(wanted),

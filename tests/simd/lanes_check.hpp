@@ -131,10 +131,32 @@ struct LanesCheck {
         return failures;
     }
 
+    int byte_failures(int rounds) {
+        int failures = 0;
+        for (int round = 0; round < rounds; ++round) {
+            std::uint8_t native[16], generic_way[16];
+            for (int i = 0; i < 16; ++i)
+                native[i] = generic_way[i] =
+                    static_cast<std::uint8_t>(random() >> (round % 2 == 0 ? 30 : 24));
+            const auto value = static_cast<std::uint8_t>(random() >> (round % 2 == 0 ? 30 : 24));
+            failures +=
+                ShortLanes<Arch>::equal_16(native, value) == generic::equal_16<Arch>(native, value)
+                    ? 0
+                    : 1;
+            const std::uint32_t which = random() & 0xFFFF;
+            ShortLanes<Arch>::raise_16(native, which, value);
+            generic::raise_16<Arch>(generic_way, which, value);
+            for (int i = 0; i < 16; ++i)
+                failures += native[i] == generic_way[i] ? 0 : 1;
+        }
+        return failures;
+    }
+
     static int failures() {
         LanesCheck check;
         return check.mul_add_failures(200000) + check.compress_failures() +
-               check.mask_failures(10000) + check.pick_failures(1000) + check.key_failures(10000);
+               check.mask_failures(10000) + check.pick_failures(1000) + check.key_failures(10000) +
+               check.byte_failures(10000);
     }
 };
 

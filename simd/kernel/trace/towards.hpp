@@ -48,19 +48,17 @@ struct SortedTowards : Streams<Arch> {
 
         std::uint32_t ends[cells * cells + 1] = {};
         find_keys(from, count, column + 11 * room, column + 12 * room, ends);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t to = ends[keys_[i]]++;
-            number_[to] = static_cast<std::uint32_t>(i);
-            for (int axis = 0; axis < 3; ++axis) {
-                rays.origin[axis][to] = from.origin[axis][i];
-                rays.direction[axis][to] = from.direction[axis][i];
-            }
-            rays.slack[to] = from.slack[i];
-            first[to] = from.departed_first[i];
-            last[to] = from.departed_last[i];
-            t_most[to] = asked.t_most[i];
-            occlusions.state[to] = asked.state[i];
+        for (std::size_t i = 0; i < count; ++i)
+            number_[ends[keys_[i]]++] = static_cast<std::uint32_t>(i);
+        for (int axis = 0; axis < 3; ++axis) {
+            gather(from.origin[axis], count, rays.origin[axis]);
+            gather(from.direction[axis], count, rays.direction[axis]);
         }
+        gather(from.slack, count, rays.slack);
+        gather(from.departed_first, count, first);
+        gather(from.departed_last, count, last);
+        gather(asked.t_most, count, t_most);
+        gather(asked.state, count, occlusions.state);
     }
 
     /// What has been found, for who asked.
@@ -70,6 +68,14 @@ struct SortedTowards : Streams<Arch> {
     }
 
   private:
+    /// A column in the new order.
+    template <class Value>
+    void gather(const Value* from, std::size_t count, Value* __restrict to) const {
+        const std::uint32_t* const number = number_;
+        for (std::size_t k = 0; k < count; ++k)
+            to[k] = from[number[k]];
+    }
+
     static constexpr unsigned cells = 32; ///< a side
     /// Steeper rays are no part of a group.
     static constexpr float steepest = Group<Arch>::steepest;
@@ -109,13 +115,15 @@ struct SortedTowards : Streams<Arch> {
             extent = size > extent ? size : extent;
         }
         const float scale = (static_cast<float>(cells) - 0.01F) / extent;
+        std::uint16_t* const __restrict keys = keys_;
         for (std::size_t i = 0; i < count; ++i) {
             const auto x = static_cast<unsigned>(static_cast<int>((u[i] - least[0]) * scale));
             const auto y = static_cast<unsigned>(static_cast<int>((v[i] - least[1]) * scale));
-            keys_[i] =
+            keys[i] =
                 static_cast<std::uint16_t>(spread(x & (cells - 1)) | spread(y & (cells - 1)) << 1);
-            ++ends[keys_[i] + 1];
         }
+        for (std::size_t i = 0; i < count; ++i)
+            ++ends[keys[i] + 1];
         for (unsigned key = 0; key < cells * cells; ++key)
             ends[key + 1] += ends[key];
     }

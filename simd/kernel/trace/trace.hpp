@@ -143,12 +143,19 @@ struct Trace : Streams<Arch> {
 
         /// Lanes that are not there are blocked.
         GroupOcclusions(const std::uint8_t* state, std::size_t count) {
-            for (std::size_t i = 0; i < 256; ++i)
-                blocked_rays[i / 16] |=
-                    static_cast<std::uint32_t>(i >= count || state[i] == blocked) << i % 16;
+            for (std::size_t k = 0; k < 16; ++k)
+                blocked_rays[k] = 0xFFFF;
+            for (std::size_t k = 0; k < count / 16; ++k)
+                blocked_rays[k] = ShortLanes<Arch>::equal_16(state + 16 * k, blocked);
+            for (std::size_t i = count / 16 * 16; i < count; ++i)
+                if (state[i] != blocked) blocked_rays[i / 16] &= ~(1U << i % 16);
         }
         void store(std::uint8_t* state, std::size_t count) const {
-            for (std::size_t i = 0; i < count; ++i) {
+            for (std::size_t k = 0; k < count / 16; ++k) {
+                ShortLanes<Arch>::raise_16(state + 16 * k, doubtful_rays[k], doubtful);
+                ShortLanes<Arch>::raise_16(state + 16 * k, blocked_rays[k], blocked);
+            }
+            for (std::size_t i = count / 16 * 16; i < count; ++i) {
                 const bool is_blocked = (blocked_rays[i / 16] >> i % 16 & 1) != 0;
                 const bool is_doubtful = (doubtful_rays[i / 16] >> i % 16 & 1) != 0;
                 const std::uint8_t found = is_blocked ? blocked : is_doubtful ? doubtful : open;
