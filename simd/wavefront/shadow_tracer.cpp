@@ -22,6 +22,9 @@ ShadowTracer::ShadowTracer(const SceneData& scene, const Tracing& tracing,
 }
 
 void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media) {
+    leave_first_ = arena.take<std::uint32_t>(capacity);
+    leave_last_ = arena.take<std::uint32_t>(capacity);
+    leave_state_ = arena.take<std::uint8_t>(capacity);
     take_spawned(arena, rays_, capacity);
     departed_first_ = arena.take<std::uint32_t>(capacity);
     departed_last_ = arena.take<std::uint32_t>(capacity);
@@ -44,7 +47,7 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
 void ShadowTracer::trace(const Wave& wave, const LightView& light, core::Counters& counters) {
     counters.shadow += rays_.count;
     const Bundle bundle = bundle_of(light);
-    start(wave);
+    start();
     find_blocked(wave, bundle, counters);
 
     walk_.count = 0;
@@ -53,17 +56,25 @@ void ShadowTracer::trace(const Wave& wave, const LightView& light, core::Counter
     if (walk_.count != 0) walk(bundle, counters);
 }
 
-void ShadowTracer::start(const Wave& wave) {
+void ShadowTracer::look_at(const Wave& wave) {
     const bool with_media = wave.paths.media[0] != nullptr;
-    for (std::size_t k = 0; k < rays_.count; ++k) {
-        const std::uint32_t lane = wave.order[static_cast<std::size_t>(rays_.parent[k])];
-        const std::uint32_t slot = wave.hits.slot[lane];
-        const SceneData::Occupant shape = scene_.occupant_of(slot);
-        departed_first_[k] = shape.coplanar.first;
-        departed_last_[k] = shape.coplanar.last;
+    for (std::size_t position = 0; position < wave.count; ++position) {
+        const std::uint32_t lane = wave.order[position];
+        const SceneData::Occupant shape = scene_.occupant_of(wave.hits.slot[lane]);
+        leave_first_[position] = shape.coplanar.first;
+        leave_last_[position] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
         const bool in_medium = with_media && wave.paths.media[0][lane] != core::Media::none;
-        occlusions_.state[k] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
+        leave_state_[position] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
+    }
+}
+
+void ShadowTracer::start() {
+    for (std::size_t k = 0; k < rays_.count; ++k) {
+        const auto position = static_cast<std::size_t>(rays_.parent[k]);
+        departed_first_[k] = leave_first_[position];
+        departed_last_[k] = leave_last_[position];
+        occlusions_.state[k] = leave_state_[position];
         t_most_[k] = static_cast<float>(rays_.distance[k]);
     }
     tracing_.kernels->rays.round_rays(rays_.count, rounded_);

@@ -23,16 +23,19 @@ class ShadowTracer {
         const Paths& paths;
         const Hits& hits;
         const std::uint32_t* order;
-        bool coherent; ///< it was hit by rays from the camera
+        std::size_t count; ///< of positions
+        bool coherent;     ///< it was hit by rays from the camera
     };
 
+    /// Once for a wave, before it is traced to each light.
+    void look_at(const Wave& wave);
     /// Weakens the rays' weights by what is in the way, or blocks them.
     void trace(const Wave& wave, const LightView& light, core::Counters& counters);
 
     bool arrives(std::size_t ray) const { return occlusions_.state[ray] != blocked; }
 
   private:
-    void start(const Wave& wave);
+    void start();
     void find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters);
     void walk(const Bundle& bundle, core::Counters& counters);
     void start_walk(const Wave& wave, std::size_t ray);
@@ -43,6 +46,11 @@ class ShadowTracer {
     const SceneData& scene_;
     Tracing tracing_;
     core::ReferenceTracer<double>& reference_;
+
+    // What rays from each position of the wave leave, and what is known of them.
+    std::uint32_t* leave_first_ = nullptr;
+    std::uint32_t* leave_last_ = nullptr;
+    std::uint8_t* leave_state_ = nullptr;
 
     SpawnedRays rays_{};
     std::uint32_t* departed_first_ = nullptr;

@@ -298,7 +298,9 @@ class Spawning {
         }
         Counters counters;
         const bool coherent = random_.integer(0, 1) == 0;
-        tracer.trace({paths_, hits_, order_, coherent}, light, counters);
+        const ShadowTracer::Wave wave{paths_, hits_, order_, hit_count_, coherent};
+        tracer.look_at(wave);
+        tracer.trace(wave, light, counters);
         tally_.followed += static_cast<long>(counters.followed);
         for (std::size_t k = 0; k < rays.count; ++k)
             check_shadow(tracer, k);
