@@ -37,7 +37,7 @@ struct SceneView {
     const std::uint64_t* orders;
     std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
     bool large;               ///< nodes and shapes do not fit in the cache of a core
-    bool small;               ///< they take no more than an eighth of it
+    bool small;               ///< they take no more than a sixteenth of it
     /// By slot / 16: which lanes of a block are opaque and seen from both sides, so that whatever
     /// hits them is blocked. Null: all are.
     const std::uint16_t* plain_lanes;

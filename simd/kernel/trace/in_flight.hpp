@@ -120,22 +120,16 @@ struct InFlight : Streams<Arch> {
             }
             pairs.finish(take);
         } else {
-            int some[in_flight];
-            if constexpr (has_may_meet<Filter, typename Method::Rays>) {
-                int found = 0;
-                for (int k = 0; k < count; ++k) {
-                    const Traveller& ray = rays[which[k]];
-                    some[found] = which[k];
-                    const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
-                        S::block_of(table, ray.child & child_index),
-                        Method::broadcast(stream, ray.i));
-                    found += static_cast<int>(bits != 0);
-                }
-                which = some;
-                count = found;
+            int some[in_flight], found = 0;
+            for (int k = 0; k < count; ++k) {
+                const Traveller& ray = rays[which[k]];
+                some[found] = which[k];
+                const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
+                    table, ray.child & child_index, stream, ray.i);
+                found += static_cast<int>(bits != 0);
             }
-            for (int k = 0; k < count; ++k)
-                visit.template all<Filter>(rays[which[k]], table);
+            for (int k = 0; k < found; ++k)
+                visit.template all<Filter>(rays[some[k]], table);
         }
     }
 };

@@ -46,15 +46,23 @@ struct Leaf : Streams<Arch> {
                                       S::broadcast_bits(rays.departed_last[i]));
     }
 
-    /// The shapes that may be met, as bits. What has been left is not looked at.
+    /// The shapes that may be met, as bits, as far as that can be told for less than their bounds
+    /// cost.
     template <class Filter>
-    [[gnu::always_inline]] static std::uint32_t may_meet(const float* block,
-                                                         const typename Method::Rays& ray) {
+    [[gnu::always_inline]] static std::uint32_t
+    may_meet(const TableView& table, std::uint32_t number, const RoundedRays& rays, std::size_t i) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
         std::uint32_t some = 0;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size))
-            some |=
-                Lanes<Arch>::bits(Filter(BlockReader<Arch>(S::rows_of(block), from)).may_meet(ray))
-                << from;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            M lanes = elsewhere(ids + from, rays, i);
+            if constexpr (has_may_meet<Filter, typename Method::Rays>)
+                lanes = lanes & Filter(BlockReader<Arch>(S::rows_of(block), from))
+                                    .may_meet(Method::broadcast(rays, i));
+            else
+                lanes = lanes & S::filled(ids + from);
+            some |= Lanes<Arch>::bits(lanes) << from;
+        }
         return some;
     }
 

@@ -34,8 +34,7 @@ class Pairs : Streams<Arch> {
     [[gnu::always_inline]] void gather(const TableView& table, std::uint32_t number,
                                        const RoundedRays& rays, std::size_t i, int owner,
                                        const Take& take) {
-        std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
-            S::block_of(table, number), Method::broadcast(rays, i));
+        std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(table, number, rays, i);
         for (; bits != 0; bits &= bits - 1) {
             add(table, number, __builtin_ctz(bits), rays, i, owner);
             if (count_ == 16) finish(take);
@@ -47,6 +46,8 @@ class Pairs : Streams<Arch> {
         if (count_ != 0) take();
         count_ = 0;
     }
+
+    bool empty() const { return count_ == 0; }
 
     /// A function to itself: it is the same for all who ask.
     template <class Filter>
@@ -61,11 +62,8 @@ class Pairs : Streams<Arch> {
             const Bounds<Arch> bounds =
                 Filter(BlockReader<Arch>(values_, from))
                     .bounds({load(origin_), load(direction_), S::load(slack_ + from)});
-            const M possible = bounds.possible &
-                               S::first_lanes(static_cast<std::size_t>(count_ - from)) &
-                               ~Lanes<Arch>::in_range(S::load_bits(id_ + from),
-                                                      S::load_bits(departed_first_ + from),
-                                                      S::load_bits(departed_last_ + from));
+            const M possible =
+                bounds.possible & S::first_lanes(static_cast<std::size_t>(count_ - from));
             result.possible |= Lanes<Arch>::bits(possible) << from;
             result.certain |= Lanes<Arch>::bits(possible & bounds.certain) << from;
             bounds.lower.store_unaligned(result.lower + from);
@@ -86,9 +84,6 @@ class Pairs : Streams<Arch> {
             direction_[axis][count_] = rays.direction[axis][i];
         }
         slack_[count_] = rays.slack[i];
-        departed_first_[count_] = rays.departed_first[i];
-        departed_last_[count_] = rays.departed_last[i];
-        id_[count_] = S::ids_of(table, block)[lane];
         slot[count_] = table.first_slot + 16 * number + static_cast<std::uint32_t>(lane);
         whose[count_++] = owner;
     }
@@ -97,8 +92,29 @@ class Pairs : Streams<Arch> {
 
     float values_[most_values][16];
     float origin_[3][16], direction_[3][16], slack_[16];
-    std::uint32_t id_[16], departed_first_[16], departed_last_[16];
     int count_ = 0;
+};
+
+/// Of the kinds whose pairs are packed. A kind's wait for each other across blocks.
+template <class Arch, class Method>
+class PairsByKind {
+  public:
+    Pairs<Arch, Method>& of(KindNumber kind) { return pairs_[kind - first_kind]; }
+
+    /// Calls take.template operator()<Filter>(pairs) for those that are left of each kind.
+    template <class Take>
+    [[gnu::always_inline]] void finish(const Take& take) {
+        for (KindNumber kind = first_kind; kind <= last_kind; ++kind)
+            if (!of(kind).empty())
+                Method::with_filter(kind, [&]<class Filter>() {
+                    if constexpr (packs_pairs<Filter, Method>)
+                        of(kind).finish([&] { take.template operator()<Filter>(of(kind)); });
+                });
+    }
+
+  private:
+    static constexpr KindNumber first_kind = 6, last_kind = 9; ///< cylinders and cones
+    Pairs<Arch, Method> pairs_[last_kind - first_kind + 1];
 };
 
 } // namespace raylane::simd

@@ -35,9 +35,13 @@ struct Streams {
     /// The slots of a node that are not empty, as bits from `from` on. No comparison of their
     /// bounds says so for rays that are infinitely far.
     static std::uint32_t filled(const NodeView& node, int from) {
-        const F empty = broadcast_bits(no_child);
-        return Lanes<Arch>::bits(
-            ~Lanes<Arch>::in_range(load_bits(node.children + from), empty, empty));
+        static_assert(no_child == no_slot);
+        return Lanes<Arch>::bits(filled(node.children + from));
+    }
+    /// The ids that are some shape's.
+    static M filled(const std::uint32_t* ids) {
+        const F empty = broadcast_bits(no_slot);
+        return ~Lanes<Arch>::in_range(load_bits(ids), empty, empty);
     }
 
     /// The lanes of the slot's block that block whatever hits them, as bits.

@@ -25,6 +25,7 @@ class TraceStream : Streams<Arch> {
     Record* records_;
     Number* free_; ///< where lists have room
     int octant_ = 0;
+    PairsByKind<Arch, Method> pairs_;
 
     TraceStream(const SceneView& scene, const RoundedRays& rays, const Workspace& workspace,
                 TraceCounters& counters)
@@ -39,6 +40,7 @@ class TraceStream : Streams<Arch> {
         for (std::size_t i = 0; i < count; ++i)
             stream.records_[i].best = Leaf<Arch, Method>::best_of(candidates, i);
         stream.descend(count);
+        stream.finish_pairs();
         for (std::size_t i = 0; i < count; ++i)
             Leaf<Arch, Method>::store(stream.records_[i].best, candidates, i);
     }
@@ -149,37 +151,38 @@ class TraceStream : Streams<Arch> {
     void at_block(std::uint32_t child, const Number* list, int count) {
         const KindNumber kind = S::kind_of(child);
         counters_.shapes += 16 * static_cast<std::uint64_t>(count);
-        Method::with_filter(kind, [&]<class Filter>() {
-            test<Filter>(scene_.tables[kind], child & child_index, list, count);
-        });
+        Method::with_filter(
+            kind, [&]<class Filter>() { test<Filter>(kind, child & child_index, list, count); });
+    }
+
+    /// Those that wait for others to be tested with.
+    void finish_pairs() {
+        pairs_.finish([&]<class Filter>(const Pairs<Arch, Method>& pairs) { take<Filter>(pairs); });
     }
 
     /// A function to itself: in one for all kinds, compilers run out of patience for inlining.
     template <class Filter>
-    [[gnu::noinline, gnu::flatten]] void test(const TableView& table, std::uint32_t number,
-                                              const Number* list, int count) const {
+    [[gnu::noinline, gnu::flatten]] void test(KindNumber kind, std::uint32_t number,
+                                              const Number* list, int count) {
+        const TableView& table = scene_.tables[kind];
         if constexpr (packs_pairs<Filter, Method>) {
-            Pairs<Arch, Method> pairs;
+            Pairs<Arch, Method>& pairs = pairs_.of(kind);
             const auto take_them = [&] { take<Filter>(pairs); };
             for (int k = 0; k < count; ++k)
                 pairs.template gather<Filter>(table, number, rays_, list[k], list[k], take_them);
-            pairs.finish(take_them);
-        } else if constexpr (has_may_meet<Filter, typename Method::Rays>) {
+        } else {
             for (int begin = 0; begin < count; begin += batch) {
                 Number some[batch];
                 int found = 0;
                 for (int k = begin; k < begin + batch && k < count; ++k) {
                     some[found] = list[k];
                     const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
-                        S::block_of(table, number), Method::broadcast(rays_, list[k]));
+                        table, number, rays_, list[k]);
                     found += static_cast<int>(bits != 0);
                 }
                 for (int k = 0; k < found; ++k)
                     take<Filter>(table, number, some[k]);
             }
-        } else {
-            for (int k = 0; k < count; ++k)
-                take<Filter>(table, number, list[k]);
         }
     }
 
