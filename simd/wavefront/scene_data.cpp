@@ -18,9 +18,9 @@ constexpr std::uint32_t table_slots = 1U << 15;
 
 /// What a core's own cache holds. Where the tree has more, it is fetched ahead of the rays, which
 /// gains there (5 to 15 % at a million spheres, measured on a noisy machine) and costs where it
-/// fits. Rays that are nowhere near each other go by lists in trees of a sixteenth of that, and each
-/// by itself in others: lists gain 1.1 times at 1,000 balls, lose as much at 3,000, and 1.3 times at
-/// 10,000 (2 MB; 1.4 and 1.0 at 1,000 and 10,000 shapes of a lattice of balls and sticks).
+/// fits. Rays that are nowhere near each other go by lists in trees of a sixteenth of that, and
+/// each by itself in others: lists gain 1.1 times at 1,000 balls, lose as much at 3,000, and 1.3
+/// times at 10,000 (2 MB; 1.4 and 1.0 at 1,000 and 10,000 shapes of a lattice of balls and sticks).
 std::size_t core_cache_bytes() {
 #ifdef _SC_LEVEL2_CACHE_SIZE
     if (const long bytes = ::sysconf(_SC_LEVEL2_CACHE_SIZE); bytes > 0)

@@ -97,7 +97,7 @@ Comparison compare(const Scene& scene, const std::vector<Shape>& shapes, const V
     for_each_pixel(scene, [&](const Ray<double>& ray, const Color& color) {
         const auto seen = first_seen(shapes, ray);
         result.hits += seen ? 1 : 0;
-        if (seen.has_value() != color.x > 0.2F) {
+        if (seen.has_value() != (color.x > 0.2F)) {
             ++result.wrong;
             return;
         }
