@@ -120,6 +120,7 @@ std::vector<std::uint64_t> orders_of(const core::BigArray<core::WideNode>& nodes
 
 SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(scene.fog())) {
     static_assert(sizeof(NodeView) == sizeof(core::WideNode));
+    static_assert(no_slot == core::no_shape);
     for (const core::Material& material : scene.materials())
         materials_.push_back(view_of(material));
     media_.push_back({0.0, 1.0, {0.0, 0.0, 0.0}});

@@ -44,19 +44,20 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
     walk_distance_ = arena.take<double>(capacity);
 }
 
-void ShadowTracer::trace(const Wave& wave, const LightView& light, core::Counters& counters) {
+void ShadowTracer::trace(const LightView& light, core::Counters& counters) {
     counters.shadow += rays_.count;
     const Bundle bundle = bundle_of(light);
     start();
-    find_blocked(wave, bundle, counters);
+    find_blocked(bundle, counters);
 
     walk_.count = 0;
     for (std::size_t k = 0; k < rays_.count; ++k)
-        if (occlusions_.state[k] == doubtful) start_walk(wave, k);
+        if (occlusions_.state[k] == doubtful) start_walk(k);
     if (walk_.count != 0) walk(bundle, counters);
 }
 
 void ShadowTracer::look_at(const Wave& wave) {
+    wave_.emplace(wave);
     const bool with_media = wave.paths.media[0] != nullptr;
     for (std::size_t position = 0; position < wave.count; ++position) {
         const std::uint32_t lane = wave.order[position];
@@ -80,17 +81,18 @@ void ShadowTracer::start() {
     tracing_.kernels->rays.round_rays(rays_.count, rounded_);
 }
 
-void ShadowTracer::find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters) {
+void ShadowTracer::find_blocked(const Bundle& bundle, core::Counters& counters) {
     TraceCounters traced{};
     // Deeper waves hit here and there: too much is between them and the light.
-    const bool together = wave.coherent || !scene_.has_tree();
+    const bool together = wave_->coherent || !scene_.has_tree();
     tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(),
                                      together ? &bundle : nullptr, rays_.count, rounded_,
                                      occlusions_, workspace_, traced);
     count(traced, counters);
 }
 
-void ShadowTracer::start_walk(const Wave& wave, std::size_t ray) {
+void ShadowTracer::start_walk(std::size_t ray) {
+    const Wave& wave = *wave_;
     const std::uint32_t lane = wave.order[static_cast<std::size_t>(rays_.parent[ray])];
     const std::uint32_t slot = wave.hits.slot[lane];
     const std::size_t to = walk_.count++;

@@ -2,6 +2,8 @@
 
 #include "simd/wavefront/hit_finder.hpp"
 
+#include <optional>
+
 namespace raylane::simd {
 
 /// Arrays for spawned rays.
@@ -27,18 +29,18 @@ class ShadowTracer {
         bool coherent;     ///< it was hit by rays from the camera
     };
 
-    /// Once for a wave, before it is traced to each light.
+    /// Whose rays are traced from now on, to any number of lights.
     void look_at(const Wave& wave);
     /// Weakens the rays' weights by what is in the way, or blocks them.
-    void trace(const Wave& wave, const LightView& light, core::Counters& counters);
+    void trace(const LightView& light, core::Counters& counters);
 
     bool arrives(std::size_t ray) const { return occlusions_.state[ray] != blocked; }
 
   private:
     void start();
-    void find_blocked(const Wave& wave, const Bundle& bundle, core::Counters& counters);
+    void find_blocked(const Bundle& bundle, core::Counters& counters);
     void walk(const Bundle& bundle, core::Counters& counters);
-    void start_walk(const Wave& wave, std::size_t ray);
+    void start_walk(std::size_t ray);
     void follow(std::size_t lane);
     bool step(std::size_t lane, double& distance);
     void absorb(core::MaterialIndex medium, double distance, std::size_t lane);
@@ -47,6 +49,7 @@ class ShadowTracer {
     Tracing tracing_;
     core::ReferenceTracer<double>& reference_;
 
+    std::optional<Wave> wave_;
     // What rays from each position of the wave leave, and what is known of them.
     std::uint32_t* leave_first_ = nullptr;
     std::uint32_t* leave_last_ = nullptr;

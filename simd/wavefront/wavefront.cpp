@@ -285,9 +285,7 @@ void Wavefront::shade(int depth) {
 }
 
 void Wavefront::add_lights() {
-    const ShadowTracer::Wave wave{paths_, finder_.hits(), sorted_.order(), sorted_.hit_count(),
-                                  coherent_};
-    if (!scene_.lights().empty()) shadows_.look_at(wave);
+    bool looked = false;
     for (const LightView& light : scene_.lights()) {
         SpawnedRays& rays = shadows_.rays();
         rays.count = 0;
@@ -295,7 +293,10 @@ void Wavefront::add_lights() {
             if (run.material->diffuse > 0.0 || run.material->specular > 0.0)
                 shade_.light(run, light, surfaces_, rays);
         if (rays.count == 0) continue;
-        shadows_.trace(wave, light, counters_);
+        if (!std::exchange(looked, true))
+            shadows_.look_at(
+                {paths_, finder_.hits(), sorted_.order(), sorted_.hit_count(), coherent_});
+        shadows_.trace(light, counters_);
         for (std::size_t k = 0; k < rays.count; ++k)
             if (shadows_.arrives(k))
                 add(paths_.sample[sorted_.order()[static_cast<std::size_t>(rays.parent[k])]],

@@ -298,9 +298,8 @@ class Spawning {
         }
         Counters counters;
         const bool coherent = random_.integer(0, 1) == 0;
-        const ShadowTracer::Wave wave{paths_, hits_, order_, hit_count_, coherent};
-        tracer.look_at(wave);
-        tracer.trace(wave, light, counters);
+        tracer.look_at({paths_, hits_, order_, hit_count_, coherent});
+        tracer.trace(light, counters);
         tally_.followed += static_cast<long>(counters.followed);
         for (std::size_t k = 0; k < rays.count; ++k)
             check_shadow(tracer, k);

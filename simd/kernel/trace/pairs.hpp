@@ -95,16 +95,16 @@ class Pairs : Streams<Arch> {
     int count_ = 0;
 };
 
-/// Of the kinds whose pairs are packed. A kind's wait for each other across blocks.
+/// Of each kind. They wait for each other across blocks.
 template <class Arch, class Method>
 class PairsByKind {
   public:
-    Pairs<Arch, Method>& of(KindNumber kind) { return pairs_[kind - first_kind]; }
+    Pairs<Arch, Method>& of(KindNumber kind) { return pairs_[kind]; }
 
     /// Calls take.template operator()<Filter>(pairs) for those that are left of each kind.
     template <class Take>
     [[gnu::always_inline]] void finish(const Take& take) {
-        for (KindNumber kind = first_kind; kind <= last_kind; ++kind)
+        for (KindNumber kind = 0; kind < kinds; ++kind)
             if (!of(kind).empty())
                 Method::with_filter(kind, [&]<class Filter>() {
                     if constexpr (packs_pairs<Filter, Method>)
@@ -113,8 +113,7 @@ class PairsByKind {
     }
 
   private:
-    static constexpr KindNumber first_kind = 6, last_kind = 9; ///< cylinders and cones
-    Pairs<Arch, Method> pairs_[last_kind - first_kind + 1];
+    Pairs<Arch, Method> pairs_[kinds];
 };
 
 } // namespace raylane::simd

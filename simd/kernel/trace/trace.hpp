@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/short_lanes.hpp"
 #include "simd/kernel/trace/all.hpp"
 #include "simd/kernel/trace/shadows.hpp"
 #include "simd/kernel/trace/stream.hpp"
@@ -139,7 +140,7 @@ struct Trace : Streams<Arch> {
 
     /// Of a group's rays, by bunch, as bits.
     struct GroupOcclusions {
-        std::uint32_t blocked_rays[16] = {}, doubtful_rays[16] = {};
+        std::uint32_t blocked_rays[16], doubtful_rays[16] = {};
 
         /// Lanes that are not there are blocked.
         GroupOcclusions(const std::uint8_t* state, std::size_t count) {
