@@ -128,6 +128,31 @@ struct Answers {
     Candidates candidates() { return {first.data(), second.data(), slot.data()}; }
 };
 
+constexpr std::uint32_t all_kinds = (1U << kinds) - 1;
+
+/// What rays may hit: shape by shape, in flight, and by lists.
+struct EachWay {
+    Answers by_all, by_tree, by_lists;
+};
+
+EachWay nearest_each_way(const TraceKernels& trace, const SceneData& data, std::size_t count,
+                         const RoundedRays& rounded, std::size_t padded,
+                         const Workspace& workspace) {
+    EachWay ways{Answers(padded), Answers(padded), Answers(padded)};
+    TraceCounters counters{};
+    trace.nearest(data.view(), all_kinds, nullptr, count, rounded, ways.by_all.candidates(), {},
+                  counters);
+    Workspace small = workspace;
+    small.capacity = 0;
+    trace.nearest(data.view(), 0, nullptr, count, rounded, ways.by_tree.candidates(), small,
+                  counters);
+    CHECK(counters.in_flight == count);
+    trace.nearest(data.view(), 0, &neighbours, count, rounded, ways.by_lists.candidates(),
+                  workspace, counters);
+    CHECK(counters.in_streams == count);
+    return ways;
+}
+
 void check(const Kernels& kernels, bool overlapping) {
     CAPTURE(std::string(kernels.name), overlapping);
     const Scene scene = make_scene(overlapping);
@@ -135,50 +160,27 @@ void check(const Kernels& kernels, bool overlapping) {
     REQUIRE(data.has_tree());
     Rays rays(tests::sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
     const RoundedRays rounded = rays.round(kernels);
-    Searcher<double> searcher(scene, Search::hierarchy);
-    std::vector<Hit<double>> hits_of(rays.count);
-    for (std::size_t i = 0; i < rays.count; ++i) {
-        Hit<double>& hit = hits_of[i];
-        hit = searcher.nearest(rays.get(i), {}, [](const Hit<double>&) { return true; }).hit;
-        // Some leave what they would hit first, and some what is next to it by number.
-        if (i % 5 == 0 && hit.any())
-            rays.leave(i, hit.shape - (i % 2 != 0 && hit.shape != 0 ? 1 : 0), hit.shape + i % 2);
-    }
 
     Workspace workspace{};
     const Arena arena =
         arena_for([&](Arena& a) { workspace = workspace_for(data, a, rays.padded); });
-    TraceCounters counters{};
-    Answers by_all(rays.padded), by_tree(rays.padded), by_lists(rays.padded);
-    constexpr std::uint32_t all_kinds = (1U << kinds) - 1;
     const TraceKernels& trace = Tracing{&kernels, Precision::exact}.method().trace;
-    trace.nearest(data.view(), all_kinds, nullptr, rays.count, rounded, by_all.candidates(), {},
-                  counters);
-    Workspace small = workspace;
-    small.capacity = 0;
-    trace.nearest(data.view(), 0, nullptr, rays.count, rounded, by_tree.candidates(), small,
-                  counters);
-    CHECK(counters.in_flight == rays.count);
-    trace.nearest(data.view(), 0, &neighbours, rays.count, rounded, by_lists.candidates(),
-                  workspace, counters);
-    CHECK(counters.in_streams == rays.count);
+    TraceCounters counters{};
+    auto [by_all, by_tree, by_lists] =
+        nearest_each_way(trace, data, rays.count, rounded, rays.padded, workspace);
     trace.occluded(data.view(), all_kinds, nullptr, rays.count, rounded,
                    {rays.t_most.data(), by_all.state.data()}, {}, counters);
     trace.occluded(data.view(), 0, nullptr, rays.count, rounded,
                    {rays.t_most.data(), by_tree.state.data()}, workspace, counters);
     by_lists.state = by_tree.state;
 
-    int hits = 0, different = 0, left = 0;
+    Searcher<double> searcher(scene, Search::hierarchy);
+    int hits = 0, different = 0;
     for (std::size_t i = 0; i < rays.count; ++i) {
-        const Hit<double>& hit = hits_of[i];
+        const Hit<double> hit =
+            searcher.nearest(rays.get(i), {}, [](const Hit<double>&) { return true; }).hit;
         hits += hit.any() ? 1 : 0;
         for (const Answers* answers : {&by_all, &by_tree, &by_lists}) {
-            if (rays.departed_first[i] != no_slot) {
-                const std::uint32_t slot = answers->slot[i];
-                left += slot == no_slot ? 0 : 1;
-                if (slot != no_slot && rays.leaves(i, data.id_of(slot))) FAIL("what it leaves");
-                continue;
-            }
             const auto first = static_cast<double>(answers->first[i]);
             const auto seen_to = static_cast<double>(
                 std::min(answers->second[i], answers->first[i] * culling_slack));
@@ -207,7 +209,46 @@ void check(const Kernels& kernels, bool overlapping) {
     }
     CAPTURE(different);
     CHECK(hits > static_cast<int>(rays.count) / 4);
-    CHECK(left > static_cast<int>(rays.count) / 20);
+    CHECK(different <= static_cast<int>(rays.count) / 100);
+}
+
+/// Rays that leave what they would hit first, and some the shapes next to it by number, do not find
+/// that: by the hierarchy, which looks for it before it packs pairs, as shape by shape.
+void check_departures(const Kernels& kernels, bool overlapping) {
+    CAPTURE(std::string(kernels.name), overlapping);
+    const Scene scene = make_scene(overlapping);
+    const SceneData data(scene);
+    Rays rays(tests::sanitized ? 301 : 3001, overlapping ? 9.0 : 12.0);
+    Searcher<double> searcher(scene, Search::hierarchy);
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        const Hit<double> hit =
+            searcher.nearest(rays.get(i), {}, [](const Hit<double>&) { return true; }).hit;
+        if (!hit.any()) continue;
+        const ShapeId around = i % 2 != 0 && hit.shape != 0 ? 1 : 0;
+        rays.leave(i, hit.shape - around, hit.shape + around);
+    }
+    const RoundedRays rounded = rays.round(kernels);
+    Workspace workspace{};
+    const Arena arena =
+        arena_for([&](Arena& a) { workspace = workspace_for(data, a, rays.padded); });
+    const auto [by_all, by_tree, by_lists] =
+        nearest_each_way(Tracing{&kernels, Precision::exact}.method().trace, data, rays.count,
+                         rounded, rays.padded, workspace);
+    int leave = 0, found = 0, different = 0;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        leave += rays.departed_first[i] == no_slot ? 0 : 1;
+        for (const Answers* answers : {&by_all, &by_tree, &by_lists}) {
+            const std::uint32_t slot = answers->slot[i];
+            CAPTURE(i, answers == &by_tree, slot);
+            if (slot == no_slot) continue;
+            ++found;
+            if (rays.leaves(i, data.id_of(slot))) FAIL("what it leaves");
+            if (i % 4 != 1 && answers->first[i] != by_all.first[i]) ++different;
+        }
+    }
+    CAPTURE(different);
+    CHECK(leave > static_cast<int>(rays.count) / 4);
+    CHECK(found > leave);
     CHECK(different <= static_cast<int>(rays.count) / 100);
 }
 
@@ -244,7 +285,7 @@ void check_light(const Kernels& kernels, bool overlapping) {
                        {rays.t_most.data(), grouped.state.data()}, workspace, counters);
         int opposed = 0, any = 0, lowered = 0;
         for (std::size_t i = 0; i < rays.padded; ++i) {
-            any += i < count && grouped.state[i] != before[i] ? 1 : 0;
+            any += i < count && (before[i] == blocked || grouped.state[i] != before[i]) ? 1 : 0;
             lowered +=
                 grouped.state[i] < before[i] || (i >= count && grouped.state[i] != before[i]);
             opposed += static_cast<int>(std::max(alone.state[i], grouped.state[i]) == blocked &&
@@ -254,7 +295,7 @@ void check_light(const Kernels& kernels, bool overlapping) {
         CHECK(opposed == 0);
         if (count != rays.count) continue;
         CHECK((counters.in_frusta > 0) == !overlapping); // where too much is before them, none are
-        CHECK(any > static_cast<int>(count) / 8);
+        CHECK(any > static_cast<int>(count) / 4);
         CHECK(any < static_cast<int>(count));
     }
 }
@@ -305,5 +346,13 @@ TEST_CASE("the hierarchy loses nothing of what rays meet") {
         if (!is_available(isa)) continue;
         check(kernels_of(isa), false);
         check(kernels_of(isa), true);
+    }
+}
+
+TEST_CASE("rays do not find what they leave however they go") {
+    for (const Isa isa : all_isas) {
+        if (!is_available(isa)) continue;
+        check_departures(kernels_of(isa), false);
+        check_departures(kernels_of(isa), true);
     }
 }
