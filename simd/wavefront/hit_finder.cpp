@@ -157,12 +157,15 @@ void HitFinder::start(const Paths& paths) {
 /// Where a ray starts on a shape that it may cross again, no filter can tell 0 from that crossing.
 /// It is solved before, and bounds what else can be nearest.
 void HitFinder::find_own_exits(const Paths& paths) {
+    std::uint32_t any = 0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane)
+        any |= paths.departure[lane];
+    if ((any & departure_may_return) == 0) return;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         lanes_[count] = static_cast<std::uint32_t>(lane);
         count += static_cast<std::size_t>((paths.departure[lane] & departure_may_return) != 0);
     }
-    if (count == 0) return;
     for (std::size_t i = 0; i < count; ++i) {
         gathered_.copy_ray(paths, lanes_[i], i);
         gathered_hits_.slot[i] = paths.departed_slot[lanes_[i]];

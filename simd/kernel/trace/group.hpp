@@ -24,20 +24,10 @@ struct Group : Streams<Arch> {
     static constexpr std::size_t most_rays = 256;
     static constexpr float steepest = 4.0F;
 
-    /// A side of the group in all lanes, or of bunches, one per lane.
-    struct SideLanes {
-        F slope, offset, norm;
-    };
-
     /// Of the rays on one side: w_a - slope w_k > offset is outside, or < for the other side.
     struct Side {
         float slope, offset, norm;
-        float slopes[16], offsets[16], norms[16]; // of the bunches
-
-        SideLanes of_group() const { return {F(slope), F(offset), F(norm)}; }
-        SideLanes of_bunches(std::size_t from) const {
-            return {S::load(slopes + from), S::load(offsets + from), S::load(norms + from)};
-        }
+        alignas(64) float slopes[16], offsets[16], norms[16]; // of the bunches
     };
 
     float apex[3];
@@ -60,79 +50,50 @@ struct Group : Streams<Arch> {
         for (int axis = 0; axis < 3; ++axis)
             apex[axis] = bundle.parallel ? rays.origin[axis][begin] : bundle.apex[axis];
         slack = half_ulp * (size(apex[0]) + size(apex[1]) + size(apex[2]));
-        F most_slack = zero<Arch>();
         choose_axes(rays, begin, end, bundle.towards);
 
-        fastest = 0.0F;
         least_w = bundle.towards ? 0.0F : __builtin_inff();
         greatest_w = bundle.towards && t_most != nullptr ? 0.0F : __builtin_inff();
         // Towards the apex, what is far from it is near.
         const bool anywhere = bundle.parallel || bundle.beyond; // they start
         latest_start = anywhere ? -__builtin_inff() : bundle.towards ? __builtin_inff() : 0.0F;
         if (!bundle.towards && !anywhere) least_w = 0.0F;
-        float slowest = 1.0F;
-        for (int side = 0; side < 2; ++side) {
-            above[side].slope = above[side].offset = -__builtin_inff();
-            below[side].slope = below[side].offset = __builtin_inff();
-        }
-        for (std::size_t bunch = 0; bunch < 16; ++bunch) {
+        pad(rays, end);
+        F speeds_low = S::infinity(), speeds_high = zero<Arch>(), ends_high = zero<Arch>();
+        F starts_low = S::infinity(), starts_high = negated(S::infinity());
+        F most_slack = zero<Arch>();
+        for (std::size_t bunch = 0; bunch < bunches; ++bunch) {
             const std::size_t from = begin + 16 * bunch;
-            if (from >= end) {
-                for (int side = 0; side < 2; ++side) {
-                    above[side].slopes[bunch] = below[side].slopes[bunch] = 0.0F;
-                    above[side].offsets[bunch] = -__builtin_inff(); // outside, whatever it is
-                    below[side].offsets[bunch] = __builtin_inff();
-                    above[side].norms[bunch] = below[side].norms[bunch] = 0.0F;
-                }
-                continue;
-            }
             F low_slope[2] = {S::infinity(), S::infinity()}, high_slope[2];
             F low_offset[2] = {S::infinity(), S::infinity()}, high_offset[2];
             for (int side = 0; side < 2; ++side)
                 high_slope[side] = high_offset[side] = negated(S::infinity());
-            F speeds_low = S::infinity(), speeds_high = zero<Arch>();
-            F starts_low = S::infinity(), starts_high = negated(S::infinity());
-            F ends_high = zero<Arch>();
             for (std::size_t i = from; i < from + 16; i += F::size) {
-                if (i >= end) break;
-                const M here = S::first_lanes(end - i);
-                most_slack = xsimd::max(most_slack,
-                                        xsimd::select(here, S::load(rays.slack + i), zero<Arch>()));
-                const F d = F(bundle.towards ? -sense : sense) * S::load(rays.direction[along] + i);
-                speeds_low = xsimd::min(speeds_low, xsimd::select(here, d, S::infinity()));
-                speeds_high = xsimd::max(speeds_high, xsimd::select(here, d, zero<Arch>()));
-                const F start = F(sense) * (S::load(rays.origin[along] + i) - F(apex[along]));
-                starts_low = xsimd::min(starts_low, xsimd::select(here, start, S::infinity()));
-                starts_high =
-                    xsimd::max(starts_high, xsimd::select(here, start, negated(S::infinity())));
-                if (t_most != nullptr && bundle.towards)
-                    ends_high = xsimd::max(
-                        ends_high, xsimd::select(here, d * S::load(t_most + i), zero<Arch>()));
+                most_slack = xsimd::max(most_slack, S::load(rays.slack + i));
+                const F direction = S::load(rays.direction[along] + i);
+                const F d = F(bundle.towards ? -sense : sense) * direction;
+                speeds_low = xsimd::min(speeds_low, d);
+                speeds_high = xsimd::max(speeds_high, d);
+                const F w = S::load(rays.origin[along] + i) - F(apex[along]);
+                if (anywhere) {
+                    starts_low = xsimd::min(starts_low, F(sense) * w);
+                    starts_high = xsimd::max(starts_high, F(sense) * w);
+                }
+                if (t_most != nullptr && bundle.towards && i < end)
+                    ends_high =
+                        xsimd::max(ends_high, xsimd::select(S::first_lanes(end - i),
+                                                            d * S::load(t_most + i), zero<Arch>()));
                 for (int side = 0; side < 2; ++side) {
                     const int a = across[side];
-                    const F slope =
-                        S::load(rays.direction[a] + i) / S::load(rays.direction[along] + i);
-                    low_slope[side] =
-                        xsimd::min(low_slope[side], xsimd::select(here, slope, S::infinity()));
-                    high_slope[side] = xsimd::max(
-                        high_slope[side], xsimd::select(here, slope, negated(S::infinity())));
+                    const F slope = S::load(rays.direction[a] + i) / direction;
+                    low_slope[side] = xsimd::min(low_slope[side], slope);
+                    high_slope[side] = xsimd::max(high_slope[side], slope);
                     if (!bundle.parallel) continue;
-                    const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) -
-                                     slope * (S::load(rays.origin[along] + i) - F(apex[along]));
-                    low_offset[side] =
-                        xsimd::min(low_offset[side], xsimd::select(here, offset, S::infinity()));
-                    high_offset[side] = xsimd::max(
-                        high_offset[side], xsimd::select(here, offset, negated(S::infinity())));
+                    const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) - slope * w;
+                    low_offset[side] = xsimd::min(low_offset[side], offset);
+                    high_offset[side] = xsimd::max(high_offset[side], offset);
                 }
             }
-            slowest = least(slowest, Lanes<Arch>::least(speeds_low));
-            fastest = greatest(fastest, Lanes<Arch>::greatest(speeds_high));
-            if (anywhere) {
-                least_w = least(least_w, Lanes<Arch>::least(starts_low));
-                latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
-            }
-            if (bundle.towards && t_most != nullptr)
-                greatest_w = greatest(greatest_w, Lanes<Arch>::greatest(ends_high));
             for (int side = 0; side < 2; ++side) {
                 const float low = Lanes<Arch>::least(low_slope[side]);
                 const float high = Lanes<Arch>::greatest(high_slope[side]);
@@ -143,14 +104,37 @@ struct Group : Streams<Arch> {
                     bundle.parallel ? Lanes<Arch>::least(low_offset[side]) : 0.0F);
             }
         }
+        for (std::size_t bunch = bunches; bunch < 16; ++bunch)
+            for (int side = 0; side < 2; ++side) { // outside, whatever it is
+                set(above[side], bunch, above[side].slopes[0], -__builtin_inff());
+                set(below[side], bunch, below[side].slopes[0], __builtin_inff());
+            }
+        fastest = Lanes<Arch>::greatest(speeds_high);
+        if (anywhere) {
+            least_w = least(least_w, Lanes<Arch>::least(starts_low));
+            latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
+        }
+        if (bundle.towards && t_most != nullptr)
+            greatest_w = greatest(greatest_w, Lanes<Arch>::greatest(ends_high));
         slack += Lanes<Arch>::greatest(most_slack);
         for (int side = 0; side < 2; ++side)
             enclose_bunches(side);
-        bool coherent = slowest > 0.0F;
+        bool coherent = Lanes<Arch>::least(speeds_low) > 0.0F;
         for (int side = 0; side < 2; ++side)
             coherent = coherent && size(above[side].slope) < steepest &&
                        size(below[side].slope) < steepest;
         return coherent;
+    }
+
+    /// The last packet's lanes that are no ray's become like the last ray.
+    static void pad(const RoundedRays& rays, std::size_t end) {
+        for (std::size_t i = end; i % 16 != 0; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                rays.origin[axis][i] = rays.origin[axis][end - 1];
+                rays.direction[axis][i] = rays.direction[axis][end - 1];
+            }
+            rays.slack[i] = rays.slack[end - 1];
+        }
     }
 
     static std::size_t lesser(std::size_t a, std::size_t b) { return a < b ? a : b; }
@@ -182,25 +166,30 @@ struct Group : Streams<Arch> {
     void enclose_bunches(int side) {
         Side &high = above[side], &low = below[side];
         const bool forwards = sense > 0.0F;
-        high.slope = low.slope = high.slopes[0];
-        high.offset = high.offsets[0];
-        low.slope = low.slopes[0];
-        low.offset = low.offsets[0];
-        for (std::size_t bunch = 1; bunch < bunches; ++bunch) {
-            high.slope = forwards ? greatest(high.slope, high.slopes[bunch])
-                                  : least(high.slope, high.slopes[bunch]);
-            low.slope = forwards ? least(low.slope, low.slopes[bunch])
-                                 : greatest(low.slope, low.slopes[bunch]);
-            high.offset = greatest(high.offset, high.offsets[bunch]);
-            low.offset = least(low.offset, low.offsets[bunch]);
-        }
+        high.slope = forwards ? greatest(high.slopes) : least(high.slopes);
+        low.slope = forwards ? least(low.slopes) : greatest(low.slopes);
+        high.offset = greatest(high.offsets);
+        low.offset = least(low.offsets);
         high.norm = norm_above(high.slope);
         low.norm = norm_above(low.slope);
     }
 
+    static float greatest(const float (&of)[16]) {
+        F result = S::load(of);
+        for (std::size_t from = F::size; from < 16; from += F::size)
+            result = xsimd::max(result, S::load(of + from));
+        return Lanes<Arch>::greatest(result);
+    }
+    static float least(const float (&of)[16]) {
+        F result = S::load(of);
+        for (std::size_t from = F::size; from < 16; from += F::size)
+            result = xsimd::min(result, S::load(of + from));
+        return Lanes<Arch>::least(result);
+    }
+
     /// What roundings may add up to at a distance of w along and across.
     F grace(const F& w_along, const F& w_across) const {
-        return F(2 * steepest * 16 * half_ulp) * (xsimd::abs(w_along) + xsimd::abs(w_across)) +
+        return F(grace_factor) * (xsimd::abs(w_along) + xsimd::abs(w_across)) +
                F(8 * steepest * slack);
     }
 
@@ -266,38 +255,38 @@ struct Group : Streams<Arch> {
         return reach.all();
     }
 
-    /// Fills in `inside_high` and `inside_low`.
-    [[gnu::always_inline]] void reach_inside(const SideLanes (&high)[2], const SideLanes (&low)[2],
-                                             const F& w_along, const F (&center)[2],
-                                             const F& radius, Reach& reach) const {
-        for (int side = 0; side < 2; ++side) {
-            const F w_across = center[side] - F(apex[across[side]]);
-            const F room = grace(w_along, w_across);
-            reach.inside_high[side] =
-                w_across - high[side].slope * w_along - (room + radius * high[side].norm) <=
-                high[side].offset;
-            reach.inside_low[side] =
-                w_across - low[side].slope * w_along + (room + radius * low[side].norm) >=
-                low[side].offset;
-        }
+    /// How far along a ray can be at t_most: near_t's inverse.
+    float furthest_w(float t_most) const {
+        const float way = t_most * fastest;
+        const float w = latest_start + way + 16 * half_ulp * (size(latest_start) + way);
+        return least(greatest_w, w == w ? w : __builtin_inff());
     }
 
-    /// The shapes that the group may meet, from one on, as bits.
-    [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from) const {
-        const SideLanes high[] = {above[0].of_group(), above[1].of_group()};
-        const SideLanes low[] = {below[0].of_group(), below[1].of_group()};
+    /// The shapes that the group may meet, from one on, as bits. None is further along than
+    /// furthest.
+    [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from,
+                                              float furthest) const {
+        const F grace_apart(8 * steepest * slack), factor(grace_factor);
         const auto reach_of = [&](int end) {
             const auto& center = spheres.center[end];
             const F radius = S::load(spheres.radius[end] + from);
             const F w_along = S::load(center[along] + from) - F(apex[along]);
             const F w = F(sense) * w_along;
-            const F room = grace(w_along, zero<Arch>()) + radius;
+            const F grace_along = fast_mul_add<Arch>(factor, xsimd::abs(w_along), grace_apart);
+            const F room = grace_along + radius;
             Reach reach;
             reach.along[0] = w + room >= F(least_w);
-            reach.along[1] = w - room <= F(greatest_w);
-            reach_inside(high, low, w_along,
-                         {S::load(center[across[0]] + from), S::load(center[across[1]] + from)},
-                         radius, reach);
+            reach.along[1] = w - room <= F(furthest);
+            for (int side = 0; side < 2; ++side) {
+                const F w_across = S::load(center[across[side]] + from) - F(apex[across[side]]);
+                const F room_across = fast_mul_add<Arch>(factor, xsimd::abs(w_across), grace_along);
+                const Side &high = above[side], &low = below[side];
+                reach.inside_high[side] =
+                    outmost(F(high.slope), F(high.norm), w_along, w_across - room_across,
+                            negated(radius)) <= F(high.offset);
+                reach.inside_low[side] = outmost(F(low.slope), F(low.norm), w_along,
+                                                 w_across + room_across, radius) >= F(low.offset);
+            }
             return reach;
         };
         return reached(spheres, reach_of);
@@ -307,20 +296,38 @@ struct Group : Streams<Arch> {
     [[gnu::always_inline]] std::uint32_t bunches_that_meet(const BlockSpheres<Arch>& spheres,
                                                            int lane, std::size_t from,
                                                            const F& t_most) const {
-        const SideLanes high[] = {above[0].of_bunches(from), above[1].of_bunches(from)};
-        const SideLanes low[] = {below[0].of_bunches(from), below[1].of_bunches(from)};
         const auto reach_of = [&](int end) {
             const auto& center = spheres.center[end];
-            const F radius(spheres.radius[end][lane]);
-            const F w_along = F(center[along][lane]) - F(apex[along]);
+            const float radius = spheres.radius[end][lane];
+            const float w_along = center[along][lane] - apex[along];
+            const float grace_along = size(w_along) * grace_factor + 8 * steepest * slack;
+            const float t = (sense * w_along - grace_along - radius - latest_start) *
+                            ((1 - 8 * half_ulp) / fastest);
             Reach reach;
-            reach.along[0] = reach.along[1] =
-                near_t(F(sense) * w_along - grace(w_along, zero<Arch>()) - radius) <= t_most;
-            reach_inside(high, low, w_along,
-                         {F(center[across[0]][lane]), F(center[across[1]][lane])}, radius, reach);
+            reach.along[0] = reach.along[1] = F(t > 0.0F ? t : 0.0F) <= t_most;
+            for (int side = 0; side < 2; ++side) {
+                const float w_across = center[across[side]][lane] - apex[across[side]];
+                const float room = size(w_across) * grace_factor + grace_along;
+                const Side &high = above[side], &low = below[side];
+                reach.inside_high[side] =
+                    outmost(S::load(high.slopes + from), S::load(high.norms + from), F(w_along),
+                            F(w_across - room), F(-radius)) <= S::load(high.offsets + from);
+                reach.inside_low[side] =
+                    outmost(S::load(low.slopes + from), S::load(low.norms + from), F(w_along),
+                            F(w_across + room), F(radius)) >= S::load(low.offsets + from);
+            }
             return reach;
         };
         return reached(spheres, reach_of);
+    }
+
+    static constexpr float grace_factor = 2 * steepest * 16 * half_ulp;
+
+    /// w_across - slope w_along + radius norm
+    static F outmost(const F& slope, const F& norm, const F& w_along, const F& w_across,
+                     const F& radius) {
+        return fast_mul_add<Arch>(radius, norm,
+                                  fast_mul_add<Arch>(negated(w_along), slope, w_across));
     }
 };
 

@@ -13,6 +13,8 @@ struct Packet {
     typename Method::Rays rays;
     F departed_first, departed_last;
 
+    Packet(const typename Method::Rays& rays_there, const F& first, const F& last)
+        : rays(rays_there), departed_first(first), departed_last(last) {}
     Packet(const RoundedRays& stream, std::size_t i)
         : rays(Method::packet(stream, i)), departed_first(S::load_bits(stream.departed_first + i)),
           departed_last(S::load_bits(stream.departed_last + i)) {}

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/filters/filter.hpp"
+#include "simd/kernel/short_lanes.hpp"
 #include "simd/kernel/trace/rays.hpp"
 #include "simd/kernels.hpp"
 
@@ -62,6 +63,7 @@ struct Prepare : Streams<Arch> {
         const F solved_first = S::broadcast_bits(0),
                 solved_last = S::broadcast_bits(hit_doubtful - 1);
         std::size_t listed = 0;
+        std::uint32_t asked = 0; // of 16
         for (std::size_t i = 0; i < count; i += F::size) {
             // Rounded to float, each is off by half an ulp, and so are their sum and the product.
             const F last =
@@ -72,8 +74,8 @@ struct Prepare : Streams<Arch> {
                 Lanes<Arch>::in_range(S::load_bits(hit + i), solved_first, solved_last);
             const M missed = Lanes<Arch>::in_range(S::load_bits(candidates.slot + i), none, none);
             std::uint32_t uncertain = Lanes<Arch>::bits(~(missed | (solved & (last <= most))));
-            for (std::size_t lane = 0; lane < F::size; ++lane)
-                uncertain |= std::uint32_t{doubtful[i + lane] != 0} << lane;
+            if (i % 16 == 0) asked = ~ShortLanes<Arch>::equal_16(doubtful + i, 0) & 0xFFFF;
+            uncertain |= asked >> i % 16 & ((1U << F::size) - 1);
             if (uncertain == 0) continue;
             if (count - i < F::size) uncertain &= (1U << (count - i)) - 1;
             for (; uncertain != 0; uncertain &= uncertain - 1)

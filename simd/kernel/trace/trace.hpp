@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/kernel/short_lanes.hpp"
 #include "simd/kernel/trace/all.hpp"
+#include "simd/kernel/trace/bunches.hpp"
 #include "simd/kernel/trace/shadows.hpp"
 #include "simd/kernel/trace/stream.hpp"
 #include "simd/kernel/trace/towards.hpp"
@@ -19,7 +19,6 @@ struct Trace : Streams<Arch> {
     using Rays = Group<Arch>;
     template <bool nearest_first>
     using Walk = GroupWalk<Arch, Method, nearest_first>;
-    static constexpr std::size_t bunch = Walk<true>::bunch;
 
     /// Shapes that a group of rays to a light, and one that looks for the nearest, may have before
     /// it: as many as it takes for its rays to be done otherwise. What a float method makes of a
@@ -46,50 +45,16 @@ struct Trace : Streams<Arch> {
                                workspace, counters);
                 continue;
             }
-            const Before before(candidates, begin, end - begin);
+            GroupCandidates<Arch, Method> found(rays, candidates, begin, end);
             if (!Walk<true>(scene, group, workspace, counters, most_candidates)
-                     .go(kind_bits, [&](const auto& filter, std::uint32_t id, std::uint32_t slot,
-                                        std::size_t which) {
-                         return test(filter, id, slot, begin + bunch * which, end, rays,
-                                     candidates);
-                     })) {
-                before.restore(candidates, begin); // or shapes would be met twice
+                     .go(kind_bits, found)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, count, rays, candidates,
                                workspace, counters);
                 return;
             }
+            found.hand_back(candidates, begin, end);
             counters.in_frusta += end - begin;
         }
-    }
-
-    /// A group's candidates as they were.
-    struct Before {
-        Best best[Rays::most_rays];
-        std::size_t count;
-
-        Before(const Candidates& candidates, std::size_t begin, std::size_t size) : count(size) {
-            for (std::size_t i = 0; i < count; ++i)
-                best[i] = Leaf<Arch, Method>::best_of(candidates, begin + i);
-        }
-        void restore(const Candidates& candidates, std::size_t begin) const {
-            for (std::size_t i = 0; i < count; ++i)
-                Leaf<Arch, Method>::store(best[i], candidates, begin + i);
-        }
-    };
-
-    /// One shape against a bunch of rays. Returns from which t on nothing matters to them.
-    template <class Filter>
-    static float test(const Filter& filter, std::uint32_t id, std::uint32_t slot, std::size_t from,
-                      std::size_t end, const RoundedRays& stream, const Candidates& candidates) {
-        F latest = zero<Arch>();
-        for (std::size_t i = from; i < from + bunch && i < end; i += F::size) {
-            PacketCandidates<Arch> found(candidates, i);
-            found.test(filter, id, slot, Packet<Arch, Method>(stream, i));
-            found.store(candidates, i);
-            latest = xsimd::max(latest,
-                                xsimd::select(S::first_lanes(end - i), found.first, zero<Arch>()));
-        }
-        return Lanes<Arch>::greatest(latest) * culling_slack;
     }
 
     static void occluded(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
@@ -121,14 +86,10 @@ struct Trace : Streams<Arch> {
                                 counters);
                 continue;
             }
-            GroupOcclusions found(occlusions.state + begin, end - begin);
-            const bool done = Walk<false>(scene, group, workspace, counters, most_occluders)
-                                  .go(kind_bits, [&](const auto& filter, std::uint32_t id,
-                                                     std::uint32_t slot, std::size_t which) {
-                                      return block(scene, filter, id, slot, begin + bunch * which,
-                                                   which, rays, occlusions, found);
-                                  });
-            found.store(occlusions.state + begin, end - begin);
+            GroupOcclusions<Arch, Method> found(scene, rays, occlusions, begin, end);
+            const bool done =
+                Walk<false>(scene, group, workspace, counters, most_occluders).go(kind_bits, found);
+            found.hand_back(occlusions, begin, end);
             if (!done) { // nor will those that follow be, as a rule
                 occluded_of_any(scene, kind_bits, begin, count, rays, occlusions, workspace,
                                 counters);
@@ -136,50 +97,6 @@ struct Trace : Streams<Arch> {
             }
             counters.in_frusta += end - begin;
         }
-    }
-
-    /// Of a group's rays, by bunch, as bits.
-    struct GroupOcclusions {
-        std::uint32_t blocked_rays[16], doubtful_rays[16] = {};
-
-        /// Lanes that are not there are blocked.
-        GroupOcclusions(const std::uint8_t* state, std::size_t count) {
-            for (std::size_t k = 0; k < 16; ++k)
-                blocked_rays[k] = 0xFFFF;
-            for (std::size_t k = 0; k < count / 16; ++k)
-                blocked_rays[k] = ShortLanes<Arch>::equal_16(state + 16 * k, blocked);
-            for (std::size_t i = count / 16 * 16; i < count; ++i)
-                if (state[i] != blocked) blocked_rays[i / 16] &= ~(1U << i % 16);
-        }
-        void store(std::uint8_t* state, std::size_t count) const {
-            for (std::size_t k = 0; k < count / 16; ++k) {
-                ShortLanes<Arch>::raise_16(state + 16 * k, doubtful_rays[k], doubtful);
-                ShortLanes<Arch>::raise_16(state + 16 * k, blocked_rays[k], blocked);
-            }
-            for (std::size_t i = count / 16 * 16; i < count; ++i) {
-                const bool is_blocked = (blocked_rays[i / 16] >> i % 16 & 1) != 0;
-                const bool is_doubtful = (doubtful_rays[i / 16] >> i % 16 & 1) != 0;
-                const std::uint8_t found = is_blocked ? blocked : is_doubtful ? doubtful : open;
-                state[i] = found > state[i] ? found : state[i];
-            }
-        }
-    };
-
-    /// One shape against a bunch of shadow rays, to which nothing matters once all of them are
-    /// blocked.
-    template <class Filter>
-    static float block(const SceneView& scene, const Filter& filter, std::uint32_t id,
-                       std::uint32_t slot, std::size_t from, std::size_t which,
-                       const RoundedRays& stream, const Occlusions& occlusions,
-                       GroupOcclusions& group) {
-        const bool plain = S::is_plain(scene, slot);
-        for (std::size_t lane = 0; lane < bunch; lane += F::size) {
-            PacketOcclusions<Arch> found(occlusions, from + lane);
-            found.test(filter, id, plain, Packet<Arch, Method>(stream, from + lane));
-            group.blocked_rays[which] |= found.sure << lane;
-            group.doubtful_rays[which] |= found.some << lane;
-        }
-        return group.blocked_rays[which] == 0xFFFF ? -1.0F : __builtin_inff();
     }
 
     /// Streams from one ray on.

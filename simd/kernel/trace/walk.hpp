@@ -6,12 +6,6 @@
 
 namespace raylane::simd {
 
-/// What the sixteen bunches of a group ask: the t from which on nothing matters to them.
-struct GroupLimits {
-    float t[16];
-    float largest;
-};
-
 /// A group's way through the scene: a node or a block is visited once for all of its rays, and a
 /// shape is tested against those bunches of 16 that may meet it. Nodes are visited in the order of
 /// their distance; or, where that is of no use, what is below one before its neighbours.
@@ -20,7 +14,6 @@ struct GroupWalk : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using Rays = Group<Arch>;
-    static constexpr std::size_t bunch = 16;
 
     const SceneView& scene;
     const Rays& group;
@@ -30,32 +23,31 @@ struct GroupWalk : Streams<Arch> {
     /// are better off one by one.
     const int most_shapes;
     int budget = 0;
-    GroupLimits limits;
+    alignas(64) float limits[16]; ///< by bunch: the t from which on nothing matters to it
+    float largest_limit;
 
     GroupWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
               TraceCounters& trace_counters, int shapes)
         : scene(scene_view), group(rays), workspace(space), counters(trace_counters),
           most_shapes(shapes) {
         for (std::size_t which = 0; which < 16; ++which)
-            limits.t[which] = which < group.bunches ? __builtin_inff() : -1.0F;
-        update_limits();
+            limits[which] = which < group.bunches ? __builtin_inff() : -1.0F;
+        largest_limit = __builtin_inff();
     }
 
-    void update_limits() {
-        limits.largest = limits.t[0];
-        for (int i = 1; i < 16; ++i)
-            limits.largest = limits.t[i] > limits.largest ? limits.t[i] : limits.largest;
-    }
-
-    /// Calls visit(filter, id, slot, which) for each bunch, by number, that may meet a shape; it
-    /// returns the t from which on nothing matters to the bunch. The shapes come in the order of
-    /// their nodes' distances. Returns whether the budget was enough.
-    template <class Visit>
-    bool go(std::uint32_t kind_bits, const Visit& visit) {
+    /// Of each shape that bunches may meet, calls
+    ///   found.test(filter, id, slot, which)  for each of the bunches, by number, and then
+    ///   found.limit_of(which)                the t from which on nothing matters to it
+    /// The shapes come in the order of their nodes' distances. Returns whether the budget was
+    /// enough.
+    template <class Found>
+    bool go(std::uint32_t kind_bits, Found& found) {
         for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
             const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
-            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
-                at_block(kind, block, visit);
+            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block) {
+                const std::uint32_t child = child_is_block | std::uint32_t{kind} << 27 | block;
+                at_blocks(&child, 1, found);
+            }
         }
         if (workspace.key == nullptr) return true;
         budget = most_shapes; // what is listed has to be tested whatever the way
@@ -63,16 +55,23 @@ struct GroupWalk : Streams<Arch> {
         Queue<Arch> queue;
         queue.place(workspace, 0, scene.tree_depth);
         queue.start(0);
-        while (budget >= 0) {
-            const std::uint32_t child =
-                nearest_first ? queue.pop_before(limits.largest) : queue.pop_last();
-            if (child == no_child || limits.largest < 0) return true;
-            if ((child & child_is_block) != 0)
-                at_block(S::kind_of(child), child & child_index, visit);
-            else
-                at_node(scene.nodes[child], queue, places);
+        std::uint32_t blocks[batch];
+        for (bool more = true; more && largest_limit >= 0;) {
+            if (budget < 0) return false;
+            int count = 0;
+            while (count < batch) {
+                const std::uint32_t child =
+                    nearest_first ? queue.pop_before(largest_limit) : queue.pop_last();
+                more = child != no_child;
+                if (!more) break;
+                if ((child & child_is_block) != 0)
+                    blocks[count++] = child;
+                else
+                    at_node(scene.nodes[child], queue, places);
+            }
+            at_blocks(blocks, count, found);
         }
-        return false;
+        return true;
     }
 
   private:
@@ -80,7 +79,7 @@ struct GroupWalk : Streams<Arch> {
         ++counters.nodes;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
-            const std::uint32_t bits = group.enter(node, from, F(limits.largest), near);
+            const std::uint32_t bits = group.enter(node, from, F(largest_limit), near);
             const int before = queue.size;
             queue.add(near, node.children + from, bits);
             if (!scene.large) continue;
@@ -89,44 +88,91 @@ struct GroupWalk : Streams<Arch> {
         }
     }
 
-    template <class Visit>
-    void at_block(KindNumber kind, std::uint32_t number, const Visit& visit) {
-        const TableView& table = scene.tables[kind];
-        const float* block = S::block_of(table, number);
-        const auto rows = S::rows_of(block);
-        const std::uint32_t* ids = S::ids_of(table, block);
-        BlockSpheres<Arch> spheres;
-        spheres.enclose(kind, rows);
-        std::uint32_t shapes = 0;
-        for (int from = 0; from < 16; from += static_cast<int>(F::size))
-            shapes |= group.meet(spheres, from) << from;
-        if (shapes == 0) return;
-        budget -= __builtin_popcount(shapes);
-        bool changed = false;
+    /// All shapes that the group may meet are listed before it is seen which of its bunches do, and
+    /// all these pairs before any is tested: what waits for the last result, and what branches, is
+    /// done once for several blocks.
+    template <class Found>
+    void at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
+        BlockSpheres<Arch> spheres[batch];
+        std::uint32_t shapes[16 * batch + F::size];
+        int shape_count = 0;
+        const float furthest = group.furthest_w(largest_limit);
+        for (int b = 0; b < block_count; ++b) {
+            const KindNumber kind = S::kind_of(blocks[b]);
+            spheres[b].enclose(kind, rows_of(blocks[b]));
+            for (int from = 0; from < 16; from += static_cast<int>(F::size))
+                shape_count += list(numbers + from, static_cast<std::uint32_t>(b) << 4,
+                                    group.meet(spheres[b], from, furthest), shapes + shape_count);
+        }
+        budget -= shape_count;
+
+        std::uint32_t pairs[16 * 16 * batch + F::size], meeting = 0;
+        int count = 0;
+        for (int k = 0; k < shape_count; ++k) {
+            const int lane = static_cast<int>(shapes[k] & 15);
+            for (std::size_t from = 0; from < 16; from += F::size) {
+                const std::uint32_t bunches = group.bunches_that_meet(spheres[shapes[k] >> 4], lane,
+                                                                      from, S::load(limits + from));
+                count += list(numbers + from, shapes[k] << 4, bunches, pairs + count);
+                meeting |= bunches << from;
+            }
+        }
+        for (int tested = 0; tested < count;)
+            tested = test_run(blocks, pairs, tested, count, found);
+        counters.shapes += 16 * static_cast<std::uint64_t>(count);
+        for (; meeting != 0; meeting &= meeting - 1) {
+            const int which = __builtin_ctz(meeting);
+            limits[which] = found.limit_of(static_cast<std::size_t>(which));
+        }
+        F largest = S::load(limits);
+        for (std::size_t from = F::size; from < 16; from += F::size)
+            largest = xsimd::max(largest, S::load(limits + from));
+        largest_limit = Lanes<Arch>::greatest(largest);
+    }
+
+    /// Tests pairs from one on, as far as they are with shapes of one kind. Returns where these
+    /// end.
+    template <class Found>
+    int test_run(const std::uint32_t* blocks, const std::uint32_t* pairs, int begin, int count,
+                 Found& found) {
+        const KindNumber kind = S::kind_of(blocks[pairs[begin] >> 8]);
+        int end = begin;
         Method::with_filter(kind, [&]<class Filter>() {
-            for (; shapes != 0; shapes &= shapes - 1) {
-                const int lane = __builtin_ctz(shapes);
-                std::uint32_t bunches = 0;
-                for (std::size_t from = 0; from < 16; from += F::size)
-                    bunches |=
-                        group.bunches_that_meet(spheres, lane, from, S::load(limits.t + from))
-                        << from;
-                if (bunches == 0) continue;
-                const Filter filter(BroadcastReader<Arch>(rows, lane));
-                const std::uint32_t slot =
-                    table.first_slot + 16 * number + static_cast<std::uint32_t>(lane);
-                for (; bunches != 0; bunches &= bunches - 1) {
-                    const int which = __builtin_ctz(bunches);
-                    const float limit =
-                        visit(filter, ids[lane], slot, static_cast<std::size_t>(which));
-                    counters.shapes += bunch;
-                    changed = changed || limit != limits.t[which];
-                    limits.t[which] = limit;
-                }
+            while (end < count) {
+                const std::uint32_t shape = pairs[end] >> 4, child = blocks[shape >> 4];
+                if (S::kind_of(child) != kind) break;
+                const TableView& table = scene.tables[kind];
+                const std::uint32_t number = child & child_index, lane = shape & 15;
+                const float* block = S::block_of(table, number);
+                const Filter filter(
+                    BroadcastReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
+                do
+                    found.test(filter, S::ids_of(table, block)[lane],
+                               table.first_slot + 16 * number + lane, pairs[end++] & 15);
+                while (sifts_packets<Filter, typename Method::Rays> && end < count &&
+                       pairs[end] >> 4 == shape);
             }
         });
-        if (changed) update_limits();
+        return end;
     }
+
+    typename S::Rows rows_of(std::uint32_t block) const {
+        return S::rows_of(S::block_of(scene.tables[S::kind_of(block)], block & child_index));
+    }
+
+    /// Writes the wanted ones of a register's worth of numbers, with others above them. Returns how
+    /// many.
+    static int list(const std::uint32_t* of, std::uint32_t above, std::uint32_t wanted,
+                    std::uint32_t* to) {
+        Lanes<Arch>::compress_store(reinterpret_cast<float*>(to),
+                                    S::load_bits(of) | S::broadcast_bits(above), wanted);
+        return __builtin_popcount(wanted);
+    }
+
+    /// Blocks that are looked at together.
+    static constexpr int batch = 4;
+    static constexpr std::uint32_t numbers[] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                8, 9, 10, 11, 12, 13, 14, 15};
 };
 
 } // namespace raylane::simd
