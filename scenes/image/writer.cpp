@@ -13,18 +13,26 @@
 
 namespace {
 
-/// As stb_image_write calls it: the memory is to be freed, and null if there is none. At its lowest
-/// level zlib makes smaller files than stb_image_write alone, in a third of the time.
+/// As stb_image_write calls it: the memory is to be freed, and null if there is none. Of what a
+/// PNG's filter leaves, zlib finds runs as good as all that it would find at its lowest level, in
+/// three quarters of the time.
 unsigned char* compress_for_stb(unsigned char* data, int size, int* compressed_size, int) {
-    uLongf length = compressBound(static_cast<uLong>(size));
-    auto* compressed = static_cast<unsigned char*>(std::malloc(length));
-    if (compressed == nullptr) return nullptr;
-    if (compress2(compressed, &length, data, static_cast<uLong>(size), Z_BEST_SPEED) != Z_OK) {
-        std::free(compressed);
+    constexpr int window_bits = 15, memory_level = 9;
+    z_stream stream{};
+    if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, window_bits, memory_level, Z_RLE) != Z_OK)
         return nullptr;
-    }
-    *compressed_size = static_cast<int>(length);
-    return compressed;
+    const uLong room = deflateBound(&stream, static_cast<uLong>(size));
+    auto* compressed = static_cast<unsigned char*>(std::malloc(room));
+    stream.next_in = data;
+    stream.avail_in = static_cast<uInt>(size);
+    stream.next_out = compressed;
+    stream.avail_out = static_cast<uInt>(room);
+    const bool done = compressed != nullptr && deflate(&stream, Z_FINISH) == Z_STREAM_END;
+    *compressed_size = static_cast<int>(stream.total_out);
+    deflateEnd(&stream);
+    if (done) return compressed;
+    std::free(compressed);
+    return nullptr;
 }
 
 } // namespace
@@ -114,6 +122,10 @@ void OutputFile::write_png(const core::Film& film, core::Transfer transfer) {
     for (const core::Color& pixel : film.pixels())
         for (int channel = 0; channel < 3; ++channel)
             codes.push_back(encode(pixel[channel]));
+    // Its search for each row's best filter takes longer than the rest, and saves nothing to speak
+    // of.
+    constexpr int differences_along_rows = 1;
+    stbi_write_force_png_filter = differences_along_rows;
     Sink sink{file_, nullptr};
     sink.finish(stbi_write_png_to_func(&Sink::write, &sink, film.width(), film.height(), 3,
                                        codes.data(), 3 * film.width()));
