@@ -134,17 +134,16 @@ core::Vec3d vector_at(double* const (&columns)[3], std::size_t lane) {
 
 } // namespace
 
-/// Answers up to `capacity` rays at a time, for one thread.
+/// Answers up to some rays at a time, for one thread.
 class StreamTracer::Worker {
   public:
-    static constexpr std::size_t capacity = 1024;
-
-    Worker(const core::Scene& scene, const SceneData* data, const Tracing& tracing)
+    Worker(const core::Scene& scene, const SceneData* data, const Tracing& tracing,
+           std::size_t capacity)
         : scene_(scene), data_(data), tracing_(tracing),
           searcher_(scene, core::Search::hierarchy, tracing.precision) {
         if (data == nullptr) return;
         finder_.emplace(*data, tracing, nullptr);
-        arena_ = arena_for([this](Arena& arena) { take_from(arena); });
+        arena_ = arena_for([&](Arena& arena) { take_from(arena, capacity); });
     }
 
     void nearest(const RayStream& rays, std::size_t first, std::size_t last,
@@ -228,7 +227,7 @@ class StreamTracer::Worker {
         return Query::rounded(finder_->hits().t[lane] * per_unit_[lane]);
     }
 
-    void take_from(Arena& arena) {
+    void take_from(Arena& arena, std::size_t capacity) {
         finder_->take_from(arena, capacity);
         paths_.take_from(arena, capacity, false);
         per_unit_ = arena.take<double>(capacity);
@@ -285,7 +284,8 @@ class StreamTracer::Lease {
             }
         }
         if (worker_ == nullptr)
-            worker_ = std::make_unique<Worker>(tracer.scene_, tracer.data_.get(), tracer.tracing_);
+            worker_ = std::make_unique<Worker>(tracer.scene_, tracer.data_.get(), tracer.tracing_,
+                                               tracer.at_a_time());
     }
     ~Lease() {
         const std::lock_guard lock(tracer_.mutex_);
@@ -314,21 +314,30 @@ StreamTracer::StreamTracer(const core::Scene& scene, int threads, std::optional<
 
 StreamTracer::~StreamTracer() = default;
 
+std::size_t StreamTracer::at_a_time() const {
+    return data_ != nullptr ? data_->best_stream() : 1024;
+}
+
 /// Calls answer(worker, first, last) for ranges that together are all rays.
 template <class Answer>
 void StreamTracer::answer(std::size_t count, const Answer& answer) const {
+    // All threads get some of what there is.
+    constexpr std::size_t fewest = 1024;
+    const int threads = threads_ > 0 ? threads_ : default_threads();
+    const std::size_t share = count / (std::size_t{4} * static_cast<std::size_t>(threads));
+    const std::size_t range = std::clamp(share, fewest, at_a_time());
     const auto answer_range = [&](std::size_t first, std::size_t last) {
         const Lease worker(*this);
-        for (; first < last; first += Worker::capacity)
-            answer(*worker, first, std::min(last, first + Worker::capacity));
+        for (; first < last; first += range)
+            answer(*worker, first, std::min(last, first + range));
     };
-    if (count <= Worker::capacity || threads_ == 1) {
+    if (count <= range || threads == 1) {
         if (count > 0) answer_range(0, count);
         return;
     }
     on_threads(threads_, [&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, Worker::capacity),
-                          [&](const auto& range) { answer_range(range.begin(), range.end()); });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, range),
+                          [&](const auto& part) { answer_range(part.begin(), part.end()); });
     });
 }
 

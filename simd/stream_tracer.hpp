@@ -60,6 +60,8 @@ class StreamTracer {
     template <class Answer>
     void answer(std::size_t count, const Answer& answer) const;
 
+    std::size_t at_a_time() const; ///< rays, by a worker
+
     const core::Scene& scene_;
     int threads_;
     std::unique_ptr<const SceneData> data_; ///< null where the processor has no vectors for us

@@ -12,16 +12,17 @@ class Worker {
   public:
     Worker(const simd::SceneData& scene, simd::Isa isa)
         : scene_(scene), tracing_{&simd::kernels_of(isa)},
-          reference_(scene.scene(), scene.scene().settings()),
+          reference_(scene.scene(), scene.scene().settings()), most_(scene.best_stream()),
           finder_(scene, tracing_, &reference_), doubtful_(scene, tracing_, &reference_),
           arena_(simd::arena_for([this](simd::Arena& arena) { take_from(arena); })) {}
     Worker(const Worker&) = delete; // parts of it refer to others
     Worker& operator=(const Worker&) = delete;
 
-    /// Of a wave: slots, or, of occlusion, simd::Occlusion.
-    void answer(const RaySet& rays, std::size_t begin, std::uint32_t* answers) {
+    /// Slots, or, of occlusion, simd::Occlusion. Of so many rays.
+    std::size_t answer(const RaySet& rays, std::size_t begin, std::uint32_t* answers) {
         const simd::Bundle* const bundle = rays.bundle ? &*rays.bundle : nullptr;
-        const simd::Paths paths = rays.paths(begin);
+        const bool is_grouped = bundle != nullptr && !bundle->loose;
+        const simd::Paths paths = rays.paths(begin, is_grouped ? RaySet::wave : most_);
         if (rays.occlusion) {
             find_blocked(paths, rays.t_most(begin), bundle);
             std::copy_n(occlusions_.state, paths.count, answers);
@@ -29,16 +30,17 @@ class Worker {
             finder_.find(paths, bundle, counters_);
             std::copy_n(finder_.hits().slot, paths.count, answers);
         }
+        return paths.count;
     }
 
   private:
     void take_from(simd::Arena& arena) {
-        finder_.take_from(arena, RaySet::wave);
-        doubtful_.take_from(arena, RaySet::wave);
-        gathered_.take_from(arena, RaySet::wave, false);
-        simd::take_rounded(arena, rounded_, RaySet::wave);
-        occlusions_.state = arena.take<std::uint8_t>(RaySet::wave);
-        workspace_ = simd::workspace_for(scene_, arena, RaySet::wave);
+        finder_.take_from(arena, most_);
+        doubtful_.take_from(arena, most_);
+        gathered_.take_from(arena, most_, false);
+        simd::take_rounded(arena, rounded_, most_);
+        occlusions_.state = arena.take<std::uint8_t>(most_);
+        workspace_ = simd::workspace_for(scene_, arena, most_);
     }
 
     /// What is in doubt is decided by its nearest hit.
@@ -70,6 +72,7 @@ class Worker {
     const simd::SceneData& scene_;
     simd::Tracing tracing_;
     core::ReferenceTracer<double> reference_;
+    std::size_t most_; ///< rays at a time
     simd::HitFinder finder_, doubtful_;
     core::Counters counters_;
     simd::Paths gathered_{};
@@ -93,8 +96,9 @@ class Own : public Contender {
     }
 
     void run(std::size_t begin, std::size_t end, int thread) override {
-        for (; begin < end; begin += RaySet::wave)
-            workers_[static_cast<std::size_t>(thread)]->answer(*rays_, begin, &answers_[begin]);
+        Worker& worker = *workers_[static_cast<std::size_t>(thread)];
+        while (begin < end)
+            begin += worker.answer(*rays_, begin, &answers_[begin]);
     }
 
     std::vector<std::uint32_t> answers() override {

@@ -17,7 +17,7 @@ namespace {
 /// All rays once, on several threads by shares of some waves. Seconds, once all threads are there.
 double run(Contender& contender, const RaySet& rays, int threads) {
     using Clock = std::chrono::steady_clock;
-    constexpr std::size_t share = 4 * RaySet::wave;
+    constexpr std::size_t share = 8 * RaySet::wave;
     Clock::time_point start;
     std::atomic<std::size_t> next = 0;
     std::barrier are_there(threads, [&]() noexcept { start = Clock::now(); });
@@ -41,8 +41,8 @@ class Judge {
         : scene_(scene), rays_(rays), reference_(scene.scene(), scene.scene().settings()) {}
 
     void ask(std::size_t ray) {
-        encounter_ = reference_.nearest(rays_.ray(ray),
-                                        simd::departure_of(scene_, rays_.paths(ray), /*lane=*/0));
+        encounter_ = reference_.nearest(
+            rays_.ray(ray), simd::departure_of(scene_, rays_.paths(ray, 1), /*lane=*/0));
         blocked_ =
             encounter_.hit.any() && encounter_.hit.t < static_cast<double>(*rays_.t_most(ray));
     }

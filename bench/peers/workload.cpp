@@ -99,7 +99,7 @@ void add_secondary(const core::Scene& scene, const simd::SceneData& data, const 
     core::Counters counters;
     const Vec3d light = core::convert<double>(light_of(scene));
     for (std::size_t begin = 0; begin < camera.count; begin += RaySet::wave) {
-        const simd::Paths paths = camera.paths(begin);
+        const simd::Paths paths = camera.paths(begin, RaySet::wave);
         finder.find(paths, &*camera.bundle, counters);
         const simd::Hits& hits = finder.hits();
         for (std::size_t lane = 0; lane < paths.count; ++lane) {
@@ -140,7 +140,7 @@ core::Scene make_workload(const std::string& name) {
     return std::move(builder).build();
 }
 
-simd::Paths RaySet::paths(std::size_t begin) const {
+simd::Paths RaySet::paths(std::size_t begin, std::size_t most) const {
     // Paths know of no arrays that are only read.
     const auto from = [&]<class Value>(const std::vector<Value>& column) {
         return const_cast<Value*>(column.data()) + begin;
@@ -154,7 +154,7 @@ simd::Paths RaySet::paths(std::size_t begin) const {
     paths.departed_last = from(departed_last_);
     paths.departed_slot = from(departed_slot_);
     paths.departure = from(departure_);
-    paths.count = std::min(wave, count - begin);
+    paths.count = std::min(most, count - begin);
     return paths;
 }
 
@@ -209,7 +209,7 @@ void RaySet::add_from(const Ray<double>& ray, float t_most, const simd::SceneDat
     for (int axis = 0; axis < 3; ++axis)
         largest = std::max(largest, std::abs(ray.origin[axis]));
     t_least_.back() = 32.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(largest);
-    paths(count - 1).start_on(0, slot, scene.occupant_of(slot), hit, /*through=*/false);
+    paths(count - 1, 1).start_on(0, slot, scene.occupant_of(slot), hit, /*through=*/false);
 }
 
 void RaySet::finish() {

@@ -25,9 +25,10 @@ struct RaySet {
     std::optional<simd::Bundle> bundle; ///< what all of them have in common
     std::size_t count = 0;
 
-    /// A wave's worth, from `begin` on.
+    /// From `begin` on, so many or all that are left.
+    simd::Paths paths(std::size_t begin, std::size_t most) const;
+    /// As many as a tile has at a time.
     static constexpr std::size_t wave = 1024;
-    simd::Paths paths(std::size_t begin) const;
     const float* t_most(std::size_t begin) const { return t_most_.data() + begin; }
 
     core::Ray<double> ray(std::size_t i) const;

@@ -24,6 +24,9 @@ class SceneData {
     std::uint32_t listed_kinds() const { return listed_kinds_; }
     /// Whether the others are found by way of the hierarchy.
     bool has_tree() const { return view_.tree_depth != 0; }
+    /// How many rays that have nothing in common are best traced at a time. Lists should be long;
+    /// where the hierarchy does not fit in the cache, at least what belongs to the rays should.
+    std::size_t best_stream() const { return view_.large ? 1024 : 8192; }
     /// Whether some surface is visible from one side only.
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }

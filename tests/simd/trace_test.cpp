@@ -305,7 +305,7 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         CHECK(opposed == 0);
         if (count != rays.count) continue;
         CHECK((counters.in_frusta > 0) == !overlapping); // where too much is before them, none are
-        CHECK(any > static_cast<int>(count) / 4); // with those that were blocked before
+        CHECK(any > static_cast<int>(count) / 4);        // with those that were blocked before
         CHECK(any < static_cast<int>(count));
     }
 }
@@ -366,4 +366,33 @@ TEST_CASE("rays do not find what they leave however they go") {
         check_departures(kernels_of(isa), false);
         check_departures(kernels_of(isa), true);
     }
+}
+
+TEST_CASE("random rays make lists where these are long and the hierarchy is in the cache") {
+    const Scene scene = make_scene(false);
+    const SceneData data(scene);
+    const Kernels& kernels = kernels_of(*best_isa());
+    Rays rays(4096, 12.0);
+    const RoundedRays rounded = rays.round(kernels);
+    Workspace workspace{};
+    const Arena arena =
+        arena_for([&](Arena& a) { workspace = workspace_for(data, a, rays.padded); });
+    for (const bool small : {false, true})
+        for (const bool large : {false, true})
+            for (const std::size_t count : {std::size_t{4095}, std::size_t{4096}})
+                for (const Precision precision : {Precision::exact, Precision::robust}) {
+                    SceneView view = data.view();
+                    view.small = small;
+                    view.large = large;
+                    Answers found(rays.padded);
+                    TraceCounters counters{};
+                    Tracing{&kernels, precision}.method().trace.nearest(
+                        view, 0, nullptr, count, rounded, found.candidates(), workspace, counters);
+                    CAPTURE(small, large, count, precision == Precision::exact);
+                    // What a float method makes of a ray may not depend on how many there are.
+                    const bool makes_lists =
+                        small || (!large && count == 4096 && precision == Precision::exact);
+                    CHECK(counters.in_streams == (makes_lists ? count : 0));
+                    CHECK(counters.in_flight == (makes_lists ? 0 : count));
+                }
 }

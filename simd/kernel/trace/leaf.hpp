@@ -88,25 +88,10 @@ struct Leaf : Streams<Arch> {
     /// Takes account of what was found, which is something.
     [[gnu::always_inline]] static void take(const LeafHits& hits, std::uint32_t first_slot,
                                             Best& best) {
-        F least = S::load(hits.t);
-        for (std::size_t from = F::size; from < 16; from += F::size)
-            least = xsimd::min(least, S::load(hits.t + from));
-        const float first = Lanes<Arch>::least(least);
-        std::uint32_t at_first = 0;
-        F others = S::infinity();
-        for (std::size_t from = 0; from < 16; from += F::size) {
-            const F t = S::load(hits.t + from);
-            const M is_first = t == F(first);
-            at_first |= Lanes<Arch>::bits(is_first) << from;
-            others = xsimd::min(others, xsimd::select(is_first, S::infinity(), t));
+        for (std::uint32_t lanes = hits.lanes; lanes != 0; lanes &= lanes - 1) {
+            const int lane = __builtin_ctz(lanes);
+            take(hits.t[lane], first_slot + static_cast<std::uint32_t>(lane), best);
         }
-        const float next = (at_first & (at_first - 1)) != 0 ? first : Lanes<Arch>::least(others);
-        const bool nearer = first < best.first;
-        const float behind = best.first < next ? best.first : next;
-        best.second = nearer ? behind : first; // less than it was
-        best.slot =
-            nearer ? first_slot + static_cast<std::uint32_t>(__builtin_ctz(at_first)) : best.slot;
-        best.first = nearer ? first : best.first;
     }
 
     /// The same of one crossing.

@@ -114,9 +114,15 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
+    /// Whether random rays are enough for long lists: where the hierarchy is in the cache, these
+    /// are faster.
+    static bool makes_lists(const SceneView& scene, std::size_t count) {
+        return Method::certifies && !scene.large && count >= 4096;
+    }
+
     /// Rays that have no more in common than `bundle` says, which is loose or null. However many
-    /// there are, the way is the same: what a float method makes of a ray then does not depend on
-    /// who goes with it.
+    /// there are, the way of a float method is the same: what it makes of a ray then does not
+    /// depend on who goes with it.
     static void nearest_of_any(const SceneView& scene, std::uint32_t kind_bits,
                                const Bundle* bundle, std::size_t begin, std::size_t end,
                                const RoundedRays& rays, const Candidates& candidates,
@@ -129,7 +135,8 @@ struct Trace : Streams<Arch> {
             TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += count;
-        } else if ((bundle != nullptr || scene.small) && count <= workspace.capacity) {
+        } else if ((bundle != nullptr || scene.small || makes_lists(scene, count)) &&
+                   count <= workspace.capacity) {
             counters.in_streams += count;
             TraceStream<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
         } else {
