@@ -82,7 +82,8 @@ TEST_CASE("what auto takes cannot be told from exact") {
         }
     }
     CAPTURE(in_float, pixels, different);
-    CHECK(in_float > tests::rounds(600, 60) / 50);
+    const int scenes = tests::rounds(600, 60);
+    CHECK((scenes < 50 || in_float > scenes / 50)); // few may have none that float is for
     // A sample has no size: one in ten thousand may lie so near to an edge.
     CHECK(different <= pixels / 10'000);
 }

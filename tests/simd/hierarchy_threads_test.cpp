@@ -57,7 +57,7 @@ struct Told : simd::ParallelWorkers {
 
 } // namespace
 
-TEST_CASE("the hierarchy is the same to the bit on any number of threads") {
+TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[native]") {
     for (const bool mixed : {false, true}) {
         const ShapeLists lists = many_shapes(mixed);
         Workers alone;

@@ -68,7 +68,7 @@ TEST_CASE("settings are checked before they are rendered") {
     CHECK_THROWS_AS(simd::render(scene, settings, {}), InvalidValue);
 }
 
-TEST_CASE("paths of the greatest depth fit the threads' stacks") {
+TEST_CASE("paths of the greatest depth fit the threads' stacks", "[native]") {
     Builder builder;
     builder.settings.width = builder.settings.height = 32;
     builder.settings.max_depth = Settings::depth_limit;

@@ -176,7 +176,7 @@ TEST_CASE("scenes may be very large or very small") {
     }
 }
 
-TEST_CASE("the vector engine is what renders, unless told otherwise") {
+TEST_CASE("the vector engine is what renders, unless told otherwise", "[native]") {
     const Scene scene = panes(9);
     const auto deferred = [&](const simd::RenderOptions& options) {
         return simd::render(scene, scene.settings(), options).counters.deferred;

@@ -135,11 +135,9 @@ class GroupOcclusions : Streams<Arch> {
             bunches_[which].gather(rays, i);
             for (std::size_t k = 0; k < 16; k += S::lanes)
                 S::load(occlusions.t_most + i + k).store_unaligned(bunches_[which].t_most + k);
-            for (std::size_t k = 0; k < 16 && i + 16 > end; ++k)
-                if (i + k < end && occlusions.state[i + k] != blocked)
-                    blocked_[which] &= ~(1U << k);
-            if (i + 16 <= end)
-                blocked_[which] = ShortLanes<Arch>::equal_16(occlusions.state + i, blocked);
+            with_states(occlusions.state + i, end - i, [&](const std::uint8_t* states) {
+                blocked_[which] = ShortLanes<Arch>::equal_16(states, blocked);
+            });
         }
     }
 
@@ -164,18 +162,24 @@ class GroupOcclusions : Streams<Arch> {
     }
 
     void hand_back(const Occlusions& occlusions, std::size_t begin, std::size_t end) const {
-        std::uint8_t* const state = occlusions.state + begin;
-        const std::size_t count = end - begin;
-        for (std::size_t which = 0; which < count / 16; ++which) {
-            ShortLanes<Arch>::raise_16(state + 16 * which, doubtful_[which], doubtful);
-            ShortLanes<Arch>::raise_16(state + 16 * which, blocked_[which], blocked);
-        }
-        for (std::size_t i = count / 16 * 16; i < count; ++i) {
-            const bool is_blocked = (blocked_[i / 16] >> i % 16 & 1) != 0;
-            const bool is_doubtful = (doubtful_[i / 16] >> i % 16 & 1) != 0;
-            const std::uint8_t found = is_blocked ? blocked : is_doubtful ? doubtful : open;
-            state[i] = found > state[i] ? found : state[i];
-        }
+        for (std::size_t i = begin, which = 0; i < end; i += 16, ++which)
+            with_states(occlusions.state + i, end - i, [&](std::uint8_t* states) {
+                ShortLanes<Arch>::raise_16(states, doubtful_[which], doubtful);
+                ShortLanes<Arch>::raise_16(states, blocked_[which], blocked);
+            });
+    }
+
+  private:
+    /// Calls visit(states) for 16, of which `count` are there at most; the others are blocked.
+    template <class Visit>
+    static void with_states(std::uint8_t* state, std::size_t count, const Visit& visit) {
+        if (count >= 16) return visit(state);
+        std::uint8_t some[16];
+        for (std::size_t k = 0; k < 16; ++k)
+            some[k] = k < count ? state[k] : std::uint8_t{blocked};
+        visit(some);
+        for (std::size_t k = 0; k < count; ++k)
+            state[k] = some[k];
     }
 };
 
