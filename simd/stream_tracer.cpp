@@ -315,40 +315,44 @@ StreamTracer::StreamTracer(const core::Scene& scene, int threads, std::optional<
 StreamTracer::~StreamTracer() = default;
 
 std::size_t StreamTracer::at_a_time() const {
-    return data_ != nullptr ? data_->best_stream() : 1024;
+    return data_ != nullptr && tracing_.precision == core::Precision::exact ? data_->best_stream()
+                                                                            : fewest;
 }
 
-/// Calls answer(worker, first, last) for ranges that together are all rays.
+/// Calls answer(worker, first, last) for ranges of at most `most` that together are all rays.
 template <class Answer>
-void StreamTracer::answer(std::size_t count, const Answer& answer) const {
+void StreamTracer::answer(std::size_t count, std::size_t most, const Answer& answer) const {
     // All threads get some of what there is.
-    constexpr std::size_t fewest = 1024;
     const int threads = threads_ > 0 ? threads_ : default_threads();
     const std::size_t share = count / (std::size_t{4} * static_cast<std::size_t>(threads));
-    const std::size_t range = std::clamp(share, fewest, at_a_time());
-    const auto answer_range = [&](std::size_t first, std::size_t last) {
-        const Lease worker(*this);
-        for (; first < last; first += range)
-            answer(*worker, first, std::min(last, first + range));
+    const std::size_t range = std::clamp(share, fewest, most);
+    const std::size_t ranges = (count + range - 1) / range;
+    const auto answer_range = [&](Worker& worker, std::size_t number) {
+        answer(worker, number * range, std::min(count, (number + 1) * range));
     };
-    if (count <= range || threads == 1) {
-        if (count > 0) answer_range(0, count);
+    if (ranges <= 1 || threads == 1) {
+        if (count == 0) return;
+        const Lease worker(*this);
+        for (std::size_t number = 0; number < ranges; ++number)
+            answer_range(*worker, number);
         return;
     }
     on_threads(threads_, [&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, range),
-                          [&](const auto& part) { answer_range(part.begin(), part.end()); });
+        tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t number) {
+            const Lease worker(*this);
+            answer_range(*worker, number);
+        });
     });
 }
 
 void StreamTracer::nearest(const RayStream& rays, const HitStream& hits) const {
-    answer(rays.count, [&](Worker& worker, std::size_t first, std::size_t last) {
+    answer(rays.count, at_a_time(), [&](Worker& worker, std::size_t first, std::size_t last) {
         worker.nearest(rays, first, last, hits);
     });
 }
 
 void StreamTracer::occluded(const RayStream& rays, std::uint8_t* occluded) const {
-    answer(rays.count, [&](Worker& worker, std::size_t first, std::size_t last) {
+    answer(rays.count, fewest, [&](Worker& worker, std::size_t first, std::size_t last) {
         worker.occluded(rays, first, last, occluded);
     });
 }

@@ -58,9 +58,10 @@ class StreamTracer {
     class Lease;
 
     template <class Answer>
-    void answer(std::size_t count, const Answer& answer) const;
+    void answer(std::size_t count, std::size_t most, const Answer& answer) const;
 
-    std::size_t at_a_time() const; ///< rays, by a worker
+    static constexpr std::size_t fewest = 1024; ///< rays that are worth a thread
+    std::size_t at_a_time() const;              ///< rays that look for what is nearest
 
     const core::Scene& scene_;
     int threads_;

@@ -6,7 +6,8 @@
 #include <cstdint>
 
 /// What the kernel units offer to the wavefront loop and to streams of rays: plain data only.
-/// Arrays have `count` values and are readable and writable up to whole packets of 16.
+/// Arrays have `count` values and are readable and writable up to whole packets of 16; what is
+/// behind `count` means nothing, before and after.
 namespace raylane::simd {
 
 struct Found;
@@ -29,6 +30,10 @@ struct Candidates {
     float* second;       ///< the next smallest of another shape
     std::uint32_t* slot; ///< the shape that has the smallest; no_slot if there is none
 };
+
+/// As many random rays as this, or more, are better off as one list where the hierarchy is in the
+/// cache.
+inline constexpr std::size_t long_list = 4096;
 
 /// A candidate's t is within this factor of its lower bound, or not certain to be the nearest:
 /// what lies beyond has not been looked at.

@@ -125,7 +125,8 @@ void OutputFile::write_png(const core::Film& film, core::Transfer transfer) {
     // Its search for each row's best filter takes longer than the rest, and saves nothing to speak
     // of.
     constexpr int differences_along_rows = 1;
-    stbi_write_force_png_filter = differences_along_rows;
+    static const int forced = stbi_write_force_png_filter = differences_along_rows; // once
+    static_cast<void>(forced);
     Sink sink{file_, nullptr};
     sink.finish(stbi_write_png_to_func(&Sink::write, &sink, film.width(), film.height(), 3,
                                        codes.data(), 3 * film.width()));

@@ -13,14 +13,17 @@ namespace {
 /// With so many shapes or fewer, testing all of them costs less than the hierarchy.
 constexpr std::size_t few_shapes = 24;
 
-/// Up to so many slots, what is in them is looked up rather than found: it fits in the cache.
+/// Up to so many slots, what is in them is looked up rather than found: that is 1.3 MB, of which a
+/// tile needs little.
 constexpr std::uint32_t table_slots = 1U << 16;
 
 /// What a core's own cache holds. Where the tree has more, it is fetched ahead of the rays, which
 /// gains there (5 to 15 % at a million spheres, measured on a noisy machine) and costs where it
-/// fits. Rays that are nowhere near each other go by lists in trees of a sixteenth of that, and
-/// each by itself in others: lists gain 1.1 times at 1,000 balls, lose as much at 3,000, and 1.3
-/// times at 10,000 (2 MB; 1.4 and 1.0 at 1,000 and 10,000 shapes of a lattice of balls and sticks).
+/// fits. A thousand rays that are nowhere near each other go by lists in trees of a sixteenth of
+/// that, and each by itself in others: lists gain 1.1 times at 1,000 balls, lose as much at 3,000,
+/// and 1.3 times at 10,000 (2 MB; 1.4 and 1.0 at 1,000 and 10,000 shapes of a lattice of balls and
+/// sticks). Lists of 8,192 rays gain 1.2 times at 10,000, nothing at 50,000 (1.5 MB), and lose 1.3
+/// times at 100,000.
 std::size_t core_cache_bytes() {
 #ifdef _SC_LEVEL2_CACHE_SIZE
     if (const long bytes = ::sysconf(_SC_LEVEL2_CACHE_SIZE); bytes > 0)

@@ -24,9 +24,10 @@ class SceneData {
     std::uint32_t listed_kinds() const { return listed_kinds_; }
     /// Whether the others are found by way of the hierarchy.
     bool has_tree() const { return view_.tree_depth != 0; }
-    /// How many rays that have nothing in common are best traced at a time. Lists should be long;
-    /// where the hierarchy does not fit in the cache, at least what belongs to the rays should.
-    std::size_t best_stream() const { return view_.large ? 1024 : 8192; }
+    /// How many rays that have nothing in common are best asked at a time what is nearest to them,
+    /// exactly: where that makes lists, these should be long; else what belongs to the rays should
+    /// be in the cache.
+    std::size_t best_stream() const { return has_tree() && !view_.large ? 2 * long_list : 1024; }
     /// Whether some surface is visible from one side only.
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }

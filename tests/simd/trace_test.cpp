@@ -112,6 +112,11 @@ struct Rays {
         return departed_first[i] <= id && id <= departed_last[i];
     }
 
+    void start(std::size_t i, const Vec3d& origin) {
+        for (int axis = 0; axis < 3; ++axis)
+            of[axis][i] = origin[axis];
+    }
+
     /// As if seen beside the last 16, in one plane.
     void stay_near(std::size_t i) {
         const double row = static_cast<double>(i / 64), along = static_cast<double>(i % 64 / 16);
@@ -275,7 +280,6 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         rays.aim(i, normalized(way));
         rays.t_most[i] = static_cast<float>(length(way));
     }
-    const RoundedRays rounded = rays.round(kernels);
     Workspace workspace{};
     const Arena arena =
         arena_for([&](Arena& a) { workspace = workspace_for(data, a, rays.padded); });
@@ -284,6 +288,7 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
     for (const std::size_t count : {std::size_t{5}, std::size_t{16}, std::size_t{63},
                                     std::size_t{256}, std::size_t{257}, rays.count}) {
         CAPTURE(count);
+        const RoundedRays rounded = rays.round(kernels); // what is behind them is overwritten
         TraceCounters counters{};
         Answers alone(rays.padded), grouped(rays.padded);
         for (std::size_t i = 0; i < rays.padded; ++i) // what is blocked is not to be looked at
@@ -307,6 +312,57 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         CHECK((counters.in_frusta > 0) == !overlapping); // where too much is before them, none are
         CHECK(any > static_cast<int>(count) / 4);        // with those that were blocked before
         CHECK(any < static_cast<int>(count));
+    }
+}
+
+/// Rays that have something in common see as a group what they see one by one.
+void check_bundle(const Kernels& kernels, const Bundle& bundle) {
+    CAPTURE(std::string(kernels.name), bundle.towards, bundle.parallel, bundle.beyond);
+    const Scene scene = make_scene(false);
+    const SceneData data(scene);
+    Rays rays(1000, 12.0);
+    const Vec3d apex(bundle.apex[0], bundle.apex[1], bundle.apex[2]);
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        rays.stay_near(i);
+        const Vec3d on_plane = rays.get(i).origin;
+        const Vec3d way = normalized(bundle.parallel ? Vec3d(0.3, 1.0, 0.2) : on_plane - apex);
+        rays.aim(i, bundle.towards ? -way : way);
+        if (!bundle.towards && !bundle.parallel && !bundle.beyond) rays.start(i, apex);
+    }
+    Workspace workspace{};
+    const Arena arena =
+        arena_for([&](Arena& a) { workspace = workspace_for(data, a, rays.padded); });
+    const TraceKernels& trace = Tracing{&kernels, Precision::exact}.method().trace;
+    Searcher<double> searcher(scene, Search::hierarchy);
+    for (const std::size_t count : {std::size_t{3}, std::size_t{16}, std::size_t{100},
+                                    std::size_t{256}, std::size_t{259}, rays.count}) {
+        CAPTURE(count);
+        const RoundedRays rounded = rays.round(kernels);
+        Answers alone(rays.padded), grouped(rays.padded);
+        for (std::size_t i = 0; i < count; i += 5) // some have met something before all else
+            alone.first[i] = alone.second[i] = grouped.first[i] = grouped.second[i] = 2.0F;
+        TraceCounters counters{};
+        trace.nearest(data.view(), all_kinds, nullptr, count, rounded, alone.candidates(), {},
+                      counters);
+        trace.nearest(data.view(), 0, &bundle, count, rounded, grouped.candidates(), workspace,
+                      counters);
+        CHECK(counters.in_frusta == count);
+        int hits = 0, different = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Hit<double> hit =
+                searcher.nearest(rays.get(i), {}, [](const Hit<double>&) { return true; }).hit;
+            const auto first = static_cast<double>(grouped.first[i]);
+            const auto seen_to =
+                static_cast<double>(std::min(grouped.second[i], grouped.first[i] * culling_slack));
+            CAPTURE(i, hit.t, first, seen_to);
+            if (hit.any()) ++hits;
+            if (hit.any() && !(first <= hit.t * (1 + 1e-12))) FAIL("passed the nearest by");
+            if (hit.any() && hit.t < seen_to && grouped.slot[i] != data.slot_of(hit.kind, hit.slot))
+                FAIL("another shape");
+            different += alone.first[i] == grouped.first[i] ? 0 : 1;
+        }
+        CHECK(different <= static_cast<int>(count) / 50); // what only may be there
+        if (count == rays.count) CHECK(hits > static_cast<int>(count) / 4);
     }
 }
 
@@ -368,6 +424,19 @@ TEST_CASE("rays do not find what they leave however they go") {
     }
 }
 
+TEST_CASE("rays see as a group what they see alone") {
+    for (const Isa isa : all_isas) {
+        if (!is_available(isa)) continue;
+        for (const Bundle& bundle : {
+                 Bundle{{4.0F, -20.0F, 2.0F}, false, false, false, false}, // from the camera
+                 Bundle{{4.0F, -20.0F, 2.0F}, false, false, false, true},  // off a mirror
+                 Bundle{{6.0F, 25.0F, 5.0F}, true, false, false, false},   // to a light
+                 Bundle{{0.0F, 0.0F, 0.0F}, false, true, false, false},    // parallel
+             })
+            check_bundle(kernels_of(isa), bundle);
+    }
+}
+
 TEST_CASE("random rays make lists where these are long and the hierarchy is in the cache") {
     const Scene scene = make_scene(false);
     const SceneData data(scene);
@@ -380,7 +449,8 @@ TEST_CASE("random rays make lists where these are long and the hierarchy is in t
     for (const bool small : {false, true})
         for (const bool large : {false, true})
             for (const std::size_t count : {std::size_t{4095}, std::size_t{4096}})
-                for (const Precision precision : {Precision::exact, Precision::robust}) {
+                for (const Precision precision :
+                     {Precision::exact, Precision::plain_double, Precision::robust}) {
                     SceneView view = data.view();
                     view.small = small;
                     view.large = large;

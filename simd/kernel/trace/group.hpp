@@ -38,6 +38,7 @@ struct Group : Streams<Arch> {
     float least_w;      ///< of sense * w_k: what comes before is behind all rays
     float greatest_w;   ///< and what comes after this is beyond them
     float fastest;      ///< the largest |d_k|
+    float t_per_w;      ///< less than its inverse
     float latest_start; ///< sense * w_k of the last origin
     Side above[2], below[2];
     std::size_t bunches;
@@ -105,11 +106,12 @@ struct Group : Streams<Arch> {
             }
         }
         for (std::size_t bunch = bunches; bunch < 16; ++bunch)
-            for (int side = 0; side < 2; ++side) { // outside, whatever it is
+            for (int side = 0; side < 2; ++side) { // outside, unless it is infinite
                 set(above[side], bunch, above[side].slopes[0], -__builtin_inff());
                 set(below[side], bunch, below[side].slopes[0], __builtin_inff());
             }
         fastest = Lanes<Arch>::greatest(speeds_high);
+        t_per_w = (1 - 8 * half_ulp) / fastest;
         if (anywhere) {
             least_w = least(least_w, Lanes<Arch>::least(starts_low));
             latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
@@ -221,9 +223,9 @@ struct Group : Streams<Arch> {
 
     /// From how far along to a lower bound of t.
     F near_t(const F& w) const {
-        const F beyond = (w - F(latest_start)) * F((1 - 8 * half_ulp) / fastest);
-        return xsimd::max(beyond, zero<Arch>());
+        return xsimd::max((w - F(latest_start)) * F(t_per_w), zero<Arch>());
     }
+    float near_t(float w) const { return greatest((w - latest_start) * t_per_w, 0.0F); }
 
     /// Of what is between two spheres a part may be on each side of a plane where one of them has
     /// some there. Here: in front of the ends, and inside of the four sides.
@@ -301,10 +303,9 @@ struct Group : Streams<Arch> {
             const float radius = spheres.radius[end][lane];
             const float w_along = center[along][lane] - apex[along];
             const float grace_along = size(w_along) * grace_factor + 8 * steepest * slack;
-            const float t = (sense * w_along - grace_along - radius - latest_start) *
-                            ((1 - 8 * half_ulp) / fastest);
             Reach reach;
-            reach.along[0] = reach.along[1] = F(t > 0.0F ? t : 0.0F) <= t_most;
+            const F near(near_t(sense * w_along - grace_along - radius));
+            reach.along[0] = reach.along[1] = near <= t_most;
             for (int side = 0; side < 2; ++side) {
                 const float w_across = center[across[side]][lane] - apex[across[side]];
                 const float room = size(w_across) * grace_factor + grace_along;

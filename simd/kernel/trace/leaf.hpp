@@ -21,7 +21,7 @@ static_assert(sizeof(StreamRecord) == stream_record_bytes);
 /// Which of a block's shapes may be crossed, and from where on.
 struct LeafHits {
     std::uint32_t lanes;
-    alignas(64) float t[16]; ///< infinity in the other lanes, if there are any
+    alignas(64) float t[16]; ///< in these lanes
 };
 
 /// One ray against the shapes of a block.
@@ -81,7 +81,7 @@ struct Leaf : Streams<Arch> {
             const M counts =
                 bounds.possible & elsewhere(ids + from, rays, i) & (bounds.lower < F(second));
             hits.lanes |= Lanes<Arch>::bits(counts) << from;
-            xsimd::select(counts, bounds.lower, S::infinity()).store_unaligned(hits.t + from);
+            bounds.lower.store_unaligned(hits.t + from);
         }
     }
 

@@ -4,10 +4,10 @@
 
 namespace raylane::simd {
 
-/// Rays that end at one point, in an order in which those of a bunch, and of a group, come there
-/// from nearly the same direction, however far apart they start. Bunches of which that is so
-/// already stay what they are; the rays of the others come behind them, in the order of their
-/// directions along a Morton curve.
+/// Rays that end at one point, in an order in which those of a bunch come there from nearly the
+/// same direction, however far apart they start, as far as that is worth the work. Bunches of which
+/// that is so already may stay what they are; the rays of the others come behind them, in the order
+/// of their directions along a Morton curve.
 template <class Arch>
 struct SortedTowards : Streams<Arch> {
     using S = Streams<Arch>;

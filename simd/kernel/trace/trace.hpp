@@ -10,12 +10,11 @@
 
 namespace raylane::simd {
 
-/// TraceKernels. This is where it is decided how rays are traced: bundles by groups, rays that are
-/// near each other by lists, others in flight; and shape by shape where there is no hierarchy.
+/// TraceKernels. This is where it is decided how rays are traced: bundles by groups; rays that are
+/// near each other by lists, and many that are not; others in flight; and shape by shape where
+/// there is no hierarchy.
 template <class Arch, class Method>
 struct Trace : Streams<Arch> {
-    using S = Streams<Arch>;
-    using typename S::F;
     using Rays = Group<Arch>;
     template <bool nearest_first>
     using Walk = GroupWalk<Arch, Method, nearest_first>;
@@ -114,10 +113,11 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
-    /// Whether random rays are enough for long lists: where the hierarchy is in the cache, these
-    /// are faster.
+    /// Whether random rays go by lists. What a method that is not certified by bounds makes of a
+    /// ray may depend on the way, so that it may not depend on their number.
     static bool makes_lists(const SceneView& scene, std::size_t count) {
-        return Method::certifies && !scene.large && count >= 4096;
+        constexpr bool any_way = Method::certifies && Method::rounded_alone;
+        return scene.small || (any_way && !scene.large && count >= long_list);
     }
 
     /// Rays that have no more in common than `bundle` says, which is loose or null. However many
@@ -135,7 +135,7 @@ struct Trace : Streams<Arch> {
             TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += count;
-        } else if ((bundle != nullptr || scene.small || makes_lists(scene, count)) &&
+        } else if ((bundle != nullptr || makes_lists(scene, count)) &&
                    count <= workspace.capacity) {
             counters.in_streams += count;
             TraceStream<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);

@@ -29,19 +29,18 @@ struct GroupWalk : Streams<Arch> {
     GroupWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
               TraceCounters& trace_counters, int shapes)
         : scene(scene_view), group(rays), workspace(space), counters(trace_counters),
-          most_shapes(shapes) {
-        for (std::size_t which = 0; which < 16; ++which)
-            limits[which] = which < group.bunches ? __builtin_inff() : -1.0F;
-        largest_limit = __builtin_inff();
-    }
+          most_shapes(shapes) {}
 
     /// Of each shape that bunches may meet, calls
-    ///   found.test(filter, id, slot, which)  for each of the bunches, by number, and then
+    ///   found.test(filter, id, slot, which)  for each of the bunches, by number, and now and then
     ///   found.limit_of(which)                the t from which on nothing matters to it
-    /// The shapes come in the order of their nodes' distances. Returns whether the budget was
-    /// enough.
+    /// The shapes come in the order of their nodes' distances, as far as that is known. Returns
+    /// whether the budget was enough.
     template <class Found>
     bool go(std::uint32_t kind_bits, Found& found) {
+        for (float& limit : limits)
+            limit = -1.0F; // of what is not there
+        update_limits((1U << group.bunches) - 1, found);
         for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
             const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
             for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block) {
@@ -120,8 +119,13 @@ struct GroupWalk : Streams<Arch> {
         for (int tested = 0; tested < count;)
             tested = test_run(blocks, pairs, tested, count, found);
         counters.shapes += 16 * static_cast<std::uint64_t>(count);
-        for (; meeting != 0; meeting &= meeting - 1) {
-            const int which = __builtin_ctz(meeting);
+        update_limits(meeting, found);
+    }
+
+    template <class Found>
+    void update_limits(std::uint32_t of_bunches, const Found& found) {
+        for (; of_bunches != 0; of_bunches &= of_bunches - 1) {
+            const int which = __builtin_ctz(of_bunches);
             limits[which] = found.limit_of(static_cast<std::size_t>(which));
         }
         F largest = S::load(limits);
@@ -146,6 +150,7 @@ struct GroupWalk : Streams<Arch> {
                 const float* block = S::block_of(table, number);
                 const Filter filter(
                     BroadcastReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
+                // To make a cheap filter again is faster than to ask whether it is the same.
                 do
                     found.test(filter, S::ids_of(table, block)[lane],
                                table.first_slot + 16 * number + lane, pairs[end++] & 15);
