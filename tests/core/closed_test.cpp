@@ -1,7 +1,7 @@
 #include "core/solve.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/targets.hpp"
 
 #include <array>
 #include <cmath>

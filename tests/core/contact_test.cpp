@@ -1,6 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/random.hpp"
 
 using namespace little_scene;
 using namespace raylane;

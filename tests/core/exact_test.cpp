@@ -1,6 +1,6 @@
 #include "core/exact.hpp"
 #include "tests/catch.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/random.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>

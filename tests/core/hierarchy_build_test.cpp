@@ -1,6 +1,6 @@
 #include "core/hierarchy.hpp"
 #include "tests/catch.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/targets.hpp"
 
 #include <map>
 

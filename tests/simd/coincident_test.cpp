@@ -2,7 +2,7 @@
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/random.hpp"
 #include "tests/simd/deadline.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "core/optics.hpp"
 #include "tests/catch.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/random.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/simd/field_failures.hpp"
 

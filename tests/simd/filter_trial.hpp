@@ -3,7 +3,7 @@
 #include "core/shape_table.hpp"
 #include "core/solve.hpp"
 #include "simd/isa.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/random.hpp"
 #include "tests/simd/filter_check.hpp"
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "core/hierarchy.hpp"
 #include "simd/workers.hpp"
 #include "tests/catch.hpp"
-#include "tests/ray_sets.hpp"
+#include "tests/targets.hpp"
 
 #include <atomic>
 #include <cstring>

@@ -1,9 +1,9 @@
 #include "core/invalid_value.hpp"
 #include "simd/isa.hpp"
 #include "tests/placing.hpp"
-#include "tests/ray_sets.hpp"
 #include "tests/simd/method_round.hpp"
 #include "tests/simd/rounds.hpp"
+#include "tests/targets.hpp"
 
 #include <cmath>
 

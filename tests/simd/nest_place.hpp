@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/ray_sets.hpp"
 #include "tests/simd/nests.hpp"
 
 #include <algorithm>

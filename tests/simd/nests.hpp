@@ -1,7 +1,11 @@
 #pragma once
 
-#include "tests/ray_sets.hpp"
 #include "tests/simd/any_shape.hpp"
+#include "tests/targets.hpp"
+
+#include <glm/common.hpp>
+
+#include <cmath>
 
 /// Shapes between two neighbours, a small gap away on either side: a skin outside of it, and
 /// another inside. All coordinates are whole numbers below 2^23 in size, so that the gaps are what

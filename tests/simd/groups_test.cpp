@@ -1,0 +1,119 @@
+#include "simd/isa.hpp"
+#include "tests/simd/traced.hpp"
+
+using namespace raylane;
+using namespace raylane::tests;
+
+/// Groups of rays that have something in common against the same rays one by one, and against the
+/// scalar search.
+
+namespace {
+
+/// Rays from anywhere to one light, which groups of them see in another order.
+/// `strays`: of each hundred bunches, those that hold rays from anywhere between the others.
+void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
+    CAPTURE(std::string(kernels.name), overlapping, strays);
+    Rays rays(3001, overlapping ? 9.0 : 12.0);
+    const Traced traced(make_scene(overlapping), rays.padded);
+    const Vec3d light(20.0, 15.0, 10.0);
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        if (i / 16 * 37 % 100 >= strays) rays.stay_near(i);
+        const Ray<double> ray = rays.get(i);
+        const Vec3d way = light - ray.origin;
+        rays.aim(i, normalized(way));
+        rays.t_most[i] = static_cast<float>(length(way));
+    }
+    const Bundle to_light{{20.0F, 15.0F, 10.0F}, true, false, false, false};
+    const TraceKernels& trace = Traced::exactly(kernels);
+    for (const std::size_t count : {std::size_t{5}, std::size_t{16}, std::size_t{63},
+                                    std::size_t{256}, std::size_t{257}, rays.count}) {
+        CAPTURE(count);
+        const RoundedRays rounded = rays.round(kernels); // what is behind them is overwritten
+        TraceCounters counters{};
+        Answers alone(rays.padded), grouped(rays.padded);
+        for (std::size_t i = 0; i < rays.padded; ++i) // what is blocked is not to be looked at
+            alone.state[i] = grouped.state[i] = i % 7 == 0 ? blocked : i % 7 == 1 ? doubtful : open;
+        const std::vector<std::uint8_t> before = grouped.state;
+        trace.occluded(traced.data.view(), 0, nullptr, count, rounded,
+                       {rays.t_most.data(), alone.state.data()}, traced.workspace, counters);
+        trace.occluded(traced.data.view(), 0, &to_light, count, rounded,
+                       {rays.t_most.data(), grouped.state.data()}, traced.workspace, counters);
+        int opposed = 0, any = 0, lowered = 0;
+        for (std::size_t i = 0; i < rays.padded; ++i) {
+            any += i < count && (before[i] == blocked || grouped.state[i] != before[i]) ? 1 : 0;
+            lowered +=
+                grouped.state[i] < before[i] || (i >= count && grouped.state[i] != before[i]);
+            opposed += static_cast<int>(std::max(alone.state[i], grouped.state[i]) == blocked &&
+                                        std::min(alone.state[i], grouped.state[i]) == open);
+        }
+        CHECK(lowered == 0);
+        CHECK(opposed == 0);
+        if (count != rays.count) continue;
+        CHECK((counters.in_frusta > 0) == !overlapping); // where too much is before them, none are
+        CHECK(any > static_cast<int>(count) / 4);        // with those that were blocked before
+        CHECK(any < static_cast<int>(count));
+    }
+}
+
+/// Rays that have something in common see as a group what they see one by one.
+void check_bundle(const Kernels& kernels, const Bundle& bundle) {
+    CAPTURE(std::string(kernels.name), bundle.towards, bundle.parallel, bundle.beyond);
+    Rays rays(1000, 12.0);
+    Traced traced(make_scene(false), rays.padded);
+    const Vec3d apex(bundle.apex[0], bundle.apex[1], bundle.apex[2]);
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        rays.stay_near(i);
+        const Vec3d on_plane = rays.get(i).origin;
+        const Vec3d way = normalized(bundle.parallel ? Vec3d(0.3, 1.0, 0.2) : on_plane - apex);
+        rays.aim(i, bundle.towards ? -way : way);
+        if (!bundle.towards && !bundle.parallel && !bundle.beyond) rays.start(i, apex);
+    }
+    const TraceKernels& trace = Traced::exactly(kernels);
+    for (const std::size_t count : {std::size_t{3}, std::size_t{16}, std::size_t{100},
+                                    std::size_t{256}, std::size_t{259}, rays.count}) {
+        CAPTURE(count);
+        const RoundedRays rounded = rays.round(kernels);
+        Answers alone(rays.padded), grouped(rays.padded);
+        for (std::size_t i = 0; i < count; i += 5) // some have met something before all else
+            alone.first[i] = alone.second[i] = grouped.first[i] = grouped.second[i] = 2.0F;
+        TraceCounters counters{};
+        trace.nearest(traced.data.view(), all_kinds, nullptr, count, rounded, alone.candidates(),
+                      {}, counters);
+        trace.nearest(traced.data.view(), 0, &bundle, count, rounded, grouped.candidates(),
+                      traced.workspace, counters);
+        CHECK(counters.in_frusta == count);
+        int hits = 0, different = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Hit<double> hit = traced.nearest(rays.get(i));
+            hits += hit.any() ? 1 : 0;
+            traced.check(grouped, i, hit);
+            different += alone.first[i] == grouped.first[i] ? 0 : 1;
+        }
+        CHECK(different <= static_cast<int>(count) / 50); // what only may be there
+        if (count == rays.count) CHECK(hits > static_cast<int>(count) / 4);
+    }
+}
+
+} // namespace
+
+TEST_CASE("rays to a light are put in another order for nobody to notice") {
+    for (const Isa isa : all_isas) {
+        if (!is_available(isa)) continue;
+        check_light(kernels_of(isa), true, 100);
+        for (const std::size_t strays : {100, 30, 20, 5, 0})
+            check_light(kernels_of(isa), false, strays);
+    }
+}
+
+TEST_CASE("rays see as a group what they see alone") {
+    for (const Isa isa : all_isas) {
+        if (!is_available(isa)) continue;
+        for (const Bundle& bundle : {
+                 Bundle{{4.0F, -20.0F, 2.0F}, false, false, false, false}, // from the camera
+                 Bundle{{4.0F, -20.0F, 2.0F}, false, false, false, true},  // off a mirror
+                 Bundle{{6.0F, 25.0F, 5.0F}, true, false, false, false},   // to a light
+                 Bundle{{0.0F, 0.0F, 0.0F}, false, true, false, false},    // parallel
+             })
+            check_bundle(kernels_of(isa), bundle);
+    }
+}

@@ -1,0 +1,187 @@
+#pragma once
+
+#include "core/reference/search.hpp"
+#include "core/scene.hpp"
+#include "simd/wavefront/hit_finder.hpp"
+#include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
+#include "tests/targets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What the kernels that trace rays are asked in tests, and what they answer.
+namespace raylane::tests {
+
+using namespace core;
+using namespace simd;
+using ray_sets::Random;
+
+inline constexpr std::uint32_t all_kinds = (1U << kinds) - 1;
+
+template <class Shape>
+void add(SceneBuilder& builder, Random& random, int count) {
+    for (int i = 0; i < count; ++i)
+        builder.add(ray_sets::Target<Shape>::make(random, false), 0);
+}
+
+/// Some of each bounded kind; or, if `overlapping`, spheres around one point, so that rays have all
+/// of the tree before them.
+inline Scene make_scene(bool overlapping) {
+    Random random(5);
+    SceneBuilder builder;
+    builder.wants_light = false;
+    builder.add_material({});
+    if (overlapping) {
+        for (int i = 0; i < 2000; ++i)
+            builder.add(Sphere{ray_sets::rounded(random.cube(1.0)),
+                               static_cast<float>(random.uniform(4.0, 5.0))},
+                        0);
+        return std::move(builder).build();
+    }
+    add<Sphere>(builder, random, 200);
+    add<Disc>(builder, random, 40);
+    add<Triangle>(builder, random, 40);
+    add<SmoothTriangle>(builder, random, 40);
+    add<Box>(builder, random, 40);
+    add<OpenCylinder>(builder, random, 40);
+    add<CappedCylinder>(builder, random, 40);
+    add<OpenCone>(builder, random, 40);
+    add<CappedCone>(builder, random, 40);
+    add<Quadric>(builder, random, 40);
+    return std::move(builder).build();
+}
+
+/// Rays from anywhere to anywhere, some along planes and axes.
+struct Rays {
+    std::size_t count, padded;
+    std::vector<double> of[6];
+    std::vector<float> rounded[7], t_most;
+    std::vector<std::uint32_t> departed_first, departed_last;
+
+    Rays(std::size_t n, double size)
+        : count(n), padded((n + 31) / 16 * 16), t_most(padded), departed_first(padded, no_slot),
+          departed_last(padded, no_slot) {
+        Random random(7);
+        for (std::vector<double>& values : of)
+            values.assign(padded, 1.0);
+        for (std::vector<float>& values : rounded)
+            values.resize(padded);
+        for (std::size_t i = 0; i < n; ++i) {
+            Vec3d origin = random.cube(size), direction = random.direction();
+            if (i % 4 == 1) { // along planes and axes, or all but
+                constexpr double little[] = {0.0, -0.0, 1e-40, -1e-40, 1e-12, -1e-33};
+                for (int axis = random.integer(0, 2), k = 0; k < random.integer(1, 2); ++k)
+                    direction[(axis + k) % 3] = little[random.integer(0, 5)];
+                if (squared_length(direction) < 1e-3) direction.x = 1.0;
+                direction /= std::sqrt(squared_length(direction));
+            }
+            if (i % 8 == 2) origin = 50.0 * origin, direction = normalized(random.cube(3) - origin);
+            if (i % 16 == 3) origin = convert<double>(ray_sets::rounded(origin)) * 0.0;
+            for (int axis = 0; axis < 3; ++axis) {
+                of[axis][i] = origin[axis];
+                of[3 + axis][i] = direction[axis];
+            }
+            t_most[i] = static_cast<float>(random.log_uniform(0.05, 30.0));
+        }
+    }
+
+    RoundedRays round(const Kernels& kernels) {
+        const RoundedRays result = {{rounded[0].data(), rounded[1].data(), rounded[2].data()},
+                                    {rounded[3].data(), rounded[4].data(), rounded[5].data()},
+                                    rounded[6].data(),
+                                    departed_first.data(),
+                                    departed_last.data(),
+                                    {of[0].data(), of[1].data(), of[2].data()},
+                                    {of[3].data(), of[4].data(), of[5].data()}};
+        kernels.rays.round_rays(count, result);
+        return result;
+    }
+
+    void aim(std::size_t i, const Vec3d& direction) {
+        for (int axis = 0; axis < 3; ++axis)
+            of[3 + axis][i] = direction[axis];
+    }
+
+    /// The ray starts on the shapes of these ids.
+    void leave(std::size_t i, ShapeId first, ShapeId last) {
+        departed_first[i] = first;
+        departed_last[i] = last;
+    }
+    bool leaves(std::size_t i, ShapeId id) const {
+        return departed_first[i] <= id && id <= departed_last[i];
+    }
+
+    void start(std::size_t i, const Vec3d& origin) {
+        for (int axis = 0; axis < 3; ++axis)
+            of[axis][i] = origin[axis];
+    }
+
+    /// As if seen beside the last 16, in one plane.
+    void stay_near(std::size_t i) {
+        const double row = static_cast<double>(i / 64), along = static_cast<double>(i % 64 / 16);
+        of[0][i] = 0.2 * (4.0 * along + static_cast<double>(i % 4));
+        of[1][i] = -9.0;
+        of[2][i] = 0.2 * (4.0 * row + static_cast<double>(i / 4 % 4)) - 4.0;
+    }
+
+    Ray<double> get(std::size_t i) const {
+        return {{of[0][i], of[1][i], of[2][i]}, {of[3][i], of[4][i], of[5][i]}};
+    }
+};
+
+/// Of each ray, as the kernels have it.
+struct Answers {
+    static constexpr float infinity = std::numeric_limits<float>::infinity();
+
+    std::vector<float> first, second;
+    std::vector<std::uint32_t> slot;
+    std::vector<std::uint8_t> state;
+
+    explicit Answers(std::size_t padded)
+        : first(padded, infinity), second(padded, infinity), slot(padded, no_slot),
+          state(padded, open) {}
+    Candidates candidates() { return {first.data(), second.data(), slot.data()}; }
+};
+
+/// A scene as the kernels see it, with room for so many rays.
+struct Traced {
+    Scene scene;
+    SceneData data{scene};
+    Workspace workspace{};
+    Arena arena;
+
+    Traced(Scene of, std::size_t capacity)
+        : scene(std::move(of)),
+          arena(arena_for([&](Arena& a) { workspace = workspace_for(data, a, capacity); })) {}
+    Traced(const Traced&) = delete; // parts of it refer to others
+    Traced& operator=(const Traced&) = delete;
+
+    static const TraceKernels& exactly(const Kernels& kernels) {
+        return Tracing{&kernels, Precision::exact}.method().trace;
+    }
+
+    Hit<double> nearest(const Ray<double>& ray) {
+        return searcher_.nearest(ray, {}, [](const Hit<double>&) { return true; }).hit;
+    }
+
+    /// What was found for a ray does not contradict the nearest hit.
+    void check(const Answers& answers, std::size_t i, const Hit<double>& hit) const {
+        const auto first = static_cast<double>(answers.first[i]);
+        const auto seen_to =
+            static_cast<double>(std::min(answers.second[i], answers.first[i] * culling_slack));
+        CAPTURE(i, hit.t, first, seen_to);
+        if (hit.any() && !(first <= hit.t * (1 + 1e-12))) FAIL("passed the nearest by");
+        if (hit.any() && hit.t < seen_to && answers.slot[i] != data.slot_of(hit.kind, hit.slot))
+            FAIL("another shape");
+    }
+
+  private:
+    Searcher<double> searcher_{scene, Search::hierarchy};
+};
+
+} // namespace raylane::tests
