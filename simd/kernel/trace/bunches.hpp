@@ -56,7 +56,6 @@ requires(!Method::rounded_alone) struct alignas(64) Bunch<Arch, Method> {
 template <class Arch, class Method>
 class GroupCandidates : Streams<Arch> {
     using S = Streams<Arch>;
-    using typename S::F;
 
     struct Rays : Bunch<Arch, Method> {
         float first[16], second[16];
@@ -96,11 +95,7 @@ class GroupCandidates : Streams<Arch> {
 
     /// The t from which on nothing matters to a bunch.
     float limit_of(std::size_t which) const {
-        const float* const first = bunches_[which].first;
-        F latest = S::load(first);
-        for (std::size_t k = S::lanes; k < 16; k += S::lanes)
-            latest = xsimd::max(latest, S::load(first + k));
-        return Lanes<Arch>::greatest(latest) * culling_slack;
+        return S::greatest_of_16(bunches_[which].first) * culling_slack;
     }
 
     void hand_back(const Candidates& candidates, std::size_t begin, std::size_t end) {

@@ -168,25 +168,12 @@ struct Group : Streams<Arch> {
     void enclose_bunches(int side) {
         Side &high = above[side], &low = below[side];
         const bool forwards = sense > 0.0F;
-        high.slope = forwards ? greatest(high.slopes) : least(high.slopes);
-        low.slope = forwards ? least(low.slopes) : greatest(low.slopes);
-        high.offset = greatest(high.offsets);
-        low.offset = least(low.offsets);
+        high.slope = forwards ? S::greatest_of_16(high.slopes) : S::least_of_16(high.slopes);
+        low.slope = forwards ? S::least_of_16(low.slopes) : S::greatest_of_16(low.slopes);
+        high.offset = S::greatest_of_16(high.offsets);
+        low.offset = S::least_of_16(low.offsets);
         high.norm = norm_above(high.slope);
         low.norm = norm_above(low.slope);
-    }
-
-    static float greatest(const float (&of)[16]) {
-        F result = S::load(of);
-        for (std::size_t from = F::size; from < 16; from += F::size)
-            result = xsimd::max(result, S::load(of + from));
-        return Lanes<Arch>::greatest(result);
-    }
-    static float least(const float (&of)[16]) {
-        F result = S::load(of);
-        for (std::size_t from = F::size; from < 16; from += F::size)
-            result = xsimd::min(result, S::load(of + from));
-        return Lanes<Arch>::least(result);
     }
 
     /// What roundings may add up to at a distance of w along and across.
@@ -227,10 +214,34 @@ struct Group : Streams<Arch> {
     }
     float near_t(float w) const { return greatest((w - latest_start) * t_per_w, 0.0F); }
 
+    /// One side's plane, or as many as there are bunches.
+    struct Plane {
+        F slope, norm, offset;
+
+        explicit Plane(const Side& of_all)
+            : slope(of_all.slope), norm(of_all.norm), offset(of_all.offset) {}
+        Plane(const Side& of_bunches, std::size_t from)
+            : slope(S::load(of_bunches.slopes + from)), norm(S::load(of_bunches.norms + from)),
+              offset(S::load(of_bunches.offsets + from)) {}
+
+        /// w_across - slope w_along + radius norm
+        F outmost(const F& w_along, const F& w_across, const F& radius) const {
+            return fast_mul_add<Arch>(radius, norm,
+                                      fast_mul_add<Arch>(negated(w_along), slope, w_across));
+        }
+    };
+
     /// Of what is between two spheres a part may be on each side of a plane where one of them has
     /// some there. Here: in front of the ends, and inside of the four sides.
     struct Reach {
         M along[2], inside_high[2], inside_low[2];
+
+        void across(int side, const Plane& high, const Plane& low, const F& w_along,
+                    const F& w_across, const F& room, const F& radius) {
+            inside_high[side] =
+                high.outmost(w_along, w_across - room, negated(radius)) <= high.offset;
+            inside_low[side] = low.outmost(w_along, w_across + room, radius) >= low.offset;
+        }
 
         Reach& operator|=(const Reach& other) {
             for (int i = 0; i < 2; ++i) {
@@ -282,12 +293,8 @@ struct Group : Streams<Arch> {
             for (int side = 0; side < 2; ++side) {
                 const F w_across = S::load(center[across[side]] + from) - F(apex[across[side]]);
                 const F room_across = fast_mul_add<Arch>(factor, xsimd::abs(w_across), grace_along);
-                const Side &high = above[side], &low = below[side];
-                reach.inside_high[side] =
-                    outmost(F(high.slope), F(high.norm), w_along, w_across - room_across,
-                            negated(radius)) <= F(high.offset);
-                reach.inside_low[side] = outmost(F(low.slope), F(low.norm), w_along,
-                                                 w_across + room_across, radius) >= F(low.offset);
+                reach.across(side, Plane(above[side]), Plane(below[side]), w_along, w_across,
+                             room_across, radius);
             }
             return reach;
         };
@@ -309,13 +316,8 @@ struct Group : Streams<Arch> {
             for (int side = 0; side < 2; ++side) {
                 const float w_across = center[across[side]][lane] - apex[across[side]];
                 const float room = size(w_across) * grace_factor + grace_along;
-                const Side &high = above[side], &low = below[side];
-                reach.inside_high[side] =
-                    outmost(S::load(high.slopes + from), S::load(high.norms + from), F(w_along),
-                            F(w_across - room), F(-radius)) <= S::load(high.offsets + from);
-                reach.inside_low[side] =
-                    outmost(S::load(low.slopes + from), S::load(low.norms + from), F(w_along),
-                            F(w_across + room), F(radius)) >= S::load(low.offsets + from);
+                reach.across(side, Plane(above[side], from), Plane(below[side], from), F(w_along),
+                             F(w_across), F(room), F(radius));
             }
             return reach;
         };
@@ -323,13 +325,6 @@ struct Group : Streams<Arch> {
     }
 
     static constexpr float grace_factor = 2 * steepest * 16 * half_ulp;
-
-    /// w_across - slope w_along + radius norm
-    static F outmost(const F& slope, const F& norm, const F& w_along, const F& w_across,
-                     const F& radius) {
-        return fast_mul_add<Arch>(radius, norm,
-                                  fast_mul_add<Arch>(negated(w_along), slope, w_across));
-    }
 };
 
 } // namespace raylane::simd

@@ -26,6 +26,19 @@ struct Streams {
     }
     static F infinity() { return F(__builtin_inff()); }
 
+    static float greatest_of_16(const float* from) {
+        F result = load(from);
+        for (std::size_t k = lanes; k < 16; k += lanes)
+            result = xsimd::max(result, load(from + k));
+        return Lanes<Arch>::greatest(result);
+    }
+    static float least_of_16(const float* from) {
+        F result = load(from);
+        for (std::size_t k = lanes; k < 16; k += lanes)
+            result = xsimd::min(result, load(from + k));
+        return Lanes<Arch>::least(result);
+    }
+
     /// The first `count` lanes.
     static M first_lanes(std::size_t count) {
         static constexpr float numbers[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};

@@ -26,6 +26,10 @@ struct Trace : Streams<Arch> {
     static constexpr int most_occluders = Method::certifies ? 512 : unlimited;
     static constexpr int most_candidates = Method::certifies ? 2048 : unlimited;
 
+    /// Whether rays may go any way, and in another order: what becomes of one does not depend on
+    /// that, nor on more than it is in float.
+    static constexpr bool any_way = Method::certifies && Method::rounded_alone;
+
     static bool is_grouped(const Bundle* bundle) { return bundle != nullptr && !bundle->loose; }
 
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
@@ -61,8 +65,7 @@ struct Trace : Streams<Arch> {
                          const Workspace& workspace, TraceCounters& counters) {
         if (!is_grouped(bundle)) {
             occluded_of_any(scene, kind_bits, 0, count, rays, occlusions, workspace, counters);
-        } else if (Method::certifies && Method::rounded_alone && bundle->towards &&
-                   SortedTowards<Arch>::has_room(count, workspace)) {
+        } else if (any_way && bundle->towards && SortedTowards<Arch>::has_room(count, workspace)) {
             const SortedTowards<Arch> sorted(rays, occlusions, count, workspace);
             occluded_groups(scene, kind_bits, *bundle, count, sorted.rays, sorted.occlusions,
                             workspace, counters);
@@ -113,10 +116,8 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
-    /// Whether random rays go by lists. What a method that is not certified by bounds makes of a
-    /// ray may depend on the way, so that it may not depend on their number.
+    /// Whether random rays go by lists: where the way matters, whatever their number.
     static bool makes_lists(const SceneView& scene, std::size_t count) {
-        constexpr bool any_way = Method::certifies && Method::rounded_alone;
         return scene.small || (any_way && !scene.large && count >= long_list);
     }
 

@@ -22,7 +22,6 @@ struct GroupWalk : Streams<Arch> {
     /// Shapes that are still worth a look. Where the group is so wide that there are more, its rays
     /// are better off one by one.
     const int most_shapes;
-    int budget = 0;
     alignas(64) float limits[16]; ///< by bunch: the t from which on nothing matters to it
     float largest_limit;
 
@@ -49,7 +48,7 @@ struct GroupWalk : Streams<Arch> {
             }
         }
         if (workspace.key == nullptr) return true;
-        budget = most_shapes; // what is listed has to be tested whatever the way
+        int budget = most_shapes; // what is listed has to be tested whatever the way
         const Places<Arch> places(scene);
         Queue<Arch> queue;
         queue.place(workspace, 0, scene.tree_depth);
@@ -68,7 +67,7 @@ struct GroupWalk : Streams<Arch> {
                 else
                     at_node(scene.nodes[child], queue, places);
             }
-            at_blocks(blocks, count, found);
+            budget -= at_blocks(blocks, count, found);
         }
         return true;
     }
@@ -89,9 +88,9 @@ struct GroupWalk : Streams<Arch> {
 
     /// All shapes that the group may meet are listed before it is seen which of its bunches do, and
     /// all these pairs before any is tested: what waits for the last result, and what branches, is
-    /// done once for several blocks.
+    /// done once for several blocks. Returns how many shapes these are.
     template <class Found>
-    void at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
+    int at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
         BlockSpheres<Arch> spheres[batch];
         std::uint32_t shapes[16 * batch + F::size];
         int shape_count = 0;
@@ -103,7 +102,6 @@ struct GroupWalk : Streams<Arch> {
                 shape_count += list(numbers + from, static_cast<std::uint32_t>(b) << 4,
                                     group.meet(spheres[b], from, furthest), shapes + shape_count);
         }
-        budget -= shape_count;
 
         std::uint32_t pairs[16 * 16 * batch + F::size], meeting = 0;
         int count = 0;
@@ -120,6 +118,7 @@ struct GroupWalk : Streams<Arch> {
             tested = test_run(blocks, pairs, tested, count, found);
         counters.shapes += 16 * static_cast<std::uint64_t>(count);
         update_limits(meeting, found);
+        return shape_count;
     }
 
     template <class Found>
@@ -128,10 +127,7 @@ struct GroupWalk : Streams<Arch> {
             const int which = __builtin_ctz(of_bunches);
             limits[which] = found.limit_of(static_cast<std::size_t>(which));
         }
-        F largest = S::load(limits);
-        for (std::size_t from = F::size; from < 16; from += F::size)
-            largest = xsimd::max(largest, S::load(limits + from));
-        largest_limit = Lanes<Arch>::greatest(largest);
+        largest_limit = S::greatest_of_16(limits);
     }
 
     /// Tests pairs from one on, as far as they are with shapes of one kind. Returns where these
