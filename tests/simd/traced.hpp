@@ -4,7 +4,6 @@
 #include "core/scene.hpp"
 #include "simd/wavefront/hit_finder.hpp"
 #include "tests/catch.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/targets.hpp"
 
 #include <algorithm>
@@ -30,8 +29,8 @@ void add(SceneBuilder& builder, Random& random, int count) {
 }
 
 /// Some of each bounded kind; or, if `overlapping`, spheres around one point, so that rays have all
-/// of the tree before them.
-inline Scene make_scene(bool overlapping) {
+/// of the tree before them. Planes are in no tree.
+inline Scene make_scene(bool overlapping, int planes = 0) {
     Random random(5);
     SceneBuilder builder;
     builder.wants_light = false;
@@ -43,6 +42,9 @@ inline Scene make_scene(bool overlapping) {
                         0);
         return std::move(builder).build();
     }
+    for (int i = 0; i < planes; ++i)
+        builder.add(
+            Plane{ray_sets::rounded(random.cube(8.0)), ray_sets::rounded(random.direction())}, 0);
     add<Sphere>(builder, random, 200);
     add<Disc>(builder, random, 40);
     add<Triangle>(builder, random, 40);
@@ -146,6 +148,13 @@ struct Answers {
         : first(padded, infinity), second(padded, infinity), slot(padded, no_slot),
           state(padded, open) {}
     Candidates candidates() { return {first.data(), second.data(), slot.data()}; }
+
+    /// Whether both have found the same for a ray, but for what is beyond what is certain.
+    bool agree(const Answers& other, std::size_t i) const {
+        const float beyond = first[i] * culling_slack;
+        return first[i] == other.first[i] && (slot[i] == other.slot[i] || second[i] == first[i]) &&
+               (second[i] == other.second[i] || !(std::min(second[i], other.second[i]) < beyond));
+    }
 };
 
 /// A scene as the kernels see it, with room for so many rays.

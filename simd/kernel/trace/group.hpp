@@ -212,7 +212,6 @@ struct Group : Streams<Arch> {
     F near_t(const F& w) const {
         return xsimd::max((w - F(latest_start)) * F(t_per_w), zero<Arch>());
     }
-    float near_t(float w) const { return greatest((w - latest_start) * t_per_w, 0.0F); }
 
     /// One side's plane, or as many as there are bunches.
     struct Plane {
@@ -236,13 +235,6 @@ struct Group : Streams<Arch> {
     struct Reach {
         M along[2], inside_high[2], inside_low[2];
 
-        void across(int side, const Plane& high, const Plane& low, const F& w_along,
-                    const F& w_across, const F& room, const F& radius) {
-            inside_high[side] =
-                high.outmost(w_along, w_across - room, negated(radius)) <= high.offset;
-            inside_low[side] = low.outmost(w_along, w_across + room, radius) >= low.offset;
-        }
-
         Reach& operator|=(const Reach& other) {
             for (int i = 0; i < 2; ++i) {
                 along[i] = along[i] | other.along[i];
@@ -257,12 +249,37 @@ struct Group : Streams<Arch> {
         }
     };
 
+    /// A block's spheres, or those around one end of its shapes, as the group sees them.
+    struct alignas(64) Seen {
+        float near[16];                ///< the least t
+        float along[16];               ///< w_k
+        float low[2][16], high[2][16]; ///< w_a, with grace
+        float radius[16];
+    };
+    struct SeenBlock {
+        Seen end[2];
+        int ends;
+    };
+
+    /// What is inside of the sides: of spheres and all rays, or of one and the rays of bunches.
+    template <class Load, class PlaneOf>
+    [[gnu::always_inline]] void reach_sides(const Seen& seen, const Load& load,
+                                            const PlaneOf& plane_of, Reach& reach) const {
+        for (int side = 0; side < 2; ++side) {
+            const Plane high = plane_of(above[side]), low = plane_of(below[side]);
+            const F w_along = load(seen.along), radius = load(seen.radius);
+            reach.inside_high[side] =
+                high.outmost(w_along, load(seen.low[side]), negated(radius)) <= high.offset;
+            reach.inside_low[side] =
+                low.outmost(w_along, load(seen.high[side]), radius) >= low.offset;
+        }
+    }
+
     /// What has a part everywhere, as bits, by the Reach of each end.
     template <class ReachOf>
-    [[gnu::always_inline]] static std::uint32_t reached(const BlockSpheres<Arch>& spheres,
-                                                        const ReachOf& reach_of) {
+    [[gnu::always_inline]] static std::uint32_t reached(int ends, const ReachOf& reach_of) {
         Reach reach = reach_of(0);
-        if (spheres.ends == 1) [[likely]]
+        if (ends == 1) [[likely]]
             return reach.all();
         reach |= reach_of(1);
         return reach.all();
@@ -275,12 +292,14 @@ struct Group : Streams<Arch> {
         return least(greatest_w, w == w ? w : __builtin_inff());
     }
 
-    /// The shapes that the group may meet, from one on, as bits. None is further along than
-    /// furthest.
+    /// Fills `seen` from one on. Returns the shapes that the group may meet, as bits, of which none
+    /// is further along than `furthest`.
     [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from,
-                                              float furthest) const {
+                                              float furthest, SeenBlock& seen) const {
         const F grace_apart(8 * steepest * slack), factor(grace_factor);
+        seen.ends = spheres.ends;
         const auto reach_of = [&](int end) {
+            Seen& to = seen.end[end];
             const auto& center = spheres.center[end];
             const F radius = S::load(spheres.radius[end] + from);
             const F w_along = S::load(center[along] + from) - F(apex[along]);
@@ -290,38 +309,35 @@ struct Group : Streams<Arch> {
             Reach reach;
             reach.along[0] = w + room >= F(least_w);
             reach.along[1] = w - room <= F(furthest);
+            near_t(w - room).store_unaligned(to.near + from);
+            w_along.store_unaligned(to.along + from);
+            radius.store_unaligned(to.radius + from);
             for (int side = 0; side < 2; ++side) {
                 const F w_across = S::load(center[across[side]] + from) - F(apex[across[side]]);
                 const F room_across = fast_mul_add<Arch>(factor, xsimd::abs(w_across), grace_along);
-                reach.across(side, Plane(above[side]), Plane(below[side]), w_along, w_across,
-                             room_across, radius);
+                (w_across - room_across).store_unaligned(to.low[side] + from);
+                (w_across + room_across).store_unaligned(to.high[side] + from);
             }
+            reach_sides(
+                to, [&](const float* of) { return S::load(of + from); },
+                [](const Side& side) { return Plane(side); }, reach);
             return reach;
         };
-        return reached(spheres, reach_of);
+        return reached(spheres.ends, reach_of);
     }
 
-    /// The bunches, from one on, that one shape may meet, as bits.
-    [[gnu::always_inline]] std::uint32_t bunches_that_meet(const BlockSpheres<Arch>& spheres,
-                                                           int lane, std::size_t from,
-                                                           const F& t_most) const {
+    /// The bunches, from one on, that one shape may meet before t_most, as bits.
+    [[gnu::always_inline]] std::uint32_t
+    bunches_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_most) const {
         const auto reach_of = [&](int end) {
-            const auto& center = spheres.center[end];
-            const float radius = spheres.radius[end][lane];
-            const float w_along = center[along][lane] - apex[along];
-            const float grace_along = size(w_along) * grace_factor + 8 * steepest * slack;
             Reach reach;
-            const F near(near_t(sense * w_along - grace_along - radius));
-            reach.along[0] = reach.along[1] = near <= t_most;
-            for (int side = 0; side < 2; ++side) {
-                const float w_across = center[across[side]][lane] - apex[across[side]];
-                const float room = size(w_across) * grace_factor + grace_along;
-                reach.across(side, Plane(above[side], from), Plane(below[side], from), F(w_along),
-                             F(w_across), F(room), F(radius));
-            }
+            reach.along[0] = reach.along[1] = F(seen.end[end].near[lane]) <= t_most;
+            reach_sides(
+                seen.end[end], [&](const float* of) { return F(of[lane]); },
+                [&](const Side& side) { return Plane(side, from); }, reach);
             return reach;
         };
-        return reached(spheres, reach_of);
+        return reached(seen.ends, reach_of);
     }
 
     static constexpr float grace_factor = 2 * steepest * 16 * half_ulp;

@@ -91,16 +91,18 @@ struct GroupWalk : Streams<Arch> {
     /// done once for several blocks. Returns how many shapes these are.
     template <class Found>
     int at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
-        BlockSpheres<Arch> spheres[batch];
+        BlockSpheres<Arch> spheres;
+        typename Rays::SeenBlock seen[batch];
         std::uint32_t shapes[16 * batch + F::size];
         int shape_count = 0;
         const float furthest = group.furthest_w(largest_limit);
         for (int b = 0; b < block_count; ++b) {
             const KindNumber kind = S::kind_of(blocks[b]);
-            spheres[b].enclose(kind, rows_of(blocks[b]));
+            spheres.enclose(kind, rows_of(blocks[b]));
             for (int from = 0; from < 16; from += static_cast<int>(F::size))
-                shape_count += list(numbers + from, static_cast<std::uint32_t>(b) << 4,
-                                    group.meet(spheres[b], from, furthest), shapes + shape_count);
+                shape_count +=
+                    list(numbers + from, static_cast<std::uint32_t>(b) << 4,
+                         group.meet(spheres, from, furthest, seen[b]), shapes + shape_count);
         }
 
         std::uint32_t pairs[16 * 16 * batch + F::size], meeting = 0;
@@ -108,7 +110,7 @@ struct GroupWalk : Streams<Arch> {
         for (int k = 0; k < shape_count; ++k) {
             const int lane = static_cast<int>(shapes[k] & 15);
             for (std::size_t from = 0; from < 16; from += F::size) {
-                const std::uint32_t bunches = group.bunches_that_meet(spheres[shapes[k] >> 4], lane,
+                const std::uint32_t bunches = group.bunches_that_meet(seen[shapes[k] >> 4], lane,
                                                                       from, S::load(limits + from));
                 count += list(numbers + from, shapes[k] << 4, bunches, pairs + count);
                 meeting |= bunches << from;
@@ -146,16 +148,19 @@ struct GroupWalk : Streams<Arch> {
                 const float* block = S::block_of(table, number);
                 const Filter filter(
                     BroadcastReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
-                // To make a cheap filter again is faster than to ask whether it is the same.
                 do
                     found.test(filter, S::ids_of(table, block)[lane],
                                table.first_slot + 16 * number + lane, pairs[end++] & 15);
-                while (sifts_packets<Filter, typename Method::Rays> && end < count &&
-                       pairs[end] >> 4 == shape);
+                while (!is_cheap<Filter> && end < count && pairs[end] >> 4 == shape);
             }
         });
         return end;
     }
+
+    /// Whether to make a filter again is faster than to ask whether it would be the same.
+    template <class Filter>
+    static constexpr bool is_cheap =
+        Method::certifies&& Method::rounded_alone && !sifts_packets<Filter, typename Method::Rays>;
 
     typename S::Rows rows_of(std::uint32_t block) const {
         return S::rows_of(S::block_of(scene.tables[S::kind_of(block)], block & child_index));
