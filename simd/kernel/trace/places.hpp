@@ -7,22 +7,21 @@ namespace raylane::simd {
 /// Where children are in memory: what fetches them ahead without a branch for each ray.
 template <class Arch>
 struct Places {
-    static constexpr std::size_t lines = (sizeof(NodeView) + 63) / 64;
+    /// What nodes have, and what the smallest of blocks has.
+    static constexpr std::uint32_t most_lines = (sizeof(NodeView) + 63) / 64, least_lines = 5;
     struct Place {
         const char* from;
         std::uint32_t bytes; ///< from one to the next
-        std::uint32_t last;  ///< byte that is fetched
-    } of[32];                ///< by the bits of a child above its index
+        std::uint32_t
+            further[most_lines - least_lines]; ///< where other lines start, as far as there are any
+    } of[32];                                  ///< by the bits of a child above its index
 
     explicit Places(const SceneView& scene) {
-        const Place nodes{reinterpret_cast<const char*>(scene.nodes), sizeof(NodeView),
-                          sizeof(NodeView) - 64};
         for (Place& place : of)
-            place = nodes;
+            set(place, scene.nodes, sizeof(NodeView));
         for (int kind = 0; kind < kinds; ++kind) {
             const TableView& table = scene.tables[kind];
-            const auto bytes = static_cast<std::uint32_t>(table.block_floats * sizeof(float));
-            of[16 + kind] = {reinterpret_cast<const char*>(table.blocks), bytes, bytes - 64};
+            set(of[16 + kind], table.blocks, table.block_floats * sizeof(float));
         }
         of[31].bytes = 0; // no_child
     }
@@ -31,8 +30,20 @@ struct Places {
         const Place& place = of[child >> 27];
         const char* const from =
             place.from + static_cast<std::size_t>(child & child_index) * place.bytes;
-        for (std::uint32_t line = 0; line < lines; ++line)
-            __builtin_prefetch(from + (64 * line < place.last ? 64 * line : place.last));
+        for (std::uint32_t line = 0; line < least_lines; ++line)
+            __builtin_prefetch(from + 64 * line);
+        for (const std::uint32_t start : place.further)
+            __builtin_prefetch(from + start);
+    }
+
+  private:
+    static void set(Place& place, const void* from, std::size_t bytes) {
+        place.from = static_cast<const char*>(from);
+        place.bytes = static_cast<std::uint32_t>(bytes);
+        for (std::uint32_t k = 0; k < most_lines - least_lines; ++k) {
+            const std::uint32_t start = 64 * (least_lines + k);
+            place.further[k] = start < place.bytes ? start : 0;
+        }
     }
 };
 
