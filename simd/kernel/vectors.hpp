@@ -10,10 +10,11 @@ Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<
     return Lanes<Arch>::mul_add(a, b, c);
 }
 
-/// -a. In some versions of xsimd -a is 0 - a, which loses the sign of zeros.
+/// -a, in the compiler's own way: it can make the sign a part of an FMA. In some versions of xsimd
+/// -a is 0 - a, which loses the sign of zeros.
 template <class Number, class Arch>
 xsimd::batch<Number, Arch> negated(const xsimd::batch<Number, Arch>& a) {
-    return a ^ xsimd::batch<Number, Arch>(static_cast<Number>(-0.0F));
+    return -static_cast<typename xsimd::batch<Number, Arch>::register_type>(a);
 }
 
 /// In all lanes, whether these are float or double.

@@ -27,14 +27,14 @@ struct SphereFilter {
     [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const Vectors<Arch> from_center = rays.origin - center;
-        const F tau = negated(fast_dot(from_center, rays.direction));
-        const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
-        const F foot_squared = fast_dot(foot, foot);
-        const F outer = radius + (F(10 * half_ulp) * (xsimd::abs(tau) + radius) + rays.slack);
-        // A ray that has its foot behind it starts inside, if it meets the sphere at all. What
-        // overflows proves nothing.
-        const F o = zero<Arch>();
-        const Mask<Arch> missed = (outer * outer - foot_squared < o) | (tau + outer < o);
+        const F behind = fast_dot(from_center, rays.direction); // the ray's origin, of the foot
+        const Vectors<Arch> foot = fast_mul_add<Arch>(negated(behind), rays.direction, from_center);
+        const F outer = radius * F(1 + 12 * half_ulp) +
+                        fast_mul_add<Arch>(F(12 * half_ulp), xsimd::abs(behind), rays.slack);
+        // A ray that has its foot behind it starts inside, if it meets the sphere at all: its
+        // distance from the centre, and so `behind`, is r + slack at most, and 6 u r for rounding.
+        // What overflows proves nothing.
+        const Mask<Arch> missed = (outer * outer < fast_dot(foot, foot)) | (outer < behind);
         return is_number<Arch>(from_center.x) & ~missed;
     }
 
