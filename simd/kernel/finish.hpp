@@ -124,36 +124,46 @@ class Finish {
     /// lanes, the packets behind it for which that is so, too. Where the rest starts.
     template <class Finisher>
     std::size_t finish_run(const TableView& table, std::size_t i, std::uint32_t active) const {
+        Spots<Arch> spots;
+        spots.base = table.blocks;
         while (true) {
-            finish_packet<Finisher>(table, i, active);
-            i += width;
+            const std::uint32_t slot = found_.slot[i + first_of(active)];
+            if (is_in(active, i, slot)) {
+                // What depends on the shape alone is done once for all that are of the same.
+                for (long long& offset : spots.offsets)
+                    offset = S::offset(table, slot);
+                const Finisher finisher(OneShapeReader<Arch>(table.blocks + spots.offsets[0]));
+                do {
+                    finish_packet(finisher, table, spots, i, active);
+                    i += width;
+                } while (active == all_lanes && i + width <= found_.count &&
+                         is_in(active, i, slot));
+            } else {
+                for (unsigned lane = 0; lane < width; ++lane)
+                    spots.offsets[lane] =
+                        S::offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
+                const Finisher finisher{GatherReader<Arch>(spots)};
+                finish_packet(finisher, table, spots, i, active);
+                i += width;
+            }
             if (active != all_lanes || i + width > found_.count || in_table(table, i) != all_lanes)
                 return i;
         }
     }
 
+    /// Whether all of some lanes of packet i found one shape.
+    bool is_in(std::uint32_t active, std::size_t i, std::uint32_t slot) const {
+        return (active & ~in_range(found_.slot + i, slot, slot)) == 0;
+    }
+
     /// One packet of finish_run.
     template <class Finisher>
-    [[gnu::always_inline]] void finish_packet(const TableView& table, std::size_t i,
+    [[gnu::always_inline]] void finish_packet(const Finisher& finisher, const TableView& table,
+                                              const Spots<Arch>& spots, std::size_t i,
                                               std::uint32_t active) const {
-        const std::uint32_t slot = found_.slot[i + first_of(active)];
-        const bool one_shape = (active & ~in_range(found_.slot + i, slot, slot)) == 0;
-        Spots<Arch> spots;
-        spots.base = table.blocks;
-        if (one_shape) {
-            spots.offsets[0] = S::offset(table, slot);
-        } else {
-            for (unsigned lane = 0; lane < width; ++lane)
-                spots.offsets[lane] =
-                    S::offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
-        }
-        const Finisher finisher =
-            one_shape ? Finisher(OneShapeReader<Arch>(table.blocks + spots.offsets[0]))
-                      : Finisher(GatherReader<Arch>(spots));
-
         const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
-        Finished<D> finished = finisher.finish(
-            rays, leaves_any(i, active) ? starts(table, spots, one_shape, i) : starts_nowhere<D>());
+        Finished<D> finished = finisher.finish(rays, leaves_any(i, active) ? starts(table, spots, i)
+                                                                           : starts_nowhere<D>());
         finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
         store(finished, i, active);
         if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
@@ -171,13 +181,12 @@ class Finish {
         return (active & ~in_range(found_.departed_first + i, no_shape, no_shape)) != 0;
     }
 
-    Starts<D> starts(const TableView& table, const Spots<Arch>& spots, bool one_shape,
-                     std::size_t i) const {
+    Starts<D> starts(const TableView& table, const Spots<Arch>& spots, std::size_t i) const {
         const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
         Starts<D> starts;
         std::uint32_t id[width];
         for (unsigned lane = 0; lane < width; ++lane)
-            id[lane] = __builtin_bit_cast(std::uint32_t, ids[spots.offsets[one_shape ? 0 : lane]]);
+            id[lane] = __builtin_bit_cast(std::uint32_t, ids[spots.offsets[lane]]);
         starts.on_surface =
             Lanes<D>::in_range(id, found_.departed_first + i, found_.departed_last + i);
         starts.inward = Lanes<D>::from_numbers(found_.departure + i, departure_inward) > zero<D>();
