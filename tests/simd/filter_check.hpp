@@ -14,8 +14,9 @@ struct FilterStream {
     const float* origin[3];
     const float* direction[3];
     const float* slack;
-    /// Out: Bounds, the masks as 1 or 0; and may_meet, 1 for filters that have none.
-    float *possible, *lower, *certain, *upper, *may_meet;
+    /// Out: Bounds, the masks as 1 or 0; may_meet, 1 for filters that have none; and 1 where what
+    /// is in the way is not what the bounds say.
+    float *possible, *lower, *certain, *upper, *may_meet, *contradicts;
 };
 
 struct FilterChecks {

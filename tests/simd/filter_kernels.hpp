@@ -19,10 +19,36 @@ struct FilterChecksOf {
         if constexpr (has_may_meet<Filter, FilterRays<Arch>>)
             may_meet = xsimd::select(filter.may_meet(rays), F(1.0F), F(0.0F));
         may_meet.store_unaligned(stream.may_meet + i);
+        for (std::size_t lane = 0; lane < F::size; ++lane)
+            stream.contradicts[i + lane] = contradicts(filter, rays, bounds, lane) ? 1.0F : 0.0F;
         xsimd::select(bounds.possible, F(1.0F), F(0.0F)).store_unaligned(stream.possible + i);
         bounds.lower.store_unaligned(stream.lower + i);
         xsimd::select(bounds.certain, F(1.0F), F(0.0F)).store_unaligned(stream.certain + i);
         bounds.upper.store_unaligned(stream.upper + i);
+    }
+
+    /// Whether what is in one lane's way is not what the bounds say, when that lane alone is asked
+    /// about.
+    template <class Filter>
+    static bool contradicts(const Filter& filter, const FilterRays<Arch>& rays,
+                            const Bounds<Arch>& bounds, std::size_t lane) {
+        if constexpr (requires { filter.obstacle(rays, 0U, bounds.lower, bounds.upper); }) {
+            std::uint32_t differs = 0;
+            for (const float part : {0.9F, 1.1F, 3.0F}) {
+                const F perhaps_before = bounds.upper * F(part * (1.0F + 0x1p-22F));
+                const F surely_before = bounds.upper * F(part * (1.0F - 0x1p-22F));
+                const Obstacle<Arch> obstacle =
+                    filter.obstacle(rays, 1U << lane, perhaps_before, surely_before);
+                const Mask<Arch> possible = bounds.possible & (bounds.lower < perhaps_before);
+                const Mask<Arch> certain =
+                    possible & bounds.certain & (bounds.upper < surely_before);
+                differs |= Lanes<Arch>::bits(obstacle.possible) ^ Lanes<Arch>::bits(possible);
+                differs |= Lanes<Arch>::bits(obstacle.possible & obstacle.certain) ^
+                           Lanes<Arch>::bits(certain);
+            }
+            return (differs >> lane & 1) != 0;
+        }
+        return false;
     }
 
     static void bound_rays(KindNumber kind, const ShapeBlock& block, int lane,

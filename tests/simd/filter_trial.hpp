@@ -84,6 +84,7 @@ struct Answer {
     bool certain;
     double upper;
     bool may_meet;
+    bool contradicts;
 };
 
 /// Owns the arrays of a stream.
@@ -115,19 +116,21 @@ class Stream {
                 out_[1].data(),
                 out_[2].data(),
                 out_[3].data(),
-                out_[4].data()};
+                out_[4].data(),
+                out_[5].data()};
     }
 
     Answer answer(std::size_t i) const {
-        return {out_[0][i] != 0.0F, static_cast<double>(out_[1][i]), out_[2][i] != 0.0F,
-                static_cast<double>(out_[3][i]), out_[4][i] != 0.0F};
+        return {out_[0][i] != 0.0F, static_cast<double>(out_[1][i]),
+                out_[2][i] != 0.0F, static_cast<double>(out_[3][i]),
+                out_[4][i] != 0.0F, out_[5][i] != 0.0F};
     }
     std::size_t padded() const { return slack_.size(); }
 
   private:
     std::array<std::vector<float>, 3> origin_, direction_;
     std::vector<float> slack_;
-    std::array<std::vector<float>, 5> out_;
+    std::array<std::vector<float>, 6> out_;
 };
 
 template <class Shape>
@@ -137,6 +140,7 @@ ShapeBlock view_of(const Block<Shape>& block) {
 
 /// What is wrong with an answer; null if nothing.
 inline const char* lie(const Answer& answer, const First& truth) {
+    if (answer.contradicts) return "what is in the way was not what the bounds say";
     if (!truth.known) return nullptr;
     if (truth.exists() && !answer.possible) return "a crossing was said to be impossible";
     if (truth.exists() && !answer.may_meet) return "a crossing was said not to be worth a look";

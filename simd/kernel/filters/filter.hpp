@@ -11,7 +11,9 @@
 ///   Bounds<Arch> bounds(const FilterRays<Arch>&) const
 /// and may have
 ///   Mask<Arch> may_meet(const FilterRays<Arch>&) const
-/// which is true wherever there is a crossing.
+/// which is true wherever there is a crossing, and
+///   Obstacle<Arch> obstacle(const FilterRays<Arch>&, asked, perhaps_before, surely_before) const
+/// which is what the bounds say of the lanes that are asked about, for less.
 /// The bounds hold whether or not mul_add is fused, and for every ray whose floats are within the
 /// stated errors.
 ///
@@ -42,6 +44,28 @@ struct Bounds {
     Mask<Arch> certain;  ///< there is one
     Floats<Arch> upper;  ///< where certain: the first is not behind this
 };
+
+/// Whether a shape is in the way of rays, per lane.
+template <class Arch>
+struct Obstacle {
+    Mask<Arch> possible; ///< false: it is not
+    Mask<Arch> certain;  ///< where possible: it is
+};
+
+/// Of lanes that are asked about, as bits: whether the shape may be entered before one t, and is
+/// before another. By the filter's own way, or its bounds.
+template <class Arch, class Filter, class Rays>
+[[gnu::always_inline]] inline Obstacle<Arch>
+obstacle_of(const Filter& filter, const Rays& rays, std::uint32_t asked,
+            const Floats<Arch>& perhaps_before, const Floats<Arch>& surely_before) {
+    if constexpr (requires { filter.obstacle(rays, asked, perhaps_before, surely_before); }) {
+        return filter.obstacle(rays, asked, perhaps_before, surely_before);
+    } else {
+        const Bounds<Arch> bounds = filter.bounds(rays);
+        return {bounds.possible & (bounds.lower < perhaps_before),
+                bounds.certain & (bounds.upper < surely_before)};
+    }
+}
 
 /// Whether a filter can tell for less than its bounds cost that there are none.
 template <class Filter, class Rays>

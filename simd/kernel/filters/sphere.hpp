@@ -38,6 +38,33 @@ struct SphereFilter {
         return is_number<Arch>(from_center.x) & ~missed;
     }
 
+    /// Without a root, unless what is left in doubt is asked about: a ray that starts more than a
+    /// radius before its foot enters behind its start and before the foot, if it meets the sphere.
+    [[gnu::always_inline]] Obstacle<Arch> obstacle(const FilterRays<Arch>& rays,
+                                                   std::uint32_t asked,
+                                                   const Floats<Arch>& perhaps_before,
+                                                   const Floats<Arch>& surely_before) const {
+        using F = Floats<Arch>;
+        const F o = zero<Arch>();
+        const Vectors<Arch> from_center = rays.origin - center;
+        const F tau = negated(fast_dot(from_center, rays.direction));
+        const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
+        const F foot_squared = fast_dot(foot, foot);
+        const F rounding = F(10 * half_ulp) * (xsimd::abs(tau) + radius);
+        const F error = rounding + rays.slack;
+        const F outer = radius + error, inner = radius - error;
+        const F first = tau - outer - rounding;
+        const Mask<Arch> missed = (outer * outer < foot_squared) | (tau + outer + rounding < o) |
+                                  (first >= perhaps_before);
+        const Mask<Arch> possible = is_number<Arch>(from_center.x) & ~missed;
+        const Mask<Arch> certain = (inner > o) & (inner * inner > foot_squared) & (first > o) &
+                                   (tau + rounding < surely_before);
+        if ((Lanes<Arch>::bits(possible & ~certain) & asked) == 0) return {possible, certain};
+        const Bounds<Arch> all = bounds(rays);
+        return {all.possible & (all.lower < perhaps_before),
+                all.certain & (all.upper < surely_before)};
+    }
+
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();

@@ -145,7 +145,7 @@ class GroupOcclusions : Streams<Arch> {
         const Rays& bunch = bunches_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {
             PacketOcclusions<Arch> found({bunch.t_most, nullptr}, k);
-            found.test(filter, id, plain, bunch.packet(k));
+            found.test(filter, id, plain, bunch.packet(k), ~blocked_[which] >> k);
             blocked_[which] |= found.sure << k;
             doubtful_[which] |= found.some << k;
         }

@@ -114,13 +114,13 @@ struct Leaf : Streams<Arch> {
         std::uint8_t state = open;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
-            const Bounds<Arch> bounds = filter.bounds(ray);
-            const M possible = bounds.possible & elsewhere(ids + from, rays, i) &
-                               (bounds.lower < F(t_most * perhaps_within));
-            if (Lanes<Arch>::bits(possible) == 0) continue;
-            const M certain =
-                possible & bounds.certain & (bounds.upper < F(t_most * surely_within));
-            if ((Lanes<Arch>::bits(certain) & plain >> from) != 0) return blocked;
+            const std::uint32_t asked = Lanes<Arch>::bits(elsewhere(ids + from, rays, i));
+            const Obstacle<Arch> obstacle = obstacle_of<Arch>(
+                filter, ray, asked, F(t_most * perhaps_within), F(t_most * surely_within));
+            if ((Lanes<Arch>::bits(obstacle.possible) & asked) == 0) continue;
+            if ((Lanes<Arch>::bits(obstacle.possible & obstacle.certain) & asked & plain >> from) !=
+                0)
+                return blocked;
             state = doubtful;
         }
         return state;

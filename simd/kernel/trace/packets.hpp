@@ -72,18 +72,19 @@ struct PacketOcclusions {
         : t_most(S::load(occlusions.t_most + i)), perhaps_before(t_most * F(perhaps_within)),
           surely_before(t_most * F(surely_within)) {}
 
-    /// Takes account of one shape.
+    /// Takes account of one shape, for those of the rays that are `asked` about.
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
-                                     const Packet<Arch, Method>& packet) {
+                                     const Packet<Arch, Method>& packet,
+                                     std::uint32_t asked = ~0U) {
+        asked &= Lanes<Arch>::bits(packet.elsewhere(id));
+        if (asked == 0) return;
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
-        const Bounds<Arch> bounds = filter.bounds(packet.rays);
-        const Mask<Arch> possible =
-            bounds.possible & packet.elsewhere(id) & (bounds.lower < perhaps_before);
-        some |= Lanes<Arch>::bits(possible);
-        if (plain)
-            sure |= Lanes<Arch>::bits(possible & bounds.certain & (bounds.upper < surely_before));
+        const Obstacle<Arch> obstacle =
+            obstacle_of<Arch>(filter, packet.rays, asked, perhaps_before, surely_before);
+        some |= Lanes<Arch>::bits(obstacle.possible) & asked;
+        if (plain) sure |= Lanes<Arch>::bits(obstacle.possible & obstacle.certain) & asked;
     }
 
     /// Stores the first `count` lanes at most. Returns whether all of these are blocked.
