@@ -3,6 +3,8 @@
 #include "simd/kernel/filters/filters.hpp"
 #include "tests/simd/filter_check.hpp"
 
+#include <limits>
+
 namespace raylane::simd {
 
 template <class Arch>
@@ -34,9 +36,12 @@ struct FilterChecksOf {
                             const Bounds<Arch>& bounds, std::size_t lane) {
         if constexpr (requires { filter.obstacle(rays, 0U, bounds.lower, bounds.upper); }) {
             std::uint32_t differs = 0;
-            for (const float part : {0.9F, 1.1F, 3.0F}) {
-                const F perhaps_before = bounds.upper * F(part * (1.0F + 0x1p-22F));
-                const F surely_before = bounds.upper * F(part * (1.0F - 0x1p-22F));
+            const F infinity(std::numeric_limits<float>::infinity());
+            for (const F& t :
+                 {bounds.lower * F(0.9F), bounds.lower * F(1.1F), bounds.upper * F(0.9F),
+                  bounds.upper * F(1.1F), bounds.upper * F(3.0F), infinity}) {
+                const F perhaps_before = t * F(1.0F + 0x1p-22F);
+                const F surely_before = t * F(1.0F - 0x1p-22F);
                 const Obstacle<Arch> obstacle =
                     filter.obstacle(rays, 1U << lane, perhaps_before, surely_before);
                 const Mask<Arch> possible = bounds.possible & (bounds.lower < perhaps_before);

@@ -121,6 +121,32 @@ TEST_CASE("a plane may be met beyond the largest float") {
     }
 }
 
+TEST_CASE("a sphere that rays leave straight out is in doubt by each way alike") {
+    Random random(41);
+    int possible = 0;
+    for (int round = 0; round < 100; ++round) {
+        using T = ray_sets::Target<Sphere>;
+        const Sphere sphere = T::make(random, false);
+        Block<Sphere> block;
+        block.set(0, sphere, 0);
+        Stream stream;
+        for (int i = 0; i < 16; ++i) {
+            const ray_sets::SurfacePoint start = T::surface(sphere, random);
+            stream.add(Doubled(Ray<double>{start.point, start.normal}));
+        }
+        for (const Isa isa : all_isas) {
+            if (!is_available(isa)) continue;
+            checks_of(isa).bound_rays(static_cast<KindNumber>(Kind::sphere), view_of(block), 0,
+                                      stream.view());
+            for (std::size_t i = 0; i < 16; ++i) {
+                possible += stream.answer(i).possible ? 1 : 0;
+                if (stream.answer(i).contradicts) FAIL("what is in the way is not what bounds say");
+            }
+        }
+    }
+    CHECK(possible > 100);
+}
+
 namespace {
 
 template <class Shape>

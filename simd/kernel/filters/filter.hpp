@@ -13,7 +13,7 @@
 ///   Mask<Arch> may_meet(const FilterRays<Arch>&) const
 /// which is true wherever there is a crossing, and
 ///   Obstacle<Arch> obstacle(const FilterRays<Arch>&, asked, perhaps_before, surely_before) const
-/// which is what the bounds say of the lanes that are asked about, for less.
+/// which is true of the lanes that are asked about, and as sharp as the bounds, for less.
 /// The bounds hold whether or not mul_add is fused, and for every ray whose floats are within the
 /// stated errors.
 ///
@@ -53,7 +53,7 @@ struct Obstacle {
 };
 
 /// Of lanes that are asked about, as bits: whether the shape may be entered before one t, and is
-/// before another. By the filter's own way, or its bounds.
+/// before another, which is not later. By the filter's own way, or its bounds.
 template <class Arch, class Filter, class Rays>
 [[gnu::always_inline]] inline Obstacle<Arch>
 obstacle_of(const Filter& filter, const Rays& rays, std::uint32_t asked,
