@@ -46,17 +46,11 @@ struct SphereFilter {
                                                    const Floats<Arch>& surely_before) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
-        const Vectors<Arch> from_center = rays.origin - center;
-        const F tau = negated(fast_dot(from_center, rays.direction));
-        const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
-        const F foot_squared = fast_dot(foot, foot);
-        const F rounding = F(10 * half_ulp) * (xsimd::abs(tau) + radius);
-        const F error = rounding + rays.slack;
-        const F outer = radius + error, inner = radius - error;
+        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
         const F first = tau - outer - rounding;
         const Mask<Arch> missed = (outer * outer < foot_squared) | (tau + outer + rounding < o) |
                                   (first >= perhaps_before);
-        const Mask<Arch> possible = is_number<Arch>(from_center.x) & ~missed;
+        const Mask<Arch> possible = there & ~missed;
         const Mask<Arch> certain = (inner > o) & (inner * inner > foot_squared) & (first > o) &
                                    (tau + rounding < surely_before);
         if ((Lanes<Arch>::bits(possible & ~certain) & asked) == 0) return {possible, certain};
@@ -68,14 +62,7 @@ struct SphereFilter {
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
-        const Vectors<Arch> from_center = rays.origin - center;
-        const F tau = negated(fast_dot(from_center, rays.direction));
-        const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
-        const F foot_squared = fast_dot(foot, foot);
-        const F rounding = F(10 * half_ulp) * (xsimd::abs(tau) + radius);
-        const F error = rounding + rays.slack;
-
-        const F outer = radius + error, inner = radius - error;
+        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
         const F outer_chord = outer * outer - foot_squared; // not fused: both overflow, or none
         const F outer_half = xsimd::sqrt(outer_chord);
         const F entry = tau - outer_half - rounding;
@@ -85,8 +72,8 @@ struct SphereFilter {
         const F inner_chord = inner * inner - foot_squared;
         const F inner_half = xsimd::sqrt(inner_chord);
         const Mask<Arch> meets = (inner > o) & (inner_chord > o), ahead = entry > o;
-        Bounds<Arch> result{is_number<Arch>(from_center.x) & ~missed, positive_part<Arch>(entry),
-                            meets & ahead, tau - inner_half + rounding};
+        Bounds<Arch> result{there & ~missed, positive_part<Arch>(entry), meets & ahead,
+                            tau - inner_half + rounding};
 
         // Surely inside, it is the exit that counts.
         const Mask<Arch> inside =
@@ -100,6 +87,27 @@ struct SphereFilter {
             result.upper = xsimd::select(inside, exit, result.upper);
         }
         return result;
+    }
+
+  private:
+    /// A ray next to the centre.
+    struct Near {
+        Mask<Arch> there;               ///< the sphere is
+        Floats<Arch> tau, foot_squared; ///< t of the foot, and q^2
+        Floats<Arch> rounding;          ///< of t
+        Floats<Arch> outer, inner;      ///< the radius and E more, or less
+    };
+
+    [[gnu::always_inline]] Near near(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const Vectors<Arch> from_center = rays.origin - center;
+        const F tau = negated(fast_dot(from_center, rays.direction));
+        const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
+        const F foot_squared = fast_dot(foot, foot);
+        const F rounding = F(10 * half_ulp) * (xsimd::abs(tau) + radius);
+        const F error = rounding + rays.slack;
+        const F outer = radius + error, inner = radius - error;
+        return {is_number<Arch>(from_center.x), tau, foot_squared, rounding, outer, inner};
     }
 };
 
