@@ -26,7 +26,7 @@ void find(benchmark::State& state, simd::Isa isa, core::Precision precision) {
     const auto& of = MethodRays<Shape, hard>::get();
     core::ReferenceTracer<double> reference(of.scene, of.scene.settings(), core::Search::hierarchy,
                                             precision);
-    simd::HitFinder finder(of.data, {&simd::kernels_of(isa), precision}, &reference);
+    simd::HitFinder finder(of.data, {&simd::kernels_of(isa), precision}, reference);
     const simd::Arena arena =
         simd::arena_for([&](simd::Arena& a) { finder.take_from(a, method_ray_count); });
     core::Counters counters;

@@ -111,7 +111,7 @@ void report(benchmark::State& state, std::uint64_t left) {
 void nearest(benchmark::State& state, const Setup& setup, const simd::Tracing& tracing) {
     core::ReferenceTracer<double> reference(setup.scene, setup.scene.settings(),
                                             core::Search::hierarchy, tracing.precision);
-    simd::HitFinder finder(setup.data, tracing, &reference);
+    simd::HitFinder finder(setup.data, tracing, reference);
     const simd::Arena arena = simd::arena_for([&](simd::Arena& a) { finder.take_from(a, wave); });
     core::Counters counters;
     std::size_t next = 0;

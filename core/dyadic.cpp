@@ -8,7 +8,8 @@ namespace raylane::core {
 
 namespace {
 
-constexpr int digit_bits = 32;
+constexpr int digit_bits = 64;
+__extension__ using TwoDigits = unsigned __int128;
 
 } // namespace
 
@@ -27,100 +28,104 @@ double Scaled::to_double() const {
     return result == 0.0 ? std::copysign(Limits::denorm_min(), value) : result;
 }
 
-Dyadic::Dyadic(double value) : negative_(value < 0.0) {
+Dyadic::Dyadic(FromDouble, double value) : negative_(value < 0.0) {
     if (value == 0.0) return;
     int power = 0;
     const double mantissa = std::frexp(std::abs(value), &power);
     const auto whole = static_cast<std::uint64_t>(std::ldexp(mantissa, 53));
-    // whole 2^(power - 53), shifted to a multiple of 32 bits.
+    // whole 2^(power - 53), shifted to a multiple of 64 bits.
     const int lowest = power - 53;
     const int shift = ((lowest % digit_bits) + digit_bits) % digit_bits;
     exponent_ = (lowest - shift) / digit_bits;
-    const std::uint64_t low = (whole & 0xFFFFFFFFU) << shift;
-    const std::uint64_t high = ((whole >> digit_bits) << shift) + (low >> digit_bits);
-    digits_ = {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high),
-               static_cast<std::uint32_t>(high >> digit_bits)};
+    const TwoDigits shifted = TwoDigits{whole} << shift;
+    digits_.reset(2);
+    digits_[0] = static_cast<Digit>(shifted);
+    digits_[1] = static_cast<Digit>(shifted >> digit_bits);
     trim();
 }
 
 void Dyadic::trim() {
-    while (!digits_.empty() && digits_.back() == 0)
-        digits_.pop_back();
-    const auto first = std::find_if(digits_.begin(), digits_.end(),
-                                    [](std::uint32_t digit) { return digit != 0; });
-    exponent_ += first - digits_.begin();
-    digits_.erase(digits_.begin(), first);
-    if (digits_.empty()) exponent_ = 0;
-}
-
-std::uint32_t Dyadic::digit_at(std::int64_t place) const {
-    return place < exponent_ || place >= end()
-               ? 0
-               : digits_[static_cast<std::size_t>(place - exponent_)];
+    std::size_t first = 0, last = digits_.size();
+    while (last > 0 && digits_[last - 1] == 0)
+        --last;
+    while (first < last && digits_[first] == 0)
+        ++first;
+    digits_.keep(first, last);
+    exponent_ = first == last ? 0 : exponent_ + static_cast<std::int64_t>(first);
 }
 
 Scaled Dyadic::approximately() const {
     double sum = 0.0;
-    for (std::int64_t place = end() - 3; place < end(); ++place)
+    for (std::int64_t place = end() - 2; place < end(); ++place)
         sum += std::ldexp(static_cast<double>(digit_at(place)),
-                          digit_bits * static_cast<int>(place - end() + 3));
-    return Scaled::of(negative_ ? -sum : sum, digit_bits * (end() - 3));
+                          digit_bits * static_cast<int>(place - end() + 2));
+    return Scaled::of(negative_ ? -sum : sum, digit_bits * (end() - 2));
 }
 
 int Dyadic::compare_magnitudes(const Dyadic& a, const Dyadic& b) {
-    if (a.digits_.empty() || b.digits_.empty())
-        return static_cast<int>(b.digits_.empty()) - static_cast<int>(a.digits_.empty());
+    if (a.digits_.size() == 0 || b.digits_.size() == 0)
+        return static_cast<int>(b.digits_.size() == 0) - static_cast<int>(a.digits_.size() == 0);
     if (a.end() != b.end()) return a.end() > b.end() ? 1 : -1;
     const std::int64_t lowest = std::min(a.exponent_, b.exponent_);
     for (std::int64_t place = a.end() - 1; place >= lowest; --place) {
-        const std::uint32_t x = a.digit_at(place), y = b.digit_at(place);
+        const Digit x = a.digit_at(place), y = b.digit_at(place);
         if (x != y) return x > y ? 1 : -1;
     }
     return 0;
 }
 
 bool operator==(const Dyadic& a, const Dyadic& b) {
-    return a.sign() == b.sign() && a.exponent_ == b.exponent_ && a.digits_ == b.digits_;
+    return a.sign() == b.sign() && Dyadic::compare_magnitudes(a, b) == 0;
 }
 
-Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-    if (a.digits_.empty()) return b;
-    if (b.digits_.empty()) return a;
-    const bool a_is_larger = Dyadic::compare_magnitudes(a, b) >= 0;
+Dyadic Dyadic::sum(const Dyadic& a, const Dyadic& b, bool b_is_negative) {
+    if (b.digits_.size() == 0) return a;
+    Dyadic result;
+    if (a.digits_.size() == 0) {
+        result = b;
+        result.negative_ = b_is_negative;
+        return result;
+    }
+    const bool subtract = a.negative_ != b_is_negative;
+    const bool a_is_larger = !subtract || compare_magnitudes(a, b) >= 0;
     const Dyadic& larger = a_is_larger ? a : b;
     const Dyadic& smaller = a_is_larger ? b : a;
-    const bool subtract = a.negative_ != b.negative_;
-
-    Dyadic sum;
-    sum.negative_ = larger.negative_;
-    sum.exponent_ = std::min(a.exponent_, b.exponent_);
-    sum.digits_.reserve(static_cast<std::size_t>(larger.end() - sum.exponent_ + 1));
-    std::int64_t carry = 0;
-    for (std::int64_t place = sum.exponent_; place < larger.end(); ++place) {
-        const auto digit = static_cast<std::int64_t>(smaller.digit_at(place));
-        carry += static_cast<std::int64_t>(larger.digit_at(place)) + (subtract ? -digit : digit);
-        sum.digits_.push_back(static_cast<std::uint32_t>(carry));
-        carry >>= digit_bits;
+    result.negative_ = a_is_larger ? a.negative_ : b_is_negative;
+    result.exponent_ = std::min(a.exponent_, b.exponent_);
+    const std::int64_t end = std::max(a.end(), b.end());
+    const auto size = static_cast<std::size_t>(end - result.exponent_);
+    result.digits_.reset(size + 1);
+    Digit carry = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        const std::int64_t place = result.exponent_ + static_cast<std::int64_t>(i);
+        const TwoDigits x = larger.digit_at(place), y = smaller.digit_at(place);
+        const TwoDigits digit = subtract ? x - y - carry : x + y + carry;
+        result.digits_[i] = static_cast<Digit>(digit);
+        carry = static_cast<Digit>(digit >> digit_bits) & 1;
     }
-    sum.digits_.push_back(static_cast<std::uint32_t>(carry));
-    sum.trim();
-    return sum;
+    result.digits_[size] = subtract ? 0 : carry;
+    result.trim();
+    return result;
 }
 
 Dyadic operator*(const Dyadic& a, const Dyadic& b) {
     Dyadic product;
-    if (a.digits_.empty() || b.digits_.empty()) return product;
+    const std::size_t m = a.digits_.size(), n = b.digits_.size();
+    if (m == 0 || n == 0) return product;
     product.negative_ = a.negative_ != b.negative_;
     product.exponent_ = a.exponent_ + b.exponent_;
-    product.digits_.assign(a.digits_.size() + b.digits_.size(), 0);
-    for (std::size_t i = 0; i < a.digits_.size(); ++i) {
-        std::uint64_t carry = 0;
-        for (std::size_t j = 0; j < b.digits_.size(); ++j) {
-            carry += std::uint64_t{a.digits_[i]} * b.digits_[j] + product.digits_[i + j];
-            product.digits_[i + j] = static_cast<std::uint32_t>(carry);
-            carry >>= digit_bits;
+    product.digits_.reset(m + n);
+    for (std::size_t k = 0; k < n; ++k)
+        product.digits_[k] = 0;
+    for (std::size_t i = 0; i < m; ++i) {
+        Dyadic::Digit carry = 0;
+        for (std::size_t j = 0; j < n; ++j) {
+            const TwoDigits digit =
+                TwoDigits{a.digits_[i]} * b.digits_[j] + product.digits_[i + j] + carry;
+            product.digits_[i + j] = static_cast<Dyadic::Digit>(digit);
+            carry = static_cast<Dyadic::Digit>(digit >> digit_bits);
         }
-        product.digits_[i + b.digits_.size()] = static_cast<std::uint32_t>(carry);
+        product.digits_[i + n] = carry;
     }
     product.trim();
     return product;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <cstddef>
+#include "core/inline_vector.hpp"
+
+#include <concepts>
 #include <cstdint>
-#include <vector>
 
 namespace raylane::core {
 
@@ -20,9 +21,10 @@ struct Scaled {
 class Dyadic {
   public:
     Dyadic() = default;
-    explicit Dyadic(double value); ///< finite
+    template <std::floating_point Real>
+    Dyadic(Real value) : Dyadic(from_double, static_cast<double>(value)) {} // NOLINT: exact, finite
 
-    int sign() const { return digits_.empty() ? 0 : negative_ ? -1 : 1; }
+    int sign() const { return digits_.size() == 0 ? 0 : negative_ ? -1 : 1; }
     /// Within 2^-50 of itself.
     Scaled approximately() const;
 
@@ -30,20 +32,30 @@ class Dyadic {
         a.negative_ = !a.negative_;
         return a;
     }
-    friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
+    friend Dyadic operator+(const Dyadic& a, const Dyadic& b) { return sum(a, b, b.negative_); }
+    friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return sum(a, b, !b.negative_); }
     friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
     friend bool operator==(const Dyadic& a, const Dyadic& b);
 
   private:
-    using Digits = std::vector<std::uint32_t>;
+    using Digit = std::uint64_t;
+    struct FromDouble {};
+    static constexpr FromDouble from_double{};
+
+    Dyadic(FromDouble, double value);
 
     std::int64_t end() const { return exponent_ + static_cast<std::int64_t>(digits_.size()); }
-    std::uint32_t digit_at(std::int64_t place) const;
+    Digit digit_at(std::int64_t place) const {
+        return place < exponent_ || place >= end()
+                   ? 0
+                   : digits_[static_cast<std::size_t>(place - exponent_)];
+    }
+    static Dyadic sum(const Dyadic& a, const Dyadic& b, bool b_is_negative);
     static int compare_magnitudes(const Dyadic& a, const Dyadic& b);
     void trim();
 
-    // |value| = sum of digits_[i] 2^(32 (exponent_ + i)); neither end's digit is 0, and 0 has none.
-    Digits digits_;
+    // |value| = sum of digits_[i] 2^(64 (exponent_ + i)); neither end's digit is 0, and 0 has none.
+    InlineVector<Digit, 20> digits_; // more than most need
     std::int64_t exponent_ = 0;
     bool negative_ = false;
 };

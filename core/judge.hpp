@@ -42,18 +42,6 @@ class Judge {
 /// to the right float or to a neighbour.
 inline constexpr double needed_accuracy = 0x1p-27;
 
-/// Whether a t that is off by `error` leads to a point that is off by no more than an ulp of float
-/// of its largest coordinate; or, near the coordinates' origin, by no more than double cannot help.
-/// The direction may have any length. The lanes' twin (simd/kernel/finishers) knows that it is 1,
-/// and may grant a little more.
-inline bool holds_point(const Ray<double>& ray, double t, double error) {
-    const auto sum = [](const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
-    const Vec3d point = mul_add(t, ray.direction, ray.origin);
-    const double largest = std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
-    const double speed = sum(ray.direction), off = error * speed;
-    return off <= 0x1p-24 * largest || off <= 0x1p-49 * (sum(ray.origin) + t * speed);
-}
-
 /// With bounds: an answer within the error, or a t that is not accurate enough, is a doubt, and the
 /// question has to be asked again in a wider type.
 template <class T>
@@ -71,10 +59,9 @@ class Judge<Bounded<T>> {
     bool negative(const Real& a) { return sign(a) < 0; }
     bool positive(const Real& a) { return sign(a) > 0; }
     bool less(const Real& a, const Real& b) { return negative(a - b); }
-    /// To be called of every t that is a result, with the ray that leads there.
-    void result(const Real& t, const Ray<double>& ray) {
+    /// To be called of every t that is a result.
+    void result(const Bounded<double>& t) {
         doubt_ |= !(t.error <= needed_accuracy * t.magnitude());
-        doubt_ |= !holds_point(ray, static_cast<double>(t), t.error);
     }
     bool doubt() const { return doubt_; }
 

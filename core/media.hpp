@@ -2,66 +2,80 @@
 
 #include "core/material.hpp"
 
-#include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
 namespace raylane::core {
 
-/// The transmissive materials that a ray is inside of, the last entered on top. That one decides
-/// index and absorption. Four deep: of a fifth the outermost is forgotten, and counts as empty
-/// space.
-class Media {
+/// Empty space, among materials.
+inline constexpr MaterialIndex no_medium = std::numeric_limits<MaterialIndex>::max();
+
+/// Of a medium; of empty space 1.
+inline float index_of(const std::vector<Material>& materials, MaterialIndex medium) {
+    return medium == no_medium ? 1.0F : materials[medium].index;
+}
+
+/// The transmissive materials that a ray is inside of, by number: MediaStacks knows them.
+using Media = std::uint32_t;
+inline constexpr Media in_the_open = 0;
+
+/// All stacks of materials that rays have been inside of, the last entered on top. That one decides
+/// index and absorption. Each is said once, so two are the same where their numbers are, and a ray
+/// carries any number of materials in one. To be used by one thread.
+class MediaStacks {
   public:
-    static constexpr int depth = 4;
-    static constexpr MaterialIndex none = std::numeric_limits<MaterialIndex>::max();
-
-    Media() = default;
-    /// The stack, its top first.
-    explicit Media(const std::array<MaterialIndex, depth>& stack) : stack_(stack) {}
-
-    MaterialIndex top() const { return stack_[0]; }
-    /// Number i from the top.
-    MaterialIndex at(int i) const { return stack_[i]; }
-    bool empty() const { return stack_[0] == none; }
-
-    void enter(MaterialIndex material) {
-        for (int i = depth - 1; i > 0; --i)
-            stack_[i] = stack_[i - 1];
-        stack_[0] = material;
+    MediaStacks() {
+        stacks_.reserve(256);
+        clear();
     }
+    /// Forgets all but empty space.
+    void clear() { stacks_.assign(1, {no_medium, in_the_open, none, none}); }
 
-    /// Takes out the innermost entry of this material, if there is one.
-    void leave(MaterialIndex material) {
-        bool below = false;
-        for (int i = 0; i < depth; ++i) {
-            below = below || stack_[i] == material;
-            const MaterialIndex next = i + 1 < depth ? stack_[i + 1] : none;
-            stack_[i] = below ? next : stack_[i];
-        }
+    MaterialIndex top(Media media) const { return stacks_[media].material; }
+
+    Media entered(Media media, MaterialIndex material) {
+        for (Media above = stacks_[media].above; above != none; above = stacks_[above].next)
+            if (top(above) == material) return above;
+        const auto number = static_cast<Media>(stacks_.size());
+        stacks_.push_back({material, media, none, stacks_[media].above});
+        return stacks_[media].above = number;
     }
-
+    /// Without the innermost entry of this material, if there is one.
+    Media left(Media media, MaterialIndex material) {
+        above_.clear();
+        Media at = media;
+        for (; at != in_the_open && top(at) != material; at = stacks_[at].below)
+            above_.push_back(top(at));
+        if (at == in_the_open) return media;
+        at = stacks_[at].below;
+        for (; !above_.empty(); above_.pop_back())
+            at = entered(at, above_.back());
+        return at;
+    }
     /// Through a surface of this material.
-    void cross(MaterialIndex material, bool entering) {
-        if (entering)
-            enter(material);
-        else
-            leave(material);
+    Media crossed(Media media, MaterialIndex material, bool entering) {
+        return entering ? entered(media, material) : left(media, material);
     }
 
     /// What a ray is inside of that meets a surface of this material. One that leaves a body which
     /// it never entered has been inside from its start.
-    MaterialIndex before(MaterialIndex material, bool transmits, bool entering) const {
-        return empty() && !entering && transmits ? material : top();
+    MaterialIndex before(Media media, MaterialIndex material, bool transmits, bool entering) const {
+        return media == in_the_open && !entering && transmits ? material : top(media);
     }
 
   private:
-    std::array<MaterialIndex, depth> stack_ = {none, none, none, none};
-};
+    static constexpr Media none = std::numeric_limits<Media>::max();
 
-/// Of a medium; of empty space 1.
-inline float index_of(const std::vector<Material>& materials, MaterialIndex medium) {
-    return medium == Media::none ? 1.0F : materials[medium].index;
-}
+    struct Stack {
+        MaterialIndex material;
+        Media below;
+        Media above; ///< the last that has come on top of this one
+        Media next;  ///< another on top of the same
+    };
+
+    std::vector<Stack> stacks_;
+    std::vector<MaterialIndex> above_; // what is taken out
+};
 
 } // namespace raylane::core

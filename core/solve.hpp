@@ -6,6 +6,7 @@
 #include "core/solvers/cone.hpp"
 #include "core/solvers/cylinder.hpp"
 #include "core/solvers/flat.hpp"
+#include "core/solvers/normal.hpp"
 #include "core/solvers/quadric.hpp"
 #include "core/solvers/sphere.hpp"
 
@@ -37,9 +38,9 @@ Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, cons
     Crossings<double> result;
     for (const Crossing<Real>& crossing : crossings(shape, wide, start, judge)) {
         const int side = start.on_surface ? 1 : judge.sign(crossing.t);
-        if (side > 0) judge.result(crossing.t, ray);
-        result.add({side == 0 ? 0.0 : static_cast<double>(crossing.t), crossing.face,
-                    crossing.entering, crossing.t.error});
+        const Bounded<double> t = in_double(crossing.t);
+        if (side > 0) judge.result(t);
+        result.add({side == 0 ? 0.0 : t.value, crossing.face, crossing.entering, t.error});
     }
     return result;
 }

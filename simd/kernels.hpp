@@ -56,6 +56,13 @@ struct Found {
     double* normal[3]; ///< unit, outward
     double* shading_normal[3]; ///< interpolated on smooth triangles, else the same; may be null
     std::uint32_t* hit;        ///< hit_bits
+
+    /// Where directions are what others are when brought to length 1: those, and their lengths.
+    /// What is certain is so of these rays. Null: directions are exact.
+    const double* meant_direction[3] = {};
+    const double* meant_length = nullptr;
+    /// Whether points are wanted, so that t has to hold one.
+    bool holds_points = true;
 };
 
 /// Of Found::departure.
@@ -67,12 +74,16 @@ inline constexpr std::uint32_t hit_face = 0xFF;
 inline constexpr std::uint32_t hit_entering = 0x100;
 inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; the rest means nothing
 inline constexpr std::uint32_t hit_none = 0x400;     ///< certainly none; the rest means nothing
+inline constexpr std::uint32_t hit_normal_doubtful = 0x800; ///< too little known for a float
+inline constexpr std::uint32_t hit_normal_unknown = 0x1000;
 
 /// How one core::Precision traces.
 struct MethodKernels {
     TraceKernels trace;
     /// Where rays first cross the shapes that were found for them. The same bits in every unit.
     void (*finish)(const SceneView& scene, const Found& found);
+    /// The same, and more: what is certain to be missed is said to be, and hit_normal_doubtful.
+    void (*finish_all)(const SceneView& scene, const Found& found);
     RefineKernels refine; ///< null where nothing is
 };
 inline constexpr int method_count = 4;

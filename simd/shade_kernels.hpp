@@ -41,7 +41,8 @@ struct HitPaths {
     const double* origin[3];
     const double* direction[3];
     const double* throughput[3];
-    const double* t;
+    const double* t;         ///< how far they have gone
+    const double* way;       ///< from the origin to the hit point: t, unless that is where it is
     const double* normal[3]; ///< unit, outward
     const double* shading_normal[3];
     const std::uint32_t* hit; ///< hit_bits

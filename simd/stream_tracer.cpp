@@ -2,6 +2,7 @@
 
 #include "core/reference/search.hpp"
 #include "simd/threads.hpp"
+#include "simd/wavefront/as_core.hpp"
 #include "simd/wavefront/hit_finder.hpp"
 
 #include <tbb/blocked_range.h>
@@ -36,30 +37,30 @@ class Query {
         const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         is_ray_ = is_finite(ray_.origin) && is_finite(d) && largest > 0.0 && t_min_ < t_max_;
         if (!is_ray_) return;
-        scale_ = std::ldexp(1.0, -std::ilogb(largest));
-        ray_.direction *= scale_;
+        exponent_ = -std::ilogb(largest);
+        ray_.direction *= scale();
         if (t_max_ < largest_t)
-            t_most_ = static_cast<double>(std::nextafter(t_max_, infinity)) / scale_;
+            t_most_ = static_cast<double>(std::nextafter(t_max_, infinity)) / scale();
     }
 
     bool is_ray() const { return is_ray_; }
     float t_min() const { return t_min_; }
     float t_max() const { return t_max_; }
-    /// What the direction was multiplied by.
-    double scale() const { return scale_; }
+    /// What the direction was multiplied by, as a power of two.
+    int exponent() const { return exponent_; }
+    double scale() const { return std::ldexp(1.0, exponent_); }
     const core::Ray<double>& ray() const { return ray_; }
     /// No crossing counts from here on.
     double t_most() const { return t_most_; }
 
     /// A crossing's t for the caller.
-    float t_of(const Hit<double>& hit) const { return rounded(hit.t * scale_); }
-    static float rounded(double t) {
-        constexpr auto least = static_cast<double>(std::numeric_limits<float>::denorm_min());
-        return static_cast<float>(std::clamp(t, least, static_cast<double>(largest_t)));
+    float t_of(const core::Scene& scene, const Hit<double>& hit) const {
+        return core::rounded_t(scene, {ray_, {}}, hit, exponent_);
     }
-    bool contains(const Hit<double>& hit) const {
-        const float t = t_of(hit);
-        return t_min_ < t && t <= t_max_;
+    bool contains(float t) const { return t_min_ < t && t <= t_max_; }
+    bool contains(const core::Scene& scene, const Hit<double>& hit) const {
+        const bool is_limited = t_min_ > 0.0F || t_max_ < largest_t;
+        return !is_limited || contains(t_of(scene, hit));
     }
 
   private:
@@ -73,7 +74,7 @@ class Query {
 
     core::Ray<double> ray_;
     float t_min_, t_max_;
-    double scale_ = 1.0; // of the direction; the caller's t is this times ours
+    int exponent_ = 0; // the caller's t is ours times 2^exponent
     double t_most_ = std::numeric_limits<double>::infinity();
     bool is_ray_;
 };
@@ -82,16 +83,18 @@ bool is_visible(const core::Scene& scene, const Hit<double>& hit) {
     return scene.material_of(hit.shape).is_seen(hit.entering);
 }
 
-void store(const HitStream& hits, std::size_t i, float t, const Vec3d& normal,
-           core::ShapeId shape) {
+void store(const HitStream& hits, std::size_t i, float t, const core::Vec3f& normal,
+           core::ShapeId shape, bool entering) {
     if (hits.t != nullptr) hits.t[i] = t;
     for (int axis = 0; axis < 3; ++axis)
-        if (hits.normal[axis] != nullptr) hits.normal[axis][i] = static_cast<float>(normal[axis]);
+        if (hits.normal[axis] != nullptr) hits.normal[axis][i] = normal[axis];
     if (hits.shape != nullptr) hits.shape[i] = shape;
+    if (hits.entering != nullptr) hits.entering[i] = entering ? 1 : 0;
 }
 
 void store_none(const HitStream& hits, std::size_t i) {
-    store(hits, i, std::numeric_limits<float>::infinity(), Vec3d(0.0), core::no_shape);
+    store(hits, i, std::numeric_limits<float>::infinity(), core::Vec3f(0.0F), core::no_shape,
+          false);
 }
 
 /// The nearest crossing between a ray's limits, or none.
@@ -101,35 +104,29 @@ Hit<double> nearest_of(const core::Scene& scene, Searcher& searcher, const Query
         .nearest(
             query.ray(), {},
             [&](const Hit<double>& candidate) {
-                return query.contains(candidate) && is_visible(scene, candidate);
+                return query.contains(scene, candidate) && is_visible(scene, candidate);
             },
             query.t_most())
         .hit;
 }
 
-void find_nearest(const core::Scene& scene, Searcher& searcher, const Query& query,
-                  const HitStream& hits, std::size_t i) {
-    const Hit<double> hit = nearest_of(scene, searcher, query);
-    if (!hit.any()) {
-        store_none(hits, i);
-        return;
-    }
-    const Vec3d point = core::mul_add(hit.t, query.ray().direction, query.ray().origin);
-    store(hits, i, query.t_of(hit), searcher.outward_normal_at(hit, point), hit.shape);
+bool wants_normals(const HitStream& hits) {
+    return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
+}
+
+/// In float, where 0 has one sign.
+core::Vec3f in_float(const Vec3d& normal) {
+    return core::convert<float>(normal) + core::Vec3f(0.0F);
 }
 
 bool is_occluded(const core::Scene& scene, Searcher& searcher, const Query& query) {
     bool found = false;
     if (query.is_ray())
         searcher.each(query.ray(), {}, query.t_most(), [&](const Hit<double>& hit) {
-            found = query.contains(hit) && is_visible(scene, hit);
+            found = query.contains(scene, hit) && is_visible(scene, hit);
             return !found;
         });
     return found;
-}
-
-core::Vec3d vector_at(double* const (&columns)[3], std::size_t lane) {
-    return {columns[0][lane], columns[1][lane], columns[2][lane]};
 }
 
 } // namespace
@@ -142,7 +139,7 @@ class StreamTracer::Worker {
         : scene_(scene), data_(data), tracing_(tracing),
           searcher_(scene, core::Search::hierarchy, tracing.precision) {
         if (data == nullptr) return;
-        finder_.emplace(*data, tracing, nullptr);
+        finder_.emplace(*data, tracing);
         arena_ = arena_for([&](Arena& arena) { take_from(arena, capacity); });
     }
 
@@ -150,7 +147,7 @@ class StreamTracer::Worker {
                  const HitStream& hits) {
         if (!finder_) {
             for (std::size_t i = first; i < last; ++i)
-                find_nearest(scene_, searcher_, Query(rays, i), hits, i);
+                search(Query(rays, i), hits, i);
             return;
         }
         for (std::size_t i = first; i < last; ++i)
@@ -158,31 +155,25 @@ class StreamTracer::Worker {
         start(rays, first, last);
         core::Counters counters;
         finder_->find(paths_, nullptr, counters);
-        for (const std::uint32_t lane : finder_->left_open())
-            is_open_[lane] = 1;
+        if (!is_exact()) // else they meet several shapes there, and have the first
+            for (const std::uint32_t lane : finder_->left_open())
+                is_open_[lane] = 1;
+        const bool with_normals = wants_normals(hits);
         const Hits& found = finder_->hits();
         for (std::size_t lane = 0; lane < paths_.count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
             const Query query(rays, i);
-            bool any = found.slot[lane] != no_slot;
-            float t = any ? t_at(lane) : 0.0F;
-            // Which shape it is the caller's own ray decides, whose direction was not rounded.
-            if (is_open_[lane] != 0 || (any && t <= query.t_min())) {
-                // The other methods' numbers are not always beyond a limit that this one's are.
-                if (tracing_.precision != core::Precision::exact) {
-                    find_nearest(scene_, searcher_, query, hits, i);
-                    continue;
-                }
-                Hit<double> hit = nearest_of(scene_, searcher_, query);
-                any = hit.any();
-                if (any) {
-                    hit.t *= query.scale() / per_unit_[lane];
-                    finder_->settle(paths_, lane, hit);
-                    t = t_at(lane);
-                }
+            const bool any = found.slot[lane] != no_slot;
+            if (!any && is_open_[lane] == 0) continue;
+            float t = 0.0F;
+            if (is_open_[lane] != 0 || !is_seen(lane) || (t = t_at(lane, query)) <= query.t_min()) {
+                search(query, hits, i);
+                continue;
             }
-            if (any && query.t_min() < t && t <= query.t_max())
-                store(hits, i, t, vector_at(found.normal, lane), data_->id_of(found.slot[lane]));
+            if (!(t <= query.t_max())) continue;
+            const bool entering = (found.hit[lane] & hit_entering) != 0;
+            store(hits, i, t, with_normals ? normal_at(lane) : core::Vec3f(0.0F),
+                  data_->id_of(found.slot[lane]), entering);
         }
     }
 
@@ -199,7 +190,7 @@ class StreamTracer::Worker {
         const std::size_t count = paths_.count;
         for (std::size_t lane = 0; lane < count; ++lane) {
             const Query query(rays, first + paths_.sample[lane]);
-            t_most_[lane] = static_cast<float>(query.t_most() * query.scale() / per_unit_[lane]);
+            t_most_[lane] = static_cast<float>(query.t_most() * paths_.length_of(lane));
             // A limit from below is no matter for bounds, nor is a t that is none until rounded.
             const bool simple = query.t_min() <= 0.0F &&
                                 query.t_max() >= std::numeric_limits<float>::min() * 0x1p24F;
@@ -222,15 +213,53 @@ class StreamTracer::Worker {
     }
 
   private:
+    bool is_exact() const { return tracing_.precision == core::Precision::exact; }
+
+    /// The scalar search for one ray.
+    void search(const Query& query, const HitStream& hits, std::size_t i) {
+        const Hit<double> hit = nearest_of(scene_, searcher_, query);
+        if (!hit.any()) {
+            store_none(hits, i);
+            return;
+        }
+        core::Vec3f normal(0.0F);
+        if (wants_normals(hits))
+            normal = is_exact() ? core::rounded_normal(scene_, {query.ray(), {}}, hit)
+                                : in_float(searcher_.surface_at(query.ray(), {}, hit).normal);
+        store(hits, i, query.t_of(scene_, hit), normal, hit.shape, hit.entering);
+    }
+
+    /// Whether the lane's hit can be seen from where the ray comes.
+    bool is_seen(std::size_t lane) const {
+        if (!data_->one_sided()) return true;
+        const Hits& found = finder_->hits();
+        const core::MaterialIndex material = data_->occupant_of(found.slot[lane]).material;
+        return scene_.materials()[material].is_seen((found.hit[lane] & hit_entering) != 0);
+    }
+
     /// Of the lane's hit, for the caller.
-    float t_at(std::size_t lane) const {
-        return Query::rounded(finder_->hits().t[lane] * per_unit_[lane]);
+    float t_at(std::size_t lane, const Query& query) const {
+        const Hits& found = finder_->hits();
+        const double per_unit = query.scale() / paths_.length_of(lane);
+        const double t = found.t[lane] * per_unit;
+        float rounded = 0.0F;
+        // The length and both operations are off by a few ulps.
+        const double error = found.error[lane] * per_unit * (1.0 + 0x1p-50) + 0x1p-50 * t;
+        if (core::rounds_surely(t, is_exact() ? error : 0.0, rounded)) return rounded;
+        return query.t_of(scene_, hit_of(*data_, paths_, found, lane));
+    }
+
+    core::Vec3f normal_at(std::size_t lane) const {
+        const Hits& found = finder_->hits();
+        if ((found.hit[lane] & (hit_normal_doubtful | hit_normal_unknown)) != 0)
+            return core::rounded_normal(scene_, {ray_of(paths_, lane), {}},
+                                        hit_of(*data_, paths_, found, lane));
+        return in_float({found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]});
     }
 
     void take_from(Arena& arena, std::size_t capacity) {
         finder_->take_from(arena, capacity);
-        paths_.take_from(arena, capacity, false);
-        per_unit_ = arena.take<double>(capacity);
+        paths_.take_from(arena, capacity, false, /*for_others=*/true);
         is_open_ = arena.take<std::uint8_t>(capacity);
         take_rounded(arena, rounded_, capacity);
         t_most_ = arena.take<float>(capacity);
@@ -249,8 +278,9 @@ class StreamTracer::Worker {
             for (int axis = 0; axis < 3; ++axis) {
                 paths_.origin[axis][lane] = query.ray().origin[axis];
                 paths_.direction[axis][lane] = query.ray().direction[axis] / length;
+                paths_.meant_direction[axis][lane] = query.ray().direction[axis];
             }
-            per_unit_[lane] = query.scale() / length;
+            paths_.meant_length[lane] = length;
             paths_.sample[lane] = static_cast<std::uint32_t>(i - first);
             is_open_[lane] = 0;
         }
@@ -263,8 +293,7 @@ class StreamTracer::Worker {
     Searcher searcher_;
     std::optional<HitFinder> finder_;
     Arena arena_;
-    Paths paths_{};              // sample: the ray's number in the stream
-    double* per_unit_ = nullptr; // of the caller's t, per unit of length
+    Paths paths_{}; // sample: the ray's number in the stream
     std::uint8_t* is_open_ = nullptr;
     RoundedRays rounded_{};
     float* t_most_ = nullptr;

@@ -27,15 +27,16 @@ struct RayStream {
 
 /// What rays hit, by ray, as far as it is wanted. Null: not wanted.
 struct HitStream {
-    float* t = nullptr;             ///< infinity: nothing
-    float* normal[3] = {};          ///< unit, on the outside (the front); 0: nothing
-    core::ShapeId* shape = nullptr; ///< no_shape: nothing
+    float* t = nullptr;               ///< infinity: nothing
+    float* normal[3] = {};            ///< unit, on the outside (the front); 0: nothing
+    core::ShapeId* shape = nullptr;   ///< no_shape: nothing
+    std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or nothing
 };
 
 /// Answers streams of rays about one scene, which must outlive it. May be called by any number of
 /// threads at a time. The answer to a ray depends on the scene and that ray alone.
 ///
-/// A crossing counts by its t as it is answered: rounded to float, but never to 0 or infinity. What
+/// A crossing counts by its t as it is answered: the nearest float, but never 0 or infinity. What
 /// its material's `visible` says cannot be seen from there does not count. A ray with a component
 /// that is not finite, a direction of 0 or a limit that is NaN hits nothing.
 class StreamTracer {
@@ -46,8 +47,8 @@ class StreamTracer {
                           core::Precision precision = core::Precision::exact);
     ~StreamTracer();
 
-    /// The nearest crossing. Of several that no arithmetic in double can tell apart, one that is
-    /// entered comes before one that is left, then the lower id.
+    /// The nearest crossing. Of several at the same t, one that is entered comes before one that is
+    /// left, then the lower id.
     void nearest(const RayStream& rays, const HitStream& hits) const;
 
     /// 1 where there is any crossing, 0 elsewhere.

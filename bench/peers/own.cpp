@@ -14,7 +14,7 @@ class Worker {
     Worker(const simd::SceneData& scene, simd::Isa isa)
         : scene_(scene), tracing_{&simd::kernels_of(isa)},
           reference_(scene.scene(), scene.scene().settings()), most_(scene.best_stream()),
-          finder_(scene, tracing_, &reference_), doubtful_(scene, tracing_, &reference_),
+          finder_(scene, tracing_, reference_), doubtful_(scene, tracing_, reference_),
           arena_(simd::arena_for([this](simd::Arena& arena) { take_from(arena); })) {}
     Worker(const Worker&) = delete; // parts of it refer to others
     Worker& operator=(const Worker&) = delete;

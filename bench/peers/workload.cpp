@@ -93,7 +93,7 @@ void add_secondary(const core::Scene& scene, const simd::SceneData& data, const 
                    RaySet& mirror, RaySet& shadow) {
     const simd::Tracing tracing{&simd::kernels_of(*simd::best_isa())};
     core::ReferenceTracer<double> reference(scene, scene.settings());
-    simd::HitFinder finder(data, tracing, &reference);
+    simd::HitFinder finder(data, tracing, reference);
     const simd::Arena arena =
         simd::arena_for([&](simd::Arena& a) { finder.take_from(a, RaySet::wave); });
     core::Counters counters;

@@ -1,41 +1,12 @@
 #pragma once
 
-#include "core/ray.hpp"
+#include "core/inline_vector.hpp"
+#include "core/reference/hit.hpp"
 #include "core/scene.hpp"
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <tuple>
+#include <algorithm>
 
 namespace raylane::core {
-
-/// A ray's crossing with a shape.
-template <class Real>
-struct Hit {
-    Real t = std::numeric_limits<Real>::infinity();
-    double error = 0.0;    ///< what t may be off by
-    bool at_start = false; ///< a contact of the start, t = 0
-    ShapeId shape = no_shape;
-    Face face = body;
-    bool entering = false;
-    Kind kind = Kind::sphere;
-    Slot slot{};
-
-    bool any() const { return shape != no_shape; }
-
-    /// A total order: by t; at equal t what is entered before what is left, then by shape.
-    bool before(const Hit& other) const { return key() < other.key(); }
-
-    /// Whether no arithmetic in double can tell which comes first.
-    bool coincides(const Hit& other) const {
-        return std::abs(static_cast<double>(t) - static_cast<double>(other.t)) <=
-               error + other.error;
-    }
-
-  private:
-    auto key() const { return std::tuple(t, !at_start, !entering, shape); }
-};
 
 /// One of the surfaces that a ray meets at one point.
 template <class Real>
@@ -51,25 +22,26 @@ struct Contact {
 
 /// What a secondary ray knows of the surfaces that it leaves: which they are, on which side it is,
 /// and to which it goes. No arithmetic has to find that again. It is more than one surface where a
-/// block stands on a table, or at an edge. Those which the ray is still to cross it crosses at t =
-/// 0.
+/// block stands on a table, or at an edge; any number of them. Those which the ray is still to
+/// cross it crosses at t = 0.
 template <class Real>
 class Departure {
   public:
-    /// Others are forgotten. A path keeps as many at each of its bends, on the stack.
-    static constexpr int most_contacts = 4;
-
+    /// Of shapes that are none of those before.
     void add(const Contact<Real>& contact) {
-        if (size_ < most_contacts) contacts_[size_++] = contact;
+        contacts_.insert(
+            std::upper_bound(contacts_.begin(), contacts_.end(), contact.shapes.first, is_below),
+            contact);
     }
 
-    const Contact<Real>* begin() const { return contacts_.data(); }
-    const Contact<Real>* end() const { return contacts_.data() + size_; }
+    const Contact<Real>* begin() const { return contacts_.begin(); }
+    const Contact<Real>* end() const { return contacts_.end(); }
+    std::size_t size() const { return contacts_.size(); }
 
     const Contact<Real>* find(ShapeId id) const {
-        for (const Contact<Real>& contact : *this)
-            if (contact.shapes.contains(id)) return &contact;
-        return nullptr;
+        if (contacts_.empty()) return nullptr;
+        const auto* after = std::upper_bound(begin(), end(), id, is_below);
+        return after != begin() && after[-1].shapes.contains(id) ? after - 1 : nullptr;
     }
 
     /// How a shape's solver has to see the start: as if the ray were already where it goes.
@@ -84,9 +56,8 @@ class Departure {
         const Contact<Real>& surface = *find(hit.shape);
         Departure result = *this;
         const bool goes_inside = through == hit.entering;
-        for (int i = 0; i < size_; ++i) {
-            Contact<Real>& contact = result.contacts_[i];
-            if (&surface == &contacts_[i])
+        for (Contact<Real>& contact : result.contacts_) {
+            if (contact.shapes.first == surface.shapes.first)
                 contact.inside = contact.goes_inside = goes_inside;
             else if (parallel(contact.normal, surface.normal))
                 contact.goes_inside =
@@ -98,14 +69,16 @@ class Departure {
     }
 
   private:
+    static bool is_below(ShapeId id, const Contact<Real>& contact) {
+        return id < contact.shapes.first;
+    }
     /// As far as directions of float precision can tell.
     static bool parallel(const Vec3<Real>& a, const Vec3<Real>& b) {
         constexpr Real largest_sine = Real(0x1p-24);
         return squared_length(cross(a, b)) <= largest_sine * largest_sine;
     }
 
-    std::array<Contact<Real>, most_contacts> contacts_;
-    int size_ = 0;
+    InlineVector<Contact<Real>, 4> contacts_; // by shape
 };
 
 /// The first surface that a ray meets, with all that it meets there.
@@ -113,7 +86,6 @@ template <class Real>
 struct Encounter {
     Hit<Real> hit;
     Departure<Real> contacts;
-    bool is_close = false; ///< the next one is too near for t to be off by more than a rounding
 };
 
 } // namespace raylane::core

@@ -21,8 +21,7 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
                           hits.push_back(hit);
                       return true;
                   });
-    std::sort(hits.begin(), hits.end(),
-              [](const Hit<Real>& a, const Hit<Real>& b) { return a.before(b); });
+    searcher.sort(ray, {}, hits);
 
     std::vector<MaterialIndex> entered, left;
     for (const Hit<Real>& hit : hits) {
@@ -41,8 +40,9 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
 /// A point is in a body if a line through it leaves the body both ways, and behind a plane if it
 /// is.
 template <class Real>
-Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, const Vec3<Real>& point) {
-    Media media;
+Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks& stacks,
+                      const Vec3<Real>& point) {
+    Media media = in_the_open;
     const auto transmits = [](const Material& material) { return material.transmits(); };
     if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits)) return media;
 
@@ -52,7 +52,7 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, const Vec3<R
             const Vec3<Real> to_plane = convert<Real>(plane.point) - point;
             if (scene.material_of(block.ids[lane]).transmits() &&
                 dot(to_plane, convert<Real>(plane.normal)) > Real(0))
-                media.enter(scene.material_index_of(block.ids[lane]));
+                media = stacks.entered(media, scene.material_index_of(block.ids[lane]));
         }
 
     // Any direction does; a round one would run along faces and edges.
@@ -64,7 +64,7 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, const Vec3<R
         const auto match = std::find(behind.begin(), behind.end(), *outermost);
         if (match == behind.end()) continue;
         behind.erase(match);
-        media.enter(*outermost);
+        media = stacks.entered(media, *outermost);
     }
     return media;
 }

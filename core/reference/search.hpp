@@ -1,12 +1,11 @@
 #pragma once
 
 #include "core/counters.hpp"
-#include "core/reference/departure.hpp"
-#include "core/scene.hpp"
-#include "core/solve.hpp"
+#include "core/reference/rounding.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 /// Finding what a ray hits: one shape after the other, by way of the hierarchy or all of them.
@@ -21,7 +20,8 @@ class Searcher {
     Searcher(const Scene& scene, Search search, Precision precision = precision_of<Real>)
         : scene_(scene), search_(search), precision_(precision) {
         pending_.reserve(512);
-        coinciding_.reserve(64);
+        candidates_.reserve(64);
+        sharp_.reserve(64);
     }
 
     /// The first crossing with t < t_most that `counts(hit)`. Its t is infinite if there is none.
@@ -30,25 +30,24 @@ class Searcher {
                             const Counts& counts,
                             Real t_most = std::numeric_limits<Real>::infinity()) {
         Hit<Real> first;
-        for (const Contact<Real>& contact : departure)
-            if (contact.is_crossed() && contact_hit(contact).before(first) &&
-                counts(contact_hit(contact)))
-                first = contact_hit(contact);
-        if (first.any()) return {first, departure, false};
+        for (const Contact<Real>& contact : departure) {
+            if (!contact.is_crossed() || !counts(contact_hit(contact))) continue;
+            if (!first.any() || contact_hit(contact).precedes(first)) first = contact_hit(contact);
+        }
+        if (first.any()) return {first, departure};
 
         Hit<Real> best;
         best.t = t_most;
-        coinciding_.clear();
+        candidates_.clear();
         for_each_candidate(
             ray, [&] { return best.t; },
             [&](Kind kind, std::uint32_t block) {
                 cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
-                    if (!hit.before(best) && !hit.coincides(best)) return;
-                    if (!(hit.t < t_most)) return;
+                    if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
                     // What does not count may still lie where the ray will go on from.
                     const bool may_be_hit = counts(hit);
-                    coinciding_.push_back({hit, DoubleDouble(hit.t), hit.error, may_be_hit});
-                    if (may_be_hit && hit.before(best)) best = hit;
+                    candidates_.push_back({hit, may_be_hit});
+                    if (may_be_hit && (hit.t < best.t || !best.any())) best = hit;
                 });
                 return true;
             });
@@ -73,10 +72,33 @@ class Searcher {
             });
     }
 
-    /// The unit normal on the outside (the front).
-    Vec3<Real> outward_normal_at(const Hit<Real>& hit, const Vec3<Real>& point) const {
+    /// The point of a crossing, and the unit normal on the outside (the front) there.
+    SurfacePoint<Real> surface_at(const Ray<Real>& ray, const Departure<Real>& departure,
+                                  const Hit<Real>& hit) const {
+        if constexpr (std::is_same_v<Real, double>)
+            if (is_exact()) return surface_point(scene_, {ray, departure}, hit);
+        const Vec3<Real> point = mul_add(hit.t, ray.direction, ray.origin);
         return with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-            return outward_normal(table.get(hit.slot), point, hit.face);
+            return SurfacePoint<Real>{point, outward_normal(table.get(hit.slot), point, hit.face)};
+        });
+    }
+
+    /// Into the order in which the ray meets them.
+    void sort(const Ray<Real>& ray, const Departure<Real>& departure,
+              std::vector<Hit<Real>>& hits) {
+        if constexpr (std::is_same_v<Real, double>)
+            if (is_exact()) {
+                const CrossingOrder order(scene_, {ray, departure});
+                sharp_.assign(hits.begin(), hits.end());
+                std::sort(sharp_.begin(), sharp_.end(), [&](const SharpHit& a, const SharpHit& b) {
+                    return order.is_before(a, b);
+                });
+                std::transform(sharp_.begin(), sharp_.end(), hits.begin(),
+                               [](const SharpHit& hit) { return hit.sharpened(); });
+                return;
+            }
+        std::sort(hits.begin(), hits.end(), [](const Hit<Real>& a, const Hit<Real>& b) {
+            return a.t != b.t ? a.t < b.t : a.precedes(b);
         });
     }
 
@@ -92,93 +114,63 @@ class Searcher {
         return hit;
     }
 
+    bool is_exact() const { return precision_ == Precision::exact; }
+
     /// A hit that may be the first, or in contact with it.
     struct Candidate {
         Hit<Real> hit;
-        DoubleDouble t; ///< of the hit, as well as it is known
-        double t_error; ///< of that
         bool may_be_hit;
-
-        bool is_surely_before(const Candidate& other) const {
-            return static_cast<double>(other.t - t) > t_error + other.t_error;
-        }
     };
 
-    /// Of coinciding_, among which is `best`. What is entered comes before what is left where they
-    /// coincide: they touch, there is no gap between them.
+    /// Of the candidates, among which is `best`.
     Encounter<Real> encounter(const Ray<Real>& ray, const Departure<Real>& departure,
-                              Hit<Real> best) {
-        const auto drop_others = [&] {
-            std::erase_if(coinciding_, [&](const Candidate& candidate) {
-                return !candidate.hit.coincides(best);
-            });
-        };
-        drop_others();
-        Encounter<Real> result;
+                              const Hit<Real>& best) {
+        std::erase_if(candidates_, [&](const Candidate& candidate) {
+            return best.is_surely_before(candidate.hit);
+        });
         if constexpr (std::is_same_v<Real, double>)
-            if (coinciding_.size() > 1 && precision_ == Precision::exact) {
-                for (Candidate& candidate : coinciding_)
-                    sharpen(candidate, ray, departure);
-                best = first_of_coinciding().hit;
-                drop_others();
-                result.is_close = true;
+            if (is_exact() && candidates_.size() > 1) {
+                const CrossingOrder order(scene_, {ray, departure});
+                sharp_.clear();
+                for (const Candidate& candidate : candidates_)
+                    sharp_.emplace_back(candidate.hit);
+                return first_of(sharp_, ray, departure, [&](const SharpHit& a, const SharpHit& b) {
+                    return order.compare(a, b);
+                });
             }
-        result.hit = first_of_coinciding().hit;
+        return first_of(candidates_, ray, departure, [](const Candidate& a, const Candidate& b) {
+            return a.hit.t < b.hit.t ? -1 : a.hit.t > b.hit.t ? 1 : 0;
+        });
+    }
 
-        const Vec3<Real> point = mul_add(result.hit.t, ray.direction, ray.origin);
+    static const Hit<Real>& hit_of(const Candidate& candidate) { return candidate.hit; }
+    static const Hit<Real>& hit_of(const SharpHit& sharp) { return sharp.hit(); }
+    static Hit<Real> sharpened(const Candidate& candidate) { return candidate.hit; }
+    static Hit<Real> sharpened(const SharpHit& sharp) { return sharp.sharpened(); }
+
+    /// Of hits that belong to the candidates: the first that counts, and all that are where it is.
+    template <class AnyHit, class Compare>
+    Encounter<Real> first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
+                             const Departure<Real>& departure, const Compare& compare) const {
+        std::size_t first = hits.size();
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (!candidates_[i].may_be_hit) continue;
+            const int order = first == hits.size() ? -1 : compare(hits[i], hits[first]);
+            if (order < 0 || (order == 0 && hit_of(hits[i]).precedes(hit_of(hits[first]))))
+                first = i;
+        }
+        Encounter<Real> result;
+        result.hit = sharpened(hits[first]);
         const auto add = [&](const Hit<Real>& hit) {
             if (result.contacts.find(hit.shape) != nullptr) return;
             result.contacts.add({hit, scene_.coplanar_with(hit.shape),
-                                 outward_normal_at(hit, point), !hit.entering, hit.entering});
+                                 surface_at(ray, departure, hit).normal, !hit.entering,
+                                 hit.entering});
         };
         add(result.hit);
-        for (const Candidate& candidate : coinciding_)
-            add(candidate.hit);
+        for (std::size_t i = 0; i < hits.size(); ++i)
+            if (i != first && compare(hits[i], hits[first]) == 0) add(sharpened(hits[i]));
         return result;
-    }
-
-    /// Of those that may be hit: the first for sure, or, of those that cannot be told apart from
-    /// the first, the one that the rule says.
-    const Candidate& first_of_coinciding() const {
-        const Candidate* first = nullptr;
-        for (const Candidate& candidate : coinciding_)
-            if (candidate.may_be_hit && (first == nullptr || candidate.is_surely_before(*first)))
-                first = &candidate;
-        const Candidate* chosen = first;
-        for (const Candidate& candidate : coinciding_) {
-            if (!candidate.may_be_hit || first->is_surely_before(candidate)) continue;
-            const Hit<Real>&a = candidate.hit, &b = chosen->hit;
-            if (a.entering != b.entering ? a.entering : a.shape < b.shape) chosen = &candidate;
-        }
-        return *chosen;
-    }
-
-    /// Solves in double-double. In double it leaves an error of no more than what double loses of
-    /// the point: what is closer together than that is in contact for a ray that goes on from
-    /// there.
-    void sharpen(Candidate& candidate, const Ray<double>& ray, const Departure<double>& departure) {
-        using Wide = Bounded<DoubleDouble>;
-        Hit<double>& hit = candidate.hit;
-        with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-            Judge<Wide> judge;
-            const Ray<Wide> wide{convert<Wide>(ray.origin), convert<Wide>(ray.direction)};
-            const Crossings<Wide> all =
-                crossings(table.get(hit.slot), wide, departure.start_on(hit.shape), judge);
-            ++counters.widened;
-            const double rounding = 0x1p-53 * (std::abs(ray.origin.x) + std::abs(ray.origin.y) +
-                                               std::abs(ray.origin.z) + std::abs(hit.t));
-            for (const Crossing<Wide>& crossing : all) {
-                const auto t = static_cast<double>(crossing.t);
-                const bool same = crossing.face == hit.face && crossing.entering == hit.entering &&
-                                  std::abs(t - hit.t) <= crossing.t.error + hit.error;
-                if (!same || crossing.t.error + rounding >= hit.error) continue;
-                candidate.t = crossing.t.value;
-                candidate.t_error = crossing.t.error;
-                hit.t = t;
-                hit.error = crossing.t.error + rounding;
-                return;
-            }
-        });
     }
 
     struct Pending {
@@ -275,7 +267,8 @@ class Searcher {
     Search search_;
     Precision precision_;
     std::vector<Pending> pending_;      // nearest last
-    std::vector<Candidate> coinciding_; // with the best so far
+    std::vector<Candidate> candidates_; // for what is nearest
+    std::vector<SharpHit> sharp_;       // the same, or what is sorted
 };
 
 } // namespace raylane::core

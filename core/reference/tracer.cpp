@@ -13,11 +13,6 @@ namespace raylane::core {
 namespace {
 
 template <class Real>
-Vec3<Real> mix(const Vec3<Real>& a, const Vec3<Real>& b, Real fraction) {
-    return mul_add(fraction, b, Vec3<Real>((Real(1) - fraction) * a));
-}
-
-template <class Real>
 Real largest(const Vec3<Real>& v) {
     return std::max({v.x, v.y, v.z});
 }
@@ -33,6 +28,7 @@ ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& setti
     : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
       searcher_(scene, search, precision) {
     crossings_.reserve(64);
+    pending_.reserve(64);
 }
 
 template <class Real>
@@ -54,55 +50,64 @@ Color ReferenceTracer<Real>::pixel(int x, int y) {
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::trace(const Ray<Real>& ray) {
     ++searcher_.counters.primary;
-    return color_along({ray, Departure<Real>{}, media_around(ray.origin), Vector(1), 0});
+    return light_along({ray, Departure<Real>{}, media_around(ray.origin), Vector(1), 0});
 }
 
 /// Perspective rays share their origin, so the last one's media serve again.
 template <class Real>
-const Media& ReferenceTracer<Real>::media_around(const Vector& origin) {
+Media ReferenceTracer<Real>::media_around(const Vector& origin) {
     if (!start_media_ || origin != start_) {
         start_ = origin;
-        start_media_ = enclosing_media(scene_, searcher_, origin);
+        start_media_ = enclosing_media(scene_, searcher_, media_, origin);
     }
     return *start_media_;
 }
 
+/// What a path spawns waits here, not on the stack: the last that was spawned goes on first.
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
+    Vector light(0);
+    const std::size_t others = pending_.size();
+    pending_.push_back(std::move(path));
+    while (pending_.size() > others) {
+        const Path next = std::move(pending_.back());
+        pending_.pop_back();
+        light += light_on(next);
+    }
+    return light;
+}
+
 /// The nearest visible surface, behind whatever fills the space in between.
 template <class Real>
-Vec3<Real> ReferenceTracer<Real>::color_along(const Path& path) {
+Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     const Encounter<Real> encounter =
         searcher_.nearest(path.ray, path.departure,
                           [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
-    if (!hit.any()) return color_at_infinity(path);
+    if (!hit.any()) return path.throughput * color_at_infinity(path);
 
     const Surface surface = surface_at(path, encounter);
     const MaterialIndex medium = medium_before(hit, path.media);
-    Path shaded = path;
-    if (medium != Media::none) {
-        const Vector share = absorbed(medium, hit.t);
-        shaded.throughput *= share;
-        return share * shade(shaded, surface);
-    }
+    if (medium != no_medium) return shade(path, surface, absorbed(medium, hit.t) * path.throughput);
     const Real fog = fog_fraction(scene_.fog(), hit.t, surface.point.z);
-    shaded.throughput *= Real(1) - fog;
-    return mix(shade(shaded, surface), convert<Real>(scene_.fog().color), fog);
+    const Vector of_fog = fog * convert<Real>(scene_.fog().color) * path.throughput;
+    return of_fog + shade(path, surface, (Real(1) - fog) * path.throughput);
 }
 
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::color_at_infinity(const Path& path) const {
     const Vector background = convert<Real>(scene_.background());
-    if (!path.media.empty()) return absorbed(path.media.top(), infinity<Real>) * background;
+    if (path.media != in_the_open)
+        return absorbed(media_.top(path.media), infinity<Real>) * background;
     const Real fog = fog_fraction_at_infinity(scene_.fog(), path.ray.origin, path.ray.direction);
-    return mix(background, convert<Real>(scene_.fog().color), fog);
+    return mul_add(fog, convert<Real>(scene_.fog().color), Vector((Real(1) - fog) * background));
 }
 
 template <class Real>
 typename ReferenceTracer<Real>::Surface
 ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encounter) const {
     const Hit<Real>& hit = encounter.hit;
-    const Vector point = mul_add(hit.t, path.ray.direction, path.ray.origin);
-    Vector flat = searcher_.outward_normal_at(hit, point);
+    auto [point, flat] = searcher_.surface_at(path.ray, path.departure, hit);
     Vector normal = flat;
     if (hit.kind == Kind::smooth_triangle) {
         const auto& table = std::get<Table<SmoothTriangle>>(scene_.shapes());
@@ -119,12 +124,13 @@ ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encou
     return {hit, encounter.contacts, scene_.material_of(hit.shape), point, flat, normal};
 }
 
-/// The formula at `Material`.
+/// The formula at `Material`, where `throughput` of it reaches the pixel.
 template <class Real>
-Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface) {
+Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface,
+                                        const Vector& throughput) {
     const Material& material = surface.material;
-    Vector color = lit(path, surface);
-    if (!material.reflects() && !material.transmits()) return color;
+    const Vector light = throughput * lit(path, surface);
+    if (!material.reflects() && !material.transmits()) return light;
 
     const auto [before, behind] = indices_at(surface.hit, path.media);
     Refraction<Real> refraction = refract(path.ray.direction, surface.normal, before, behind);
@@ -136,10 +142,10 @@ Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface
                                      ? reflectance(material, refraction, before, behind)
                                      : Real(material.reflectivity);
     const Real transmitted_share = (Real(1) - reflected_share) * Real(material.transmission);
-    color += reflected_color(path, surface, reflected_share);
     if (transmitted_share > Real(0))
-        color += transmitted_color(path, surface, transmitted_share, refraction.transmitted);
-    return color;
+        transmit(path, surface, transmitted_share * throughput, refraction.transmitted);
+    reflect(path, surface, reflected_share * throughput);
+    return light;
 }
 
 /// Ambient light, and each light that is on this side of the surface.
@@ -155,6 +161,7 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
         if (light.kind == LightKind::point)
             to_light = convert<Real>(light.position) - surface.point;
         Real distance = length(to_light);
+        if (!(distance > Real(0))) continue; // from where it is, it shines nowhere
         to_light /= distance;
         if (light.kind == LightKind::directional) distance = infinity<Real>;
         if (dot(surface.flat_normal, to_light) <= Real(0)) continue;
@@ -176,38 +183,34 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
     return color;
 }
 
-/// R (colour reflected)
 template <class Real>
-Vec3<Real> ReferenceTracer<Real>::reflected_color(const Path& path, const Surface& surface,
-                                                  Real reflectance) {
-    const Vector throughput = reflectance * path.throughput;
-    if (path.depth >= settings_.max_depth || !is_worth(throughput)) return Vector(0);
+void ReferenceTracer<Real>::reflect(const Path& path, const Surface& surface,
+                                    const Vector& throughput) {
+    if (path.depth >= settings_.max_depth || !is_worth(throughput)) return;
 
     Vector direction = reflected(path.ray.direction, surface.normal);
     if (dot(direction, surface.flat_normal) <= Real(0))
         direction = reflected(path.ray.direction, surface.flat_normal);
 
     ++searcher_.counters.reflected;
-    return reflectance * color_along({{surface.point, normalized(direction)},
-                                      surface.departure(/*through=*/false, direction),
-                                      path.media,
-                                      throughput,
-                                      path.depth + 1});
+    pending_.push_back({{surface.point, normalized(direction)},
+                        surface.departure(/*through=*/false, direction),
+                        path.media,
+                        throughput,
+                        path.depth + 1});
 }
 
-/// (1 - R) transmission (colour transmitted)
 template <class Real>
-Vec3<Real> ReferenceTracer<Real>::transmitted_color(const Path& path, const Surface& surface,
-                                                    Real weight, const Vector& direction) {
-    const Vector throughput = weight * path.throughput;
-    if (path.depth >= settings_.max_depth || !is_worth(throughput)) return Vector(0);
+void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
+                                     const Vector& throughput, const Vector& direction) {
+    if (path.depth >= settings_.max_depth || !is_worth(throughput)) return;
 
     ++searcher_.counters.refracted;
-    return weight * color_along({{surface.point, normalized(direction)},
-                                 surface.departure(/*through=*/true, direction),
-                                 media_behind(surface.hit, path.media),
-                                 throughput,
-                                 path.depth + 1});
+    pending_.push_back({{surface.point, normalized(direction)},
+                        surface.departure(/*through=*/true, direction),
+                        media_behind(surface.hit, path.media),
+                        throughput,
+                        path.depth + 1});
 }
 
 template <class Real>
@@ -220,11 +223,11 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
     Real reached = 0;
     for (const Hit<Real>& hit : crossings_) {
         share *= absorbed(medium_before(hit, media), hit.t - reached);
-        share *= let_through(hit, ray, media);
+        share *= let_through(hit, ray, departure, media);
         media = media_behind(hit, media);
         reached = hit.t;
     }
-    return share * absorbed(media.top(), distance - reached);
+    return share * absorbed(media_.top(media), distance - reached);
 }
 
 /// The transmissive surfaces on a shadow ray, in their order; false if there is an opaque one.
@@ -241,27 +244,16 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure
     });
     if (!is_open) return false;
 
-    std::sort(crossings_.begin(), crossings_.end(),
-              [](const Hit<Real>& a, const Hit<Real>& b) { return a.before(b); });
-    // Where they coincide, what is entered comes before what is left.
-    for (auto first = crossings_.begin(); first != crossings_.end();) {
-        const auto end = std::find_if(first, crossings_.end(), [&](const Hit<Real>& hit) {
-            return !hit.coincides(*first) || hit.at_start != first->at_start;
-        });
-        // std::stable_partition would ask for memory.
-        for (auto next = first, place = first; next != end; ++next)
-            if (next->entering) std::rotate(place++, next, std::next(next));
-        first = end;
-    }
+    searcher_.sort(ray, departure, crossings_);
     return true;
 }
 
 /// The share that one surface lets through.
 template <class Real>
 Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
-                                        const Media& media) const {
-    const Vector point = mul_add(hit.t, ray.direction, ray.origin);
-    const Real cos = std::abs(dot(ray.direction, searcher_.outward_normal_at(hit, point)));
+                                        const Departure<Real>& departure, Media media) {
+    const Vector normal = searcher_.surface_at(ray, departure, hit).normal;
+    const Real cos = std::abs(dot(ray.direction, normal));
     const auto [before, behind] = indices_at(hit, media);
     return let_straight_through(scene_.material_of(hit.shape), std::min(cos, Real(1)), before,
                                 behind);
@@ -280,30 +272,29 @@ bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
 
 /// A surface that transmits nothing has its own index behind it, from whichever side it is seen.
 template <class Real>
-typename ReferenceTracer<Real>::Indices
-ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, const Media& media) const {
+typename ReferenceTracer<Real>::Indices ReferenceTracer<Real>::indices_at(const Hit<Real>& hit,
+                                                                          Media media) {
     const auto before = static_cast<Real>(index_of(scene_.materials(), medium_before(hit, media)));
     const Material& material = scene_.material_of(hit.shape);
     if (hit.entering || !material.transmits()) return {before, Real(material.index)};
-    return {before,
-            static_cast<Real>(index_of(scene_.materials(), media_behind(hit, media).top()))};
+    const MaterialIndex behind = media_.top(media_behind(hit, media));
+    return {before, static_cast<Real>(index_of(scene_.materials(), behind))};
 }
 
 template <class Real>
-Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media) const {
-    media.cross(scene_.material_index_of(hit.shape), hit.entering);
-    return media;
+Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media) {
+    return media_.crossed(media, scene_.material_index_of(hit.shape), hit.entering);
 }
 
 template <class Real>
-MaterialIndex ReferenceTracer<Real>::medium_before(const Hit<Real>& hit, const Media& media) const {
+MaterialIndex ReferenceTracer<Real>::medium_before(const Hit<Real>& hit, Media media) const {
     const MaterialIndex material = scene_.material_index_of(hit.shape);
-    return media.before(material, scene_.materials()[material].transmits(), hit.entering);
+    return media_.before(media, material, scene_.materials()[material].transmits(), hit.entering);
 }
 
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::absorbed(MaterialIndex medium, Real distance) const {
-    if (medium == Media::none) return Vector(1);
+    if (medium == no_medium) return Vector(1);
     return let_through_medium(scene_.materials()[medium], distance);
 }
 

@@ -42,8 +42,8 @@ class ReferenceTracer {
         int depth;         ///< reflections and refractions so far
     };
 
-    /// The linear RGB colour seen along a path, not yet weighted by its throughput.
-    Vector color_along(const Path& path);
+    /// What a path brings to the pixel, with all that follows from it: linear RGB.
+    Vector light_along(Path path);
 
     /// The first surface along a ray, whether it can be seen or not, and what it touches there.
     Encounter<Real> nearest(const Ray<Real>& ray, const Departure<Real>& departure) {
@@ -56,13 +56,20 @@ class ReferenceTracer {
                              Real distance);
 
     /// What a ray from the camera starts in.
-    const Media& media_around(const Vector& origin);
+    Media media_around(const Vector& origin);
+    /// Those that paths are inside of.
+    MediaStacks& media() { return media_; }
+    /// Forgets what paths have been inside of, none of which is underway any more.
+    void forget_media() {
+        media_.clear();
+        start_media_.reset();
+    }
 
   private:
     /// The surface that a path has hit, seen from the side that it came from.
     struct Surface {
         Hit<Real> hit;
-        Departure<Real> contacts;
+        const Departure<Real>& contacts;
         const Material& material;
         Vector point;
         Vector flat_normal; ///< unit, perpendicular to the surface
@@ -80,28 +87,32 @@ class ReferenceTracer {
         Real behind;
     };
 
+    Vector light_on(const Path& path);
     Vector color_at_infinity(const Path& path) const;
     Surface surface_at(const Path& path, const Encounter<Real>& encounter) const;
-    Vector shade(const Path& path, const Surface& surface);
+    Vector shade(const Path& path, const Surface& surface, const Vector& throughput);
     Vector lit(const Path& path, const Surface& surface);
-    Vector reflected_color(const Path& path, const Surface& surface, Real reflectance);
-    Vector transmitted_color(const Path& path, const Surface& surface, Real weight,
-                             const Vector& direction);
+    void reflect(const Path& path, const Surface& surface, const Vector& throughput);
+    void transmit(const Path& path, const Surface& surface, const Vector& throughput,
+                  const Vector& direction);
     bool find_crossings(const Ray<Real>& ray, const Departure<Real>& departure, Real distance);
 
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
-    Indices indices_at(const Hit<Real>& hit, const Media& media) const;
+    Indices indices_at(const Hit<Real>& hit, Media media);
 
-    Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Media& media) const;
-    Media media_behind(const Hit<Real>& hit, Media media) const;
-    MaterialIndex medium_before(const Hit<Real>& hit, const Media& media) const;
+    Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Departure<Real>& departure,
+                     Media media);
+    Media media_behind(const Hit<Real>& hit, Media media);
+    MaterialIndex medium_before(const Hit<Real>& hit, Media media) const;
     Vector absorbed(MaterialIndex medium, Real distance) const;
 
     const Scene& scene_;
     Settings settings_;
     CameraRays<Real> camera_rays_;
     Searcher<Real> searcher_;
+    MediaStacks media_;
+    std::vector<Path> pending_;        // the next one last
     std::vector<Hit<Real>> crossings_; // of a shadow ray
     Vector start_{};                   // of the last ray from the camera
     std::optional<Media> start_media_; // around it

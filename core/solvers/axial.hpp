@@ -2,6 +2,7 @@
 
 #include "core/judge.hpp"
 #include "core/ray.hpp"
+#include "core/solvers/form.hpp"
 
 namespace raylane::core {
 
@@ -69,5 +70,37 @@ Vec3<Real> offset_from_axis(const Vec3f& base, const Vec3f& axis, const Vec3<Rea
     const Vec3<Real> from_base = point - convert<Real>(base);
     return mul_add(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
 }
+
+/// An AxialRay without fractions: across is scaled by |axis|^2.
+template <class Real>
+struct ScaledAxialRay {
+    Vec3<Real> axis, from_base, direction;
+    Real axis_squared, height_origin, height_direction;
+
+    ScaledAxialRay(const Vec3f& base, const Vec3f& axis_, const Ray<Real>& ray)
+        : axis(convert<Real>(axis_)), from_base(ray.origin - convert<Real>(base)),
+          direction(ray.direction), axis_squared(squared_length(axis)),
+          height_origin(dot(from_base, axis)), height_direction(dot(direction, axis)) {}
+
+    /// |across|^2 - width^2, scaled by |axis|^2: the width is as far from the axis as it is wide.
+    ExactQuadratic pipe(const Real& radius) const {
+        return {
+            axis_squared * squared_length(direction) - height_direction * height_direction,
+            axis_squared * dot(from_base, direction) - height_origin * height_direction,
+            axis_squared * (squared_length(from_base) - radius * radius) -
+                height_origin * height_origin,
+        };
+    }
+    NormalAlong<Real> across() const {
+        return {axis_squared * from_base - height_origin * axis,
+                axis_squared * direction - height_direction * axis};
+    }
+
+    ExactQuadratic cap(Face face) const {
+        if (face == base_cap) return {0.0, -0.5 * height_direction, -height_origin};
+        return {0.0, 0.5 * height_direction, height_origin - axis_squared};
+    }
+    NormalAlong<Real> cap_normal(Face face) const { return {face == base_cap ? -axis : axis}; }
+};
 
 } // namespace raylane::core

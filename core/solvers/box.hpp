@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/solvers/convex.hpp"
+#include "core/solvers/form.hpp"
 
 #include <array>
 
@@ -49,12 +50,28 @@ Crossings<Real> crossings(const Box& box, const Ray<Real>& ray, const Start& sta
 }
 
 template <class Real>
-Vec3<Real> outward_normal(const Box& box, const Vec3<Real>&, Face face) {
+Vec3<Real> outward_direction(const Box& box, const Vec3<Real>&, Face face) {
     const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
-    const bool left_handed = dot(normals[0], convert<Real>(box.edge_u)) < Real(0.0);
+    const bool left_handed = static_cast<double>(dot(normals[0], convert<Real>(box.edge_u))) < 0.0;
     const bool through_corner = face % 2 == 0;
-    const Vec3<Real> normal = normalized(normals[face / 2]);
+    const Vec3<Real>& normal = normals[face / 2];
     return left_handed == through_corner ? normal : -normal;
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Box& box, const Ray<Real>&, Face face) {
+    const bool left_handed =
+        dot(box_normals<Dyadic>(box)[0], convert<Dyadic>(box.edge_u)).sign() < 0;
+    const bool through_corner = face % 2 == 0;
+    const Vec3<Real> normal = box_normals<Real>(box)[face / 2];
+    return {left_handed == through_corner ? normal : -normal};
+}
+
+inline ExactQuadratic form_along(const Box& box, const ExactRay& ray, Face face) {
+    Vec3<Dyadic> point = ray.origin - convert<Dyadic>(box.corner);
+    const Vec3f edges[] = {box.edge_u, box.edge_v, box.edge_w};
+    if (face % 2 == 1) point = point - convert<Dyadic>(edges[face / 2]);
+    return plane_along(normal_along(box, ray, face).v, point, ray.direction);
 }
 
 } // namespace raylane::core

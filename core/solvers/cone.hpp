@@ -71,23 +71,58 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
     return start.on_surface ? span.exit() : span.crossings();
 }
 
-/// Half the gradient of F: across - width slope axis. It vanishes at the apex; the axis, outwards,
-/// stands in.
+/// Half the gradient of F: across - width slope axis. It vanishes at the apex.
 template <class Real, Ends ends>
-Vec3<Real> outward_normal(const Cone<ends>& cone, const Vec3<Real>& point, Face face) {
+Vec3<Real> outward_direction(const Cone<ends>& cone, const Vec3<Real>& point, Face face) {
     const Vec3<Real> axis = convert<Real>(cone.axis);
-    if (face == base_cap) return -normalized(axis);
-    if (face == top_cap) return normalized(axis);
+    if (face == base_cap) return -axis;
+    if (face == top_cap) return axis;
     const Vec3<Real> across = offset_from_axis(cone.base, cone.axis, point);
     const Real narrowing = Real(cone.base_radius) - Real(cone.top_radius);
     // On the surface width = |across|: with it the direction is right even where the point is a
     // little off.
     const Real width = length(across);
-    const Vec3<Real> gradient =
-        mul_add(Real(width * narrowing / squared_length(axis)), axis, across);
-    if (!(squared_length(gradient) > Real(0.0)))
-        return normalized(narrowing > Real(0.0) ? axis : -axis);
-    return normalized(gradient);
+    return mul_add(Real(width * narrowing / squared_length(axis)), axis, across);
+}
+
+/// The axis, outwards.
+template <class Real, Ends ends>
+Vec3<Real> apex_direction(const Cone<ends>& cone) {
+    const Vec3<Real> axis = convert<Real>(cone.axis);
+    return cone.top_radius < cone.base_radius ? axis : -axis;
+}
+
+/// The cone's width, scaled by |axis|^2: origin + t direction.
+template <class Real>
+struct ScaledWidth {
+    Real widening, origin, direction;
+
+    ScaledWidth(float base_radius, float top_radius, const ScaledAxialRay<Real>& axial)
+        : widening(Real(top_radius) - Real(base_radius)),
+          origin(Real(base_radius) * axial.axis_squared + widening * axial.height_origin),
+          direction(widening * axial.height_direction) {}
+};
+
+template <Ends ends>
+ExactQuadratic form_along(const Cone<ends>& cone, const ExactRay& ray, Face face) {
+    const ScaledAxialRay<Dyadic> axial(cone.base, cone.axis, ray);
+    if (face != body) return axial.cap(face);
+    const ScaledWidth<Dyadic> width(cone.base_radius, cone.top_radius, axial);
+    const auto [A, B, C] = axial.pipe(0.0);
+    return {axial.axis_squared * A - width.direction * width.direction,
+            axial.axis_squared * B - width.origin * width.direction,
+            axial.axis_squared * C - width.origin * width.origin};
+}
+
+template <class Real, Ends ends>
+NormalAlong<Real> normal_along(const Cone<ends>& cone, const Ray<Real>& ray, Face face) {
+    const ScaledAxialRay<Real> axial(cone.base, cone.axis, ray);
+    if (face != body) return axial.cap_normal(face);
+    const ScaledWidth<Real> width(cone.base_radius, cone.top_radius, axial);
+    const NormalAlong<Real> across = axial.across();
+    const Real at_origin = width.widening * width.origin, along = width.widening * width.direction;
+    return {axial.axis_squared * across.v - at_origin * axial.axis,
+            axial.axis_squared * across.slope - along * axial.axis, apex_direction<Real>(cone)};
 }
 
 } // namespace raylane::core

@@ -57,11 +57,23 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
 }
 
 template <class Real, Ends ends>
-Vec3<Real> outward_normal(const Cylinder<ends>& cylinder, const Vec3<Real>& point, Face face) {
-    const Vec3<Real> axis = normalized(convert<Real>(cylinder.axis));
+Vec3<Real> outward_direction(const Cylinder<ends>& cylinder, const Vec3<Real>& point, Face face) {
+    const Vec3<Real> axis = convert<Real>(cylinder.axis);
     if (face == base_cap) return -axis;
     if (face == top_cap) return axis;
-    return normalized(offset_from_axis(cylinder.base, cylinder.axis, point));
+    return offset_from_axis(cylinder.base, cylinder.axis, point);
+}
+
+template <Ends ends>
+ExactQuadratic form_along(const Cylinder<ends>& cylinder, const ExactRay& ray, Face face) {
+    const ScaledAxialRay<Dyadic> axial(cylinder.base, cylinder.axis, ray);
+    return face == body ? axial.pipe(cylinder.radius) : axial.cap(face);
+}
+
+template <class Real, Ends ends>
+NormalAlong<Real> normal_along(const Cylinder<ends>& cylinder, const Ray<Real>& ray, Face face) {
+    const ScaledAxialRay<Real> axial(cylinder.base, cylinder.axis, ray);
+    return face == body ? axial.across() : axial.cap_normal(face);
 }
 
 } // namespace raylane::core

@@ -2,6 +2,7 @@
 
 #include "core/judge.hpp"
 #include "core/ray.hpp"
+#include "core/solvers/form.hpp"
 
 #include <optional>
 
@@ -29,8 +30,8 @@ Crossings<Real> crossings(const Plane& plane, const Ray<Real>& ray, const Start&
 }
 
 template <class Real>
-Vec3<Real> outward_normal(const Plane& plane, const Vec3<Real>&, Face) {
-    return normalized(convert<Real>(plane.normal));
+Vec3<Real> outward_direction(const Plane& plane, const Vec3<Real>&, Face) {
+    return convert<Real>(plane.normal);
 }
 
 template <class Real>
@@ -47,8 +48,8 @@ Crossings<Real> crossings(const Disc& disc, const Ray<Real>& ray, const Start& s
 }
 
 template <class Real>
-Vec3<Real> outward_normal(const Disc& disc, const Vec3<Real>&, Face) {
-    return normalized(convert<Real>(disc.normal));
+Vec3<Real> outward_direction(const Disc& disc, const Vec3<Real>&, Face) {
+    return convert<Real>(disc.normal);
 }
 
 /// Twice the signed areas of the triangles (p, b, c), (p, c, a), (p, a, b) as seen along the ray
@@ -101,13 +102,13 @@ Vec3<Real> triangle_normal(const AnyTriangle& triangle) {
 }
 
 template <class Real>
-Vec3<Real> outward_normal(const Triangle& triangle, const Vec3<Real>&, Face) {
-    return normalized(triangle_normal<Real>(triangle));
+Vec3<Real> outward_direction(const Triangle& triangle, const Vec3<Real>&, Face) {
+    return triangle_normal<Real>(triangle);
 }
 
 template <class Real>
-Vec3<Real> outward_normal(const SmoothTriangle& triangle, const Vec3<Real>&, Face) {
-    return normalized(triangle_normal<Real>(triangle));
+Vec3<Real> outward_direction(const SmoothTriangle& triangle, const Vec3<Real>&, Face) {
+    return triangle_normal<Real>(triangle);
 }
 
 /// The corners' normals, weighted by the barycentric coordinates of `point`; the flat normal where
@@ -122,6 +123,49 @@ Vec3<Real> shading_normal(const SmoothTriangle& triangle, const Vec3<Real>& poin
                            dot(flat, cross(c, a)) * normalized(convert<Real>(triangle.normal_b)) +
                            dot(flat, cross(a, b)) * normalized(convert<Real>(triangle.normal_c));
     return squared_length(sum) > Real(0.0) ? normalized(sum) : normalized(flat);
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Plane& plane, const Ray<Real>&, Face) {
+    return {convert<Real>(plane.normal)};
+}
+
+inline ExactQuadratic form_along(const Plane& plane, const ExactRay& ray, Face) {
+    return plane_along(convert<Dyadic>(plane.normal), ray.origin - convert<Dyadic>(plane.point),
+                       ray.direction);
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Disc& disc, const Ray<Real>&, Face) {
+    return {convert<Real>(disc.normal)};
+}
+
+inline ExactQuadratic form_along(const Disc& disc, const ExactRay& ray, Face) {
+    return plane_along(convert<Dyadic>(disc.normal), ray.origin - convert<Dyadic>(disc.center),
+                       ray.direction);
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Triangle& triangle, const Ray<Real>&, Face) {
+    return {triangle_normal<Real>(triangle)};
+}
+
+inline ExactQuadratic form_along(const Triangle& triangle, const ExactRay& ray, Face) {
+    return plane_along(triangle_normal<Dyadic>(triangle), ray.origin - convert<Dyadic>(triangle.a),
+                       ray.direction);
+}
+
+inline Triangle flat(const SmoothTriangle& triangle) {
+    return {triangle.a, triangle.b, triangle.c};
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const SmoothTriangle& triangle, const Ray<Real>& ray, Face face) {
+    return normal_along(flat(triangle), ray, face);
+}
+
+inline ExactQuadratic form_along(const SmoothTriangle& triangle, const ExactRay& ray, Face face) {
+    return form_along(flat(triangle), ray, face);
 }
 
 } // namespace raylane::core

@@ -6,7 +6,8 @@
 namespace raylane::core {
 
 /// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside, by the textbooks'
-/// formula. It cancels; solve_quadratic is what to use.
+/// formula. It cancels; solve_quadratic is what to use. Where a line touches the surface, it enters
+/// before it leaves, from whichever side it does.
 template <class Real>
 Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
     using std::sqrt;
@@ -19,7 +20,8 @@ Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
     if (static_cast<double>(discriminant) < 0.0) return {};
     const Real root = sqrt(discriminant);
     const Crossing<Real> in{(-B - root) / A, body, true}, out{(root - B) / A, body, false};
-    return a > 0.0 ? Crossings<Real>(in, out) : Crossings<Real>(out, in);
+    const bool in_first = a > 0.0 || static_cast<double>(discriminant) == 0.0;
+    return in_first ? Crossings<Real>(in, out) : Crossings<Real>(out, in);
 }
 
 /// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside.
@@ -57,13 +59,13 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     const bool falling = static_cast<double>(B) < 0.0;
     const Real q = falling ? Real(root - B) : Real(-root - B);
     if (static_cast<double>(q) == 0.0)
-        return {crossing(Real(0.0), curvature > 0), crossing(Real(0.0), curvature < 0)};
+        return {crossing(Real(0.0), true), crossing(Real(0.0), false)};
     // F' at q / A has the sign of `root` if falling; at C / q the opposite.
     const Crossing<Real> by_A = crossing(q / A, !falling);
     const Crossing<Real> by_C = crossing(C / q, falling);
-    // In order: for A > 0 the ray enters first, for A < 0 it leaves first.
-    return by_A.entering == (curvature > 0) ? Crossings<Real>(by_A, by_C)
-                                            : Crossings<Real>(by_C, by_A);
+    // In order: for A > 0 the ray enters first, for A < 0 it leaves first, unless it touches.
+    const bool in_first = curvature > 0 || static_cast<double>(discriminant) == 0.0;
+    return by_A.entering == in_first ? Crossings<Real>(by_A, by_C) : Crossings<Real>(by_C, by_A);
 }
 
 } // namespace raylane::core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/solvers/form.hpp"
 #include "core/solvers/quadratic.hpp"
 
 #include <algorithm>
@@ -72,13 +73,28 @@ Crossings<Real> crossings(const Quadric& quadric, const Ray<Real>& ray, const St
     return kept;
 }
 
-/// The gradient; where it vanishes (the apex of a cone) the z axis stands in.
+/// The gradient. It vanishes at the apex of a cone.
 template <class Real>
-Vec3<Real> outward_normal(const Quadric& quadric, const Vec3<Real>& point, Face) {
-    const Vec3<Real> gradient =
-        quadric_half_gradient(quadric, Vec3<Real>(point - convert<Real>(quadric.center)));
-    if (!(squared_length(gradient) > Real(0.0))) return {Real(0.0), Real(0.0), Real(1)};
-    return normalized(gradient);
+Vec3<Real> outward_direction(const Quadric& quadric, const Vec3<Real>& point, Face) {
+    return quadric_half_gradient(quadric, Vec3<Real>(point - convert<Real>(quadric.center)));
+}
+
+template <class Real>
+Vec3<Real> apex_direction(const Quadric&) {
+    return {Real(0.0), Real(0.0), Real(1.0)};
+}
+
+inline ExactQuadratic form_along(const Quadric& quadric, const ExactRay& ray, Face) {
+    const Vec3<Dyadic> f = ray.origin - convert<Dyadic>(quadric.center);
+    return {dot(ray.direction, quadric_product(quadric, ray.direction)),
+            dot(ray.direction, quadric_half_gradient(quadric, f)), quadric_value(quadric, f)};
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Quadric& quadric, const Ray<Real>& ray, Face) {
+    const Vec3<Real> f = ray.origin - convert<Real>(quadric.center);
+    return {quadric_half_gradient(quadric, f), quadric_product(quadric, ray.direction),
+            apex_direction<Real>(quadric)};
 }
 
 } // namespace raylane::core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/solvers/form.hpp"
 #include "core/solvers/quadratic.hpp"
 
 namespace raylane::core {
@@ -29,8 +30,20 @@ Crossings<Real> crossings(const Sphere& sphere, const Ray<Real>& ray, const Star
 }
 
 template <class Real>
-Vec3<Real> outward_normal(const Sphere& sphere, const Vec3<Real>& point, Face) {
-    return normalized(point - convert<Real>(sphere.center));
+Vec3<Real> outward_direction(const Sphere& sphere, const Vec3<Real>& point, Face) {
+    return point - convert<Real>(sphere.center);
+}
+
+inline ExactQuadratic form_along(const Sphere& sphere, const ExactRay& ray, Face) {
+    const Vec3<Dyadic> f = ray.origin - convert<Dyadic>(sphere.center);
+    const Dyadic radius = sphere.radius;
+    return {squared_length(ray.direction), dot(f, ray.direction),
+            squared_length(f) - radius * radius};
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Sphere& sphere, const Ray<Real>& ray, Face) {
+    return {ray.origin - convert<Real>(sphere.center), ray.direction};
 }
 
 } // namespace raylane::core

@@ -43,7 +43,8 @@ simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
     return {optional("t", hits.t, count),
             {optional("normal_x", hits.normal_x, count), optional("normal_y", hits.normal_y, count),
              optional("normal_z", hits.normal_z, count)},
-            optional("shape", hits.shape, count)};
+            optional("shape", hits.shape, count),
+            optional("entering", hits.entering, count)};
 }
 
 } // namespace

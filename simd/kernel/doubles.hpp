@@ -22,6 +22,7 @@ struct Spots {
 /// pick: from[places[lane]].
 /// widen: half of a packet of floats, the lower (0) or the upper one (1).
 /// product_error: a b - product, exactly, for the rounded product of a and b.
+/// round_alike: whether a and b are the same when rounded to float.
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
 template <class Arch>
 struct DoubleLanes;
@@ -71,6 +72,10 @@ struct DoubleLanes<Sse42> {
         const F a_high = scaled_a - (scaled_a - a), b_high = scaled_b - (scaled_b - b);
         const F a_low = a - a_high, b_low = b - b_high;
         return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    }
+    static M round_alike(const F& a, const F& b) {
+        const __m128 same = _mm_cmpeq_ps(_mm_cvtpd_ps(a), _mm_cvtpd_ps(b));
+        return M(_mm_castsi128_pd(_mm_cvtepi32_epi64(_mm_castps_si128(same))));
     }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(_mm_setr_pd(from[places[0]], from[places[1]]));
@@ -134,6 +139,10 @@ struct DoubleLanes<Avx2> {
     }
     static F product_error(const F& a, const F& b, const F& product) {
         return F(_mm256_fmsub_pd(a, b, product));
+    }
+    static M round_alike(const F& a, const F& b) {
+        const __m128 same = _mm_cmpeq_ps(_mm256_cvtpd_ps(a), _mm256_cvtpd_ps(b));
+        return M(_mm256_castsi256_pd(_mm256_cvtepi32_epi64(_mm_castps_si128(same))));
     }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(
@@ -216,6 +225,9 @@ struct DoubleLanes<Avx512> {
     }
     static F product_error(const F& a, const F& b, const F& product) {
         return F(_mm512_fmsub_pd(a, b, product));
+    }
+    static M round_alike(const F& a, const F& b) {
+        return M(_mm256_cmp_ps_mask(_mm512_cvtpd_ps(a), _mm512_cvtpd_ps(b), _CMP_EQ_OQ));
     }
     static F pick(const double* from, const std::uint32_t* places) {
         return F(_mm512_i32gather_pd(load(places), from, 8));

@@ -71,8 +71,8 @@ class GatherReader {
     int row_ = 0;
 };
 
-/// Kernels::finish.
-template <class Arch>
+/// MethodKernels::finish, or finish_all.
+template <class Arch, Wanted wanted>
 class Finish {
   public:
     Finish(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
@@ -162,9 +162,10 @@ class Finish {
                                               const Spots<Arch>& spots, std::size_t i,
                                               std::uint32_t active) const {
         const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
-        Finished<D> finished = finisher.finish(rays, leaves_any(i, active) ? starts(table, spots, i)
-                                                                           : starts_nowhere<D>());
-        finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
+        Finished<D> finished = finisher.template finish<wanted>(
+            rays, leaves_any(i, active) ? starts(table, spots, i) : starts_nowhere<D>());
+        if (found_.holds_points)
+            finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
         store(finished, i, active);
         if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
             if (found_.shading_normal[0] != nullptr)
@@ -206,10 +207,14 @@ class Finish {
         store(finished.t, found_.t + i, active);
         store(finished.error, found_.error + i, active);
         store(finished.normal, found_.normal, i, active);
-        const F bits = xsimd::select(
-            finished.certain,
-            finished.face + xsimd::select(finished.entering, F(double{hit_entering}), zero<D>()),
-            xsimd::select(finished.misses, F(double{hit_none}), F(double{hit_doubtful})));
+        F of_certain =
+            finished.face + select(finished.entering, F(double{hit_entering}), zero<D>());
+        if constexpr (wanted == Wanted::all)
+            of_certain = of_certain +
+                         select(is_rounded(finished), zero<D>(), F(double{hit_normal_doubtful}));
+        const F bits =
+            select(finished.certain, of_certain,
+                   select(finished.misses, F(double{hit_none}), F(double{hit_doubtful})));
         if (active == all_lanes) {
             Lanes<D>::to_numbers(found_.hit + i, bits);
             return;
@@ -218,6 +223,16 @@ class Finish {
         Lanes<D>::to_numbers(numbers, bits);
         for (unsigned lane = 0; lane < width; ++lane)
             if ((active >> lane & 1) != 0) found_.hit[i + lane] = numbers[lane];
+    }
+
+    /// Whether each component of the normal is one float, wherever it is.
+    static M is_rounded(const Finished<D>& finished) {
+        const auto alike = [](const F& value, const F& error) {
+            return Lanes<D>::round_alike(value - error, value + error);
+        };
+        return alike(finished.normal.x, finished.normal_error.x) &
+               alike(finished.normal.y, finished.normal_error.y) &
+               alike(finished.normal.z, finished.normal_error.z);
     }
 
     [[gnu::always_inline]] static void store(const Vectors<D>& values, double* const out[3],
@@ -231,16 +246,16 @@ class Finish {
         if (active == all_lanes)
             values.store_unaligned(out);
         else
-            xsimd::select(Lanes<D>::from_bits(active), values, load(out)).store_unaligned(out);
+            select(Lanes<D>::from_bits(active), values, load(out)).store_unaligned(out);
     }
 
     const SceneView& scene_;
     const Found& found_;
 };
 
-template <class Arch>
+template <class Arch, Wanted wanted>
 void finish(const SceneView& scene, const Found& found) {
-    Finish<Arch>(scene, found).all_rays();
+    Finish<Arch, wanted>(scene, found).all_rays();
 }
 
 } // namespace raylane::simd

@@ -14,8 +14,8 @@ namespace raylane::simd {
 /// its surface or touch it. Here the solvers' formulas themselves are asked, in numbers with
 /// bounds, which takes several times as long: in double, and then with twice as many digits.
 ///
-/// Rays are what their doubles say. (The finishers' bounds grant directions the error of bringing
-/// them to unit length, too.)
+/// Rays are what their doubles say, or those that they stand for. (The finishers' bounds grant
+/// directions the error of bringing them to unit length.)
 template <class Arch>
 class FinishAgain {
   public:
@@ -34,6 +34,7 @@ class FinishAgain {
     using D = Double<Arch>;
     using S = Slots<Arch>;
     using F = Floats<D>;
+    using M = Mask<D>;
     static constexpr std::size_t width = F::size;
 
     /// Rays that found shapes of one kind.
@@ -85,15 +86,19 @@ class FinishAgain {
         const auto kind = static_cast<KindNumber>(S::kind_of(scene_, found_.slot[packet.rays[0]]));
         const TableView& table = scene_.tables[kind];
         Reader reader;
-        double numbers[6][width];
+        const bool stand_for_others = found_.meant_length != nullptr;
+        const double* const* const directions =
+            stand_for_others ? found_.meant_direction : found_.direction;
+        double numbers[7][width];
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
             reader.from[lane] = table.blocks + S::offset(table, found_.slot[ray]);
             for (int axis = 0; axis < 3; ++axis) {
                 numbers[axis][lane] = found_.origin[axis][ray];
-                numbers[3 + axis][lane] = found_.direction[axis][ray];
+                numbers[3 + axis][lane] = directions[axis][ray];
             }
+            numbers[6][lane] = stand_for_others ? found_.meant_length[ray] : 1.0;
         }
         const auto load = [&](double(*from)[width]) {
             return Vectors<D>{F::load_unaligned(from[0]), F::load_unaligned(from[1]),
@@ -102,10 +107,11 @@ class FinishAgain {
         const Rays<D> rays = {load(numbers), load(numbers + 3)};
         std::uint32_t certain = 0, misses = 0;
         with_lanes<Certified<Number>>(kind, [&]<class Solver>() {
-            const Finished<D> finished = first_crossing<Solver, Number>(reader, rays);
+            const Finished<D> finished = first_crossing<Solver, Number>(
+                reader, rays, F::load_unaligned(numbers[6]), found_.holds_points);
             certain = Lanes<D>::bits(finished.certain);
             misses = Lanes<D>::bits(finished.misses);
-            if (certain != 0) store(kind, reader, rays, finished, packet, certain);
+            if (certain != 0) store(finished, packet, certain);
         });
         for (std::size_t lane = 0; lane < packet.count; ++lane) {
             if ((misses >> lane & 1) != 0)
@@ -116,9 +122,10 @@ class FinishAgain {
         packet.count = 0;
     }
 
-    /// Where rays that do not start on it first cross a shape. The normal is not yet known.
+    /// Where rays that do not start on it first cross a shape. The normal is not known.
     template <class Solver, class Number>
-    [[gnu::noinline]] static Finished<D> first_crossing(const Reader& reader, const Rays<D>& rays) {
+    [[gnu::noinline]] static Finished<D> first_crossing(const Reader& reader, const Rays<D>& rays,
+                                                        const F& length, bool holds_points) {
         using C = Certified<Number>;
         const auto exact = [](const Vectors<D>& v) {
             return Vectors<C>{Floats<C>(v.x), Floats<C>(v.y), Floats<C>(v.z)};
@@ -127,21 +134,24 @@ class FinishAgain {
         const Crossing<C> first = first_ahead<C>(
             solver.crossings({exact(rays.origin), exact(rays.direction)}, starts_nowhere<C>()),
             none<C>());
-        // In double it is off by half an ulp more.
+        using Its = Digits<Number>;
         const F t = first.t.in_double();
-        const F error = first.t.error + F(0x1p-52) * abs(t);
-        return {first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known &
-                    is_result<D>(t, error) & holds_point(rays, t, error),
-                t,
-                error,
+        const F error = (first.t.error + Its::lost_in_double(first.t.value)) * F(1.0 + 0x1p-50);
+        M certain = first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known &
+                    is_result<D>(t, error);
+        if (holds_points) certain = certain & holds_point(rays, t, error);
+        // Of rays that stand for others the length is off by a few ulps, and so is the product.
+        const F unit_t = t * length, rounding = select(length == F(1.0), zero<D>(), F(0x1p-50));
+        return {certain,
+                unit_t,
+                error * length + rounding * unit_t,
                 first.face.in_double(),
                 first.entering.answer,
                 {},
                 first.exists.surely_not()};
     }
 
-    void store(KindNumber kind, const Reader& reader, const Rays<D>& rays,
-               const Finished<D>& finished, const Packet& packet, std::uint32_t certain) const {
+    void store(const Finished<D>& finished, const Packet& packet, std::uint32_t certain) const {
         double t[width], error[width], face[width];
         finished.t.store_unaligned(t);
         finished.error.store_unaligned(error);
@@ -152,31 +162,9 @@ class FinishAgain {
             const std::size_t ray = packet.rays[lane];
             found_.t[ray] = t[lane];
             found_.error[ray] = error[lane];
-            found_.hit[ray] = static_cast<std::uint32_t>(face[lane]) |
+            found_.hit[ray] = static_cast<std::uint32_t>(face[lane]) | hit_normal_unknown |
                               ((entering >> lane & 1) != 0 ? hit_entering : 0);
         }
-        with_lanes<D>(kind, [&]<class Solver>() {
-            const Solver solver(reader);
-            const Vectors<D> point = mul_add<D>(finished.t, rays.direction, rays.origin);
-            const Vectors<D> normal = solver.outward_normal(point, finished.face);
-            store(normal, found_.normal, packet, certain);
-            if (found_.shading_normal[0] == nullptr) return;
-            if constexpr (requires { solver.shading_normal(point, normal); })
-                store(solver.shading_normal(point, normal), found_.shading_normal, packet, certain);
-            else
-                store(normal, found_.shading_normal, packet, certain);
-        });
-    }
-
-    static void store(const Vectors<D>& values, double* const out[3], const Packet& packet,
-                      std::uint32_t certain) {
-        double numbers[3][width];
-        values.x.store_unaligned(numbers[0]);
-        values.y.store_unaligned(numbers[1]);
-        values.z.store_unaligned(numbers[2]);
-        for (std::size_t lane = 0; lane < packet.count; ++lane)
-            for (int axis = 0; axis < 3 && (certain >> lane & 1) != 0; ++axis)
-                out[axis][packet.rays[lane]] = numbers[axis][lane];
     }
 
     const SceneView& scene_;

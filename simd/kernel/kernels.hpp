@@ -58,11 +58,10 @@ struct KernelsOf {
         const M ties = crossing.t == hits.t;
         const M nearer = (crossing.t < hits.t) | (ties & is_lower(id, hits.shape));
         const M taken = ahead(crossing, on_surface) & nearer;
-        hits.t = xsimd::select(taken, crossing.t, hits.t);
-        hits.shape = xsimd::select(taken, id, hits.shape);
-        hits.face = xsimd::select(taken, crossing.face, hits.face);
-        hits.entering =
-            xsimd::select(taken, xsimd::select(crossing.entering, F(1.0F), F(0.0F)), hits.entering);
+        hits.t = select(taken, crossing.t, hits.t);
+        hits.shape = select(taken, id, hits.shape);
+        hits.face = select(taken, crossing.face, hits.face);
+        hits.entering = select(taken, select(crossing.entering, F(1.0F), F(0.0F)), hits.entering);
     }
 
     static M blocks(const Crossings<Arch>& found, const M& on_surface, const F& t_most) {
@@ -100,7 +99,7 @@ struct KernelsOf {
                 const F t = load(stream.t + i);
                 const M blocked =
                     blocks(shape.crossings(rays_from(stream, i), starts), starts.on_surface, t);
-                xsimd::select(blocked, F(-1.0F), t).store_unaligned(stream.t + i);
+                select(blocked, F(-1.0F), t).store_unaligned(stream.t + i);
             }
         });
     }
@@ -176,7 +175,7 @@ struct KernelsOf {
 
     template <class Method>
     static constexpr MethodKernels method() {
-        return {Trace<Arch, Method>::table(), Method::finish, Method::refine()};
+        return {Trace<Arch, Method>::table(), Method::finish, Method::finish_all, Method::refine()};
     }
 
     static constexpr Kernels table(const char* name) {

@@ -92,8 +92,7 @@ Vectors<Arch> unit(const Vectors<Arch>& a) {
 
 template <class Arch>
 Vectors<Arch> select(const Mask<Arch>& mask, const Vectors<Arch>& a, const Vectors<Arch>& b) {
-    return {xsimd::select(mask, a.x, b.x), xsimd::select(mask, a.y, b.y),
-            xsimd::select(mask, a.z, b.z)};
+    return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
 } // namespace raylane::simd

@@ -2,19 +2,38 @@
 
 #include "core/counters.hpp"
 #include "core/reference/departure.hpp"
-#include "simd/wavefront/paths.hpp"
+#include "simd/wavefront/hits.hpp"
 #include "simd/wavefront/scene_data.hpp"
 
 namespace raylane::simd {
 
-/// How core sees the ray of a lane, and what it leaves.
+/// How core sees the ray that a lane means, and what it leaves.
 template <class Real = double>
 core::Ray<Real> ray_of(const Paths& paths, std::size_t lane) {
     const auto vector = [lane](double* const(&columns)[3]) {
         return core::convert<Real>(
             core::Vec3d(columns[0][lane], columns[1][lane], columns[2][lane]));
     };
-    return {vector(paths.origin), vector(paths.direction)};
+    return {vector(paths.origin),
+            vector(paths.stand_for_others() ? paths.meant_direction : paths.direction)};
+}
+
+/// What it hits: t is per unit of the direction meant.
+inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, const Hits& hits,
+                                std::size_t lane) {
+    core::Hit<double> hit;
+    const std::uint32_t slot = hits.slot[lane];
+    const SceneData::Occupant shape = scene.occupant_of(slot);
+    const double length = paths.length_of(lane);
+    hit.t = hits.t[lane] / length;
+    hit.error = hits.error[lane] / length;
+    if (paths.stand_for_others()) hit.error = hit.error * (1.0 + 0x1p-50) + 0x1p-50 * hit.t;
+    hit.shape = shape.id;
+    hit.face = static_cast<core::Face>(hits.hit[lane] & hit_face);
+    hit.entering = (hits.hit[lane] & hit_entering) != 0;
+    hit.kind = shape.kind;
+    hit.slot = scene.place_of(slot);
+    return hit;
 }
 
 template <class Real = double>

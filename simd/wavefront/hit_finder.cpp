@@ -37,7 +37,8 @@ Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capaci
 
 HitFinder::HitFinder(const SceneData& scene, const Tracing& tracing,
                      core::ReferenceTracer<double>* reference, bool looks_through)
-    : scene_(scene), tracing_(tracing), reference_(reference), refinery_(scene, tracing) {
+    : scene_(scene), tracing_(tracing), reference_(reference), refinery_(scene, tracing),
+      for_points_(reference != nullptr) {
     if (!tracing.certifies()) tie_breaker_.emplace(scene, tracing.precision);
     if (looks_through) onward_.reset(new HitFinder(scene, tracing, reference, false));
 }
@@ -50,10 +51,10 @@ void HitFinder::take_from(Arena& arena, std::size_t capacity) {
     hits_.take_from(arena, capacity, scene_.smooth());
     doubtful_ = arena.take<std::uint8_t>(capacity);
     open_ = arena.take<std::uint32_t>(capacity);
-    gathered_.take_from(arena, capacity, false);
+    gathered_.take_from(arena, capacity, false, !for_points_);
     gathered_hits_.take_from(arena, capacity, scene_.smooth());
     lanes_ = arena.take<std::uint32_t>(capacity);
-    if (refines()) refinery_.take_from(arena);
+    if (refinery_.works()) refinery_.take_from(arena, !for_points_, for_points_);
     if (onward_ == nullptr) return;
     onward_->take_from(arena, capacity);
     onward_paths_.take_from(arena, capacity, false);
@@ -70,17 +71,41 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
     count(traced, counters);
 
     if (tie_breaker_) break_ties(paths);
-    tracing_.method().finish(scene_.view(), hits_.found(paths, paths.count));
+    finish(hits_.found(paths, 0, paths.count));
     lane_count_ =
         tracing_.certifies()
             ? tracing_.kernels->rays.list_uncertain(paths.count, candidates_, hits_.t, hits_.error,
                                                     hits_.hit, doubtful_, lanes_)
             : 0;
-    if (refines() && lane_count_ != 0)
-        lane_count_ = refinery_.refine(paths, rounded_, workspace_, doubtful_,
-                                       {lanes_, lane_count_}, hits_, counters);
-    ask_reference(paths, counters);
+    open_count_ = 0;
+    points_.clear();
+    if (!refinery_.works()) {
+        ask_reference(paths, counters);
+    } else {
+        const std::size_t met_several = refinery_.refine(paths, rounded_, workspace_, doubtful_,
+                                                         {lanes_, lane_count_}, hits_, counters);
+        std::copy_n(lanes_, met_several, open_);
+        open_count_ = met_several;
+        points_.assign(refinery_.points().begin(), refinery_.points().end());
+    }
     if (onward_ != nullptr) look_through(paths, bundle, counters);
+}
+
+void HitFinder::finish(Found found) const {
+    found.holds_points = for_points_;
+    (for_points_ ? tracing_.method().finish : tracing_.method().finish_all)(scene_.view(), found);
+}
+
+const Refinery::Point* HitFinder::known_point(std::size_t lane) const {
+    for (const Refinery::Point& known : points_)
+        if (known.lane == lane) return &known;
+    return nullptr;
+}
+
+core::Vec3d HitFinder::point_of(const Paths& paths, std::size_t lane) const {
+    if (const Refinery::Point* known = known_point(lane)) return known->point;
+    const core::Ray<double> ray = ray_of(paths, lane);
+    return core::mul_add(hits_.t[lane], ray.direction, ray.origin);
 }
 
 /// Rays pass a surface that cannot be seen from where they come as if it were not there.
@@ -94,7 +119,9 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
         onward_paths_.copy(paths, lane, to);
         onward_paths_.sample[to] = static_cast<std::uint32_t>(lane);
         passed_[to] = 0.0;
+        onward_paths_.move_to(to, point_of(paths, lane));
         move_on(hits_, lane, to);
+        std::erase_if(points_, [&](const Refinery::Point& of) { return of.lane == lane; });
     }
     // They no longer start at one point.
     if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = &neighbours;
@@ -117,10 +144,14 @@ void HitFinder::look_through(const Paths& paths, const Bundle* bundle, core::Cou
             if (is_visible(found, i)) {
                 hits_.copy(found, i, lane);
                 hits_.t[lane] += passed_[i];
+                if (const Refinery::Point* known = onward_->known_point(i))
+                    points_.push_back({lane, known->point});
                 continue;
             }
+            const core::Vec3d point = onward_->point_of(onward_paths_, i);
             onward_paths_.copy(onward_paths_, i, kept);
             passed_[kept] = passed_[i];
+            onward_paths_.move_to(kept, point);
             move_on(found, i, kept++);
         }
         onward_paths_.count = kept;
@@ -133,12 +164,9 @@ bool HitFinder::is_visible(const Hits& hits, std::size_t lane) const {
     return scene_.scene().materials()[material].is_seen((hits.hit[lane] & hit_entering) != 0);
 }
 
-/// Starts a ray anew behind what it has hit.
+/// Starts a ray anew behind what it has hit, where it has been moved to.
 void HitFinder::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
-    const double t = hits.t[lane];
-    passed_[to] += t;
-    for (int axis = 0; axis < 3; ++axis)
-        onward_paths_.origin[axis][to] += t * onward_paths_.direction[axis][to];
+    passed_[to] += hits.t[lane];
     const std::uint32_t slot = hits.slot[lane];
     onward_paths_.start_on(to, slot, scene_.occupant_of(slot), hits.hit[lane], /*through=*/true);
 }
@@ -170,7 +198,7 @@ void HitFinder::find_own_exits(const Paths& paths) {
         gathered_.copy_ray(paths, lanes_[i], i);
         gathered_hits_.slot[i] = paths.departed_slot[lanes_[i]];
     }
-    tracing_.method().finish(scene_.view(), gathered_hits_.found(gathered_, count));
+    finish(gathered_hits_.found(gathered_, 0, count));
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
         if ((hit & hit_doubtful) != 0) {
@@ -203,9 +231,8 @@ void HitFinder::break_ties(const Paths& paths) {
     }
 }
 
-/// The reference says which shape it is.
+/// Of doubles without bounds, the reference says which shape it is.
 void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
-    open_count_ = 0;
     counters.doubtful += lane_count_;
     if (reference_ == nullptr) {
         std::copy_n(lanes_, lane_count_, open_);
@@ -213,63 +240,23 @@ void HitFinder::ask_reference(const Paths& paths, core::Counters& counters) {
         return;
     }
     for (const std::uint32_t lane : std::span(lanes_, lane_count_)) {
-        const core::Ray<double> ray = ray_of(paths, lane);
         const core::Encounter<double> encounter =
-            reference_->nearest(ray, departure_of(scene_, paths, lane));
-        if (!encounter.hit.any()) {
+            reference_->nearest(ray_of(paths, lane), departure_of(scene_, paths, lane));
+        if (!encounter.hit.any())
             hits_.slot[lane] = no_slot;
-            continue;
-        }
-        if (encounter.contacts.end() - encounter.contacts.begin() > 1) {
+        else if (encounter.contacts.size() > 1)
             open_[open_count_++] = static_cast<std::uint32_t>(lane);
-            continue;
-        }
-        if (encounter.is_close)
-            take_from_reference(paths, lane, encounter.hit);
         else
             settle(paths, lane, encounter.hit);
     }
 }
 
-/// The shape is decided. The numbers are those that the kernel has for it, so that they do not
-/// depend on what was in doubt, or, where these are not certain, the reference's.
+/// The shape is decided. The numbers are those that the kernel has for it.
 void HitFinder::settle(const Paths& paths, std::size_t lane, const core::Hit<double>& hit) {
-    const Hits& finished = finish(paths, lane, scene_.slot_of(hit.kind, hit.slot));
-    if (finished.hit[0] == (hit.face | (hit.entering ? hit_entering : 0))) {
-        hits_.copy(finished, 0, lane);
-        return;
-    }
-    take_from_reference(paths, lane, hit);
-}
-
-void HitFinder::take_from_reference(const Paths& paths, std::size_t lane,
-                                    const core::Hit<double>& hit) {
-    const core::Ray<double> ray = ray_of(paths, lane);
-    hits_.slot[lane] = scene_.slot_of(hit.kind, hit.slot);
-    hits_.hit[lane] = hit.face | (hit.entering ? hit_entering : 0);
-    hits_.t[lane] = hit.t;
-    hits_.error[lane] = hit.error;
-    const core::Vec3d point = core::mul_add(hit.t, ray.direction, ray.origin);
-    core::with_table(
-        scene_.scene().shapes(), hit.kind, [&]<class Shape>(const core::Table<Shape>& table) {
-            const core::Vec3d normal = core::outward_normal(table.get(hit.slot), point, hit.face);
-            core::Vec3d shading = normal;
-            if constexpr (core::kind_of<Shape> == core::Kind::smooth_triangle)
-                shading = core::shading_normal(table.get(hit.slot), point);
-            for (int axis = 0; axis < 3; ++axis) {
-                hits_.normal[axis][lane] = normal[axis];
-                if (scene_.smooth()) hits_.shading_normal[axis][lane] = shading[axis];
-            }
-        });
-}
-
-/// One ray and one shape. Lane 0 of the result.
-const Hits& HitFinder::finish(const Paths& paths, std::size_t lane, std::uint32_t slot) {
-    if (refines()) return refinery_.finish(paths, lane, slot);
     gathered_.copy_ray(paths, lane, 0);
-    gathered_hits_.slot[0] = slot;
-    tracing_.method().finish(scene_.view(), gathered_hits_.found(gathered_, 1));
-    return gathered_hits_;
+    gathered_hits_.slot[0] = scene_.slot_of(hit.kind, hit.slot);
+    finish(gathered_hits_.found(gathered_, 0, 1));
+    hits_.copy(gathered_hits_, 0, lane);
 }
 
 } // namespace raylane::simd

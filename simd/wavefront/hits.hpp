@@ -1,6 +1,9 @@
 #pragma once
 
+#include "core/vector.hpp"
 #include "simd/wavefront/paths.hpp"
+
+#include <utility>
 
 namespace raylane::simd {
 
@@ -36,23 +39,46 @@ struct Hits {
         }
     }
 
-    /// The first `count` of these and of the rays, for a kernel to finish.
-    Found found(const Paths& paths, std::size_t count) const {
+    void swap(std::size_t a, std::size_t b) const {
+        std::swap(slot[a], slot[b]);
+        std::swap(hit[a], hit[b]);
+        std::swap(t[a], t[b]);
+        std::swap(error[a], error[b]);
+        for (int axis = 0; axis < 3; ++axis) {
+            std::swap(normal[axis][a], normal[axis][b]);
+            if (shading_normal[axis] != nullptr)
+                std::swap(shading_normal[axis][a], shading_normal[axis][b]);
+        }
+    }
+
+    void set_normals(std::size_t lane, const core::Vec3d& flat, const core::Vec3d& shading) const {
+        for (int axis = 0; axis < 3; ++axis) {
+            normal[axis][lane] = flat[axis];
+            if (shading_normal[axis] != nullptr) shading_normal[axis][lane] = shading[axis];
+        }
+    }
+
+    /// `count` of these and of the rays, from one on, for a kernel to finish.
+    Found found(const Paths& paths, std::size_t begin, std::size_t count) const {
         Found found{};
         found.count = count;
         for (int axis = 0; axis < 3; ++axis) {
-            found.origin[axis] = paths.origin[axis];
-            found.direction[axis] = paths.direction[axis];
-            found.normal[axis] = normal[axis];
-            found.shading_normal[axis] = shading_normal[axis];
+            found.origin[axis] = paths.origin[axis] + begin;
+            found.direction[axis] = paths.direction[axis] + begin;
+            found.normal[axis] = normal[axis] + begin;
+            if (shading_normal[axis] != nullptr)
+                found.shading_normal[axis] = shading_normal[axis] + begin;
+            if (paths.stand_for_others())
+                found.meant_direction[axis] = paths.meant_direction[axis] + begin;
         }
-        found.departed_first = paths.departed_first;
-        found.departed_last = paths.departed_last;
-        found.departure = paths.departure;
-        found.slot = slot;
-        found.t = t;
-        found.error = error;
-        found.hit = hit;
+        if (paths.stand_for_others()) found.meant_length = paths.meant_length + begin;
+        found.departed_first = paths.departed_first + begin;
+        found.departed_last = paths.departed_last + begin;
+        found.departure = paths.departure + begin;
+        found.slot = slot + begin;
+        found.t = t + begin;
+        found.error = error + begin;
+        found.hit = hit + begin;
         return found;
     }
 };

@@ -32,9 +32,13 @@ struct Paths {
     std::uint32_t* departed_last;
     std::uint32_t* departed_slot;
     std::uint32_t* departure;
-    std::uint32_t* media[core::Media::depth]; ///< null where nothing transmits
+    core::Media* media; ///< what it is inside of; null where nothing transmits
+    /// Where directions stand for others, of any length, which were brought to length 1 and so
+    /// rounded: those, and their lengths. The rays meant are theirs. Null: directions are exact.
+    double* meant_direction[3];
+    double* meant_length;
 
-    void take_from(Arena& arena, std::size_t capacity, bool with_media) {
+    void take_from(Arena& arena, std::size_t capacity, bool with_media, bool for_others = false) {
         arena.take(origin, capacity);
         arena.take(direction, capacity);
         arena.take(throughput, capacity);
@@ -43,19 +47,29 @@ struct Paths {
         departed_last = arena.take<std::uint32_t>(capacity);
         departed_slot = arena.take<std::uint32_t>(capacity);
         departure = arena.take<std::uint32_t>(capacity);
-        for (std::uint32_t*& column : media)
-            column = with_media ? arena.take<std::uint32_t>(capacity) : nullptr;
+        media = with_media ? arena.take<core::Media>(capacity) : nullptr;
+        for (double*& column : meant_direction)
+            column = for_others ? arena.take<double>(capacity) : nullptr;
+        meant_length = for_others ? arena.take<double>(capacity) : nullptr;
+    }
+
+    bool stand_for_others() const { return meant_length != nullptr; }
+    /// Of the direction meant.
+    double length_of(std::size_t lane) const {
+        return stand_for_others() ? meant_length[lane] : 1.0;
     }
 
     core::Media media_at(std::size_t lane) const {
-        if (media[0] == nullptr) return {};
-        return core::Media({media[0][lane], media[1][lane], media[2][lane], media[3][lane]});
+        return media != nullptr ? media[lane] : core::in_the_open;
     }
 
-    void set_media(std::size_t lane, const core::Media& values) const {
-        if (media[0] == nullptr) return;
-        for (int i = 0; i < core::Media::depth; ++i)
-            media[i][lane] = values.at(i);
+    void set_media(std::size_t lane, core::Media values) const {
+        if (media != nullptr) media[lane] = values;
+    }
+
+    void move_to(std::size_t lane, const core::Vec3d& point) const {
+        for (int axis = 0; axis < 3; ++axis)
+            origin[axis][lane] = point[axis];
     }
 
     /// The lane's ray starts on a shape: on that side of it which the ray that hit it there, with
@@ -93,9 +107,7 @@ struct Paths {
         for (int channel = 0; channel < 3; ++channel)
             throughput[channel][to] = other.throughput[channel][from];
         sample[to] = other.sample[from];
-        if (media[0] == nullptr) return;
-        for (int i = 0; i < core::Media::depth; ++i)
-            media[i][to] = other.media[i][from];
+        if (media != nullptr) media[to] = other.media[from];
     }
 
     /// The ray alone, and what it leaves.
@@ -103,6 +115,11 @@ struct Paths {
         for (int axis = 0; axis < 3; ++axis) {
             origin[axis][to] = other.origin[axis][from];
             direction[axis][to] = other.direction[axis][from];
+        }
+        if (stand_for_others() && other.stand_for_others()) {
+            for (int axis = 0; axis < 3; ++axis)
+                meant_direction[axis][to] = other.meant_direction[axis][from];
+            meant_length[to] = other.meant_length[from];
         }
         departed_first[to] = other.departed_first[from];
         departed_last[to] = other.departed_last[from];

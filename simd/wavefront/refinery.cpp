@@ -1,7 +1,9 @@
 #include "simd/wavefront/refinery.hpp"
 
+#include "core/reference/rounding.hpp"
 #include "simd/wavefront/as_core.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace raylane::simd {
@@ -10,114 +12,240 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Crossings are told apart where they are further from each other than this part of t: several
-/// times the most that the reference, which would say that they coincide, may be off by.
-constexpr double apart = 0x1p-24;
-
-/// The limit of a ray of which not all candidates are listed.
-constexpr float undecidable = -1.0F;
+/// Places behind the last candidate that kernels may write to.
+constexpr std::size_t beyond = 32;
 
 /// Not before what is behind a certain crossing by as little as does not tell them apart.
 float limit_behind(double t) {
     return static_cast<float>(t) * candidate_grace;
 }
 
+bool crosses(std::uint32_t hit) {
+    return (hit & (hit_doubtful | hit_none)) == 0;
+}
+
 } // namespace
 
-void Refinery::take_from(Arena& arena) {
-    paths_.take_from(arena, most, false);
-    hits_.take_from(arena, most, scene_.smooth());
+void Refinery::take_from(Arena& arena, bool stand_for_others, bool for_points) {
+    for_points_ = for_points;
+    paths_.take_from(arena, most + beyond, false, stand_for_others);
+    hits_.take_from(arena, most + beyond, scene_.smooth());
     lower_ = arena.take<float>(most);
-    rays_ = arena.take<Ray>(most);
+    slots_.resize(most);
+    bounds_.resize(most);
+    listed_.reserve(most);
+    rays_.reserve(most);
+    close_.reserve(most);
+    sharp_.reserve(64);
+    points_.reserve(64);
 }
 
 std::size_t Refinery::refine(const Paths& paths, const RoundedRays& rounded, const Pending& pending,
                              const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
                              const Hits& hits, core::Counters& counters) {
-    std::size_t left = 0;
+    counters.refined += lanes.size();
+    points_.clear();
+    std::size_t met_several = 0;
+    const auto settle = [&](std::size_t where, std::size_t found, std::size_t begin) {
+        const std::uint32_t lane = lanes[where];
+        if (found == 0)
+            hits.slot[lane] = no_slot;
+        else
+            hand_over(begin, hits, lane);
+        if (found > 1) std::swap(lanes[where], lanes[met_several++]);
+    };
     for (std::size_t next = 0; next < lanes.size();) {
-        count_ = ray_count_ = 0;
-        for (; next < lanes.size() && ray_count_ < most; ++next) {
+        count_ = 0;
+        rays_.clear();
+        const std::size_t first = next;
+        for (; next < lanes.size(); ++next) {
             const std::uint32_t lane = lanes[next];
-            const bool is_hit = hits.slot[lane] != no_slot && hits.hit[lane] < hit_doubtful;
-            const float limit = limit_behind(is_hit ? hits.t[lane] + hits.error[lane] : infinity);
-            if (doubtful[lane] == 0 && add(paths, rounded, pending, lane, limit, counters))
-                continue;
-            // There may be room when the others are done.
-            if (doubtful[lane] == 0 && count_ != 0) break;
-            rays_[ray_count_++] = {lane, static_cast<std::uint32_t>(count_), undecidable};
+            const bool is_hit =
+                doubtful[lane] == 0 && hits.slot[lane] != no_slot && crosses(hits.hit[lane]);
+            list(paths, rounded, pending, lane,
+                 limit_behind(is_hit ? hits.t[lane] + hits.error[lane] : infinity), counters);
+            if (listed_.size() > most - count_) break;
+            rays_.push_back({lane, static_cast<std::uint32_t>(count_)});
+            add(paths, lane, listed_);
         }
-        finish();
-        for (std::size_t i = 0; i < ray_count_; ++i) {
-            const std::size_t end = i + 1 < ray_count_ ? rays_[i + 1].begin : count_;
-            if (!decide(rays_[i], end, hits)) lanes[left++] = rays_[i].lane;
+        if (rays_.empty()) {
+            settle(next, first_of_many(paths, lanes[next], counters), 0);
+            ++next;
+            continue;
+        }
+        finish(0);
+        for (std::size_t i = 0; i < rays_.size(); ++i) {
+            const std::size_t end = i + 1 < rays_.size() ? rays_[i + 1].begin : count_;
+            settle(first + i, first_of(rays_[i].begin, end, counters), rays_[i].begin);
         }
     }
-    counters.refined += lanes.size() - left;
-    return left;
+    return met_several;
 }
 
-/// Whether there was room for a ray's candidates.
-bool Refinery::add(const Paths& paths, const RoundedRays& rounded, const Pending& pending,
-                   std::size_t lane, float limit, core::Counters& counters) {
-    CandidateList list{hits_.slot + count_, lower_ + count_, most - count_, 0, limit};
-    // No filter sees the shape that it starts on.
-    if ((paths.departure[lane] & departure_may_return) != 0) {
-        if (list.room == 0) return false;
-        list.slot[0] = paths.departed_slot[lane];
-        list.lower[list.count++] = 0.0F;
+/// All that a ray may cross before the limit, or what is surely crossed.
+void Refinery::list(const Paths& paths, const RoundedRays& rounded, const Pending& pending,
+                    std::size_t lane, float limit, core::Counters& counters) {
+    CandidateList list{};
+    for (;;) {
+        list = {slots_.data(), bounds_.data(), slots_.size(), 0, limit};
+        // No filter sees the shape that it starts on.
+        if ((paths.departure[lane] & departure_may_return) != 0) {
+            list.slot[0] = paths.departed_slot[lane];
+            list.lower[list.count++] = 0.0F;
+        }
+        TraceCounters traced{};
+        const bool has_room = tracing_.method().refine.list_candidates(
+            scene_.view(), scene_.listed_kinds(), rounded, lane, pending, list, traced);
+        count(traced, counters);
+        if (has_room) break;
+        slots_.resize(2 * slots_.size());
+        bounds_.resize(slots_.size());
     }
-    TraceCounters traced{};
-    const bool has_room = tracing_.method().refine.list_candidates(
-        scene_.view(), scene_.listed_kinds(), rounded, lane, pending, list, traced);
-    count(traced, counters);
-    if (!has_room) return false;
+    listed_.clear();
+    for (std::size_t i = 0; i < list.count; ++i)
+        if (list.lower[i] <= list.limit) // which may have moved
+            listed_.push_back({list.lower[i], list.slot[i]});
+    std::sort(listed_.begin(), listed_.end(),
+              [](const Listed& a, const Listed& b) { return a.lower < b.lower; });
+}
 
-    const std::size_t begin = count_;
-    for (std::size_t i = 0; i < list.count; ++i) {
-        if (list.lower[i] > list.limit) continue; // which may have moved
-        hits_.slot[count_] = list.slot[i];
-        lower_[count_] = list.lower[i];
+void Refinery::add(const Paths& paths, std::size_t lane, std::span<const Listed> candidates) {
+    for (const Listed& candidate : candidates) {
+        hits_.slot[count_] = candidate.slot;
+        lower_[count_] = candidate.lower;
         paths_.copy_ray(paths, lane, count_++);
     }
-    rays_[ray_count_++] = {static_cast<std::uint32_t>(lane), static_cast<std::uint32_t>(begin),
-                           list.limit};
-    return true;
 }
 
-void Refinery::finish() {
-    tracing_.method().finish(scene_.view(), hits_.found(paths_, count_));
-    tracing_.method().refine.finish_again(scene_.view(), hits_.found(paths_, count_));
+/// From one candidate on.
+void Refinery::finish(std::size_t begin) {
+    Found found = hits_.found(paths_, begin, count_ - begin);
+    found.holds_points = for_points_;
+    tracing_.method().finish_all(scene_.view(), found);
+    tracing_.method().refine.finish_again(scene_.view(), found);
 }
 
-bool Refinery::decide(const Ray& ray, std::size_t end, const Hits& hits) const {
-    std::size_t first = end;
-    for (std::size_t i = ray.begin; i < end; ++i)
-        if (hits_.hit[i] < hit_doubtful && (first == end || hits_.t[i] < hits_.t[first])) first = i;
-
-    // What is before this, if it is any, cannot be told from the first.
-    const double last =
-        first == end ? infinity : (hits_.t[first] + hits_.error[first]) * (1.0 + apart);
-    for (std::size_t i = ray.begin; i < end; ++i) {
-        const bool is_hit = hits_.hit[i] < hit_doubtful;
-        if (i == first || hits_.hit[i] == hit_none) continue;
-        const double from = is_hit ? hits_.t[i] - hits_.error[i] : static_cast<double>(lower_[i]);
-        if (!(from > last)) return false;
+/// first_of() of all that is listed, which is more than there is room for.
+std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
+                                    core::Counters& counters) {
+    count_ = 0;
+    for (std::size_t next = 0; next < listed_.size();) {
+        const std::size_t found = count_;
+        if (found != 0 && static_cast<double>(listed_[next].lower) > hits_.t[0] + hits_.error[0])
+            break;
+        const std::size_t some = std::min(most - count_, listed_.size() - next);
+        add(paths, lane, std::span(listed_).subspan(next, some));
+        finish(found);
+        count_ = first_of(0, count_, counters);
+        next += some;
     }
-    if (!(last <= static_cast<double>(ray.limit))) return false;
-    if (first == end)
-        hits.slot[ray.lane] = no_slot;
-    else
-        hits.copy(hits_, first, ray.lane);
-    return true;
+    return count_;
 }
 
-const Hits& Refinery::finish(const Paths& paths, std::size_t lane, std::uint32_t slot) {
-    paths_.copy_ray(paths, lane, 0);
-    hits_.slot[0] = slot;
-    count_ = 1;
-    finish();
-    return hits_;
+/// Puts first, of one ray's candidates, what it crosses first, and behind that another that it
+/// crosses at the same point. Returns how many these are: 0, 1 or 2.
+std::size_t Refinery::first_of(std::size_t begin, std::size_t end, core::Counters& counters) {
+    double last = infinity; // that the first can be
+    for (std::size_t i = begin; i < end; ++i)
+        if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
+    for (std::size_t i = begin; i < end; ++i) {
+        if ((hits_.hit[i] & hit_doubtful) == 0 || static_cast<double>(lower_[i]) > last) continue;
+        solve(i, counters);
+        if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
+    }
+    close_.clear();
+    for (std::size_t i = begin; i < end; ++i)
+        if (crosses(hits_.hit[i]) && hits_.t[i] - hits_.error[i] <= last * (1.0 + 0x1p-50))
+            close_.push_back(i);
+    if (close_.empty()) return 0;
+    if (close_.size() > 1) return first_of_close(begin);
+    swap(begin, close_[0]);
+    return 1;
+}
+
+/// By core's order.
+std::size_t Refinery::first_of_close(std::size_t begin) {
+    const core::Ray<double> ray = ray_of(paths_, begin);
+    const core::Departure<double> departure = departure_of(scene_, paths_, begin);
+    const core::CrossingOrder order(scene_.scene(), {ray, departure});
+    sharp_.clear();
+    for (const std::size_t i : close_)
+        sharp_.emplace_back(hit_of(i));
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < sharp_.size(); ++k)
+        if (order.is_before(sharp_[k], sharp_[first])) first = k;
+
+    const core::Hit<double> sharp = sharp_[first].sharpened();
+    const std::size_t chosen = close_[first];
+    hits_.t[chosen] = sharp.t * paths_.length_of(chosen);
+    hits_.error[chosen] = sharp.error * paths_.length_of(chosen) +
+                          (paths_.stand_for_others() ? 0x1p-50 * hits_.t[chosen] : 0.0);
+    const core::ShapeId shape = scene_.occupant_of(hits_.slot[chosen]).coplanar.first;
+    std::size_t other = first;
+    for (std::size_t k = 0; k < sharp_.size() && other == first; ++k)
+        if (scene_.occupant_of(hits_.slot[close_[k]]).coplanar.first != shape &&
+            order.compare(sharp_[k], sharp_[first]) == 0)
+            other = k;
+    const std::size_t with = close_[other];
+    swap(begin, chosen);
+    if (other == first) return 1;
+    swap(begin + 1, with == begin ? chosen : with);
+    return 2;
+}
+
+/// Where a ray first crosses one shape, exactly. The normal is left open.
+void Refinery::solve(std::size_t candidate, core::Counters& counters) {
+    ++counters.doubtful;
+    const std::uint32_t slot = hits_.slot[candidate];
+    const core::Kind kind = scene_.occupant_of(slot).kind;
+    const core::Ray<double> ray = ray_of(paths_, candidate);
+    const core::Start start =
+        departure_of(scene_, paths_, candidate).start_on(scene_.occupant_of(slot).id);
+    hits_.hit[candidate] = hit_none;
+    core::with_table(scene_.scene().shapes(), kind, [&](const auto& table) {
+        for (const core::Crossing<double>& crossing :
+             core::solve(table.get(scene_.place_of(slot)), ray, start, counters.widened)) {
+            if (!(crossing.t > 0.0 || (start.on_surface && crossing.t == 0.0))) continue;
+            const double length = paths_.length_of(candidate);
+            hits_.t[candidate] = crossing.t * length;
+            hits_.error[candidate] =
+                crossing.error * length +
+                (paths_.stand_for_others() ? 0x1p-50 * hits_.t[candidate] : 0.0);
+            hits_.hit[candidate] =
+                crossing.face | (crossing.entering ? hit_entering : 0) | hit_normal_unknown;
+            return;
+        }
+    });
+}
+
+core::Hit<double> Refinery::hit_of(std::size_t candidate) const {
+    return simd::hit_of(scene_, paths_, hits_, candidate);
+}
+
+void Refinery::swap(std::size_t a, std::size_t b) {
+    if (a == b) return;
+    hits_.swap(a, b);
+    std::swap(lower_[a], lower_[b]);
+}
+
+void Refinery::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t lane) {
+    if (for_points_ && (hits_.hit[candidate] & hit_normal_unknown) != 0) {
+        const core::Ray<double> ray = ray_of(paths_, candidate);
+        const core::Departure<double> departure = departure_of(scene_, paths_, candidate);
+        const core::Hit<double> hit = hit_of(candidate);
+        const auto [point, normal] = core::surface_point(scene_.scene(), {ray, departure}, hit);
+        if (point != core::mul_add(hit.t, ray.direction, ray.origin))
+            points_.push_back({lane, point});
+        core::Vec3d shading = normal;
+        if (hit.kind == core::Kind::smooth_triangle)
+            shading = core::shading_normal(
+                std::get<core::Table<core::SmoothTriangle>>(scene_.scene().shapes()).get(hit.slot),
+                point);
+        hits_.set_normals(candidate, normal, shading);
+    }
+    // Of points, floats are none of their concern.
+    if (for_points_) hits_.hit[candidate] &= ~(hit_normal_unknown | hit_normal_doubtful);
+    hits.copy(hits_, candidate, lane);
 }
 
 } // namespace raylane::simd

@@ -32,14 +32,14 @@ class SceneData {
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }
 
-    /// What a ray is inside of; core::Media::none is empty space.
+    /// What a ray is inside of; core::no_medium is empty space.
     struct Medium {
         double inside; ///< 1, in empty space 0
         double index;
         double absorption[3];
     };
     const Medium& medium(core::MaterialIndex material) const {
-        static_assert(core::MaterialIndex(core::Media::none + 1) == 0);
+        static_assert(core::MaterialIndex(core::no_medium + 1) == 0);
         return media_[core::MaterialIndex(material + 1)];
     }
 

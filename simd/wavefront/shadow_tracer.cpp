@@ -18,8 +18,7 @@ void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
 
 ShadowTracer::ShadowTracer(const SceneData& scene, const Tracing& tracing,
                            core::ReferenceTracer<double>& reference)
-    : scene_(scene), tracing_(tracing), reference_(reference), walker_(scene, tracing, &reference) {
-}
+    : scene_(scene), tracing_(tracing), reference_(reference), walker_(scene, tracing, reference) {}
 
 void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media) {
     leave_first_ = arena.take<std::uint32_t>(capacity);
@@ -58,14 +57,13 @@ void ShadowTracer::trace(const LightView& light, core::Counters& counters) {
 
 void ShadowTracer::look_at(const Wave& wave) {
     wave_.emplace(wave);
-    const bool with_media = wave.paths.media[0] != nullptr;
     for (std::size_t position = 0; position < wave.count; ++position) {
         const std::uint32_t lane = wave.order[position];
         const SceneData::Occupant shape = scene_.occupant_of(wave.hits.slot[lane]);
         leave_first_[position] = shape.coplanar.first;
         leave_last_[position] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
-        const bool in_medium = with_media && wave.paths.media[0][lane] != core::Media::none;
+        const bool in_medium = wave.paths.media_at(lane) != core::in_the_open;
         leave_state_[position] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
     }
 }
@@ -149,9 +147,10 @@ void ShadowTracer::follow(std::size_t lane) {
 bool ShadowTracer::step(std::size_t lane, double& distance) {
     const Hits& found = walker_.hits();
     const std::uint32_t number = walk_.sample[lane], slot = found.slot[lane];
-    core::Media media = walk_.media_at(lane);
+    core::MediaStacks& stacks = reference_.media();
+    const core::Media media = walk_.media_at(lane);
     if (slot == no_slot || !(found.t[lane] < distance)) {
-        absorb(media.top(), distance, lane);
+        absorb(stacks.top(media), distance, lane);
         for (int channel = 0; channel < 3; ++channel)
             rays_.weight[channel][number] = walk_.throughput[channel][lane];
         return false;
@@ -163,9 +162,10 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
         return false;
     }
     const bool entering = (found.hit[lane] & hit_entering) != 0;
-    const core::MaterialIndex before = media.before(shape.material, /*transmits=*/true, entering);
-    media.cross(shape.material, entering);
-    const double behind = scene_.medium(media.top()).index;
+    const core::MaterialIndex before =
+        stacks.before(media, shape.material, /*transmits=*/true, entering);
+    const core::Media media_behind = stacks.crossed(media, shape.material, entering);
+    const double behind = scene_.medium(stacks.top(media_behind)).index;
 
     const double t = found.t[lane];
     double cos = 0.0;
@@ -174,18 +174,17 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
     const double share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
                                                     scene_.medium(before).index, behind);
     absorb(before, t, lane);
-    for (int axis = 0; axis < 3; ++axis) {
-        walk_.throughput[axis][lane] *= share;
-        walk_.origin[axis][lane] += t * walk_.direction[axis][lane];
-    }
+    for (int channel = 0; channel < 3; ++channel)
+        walk_.throughput[channel][lane] *= share;
+    walk_.move_to(lane, walker_.point_of(walk_, lane));
     walk_.start_on(lane, slot, shape, found.hit[lane], /*through=*/true);
-    walk_.set_media(lane, media);
+    walk_.set_media(lane, media_behind);
     distance -= t;
     return true;
 }
 
 void ShadowTracer::absorb(core::MaterialIndex medium, double distance, std::size_t lane) {
-    if (medium == core::Media::none) return;
+    if (medium == core::no_medium) return;
     const core::Vec3d share =
         core::let_through_medium(scene_.scene().materials()[medium], distance);
     for (int channel = 0; channel < 3; ++channel)

@@ -62,7 +62,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
       shade_(tracing.kernels->shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
-      finder_(scene, tracing, &reference_), shadows_(scene, tracing, reference_), sorted_(scene) {
+      finder_(scene, tracing, reference_), shadows_(scene, tracing, reference_), sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
     pending_.reserve(64);
@@ -76,6 +76,7 @@ void Wavefront::take_from(Arena& arena) {
     paths_.take_from(arena, 2 * wave_rays, with_media_);
     next_.take_from(arena, 2 * wave_rays, with_media_);
     finder_.take_from(arena, wave_rays);
+    way_ = arena.take<double>(wave_rays);
     across_ = arena.take<double>(chunk_samples);
     upward_ = arena.take<double>(chunk_samples);
     arena.take(radiance_, chunk_samples);
@@ -164,9 +165,7 @@ void Wavefront::start(std::size_t count) {
         for (std::size_t i = 0; i < count; ++i)
             paths_.set_media(i, reference_.media_around(ray_of(paths_, i).origin));
     else if (with_media_) {
-        const core::Media& media = reference_.media_around(ray_of(paths_, 0).origin);
-        for (int k = 0; k < core::Media::depth; ++k)
-            std::fill_n(paths_.media[k], count, media.at(k));
+        std::fill_n(paths_.media, count, reference_.media_around(ray_of(paths_, 0).origin));
     }
     counters_.primary += count;
 }
@@ -211,18 +210,19 @@ void Wavefront::follow(std::size_t lane, int depth) {
     ++counters_.followed;
     const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                  paths_.throughput[2][lane]);
-    const core::Vec3d color =
-        reference_.color_along({ray_of(paths_, lane), departure_of(scene_, paths_, lane),
-                                paths_.media_at(lane), throughput, depth}) *
-        throughput;
-    add(paths_.sample[lane], color.x, color.y, color.z);
+    const core::Vec3d light =
+        reference_.light_along({ray_of(paths_, lane), departure_of(scene_, paths_, lane),
+                                paths_.media_at(lane), throughput, depth});
+    add(paths_.sample[lane], light.x, light.y, light.z);
 }
 
-core::Vec3d Wavefront::background_along(std::size_t lane) const {
+core::Vec3d Wavefront::background_along(std::size_t lane) {
     const core::Scene& scene = scene_.scene();
     const core::Vec3d color = core::convert<double>(scene.background());
-    if (with_media_ && paths_.media[0][lane] != core::Media::none)
-        return core::let_through_medium(scene.materials()[paths_.media[0][lane]], infinity) * color;
+    if (const core::Media media = paths_.media_at(lane); media != core::in_the_open) {
+        const core::MaterialIndex medium = reference_.media().top(media);
+        return core::let_through_medium(scene.materials()[medium], infinity) * color;
+    }
     if (scene.fog().kind == core::FogKind::none) return color;
     const core::Ray<double> ray = ray_of(paths_, lane);
     const double fog = core::fog_fraction_at_infinity(scene.fog(), ray.origin, ray.direction);
@@ -239,23 +239,23 @@ void Wavefront::see_background() {
 
 /// As core::ReferenceTracer has it at `indices_at`.
 void Wavefront::fill_media() {
+    core::MediaStacks& stacks = reference_.media();
     for (const Run& run : sorted_.runs()) {
         const bool transmits = run.material->transmits;
         for (std::size_t i = run.begin; i < run.end; ++i) {
             const std::uint32_t lane = sorted_.order()[i];
             const core::MaterialIndex material = sorted_.material_of(lane);
             const bool entering = (finder_.hits().hit[lane] & hit_entering) != 0;
-            core::Media media = paths_.media_at(lane);
+            const core::Media media = paths_.media_at(lane);
             const SceneData::Medium& before =
-                scene_.medium(media.before(material, transmits, entering));
+                scene_.medium(stacks.before(media, material, transmits, entering));
             media_.inside[i] = before.inside;
             media_.index_before[i] = before.index;
             for (int channel = 0; channel < 3; ++channel)
                 media_.absorption[channel][i] = before.absorption[channel];
             media_.index_behind[i] = run.material->index;
             if (entering || !transmits) continue;
-            media.leave(material);
-            media_.index_behind[i] = scene_.medium(media.top()).index;
+            media_.index_behind[i] = scene_.medium(stacks.top(stacks.left(media, material))).index;
         }
     }
 }
@@ -273,6 +273,15 @@ void Wavefront::shade(int depth) {
         hit_paths.shading_normal[axis] = hits.shading_normal[axis];
     }
     hit_paths.t = hits.t;
+    hit_paths.way = hits.t;
+    if (!finder_.points().empty()) {
+        std::copy_n(hits.t, paths_.count, way_);
+        for (const auto& [lane, point] : finder_.points()) {
+            paths_.move_to(lane, point); // where it came from is not asked for any more
+            way_[lane] = 0.0;
+        }
+        hit_paths.way = way_;
+    }
     hit_paths.hit = hits.hit;
     for (const Run& run : sorted_.runs())
         shade_.surfaces(run, sorted_.order(), hit_paths, scene_.fog(),
@@ -348,9 +357,10 @@ void Wavefront::add_to_next(const SpawnedRays& spawned, bool through) {
         next_.sample[to] = paths_.sample[lane];
         next_.start_on(to, slot, shape, hit, through);
         if (!with_media_) continue;
-        core::Media media = paths_.media_at(lane);
-        if (through) media.cross(shape.material, (hit & hit_entering) != 0);
-        next_.set_media(to, media);
+        const core::Media media = paths_.media_at(lane);
+        next_.set_media(to, through ? reference_.media().crossed(media, shape.material,
+                                                                 (hit & hit_entering) != 0)
+                                    : media);
     }
 }
 

@@ -61,7 +61,7 @@ class Wavefront {
     void split_next(int depth);
     void take_deferred(int& depth);
     void add(std::uint32_t sample, double r, double g, double b);
-    core::Vec3d background_along(std::size_t lane) const;
+    core::Vec3d background_along(std::size_t lane);
 
     const SceneData& scene_;
     core::Settings settings_;
@@ -83,6 +83,7 @@ class Wavefront {
 
     std::vector<Samples> samples_;                         // of the chunk
     std::vector<core::CameraRays<double>::InPixel> cells_; // by sample, if they are regular
+    double* way_ = nullptr;                                // HitPaths::way, where it differs from t
     double* across_ = nullptr;
     double* upward_ = nullptr;
     double* radiance_[3] = {};      // by sample

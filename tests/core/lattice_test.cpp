@@ -30,8 +30,10 @@ struct Tally {
 
 std::vector<oracle::Hit> ahead(std::vector<oracle::Hit> hits) {
     std::erase_if(hits, [](const oracle::Hit& hit) { return hit.t <= 0; });
-    std::sort(hits.begin(), hits.end(),
-              [](const oracle::Hit& a, const oracle::Hit& b) { return a.t < b.t; });
+    std::sort(hits.begin(), hits.end(), [](const oracle::Hit& a, const oracle::Hit& b) {
+        const int order = compare(a, b);
+        return order != 0 ? order < 0 : a.entering && !b.entering;
+    });
     return hits;
 }
 

@@ -242,22 +242,27 @@ TEST_CASE("a ray knows the index of what surrounds it") {
 }
 
 TEST_CASE("media nest, and are left in any order") {
-    Media media;
-    CHECK(media.empty());
-    media.enter(7);
-    media.enter(3);
-    CHECK(media.top() == 3);
-    media.leave(7);
-    CHECK(media.top() == 3);
-    media.leave(5); // never entered
-    CHECK(media.top() == 3);
-    media.leave(3);
-    CHECK(media.empty());
-    for (MaterialIndex material = 0; material < 5; ++material)
-        media.enter(material);
-    for (MaterialIndex material = 4; material > 0; --material)
-        media.leave(material);
-    CHECK(media.empty()); // the first was forgotten
+    MediaStacks stacks;
+    CHECK(stacks.top(in_the_open) == no_medium);
+    Media media = stacks.entered(stacks.entered(in_the_open, 7), 3);
+    CHECK(stacks.top(media) == 3);
+    media = stacks.left(media, 7);
+    CHECK(stacks.top(media) == 3);
+    CHECK(media == stacks.entered(in_the_open, 3)); // the same is said once
+    CHECK(stacks.left(media, 5) == media);          // never entered
+    CHECK(stacks.left(media, 3) == in_the_open);
+
+    for (int turn = 0; turn < 2; ++turn) {
+        media = in_the_open;
+        for (MaterialIndex material = 0; material < 1000; ++material)
+            media = stacks.entered(media, material);
+        for (MaterialIndex material = 999; material > 0; --material) {
+            CHECK(stacks.top(media) == material);
+            media = stacks.left(media, material);
+        }
+        CHECK(stacks.top(media) == 0); // however deep, none is forgotten
+        stacks.clear();
+    }
 }
 
 TEST_CASE("a camera may stand inside of bodies") {

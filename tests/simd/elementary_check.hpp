@@ -27,7 +27,7 @@ struct ElementaryCheck {
             const auto y = Number::load_unaligned(arrays.y + i);
             Functions::exp(x).store_unaligned(arrays.exp + i);
             Functions::expm1(x).store_unaligned(arrays.expm1 + i);
-            Functions::pow(xsimd::abs(x), xsimd::abs(y)).store_unaligned(arrays.pow + i);
+            Functions::pow(abs(x), abs(y)).store_unaligned(arrays.pow + i);
             const auto both = Functions::sin_cos(x);
             both.sine.store_unaligned(arrays.sin + i);
             both.cosine.store_unaligned(arrays.cos + i);

@@ -19,13 +19,13 @@ struct FilterChecksOf {
         const Bounds<Arch> bounds = filter.bounds(rays);
         F may_meet(1.0F);
         if constexpr (has_may_meet<Filter, FilterRays<Arch>>)
-            may_meet = xsimd::select(filter.may_meet(rays), F(1.0F), F(0.0F));
+            may_meet = select(filter.may_meet(rays), F(1.0F), F(0.0F));
         may_meet.store_unaligned(stream.may_meet + i);
         for (std::size_t lane = 0; lane < F::size; ++lane)
             stream.contradicts[i + lane] = contradicts(filter, rays, bounds, lane) ? 1.0F : 0.0F;
-        xsimd::select(bounds.possible, F(1.0F), F(0.0F)).store_unaligned(stream.possible + i);
+        select(bounds.possible, F(1.0F), F(0.0F)).store_unaligned(stream.possible + i);
         bounds.lower.store_unaligned(stream.lower + i);
-        xsimd::select(bounds.certain, F(1.0F), F(0.0F)).store_unaligned(stream.certain + i);
+        select(bounds.certain, F(1.0F), F(0.0F)).store_unaligned(stream.certain + i);
         bounds.upper.store_unaligned(stream.upper + i);
     }
 

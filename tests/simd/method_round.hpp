@@ -67,7 +67,7 @@ class MethodRound {
 
     /// Lets the kernels find what the twin has found. Returns how many rays hit the shape.
     int check(const simd::Kernels& kernels) const {
-        simd::HitFinder finder(data_, {&kernels, precision}, nullptr);
+        simd::HitFinder finder(data_, {&kernels, precision});
         const simd::Arena arena =
             simd::arena_for([&](simd::Arena& a) { finder.take_from(a, capacity); });
         core::Counters counters;

@@ -73,7 +73,7 @@ class Trial {
     void trace(const Kernels& kernels, Tally& tally) const {
         const SceneData data(*scene_);
         ReferenceTracer<double> reference(*scene_, scene_->settings());
-        HitFinder finder(data, {&kernels, Precision::exact}, &reference);
+        HitFinder finder(data, {&kernels, Precision::exact}, reference);
         const Arena arena = arena_for([&](Arena& a) { finder.take_from(a, rays_a_scene); });
         Counters counters;
         finder.find(paths_, nullptr, counters);
@@ -89,29 +89,24 @@ class Trial {
         const Ray<double> ray = ray_of(paths_, i);
         std::optional<oracle::Hit> truth;
         ShapeId id = no_shape;
-        bool touches = false;
-        for (ShapeId k = 0; k < shapes_a_scene; ++k)
-            for (const oracle::Hit& hit : oracle::crossings(shapes_[k], ray)) {
-                if (!(hit.t > 0)) continue;
-                if (truth && abs(hit.t - truth->t) <= reach(ray, *truth))
-                    touches = true;
-                else if (!truth || hit.t < truth->t)
-                    touches = false;
-                if (truth && oracle::sign(hit.t - truth->t, truth->t) >= 0) continue;
-                truth = hit;
-                id = k;
-            }
+        bool touches = false; // several of them, at one point
+        for (ShapeId k = 0; k < shapes_a_scene; ++k) {
+            const std::optional<oracle::Hit> hit = oracle::first_hit(shapes_[k], ray);
+            if (!hit) continue;
+            const int order = truth ? oracle::compare(*hit, *truth) : -1;
+            touches = order == 0 || (touches && order > 0);
+            if (order > 0 || (order == 0 && hit->entering <= truth->entering)) continue;
+            truth = hit;
+            id = k;
+        }
         ++tally.rays;
         // Where surfaces touch, the engine leaves more than a hit to the reference.
         const std::span<const std::uint32_t> open = finder.left_open();
-        if (std::find(open.begin(), open.end(), i) != open.end()) {
-            tally.wrong += touches ? 0 : 1;
-            return;
-        }
+        const bool is_open = std::find(open.begin(), open.end(), i) != open.end();
         const bool hit = hits.slot[i] != no_slot;
         const bool same_side = truth && ((hits.hit[i] & hit_entering) != 0) == truth->entering;
-        if (hit != truth.has_value() || (hit && data.occupant_of(hits.slot[i]).id != id) ||
-            (hit && !same_side && !is_tangent(shapes_[id], ray, *truth))) {
+        if (is_open != touches || hit != truth.has_value() ||
+            (hit && (!same_side || data.occupant_of(hits.slot[i]).id != id))) {
             ++tally.wrong;
             return;
         }
@@ -130,19 +125,6 @@ class Trial {
         // As near as double can tell, where the ray comes from far and hits near the origin.
         const double start = length(ray.origin) + t;
         tally.point_errors.push_back(off <= 0x1p-50 * start ? 0.0 : off / ulp(largest));
-    }
-
-    /// What a double can be off by in a point there: what is closer together touches.
-    static double reach(const Ray<double>& ray, const oracle::Hit& at) {
-        return 0x1p-50 * (length(ray.origin) + static_cast<double>(at.t));
-    }
-
-    /// Whether it enters and leaves at one point.
-    static bool is_tangent(const Shape& shape, const Ray<double>& ray, const oracle::Hit& at) {
-        const auto all = oracle::crossings(shape, ray);
-        return std::count_if(all.begin(), all.end(), [&](const oracle::Hit& hit) {
-                   return abs(hit.t - at.t) <= reach(ray, at);
-               }) == 2;
     }
 
     std::vector<Shape> shapes_;

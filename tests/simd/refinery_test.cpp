@@ -60,7 +60,7 @@ struct Finding {
 
     Finding(const SceneData& data, const Kernels& kernels, ReferenceTracer<double>& reference,
             const Paths& paths)
-        : finder(data, {&kernels, Precision::exact}, &reference) {
+        : finder(data, {&kernels, Precision::exact}, reference) {
         arena_ = arena_for([&](Arena& a) { finder.take_from(a, paths.count); });
         finder.find(paths, nullptr, counters);
     }

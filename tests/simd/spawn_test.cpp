@@ -60,9 +60,9 @@ class Spawning {
 
     void check() {
         ReferenceTracer<double> alone_reference(alone_, {}), reference(*scene_, {});
-        HitFinder first(alone_data_, {kernels_}, &alone_reference);
-        HitFinder in_the_open(alone_data_, {kernels_}, &alone_reference);
-        HitFinder next(*data_, {kernels_}, &reference);
+        HitFinder first(alone_data_, {kernels_}, alone_reference);
+        HitFinder in_the_open(alone_data_, {kernels_}, alone_reference);
+        HitFinder next(*data_, {kernels_}, reference);
         ShadowTracer shadows(*data_, {kernels_}, reference);
         const Arena arena = arena_for([&](Arena& a) {
             first.take_from(a, rays_per_nest);

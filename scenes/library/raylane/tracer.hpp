@@ -29,10 +29,12 @@ struct RaySpan {
 struct HitSpan {
     std::span<float> t{}; ///< > 0 and finite; infinity where nothing is hit
     /// Unit length, perpendicular to the surface on its outside (front), whichever side is hit; 0
-    /// where nothing is. A ray enters where normal . direction < 0. A smooth triangle's is the flat
-    /// one's.
+    /// where nothing is. A smooth triangle's is the flat one's.
     std::span<float> normal_x{}, normal_y{}, normal_z{};
     std::span<ShapeId> shape{}; ///< no_shape where nothing is hit
+    /// 1 where the ray goes from the outside (front) to the inside (back), 0 where it comes out, or
+    /// nothing is hit.
+    std::span<std::uint8_t> entering{};
 };
 
 struct TracerOptions {

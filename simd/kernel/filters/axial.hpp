@@ -37,10 +37,10 @@ struct AxialFilter {
     F body_factor, body_error, slope_factor, slope_error;
 
     AxialFilter(const Vectors<Arch>& base_, const Vectors<Arch>& axis_, const F& r0, const F& r1)
-        : base(base_), whole_axis(axis_), largest_radius(cone ? xsimd::max(r0, r1) : r0),
-          base_radius(r0), narrowing(zero<Arch>()) {
+        : base(base_), whole_axis(axis_), largest_radius(cone ? max(r0, r1) : r0), base_radius(r0),
+          narrowing(zero<Arch>()) {
         const F axis_squared = fast_dot(axis_, axis_);
-        const F length = xsimd::sqrt(axis_squared);
+        const F length = sqrt(axis_squared);
         const F inverse = F(1.0F) / length;
         axis = {axis_.x * inverse, axis_.y * inverse, axis_.z * inverse};
         half_length = F(0.5F) * length;
@@ -48,7 +48,7 @@ struct AxialFilter {
         reach = (length + largest_radius) * F(1 + 0x1p-10F);
         if constexpr (cone) {
             narrowing = (r1 - r0) * inverse;
-            const F k = xsimd::abs(narrowing);
+            const F k = abs(narrowing);
             body_factor = fast_mul_add<Arch>(F(2.5F), k, F(1.0F));
             slope_factor = fast_mul_add<Arch>(k + k, k, F(1.0F));
             slope_error = fast_mul_add<Arch>(F(22.0F), k, F(4.0F)) * r0 * F(half_ulp);
@@ -71,7 +71,7 @@ struct AxialFilter {
     [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
         const F o = zero<Arch>();
         const Vectors<Arch> a = whole_axis;
-        const F size = xsimd::abs(a.x) + xsimd::abs(a.y) + xsimd::abs(a.z) + F(0x1p-100F);
+        const F size = abs(a.x) + abs(a.y) + abs(a.z) + F(0x1p-100F);
         const F radius = (largest_radius + F(0x1p-60F)) * F(1 + 0x1p-19F);
         const F radius_squared = radius * radius;
 
@@ -79,22 +79,22 @@ struct AxialFilter {
         const Vectors<Arch> c = fast_cross(rays.direction, a);
         const F c_squared = fast_dot(c, c) + F(0x1p-110F);
         const F rise = fast_dot(rays.direction, a);
-        const F far = xsimd::abs(f.x) + xsimd::abs(f.y) + xsimd::abs(f.z);
+        const F far = abs(f.x) + abs(f.y) + abs(f.z);
         const F error = size * fast_mul_add<Arch>(F(10 * half_ulp), far,
                                                   fast_mul_add<Arch>(F(8 * half_ulp), radius,
                                                                      rays.slack + rays.slack));
-        const F beside = xsimd::abs(fast_dot(f, c)) - error;
+        const F beside = abs(fast_dot(f, c)) - error;
         const F beside_squared = beside * beside;
         const F along =
             fast_mul_add<Arch>(fast_dot(f, rays.direction), negated(rise), fast_dot(f, a));
         const F half_way = F(0.5F) * c_squared;
-        const F room = fast_mul_add<Arch>(radius, xsimd::abs(rise), error + error) +
+        const F room = fast_mul_add<Arch>(radius, abs(rise), error + error) +
                        fast_mul_add<Arch>(F(20 * half_ulp) * size, size, half_way);
         const Mask<Arch> missed =
             ((beside > o) &
              (beside_squared > fast_mul_add<Arch>(radius_squared, c_squared, F(underflow)))) |
-            (xsimd::abs(along - half_way) > room);
-        const Mask<Arch> known = beside_squared + xsimd::abs(along) < F(__builtin_inff());
+            (abs(along - half_way) > room);
+        const Mask<Arch> known = beside_squared + abs(along) < F(__builtin_inff());
         return is_number<Arch>(f.x) & ~(missed & known);
     }
 
@@ -116,13 +116,13 @@ struct AxialFilter {
         // near.
         const F position = fast_dot(from_base, axis) - half_length;
         const F rise = fast_dot(rays.direction, axis);
-        const F far = xsimd::abs(closest) + (reach + reach);
+        const F far = abs(closest) + (reach + reach);
         const F height_error = fast_mul_add<Arch>(F(15 * half_ulp), far, rays.slack);
         const Stay<Arch> ends =
             cross_slab<Arch>(position, half_length, height_error, rise, F(9 * half_ulp));
 
-        const F start = xsimd::max(positive_part<Arch>(ends.in_low),
-                                   positive_part<Arch>(closest - (reach + height_error)));
+        const F start = max(positive_part<Arch>(ends.in_low),
+                            positive_part<Arch>(closest - (reach + height_error)));
         const Vectors<Arch> f = fast_mul_add<Arch>(start, rays.direction, from_base);
         const Vectors<Arch> m = fast_cross(f, axis), n = fast_cross(rays.direction, axis);
         const F distance = root_above<Arch>(fast_dot(f, f));
@@ -149,7 +149,7 @@ struct AxialFilter {
             g_length = base_radius; // |n| <= 1; the rest of it is within the error
         }
         const F C = fast_mul_add<Arch>(negated(W), W, m_squared);
-        const F C_error = (body + body) * (m_length + xsimd::abs(W) + body);
+        const F C_error = (body + body) * (m_length + abs(W) + body);
         const F D = fast_mul_add<Arch>(negated(across), across, g_squared);
         const F D_error = body * (g_length + g_length + body);
         return {ends,
@@ -179,9 +179,9 @@ struct AxialFilter {
         // is inside already: then the exit counts, by the body or by an end.
         const Mask<Arch> within = body.inside & crossing.nappe & crossing.near;
         const Mask<Arch> inside = within & ends.inside & (crossing.start == o);
-        const F entry = xsimd::select(body.outside, body_low, crossing.start);
-        const F leaves = xsimd::select(body.none, F(__builtin_inff()), body_low);
-        const F exit = xsimd::min(positive_part<Arch>(ends.out_low), leaves); // or NaN of these
+        const F entry = select(body.outside, body_low, crossing.start);
+        const F leaves = select(body.none, F(__builtin_inff()), body_low);
+        const F exit = min(positive_part<Arch>(ends.out_low), leaves); // or NaN of these
         const Mask<Arch> missed = (body.none & body.outside) | (ends.out_high < crossing.start) |
                                   (body.outside & (ends.out_high < body_low));
 
@@ -191,21 +191,18 @@ struct AxialFilter {
             body.outside & body.definite & (body_low >= ends.in_high) & (body_high <= ends.out_low);
         const Mask<Arch> by_end = within & (ends.in_low > o) & (crossing.start <= ends.in_high) &
                                   (ends.in_high <= leaves) & (ends.in_high <= ends.out_low);
-        const F exit_high =
-            xsimd::select(body.definite, xsimd::min(body_high, ends.out_high), ends.out_high);
+        const F exit_high = select(body.definite, min(body_high, ends.out_high), ends.out_high);
         return sure(crossing,
-                    {crossing.is_shape & ~missed,
-                     positive_part<Arch>(xsimd::select(inside, exit, entry)),
+                    {crossing.is_shape & ~missed, positive_part<Arch>(select(inside, exit, entry)),
                      ends.definite & (by_body | by_end | inside),
-                     xsimd::select(inside, exit_high,
-                                   xsimd::select(body.outside, body_high, ends.in_high))});
+                     select(inside, exit_high, select(body.outside, body_high, ends.in_high))});
     }
 
   private:
     [[gnu::always_inline]] Bounds<Arch> sure(const Crossing& crossing,
                                              const Bounds<Arch>& bounds) const {
         return {crossing.is_shape & (bounds.possible | ~ordinary),
-                xsimd::select(ordinary, bounds.lower, zero<Arch>()),
+                select(ordinary, bounds.lower, zero<Arch>()),
                 bounds.certain & ordinary & crossing.near, bounds.upper};
     }
 };

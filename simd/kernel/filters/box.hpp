@@ -40,7 +40,7 @@ struct BoxFilter {
         const Vectors<Arch> from_corner = rays.origin - corner;
         const Vectors<Arch> doubled = absolute(from_corner + from_corner),
                             d = absolute(rays.direction);
-        const F middle_size = xsimd::abs(middle);
+        const F middle_size = abs(middle);
         const auto stay_between = [&](int i) __attribute__((always_inline)) {
             const Vectors<Arch>& size = normal_sizes[i];
             const F error = fast_mul_add<Arch>(
@@ -55,9 +55,9 @@ struct BoxFilter {
         const F lower = positive_part<Arch>(stay.in_low);
         const Mask<Arch> outside = stay.in_low > o;
         return {is_number<Arch>(from_corner.x) & ~(stay.out_high < lower),
-                xsimd::select(stay.inside, positive_part<Arch>(stay.out_low), lower),
+                select(stay.inside, positive_part<Arch>(stay.out_low), lower),
                 stay.definite & (stay.in_high <= stay.out_low) & (stay.out_low > o),
-                xsimd::select(outside, stay.in_high, stay.out_high)};
+                select(outside, stay.in_high, stay.out_high)};
     }
 };
 

@@ -24,7 +24,7 @@ struct DiscFilter {
         const FlatCrossing<Arch> crossing = cross_plane(to_center, normal, rays);
         const Vectors<Arch> point = fast_mul_add<Arch>(crossing.t, rays.direction, -to_center);
         const F distance_squared = fast_dot(point, point);
-        const F error = fast_mul_add<Arch>(F(12 * half_ulp), xsimd::abs(crossing.t) + radius,
+        const F error = fast_mul_add<Arch>(F(12 * half_ulp), abs(crossing.t) + radius,
                                            rays.slack + crossing.spread);
         const F outer = radius + error, inner = radius - error;
         const Mask<Arch> outside = crossing.clear & (distance_squared > outer * outer);

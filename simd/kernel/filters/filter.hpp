@@ -122,7 +122,7 @@ Vectors<Arch> fast_cross(const Vectors<Arch>& a, const Vectors<Arch>& b) {
 
 template <class Arch>
 Vectors<Arch> absolute(const Vectors<Arch>& a) {
-    return {xsimd::abs(a.x), xsimd::abs(a.y), xsimd::abs(a.z)};
+    return {abs(a.x), abs(a.y), abs(a.z)};
 }
 
 /// The sums of what a x b has the differences of, plus c. Of length <= 1.155 |a| |b| if c = 0.
@@ -149,7 +149,7 @@ Floats<Arch> sign_bit(const Floats<Arch>& a) {
 /// a > 0 ? a : 0, which is also what NaN becomes.
 template <class Arch>
 Floats<Arch> positive_part(const Floats<Arch>& a) {
-    return xsimd::select(a > zero<Arch>(), a, zero<Arch>());
+    return select(a > zero<Arch>(), a, zero<Arch>());
 }
 
 /// Where the input was numbers. Differences of coordinates, which are at most 1e30, are then
@@ -163,7 +163,7 @@ Mask<Arch> is_number(const Floats<Arch>& difference) {
 template <class Arch>
 Floats<Arch> root_above(const Floats<Arch>& a) {
     const Floats<Arch> positive = a + Floats<Arch>(0x1p-100F);
-    return positive * xsimd::rsqrt(positive) * Floats<Arch>(1 + 0x1p-10F);
+    return positive * rsqrt(positive) * Floats<Arch>(1 + 0x1p-10F);
 }
 
 } // namespace raylane::simd

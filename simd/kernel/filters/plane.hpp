@@ -27,14 +27,14 @@ struct FlatCrossing {
         using F = Floats<Arch>;
         const F one(1.0F);
         const F signed_height = height ^ sign_bit<Arch>(approach);
-        const F h = xsimd::abs(height), a = xsimd::abs(approach);
+        const F h = abs(height), a = abs(approach);
         const F inverse = one / (a + approach_error);
         const F stretch = F(4.0F) * approach_error * inverse;
         t = signed_height * inverse;
         lower = (h - height_error) * (inverse * F(1 - 4 * half_ulp));
         upper = (h + height_error) *
                 (inverse * fast_mul_add<Arch>(stretch, F(1 + 8 * half_ulp), F(1 + 8 * half_ulp)));
-        spread = upper - xsimd::abs(t);
+        spread = upper - abs(t);
         clear = stretch <= one;
         ahead = clear & (signed_height > height_error);
         behind = (a > approach_error) & (negated(signed_height) > height_error);
@@ -72,7 +72,7 @@ struct PlaneFilter {
         const Vectors<Arch> to_point = point - rays.origin;
         const FlatCrossing<Arch> crossing = cross_plane(to_point, normal, rays);
         // Alone of all shapes, it may be met beyond the largest float.
-        const F lower = xsimd::min(positive_part<Arch>(crossing.lower), F(0x1.fffffep+127F));
+        const F lower = min(positive_part<Arch>(crossing.lower), F(0x1.fffffep+127F));
         return {is_number<Arch>(to_point.x) & ~crossing.behind, lower, crossing.ahead,
                 crossing.upper};
     }

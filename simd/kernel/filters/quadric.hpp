@@ -37,10 +37,10 @@ struct QuadricFilter {
         middle = fast_mul_add<Arch>(F(0.5F), lower + upper, zeros);
         half = fast_mul_add<Arch>(F(0.5F), upper - lower, zeros);
         extent = absolute(middle) + half;
-        const F x = xsimd::abs(xx) + xsimd::abs(xy) + xsimd::abs(xz);
-        const F y = xsimd::abs(xy) + xsimd::abs(yy) + xsimd::abs(yz);
-        const F z = xsimd::abs(xz) + xsimd::abs(yz) + xsimd::abs(zz);
-        matrix_size = xsimd::max(x, xsimd::max(y, z));
+        const F x = abs(xx) + abs(xy) + abs(xz);
+        const F y = abs(xy) + abs(yy) + abs(yz);
+        const F z = abs(xz) + abs(yz) + abs(zz);
+        matrix_size = max(x, max(y, z));
         const Vectors<Arch> size = absolute(linear);
         linear_size = size.x + size.y + size.z;
     }
@@ -71,15 +71,14 @@ struct QuadricFilter {
             matrix_size, e, fast_mul_add<Arch>(F(12 * half_ulp), linear_size, F(underflow)));
         const F reach = fast_mul_add<Arch>(matrix_size, distance + e, linear_size);
         const F C_error = fast_mul_add<Arch>(
-            reach + reach, e, fast_mul_add<Arch>(F(2 * half_ulp), xsimd::abs(one), F(underflow)));
+            reach + reach, e, fast_mul_add<Arch>(F(2 * half_ulp), abs(one), F(underflow)));
         const F BB = B * B, AC = A * C;
         const F D_error = fast_mul_add<Arch>(
-            B_error, xsimd::abs(B + B) + B_error,
-            fast_mul_add<Arch>(
-                A_error, xsimd::abs(C) + C_error,
-                fast_mul_add<Arch>(
-                    xsimd::abs(A), C_error,
-                    fast_mul_add<Arch>(F(2 * half_ulp), BB + xsimd::abs(AC), F(underflow)))));
+            B_error, abs(B + B) + B_error,
+            fast_mul_add<Arch>(A_error, abs(C) + C_error,
+                               fast_mul_add<Arch>(abs(A), C_error,
+                                                  fast_mul_add<Arch>(F(2 * half_ulp), BB + abs(AC),
+                                                                     F(underflow)))));
         Bounds<Arch> result =
             surface_bounds<Arch>(is_number<Arch>(from_center.x), stay, start,
                                  FirstCrossing<Arch>(B, B_error, C, C_error, BB - AC, D_error));

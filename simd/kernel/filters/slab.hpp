@@ -26,18 +26,18 @@ cross_slab(const Floats<Arch>& position, const Floats<Arch>& half, const Floats<
     using F = Floats<Arch>;
     const F one(1.0F), infinity(__builtin_inff());
     const F closer = negated(position) ^ sign_bit<Arch>(slope);
-    const F inverse = one / (xsimd::abs(slope) + slope_error);
+    const F inverse = one / (abs(slope) + slope_error);
     const F stretch = F(4.0F) * slope_error * inverse;
     const Mask<Arch> clear = stretch <= one;
     const F least = inverse * F(1 - 4 * half_ulp);
     const F most = inverse * fast_mul_add<Arch>(stretch, F(1 + 8 * half_ulp), F(1 + 8 * half_ulp));
     const F outer = half + error, inner = half - error;
-    const F distance = xsimd::abs(position);
+    const F distance = abs(position);
     const Mask<Arch> inside = distance < inner;
     // Along the slab, either side may be the one that the ray leaves by.
-    const F to_leave = xsimd::select(clear, closer, negated(distance));
+    const F to_leave = select(clear, closer, negated(distance));
     return {(closer - outer) * least,
-            xsimd::select(clear, (closer + outer) * most, infinity),
+            select(clear, (closer + outer) * most, infinity),
             positive_part<Arch>((closer - inner) * most),
             (to_leave + inner) * least,
             (clear | inside) & (inner > zero<Arch>()),
@@ -47,9 +47,8 @@ cross_slab(const Floats<Arch>& position, const Floats<Arch>& half, const Floats<
 /// Inside both.
 template <class Arch>
 [[gnu::always_inline]] inline Stay<Arch> operator&(const Stay<Arch>& a, const Stay<Arch>& b) {
-    return {xsimd::max(a.in_low, b.in_low),   xsimd::min(a.out_high, b.out_high),
-            xsimd::max(a.in_high, b.in_high), xsimd::min(a.out_low, b.out_low),
-            a.definite & b.definite,          a.inside & b.inside};
+    return {max(a.in_low, b.in_low),   min(a.out_high, b.out_high), max(a.in_high, b.in_high),
+            min(a.out_low, b.out_low), a.definite & b.definite,     a.inside & b.inside};
 }
 
 } // namespace raylane::simd

@@ -30,7 +30,7 @@ struct SphereFilter {
         const F behind = fast_dot(from_center, rays.direction); // the ray's origin, of the foot
         const Vectors<Arch> foot = fast_mul_add<Arch>(negated(behind), rays.direction, from_center);
         const F outer = radius * F(1 + 12 * half_ulp) +
-                        fast_mul_add<Arch>(F(12 * half_ulp), xsimd::abs(behind), rays.slack);
+                        fast_mul_add<Arch>(F(12 * half_ulp), abs(behind), rays.slack);
         // A ray that has its foot behind it starts inside, if it meets the sphere at all: its
         // distance from the centre, and so `behind`, is r + slack at most, and 6 u r for rounding.
         // What overflows proves nothing.
@@ -64,13 +64,13 @@ struct SphereFilter {
         const F o = zero<Arch>();
         const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
         const F outer_chord = outer * outer - foot_squared; // not fused: both overflow, or none
-        const F outer_half = xsimd::sqrt(outer_chord);
+        const F outer_half = sqrt(outer_chord);
         const F entry = tau - outer_half - rounding;
         const F exit = tau + outer_half + rounding;
         const Mask<Arch> missed = (outer_chord < o) | (exit < o);
 
         const F inner_chord = inner * inner - foot_squared;
-        const F inner_half = xsimd::sqrt(inner_chord);
+        const F inner_half = sqrt(inner_chord);
         const Mask<Arch> meets = (inner > o) & (inner_chord > o), ahead = entry > o;
         Bounds<Arch> result{there & ~missed, positive_part<Arch>(entry), meets & ahead,
                             tau - inner_half + rounding};
@@ -82,9 +82,9 @@ struct SphereFilter {
             const F least = tau + inner_half - rounding;
             // The chord of a huge sphere overflows.
             const Mask<Arch> known = (least > o) & (least < F(__builtin_inff()));
-            result.lower = xsimd::select(inside, xsimd::select(known, least, o), result.lower);
+            result.lower = select(inside, select(known, least, o), result.lower);
             result.certain = result.certain | inside;
-            result.upper = xsimd::select(inside, exit, result.upper);
+            result.upper = select(inside, exit, result.upper);
         }
         return result;
     }
@@ -104,7 +104,7 @@ struct SphereFilter {
         const F tau = negated(fast_dot(from_center, rays.direction));
         const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
         const F foot_squared = fast_dot(foot, foot);
-        const F rounding = F(10 * half_ulp) * (xsimd::abs(tau) + radius);
+        const F rounding = F(10 * half_ulp) * (abs(tau) + radius);
         const F error = rounding + rays.slack;
         const F outer = radius + error, inner = radius - error;
         return {is_number<Arch>(from_center.x), tau, foot_squared, rounding, outer, inner};

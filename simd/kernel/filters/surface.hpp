@@ -21,16 +21,16 @@ struct FirstCrossing {
                                          const Floats<Arch>& D, const Floats<Arch>& D_error) {
         using F = Floats<Arch>;
         const F o = zero<Arch>();
-        const F size = xsimd::abs(C), away = B ^ sign_bit<Arch>(C);
+        const F size = abs(C), away = B ^ sign_bit<Arch>(C);
         const F most = D + D_error, least = D - D_error;
-        const F divisor = xsimd::sqrt(most) * F(1 + 4 * half_ulp) - away + B_error;
+        const F divisor = sqrt(most) * F(1 + 4 * half_ulp) - away + B_error;
         const Mask<Arch> apart = size > C_error;
         outside = apart & (C > o);
         inside = apart & (C < o);
         none = (most < o) | (apart & (divisor < o));
-        low = xsimd::select(apart, (size - C_error) / divisor * F(1 - 4 * half_ulp), o);
+        low = select(apart, (size - C_error) / divisor * F(1 - 4 * half_ulp), o);
 
-        const F least_divisor = xsimd::sqrt(least) * F(1 - 4 * half_ulp) - away - B_error;
+        const F least_divisor = sqrt(least) * F(1 - 4 * half_ulp) - away - B_error;
         definite = apart & (least > o) & (least_divisor > o);
         high = (size + C_error) / least_divisor * F(1 + 4 * half_ulp);
     }

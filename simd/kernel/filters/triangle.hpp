@@ -52,7 +52,7 @@ struct TriangleFilter {
         const F w = negated(fast_dot(edge_e, moment)) ^ flip;
         const F v_error = error_along(edge_g);
         const F w_error = error_along(edge_e);
-        const F steepness = xsimd::abs(approach);
+        const F steepness = abs(approach);
         const F beyond = (v + w) - steepness;
         const F beyond_error = v_error + w_error + approach_error;
 

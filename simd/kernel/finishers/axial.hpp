@@ -38,7 +38,13 @@ struct ConeProfile : ConeLanes<Arch, capped> {
 ///   half F' = across . across_direction - width M, by spread (T + 32 u width) there,
 ///   A = |across_direction|^2 - M^2, by 64 u spread^2,
 ///   the height above the base, by |axis| (P + 8 u L), the other end's by 3 u |axis|^2 more.
-template <class Arch, class Profile>
+/// Where F is anything, it errs by 2 (|across| + width) T + 2 T^2 + 2^-98 L^2 and 8 u of both
+/// squares.
+///
+/// By component, with P_i >= 8 u (|start_i| + |s direction_i|) for the position: across_i errs by
+/// P_i and, as taking the axis out errs along the axis, by |axis_i| / |axis|^2 times 2 |axis| . P;
+/// half the gradient of F by |slope axis_i| times what width errs by more.
+template <class Arch, class Profile, Wanted wanted>
 struct AxialLine {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
@@ -68,14 +74,14 @@ struct AxialLine {
         quadratic.B = dot(across_start, across_direction);
         quadratic.C = squared_length(across_start);
         if constexpr (Profile::tapers) {
-            widest = xsimd::select(base_width < top_width, top_width, base_width);
+            widest = select(base_width < top_width, top_width, base_width);
             slope = (top_width - base_width) * inverse;
             width_start = base_width + slope * height_start;
             width_slope = slope * height_slope;
             quadratic.A = quadratic.A - width_slope * width_slope;
             quadratic.B = quadratic.B - width_slope * width_start;
             quadratic.C = quadratic.C - width_start * width_start;
-            spread = F(1.0625) * (F(1.0) + xsimd::abs(slope) * axis_size);
+            spread = F(1.0625) * (F(1.0) + abs(slope) * axis_size);
         } else {
             widest = base_width;
             quadratic.C = quadratic.C - base_width * base_width;
@@ -88,7 +94,7 @@ struct AxialLine {
     [[gnu::always_inline]] Passage<Arch> passage(const M& leaves) const {
         const F s = quadratic.root_where(leaves);
         const V across = across_at(s);
-        const F width = width_at(s), square = width * width, width_size = xsimd::abs(width);
+        const F width = width_at(s), square = width * width, width_size = abs(width);
         const F off = together(s), along = local.rounding(16.0, s);
         const F value = squared_length(across) - square;
         const Residual<Arch> residual = {
@@ -96,7 +102,7 @@ struct AxialLine {
             rise(across, width), spread * (off + F(0x1p-48) * width_size)};
         Passage<Arch> result;
         result.root = quadratic.refine(s, residual, leaves);
-        result.root.certain = result.root.certain & (xsimd::abs(value) < F(0.25) * square);
+        result.root.certain = result.root.certain & (abs(value) < F(0.25) * square);
         result.t = local.shift + result.root.s;
         result.error = local.error_of_t(result.t, result.root.s, result.root.error);
         clip(result);
@@ -112,7 +118,7 @@ struct AxialLine {
         if constexpr (Profile::tapers)
             rise_error = (spread * spread) * (rise_error + F(0x1p-48) * widest);
         const F rise_there = rise(across_at(vertex), width_at(vertex));
-        const F vertex_error = F(1.25) * (xsimd::abs(rise_there) + rise_error) / quadratic.A;
+        const F vertex_error = F(1.25) * (abs(rise_there) + rise_error) / quadratic.A;
         Passage<Arch> result = Passage<Arch>::opposite(vertex, vertex_error, local);
         result.root.certain = starts.inward & (quadratic.A > F(8.0) * quadratic.A_error);
         clip(result);
@@ -120,6 +126,18 @@ struct AxialLine {
     }
 
     F reach() const { return local.size + F(1.0625) * (axis_size + widest); }
+
+    /// Nor does the line cross the mirror image.
+    M has_no_root() const {
+        const F vertex = negated(quadratic.B) / quadratic.A;
+        const V across = across_at(vertex);
+        const F width = width_at(vertex), off = together(vertex),
+                along = local.rounding(16.0, vertex);
+        const F outer = squared_length(across), inner = width * width;
+        const F error = (F(3.0) * (sum_of_sizes(across) + abs(width)) + (off + off)) * off +
+                        along * along + F(0x1p-49) * (outer + inner);
+        return quadratic.opens_up() & (outer - inner > error);
+    }
 
     F height_at(const F& s) const { return mul_add<Arch>(s, height_slope, height_start); }
     V across_at(const F& s) const { return mul_add<Arch>(s, across_direction, across_start); }
@@ -161,8 +179,36 @@ struct AxialLine {
         passage.inside = (height > margin) & (above > margin);
         passage.outside = (height < negated(margin)) | (above < negated(margin));
         passage.normal = across_at(s);
+        const F width = width_at(s);
         if constexpr (Profile::tapers)
-            passage.normal = mul_add<Arch>(negated(width_at(s) * slope), axis, passage.normal);
+            passage.normal = mul_add<Arch>(negated(width * slope), axis, passage.normal);
+        const F error = passage.root.error;
+        passage.steady = spread * (together(s) + error) < F(0x1p-14) * abs(width);
+        if constexpr (wanted == Wanted::all) find_normal_error(passage, width);
+    }
+
+    void find_normal_error(Passage<Arch>& passage, const F& width) const {
+        const F s = passage.root.s;
+        const V off = local.off_at(s, passage.root.error);
+        const V sizes = {abs(axis.x), abs(axis.y), abs(axis.z)};
+        F along = F(2.125) * dot(sizes, off) / axis_squared;
+        if constexpr (Profile::tapers)
+            along = along + F(1.0625) * abs(slope) *
+                                (together(s) + (spread - F(1.0)) * passage.root.error +
+                                 F(0x1p-50) * abs(width));
+        passage.normal_error = {off.x + along * sizes.x, off.y + along * sizes.y,
+                                off.z + along * sizes.z};
+        if constexpr (Profile::tapers) return;
+        // Nothing of a cylinder's normal is along its axis, if that is one of the coordinates'.
+        const F o = zero<Arch>();
+        const M has_x = sizes.x > o, has_y = sizes.y > o, has_z = sizes.z > o;
+        const auto clear = [&](const M& others, F& component, F& of_error) {
+            component = select(others, component, o);
+            of_error = select(others, of_error, o);
+        };
+        clear(has_y | has_z, passage.normal.x, passage.normal_error.x);
+        clear(has_z | has_x, passage.normal.y, passage.normal_error.y);
+        clear(has_x | has_y, passage.normal.z, passage.normal_error.z);
     }
 };
 
@@ -174,11 +220,12 @@ struct OpenFinisher {
     template <class Reader>
     explicit OpenFinisher(Reader reader) : shape(reader) {}
 
+    template <Wanted wanted>
     [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
                                                  const Starts<Arch>& starts) const {
-        const AxialLine<Arch, Profile> line(shape, rays);
-        Finished<Arch> result = first_passage<Arch>(line, starts);
-        result.normal = unit<Arch>(result.normal);
+        const AxialLine<Arch, Profile, wanted> line(shape, rays);
+        Finished<Arch> result = first_passage<wanted, Arch>(line, starts);
+        make_unit<wanted>(result);
         return result;
     }
 };
@@ -193,51 +240,75 @@ struct CappedFinisher {
     template <class Reader>
     explicit CappedFinisher(Reader reader) : shape(reader) {}
 
+    template <Wanted wanted>
     [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
                                                  const Starts<Arch>& starts) const {
-        const Line line(shape, rays);
+        const Line<wanted> line(shape, rays);
         Finished<Arch> result = pass(line, starts.on_surface, starts);
         const M behind = result.certain & ~starts.on_surface & (result.t < negated(result.error));
         if (any<Arch>(behind)) leave(result, behind, line, starts);
         result.certain = result.certain & (~starts.on_surface | starts.inward) &
                          is_result<Arch>(result.t, result.error);
-        result.normal = unit<Arch>(result.normal);
+        if constexpr (wanted == Wanted::all) {
+            const M uncertain = ~result.certain & ~starts.on_surface;
+            if (any<Arch>(uncertain)) result.misses = uncertain & passed(line);
+        }
+        make_unit<wanted>(result);
         return result;
     }
 
   private:
     using F = Floats<Arch>;
     using M = Mask<Arch>;
-    using Line = AxialLine<Arch, Profile>;
+    template <Wanted wanted>
+    using Line = AxialLine<Arch, Profile, wanted>;
+
+    /// Whether the line surely passes the solid: it is nowhere within the body, or only beyond one
+    /// end, or behind the start.
+    template <Wanted wanted>
+    static M passed(const Line<wanted>& line) {
+        const Passage<Arch> in = line.passage(none<Arch>()), out = line.passage(all<Arch>());
+        const M known = in.root.certain & out.root.certain & line.quadratic.opens_up();
+        const auto is_beyond = [&](const Passage<Arch>& passage, bool top) {
+            const F height = line.height_at(passage.root.s);
+            const F margin = line.height_error(passage.root.s, passage.root.error);
+            return top ? height - line.axis_squared > margin : height < negated(margin);
+        };
+        const M beyond = (is_beyond(in, true) & is_beyond(out, true)) |
+                         (is_beyond(in, false) & is_beyond(out, false));
+        return line.has_no_root() | (known & (beyond | (out.t < negated(out.error))));
+    }
 
     /// Seldom needed, so kept out of the way.
-    [[gnu::noinline]] static void leave(Finished<Arch>& result, const M& lanes, const Line& line,
-                                        const Starts<Arch>& starts) {
+    template <Wanted wanted>
+    [[gnu::noinline]] static void leave(Finished<Arch>& result, const M& lanes,
+                                        const Line<wanted>& line, const Starts<Arch>& starts) {
         result = select<Arch>(lanes, pass(line, starts.on_surface | lanes, starts), result);
     }
 
     /// Where the ray leaves the solid, or else enters it.
-    [[gnu::always_inline]] static Finished<Arch> pass(const Line& line, const M& leaves,
+    template <Wanted wanted>
+    [[gnu::always_inline]] static Finished<Arch> pass(const Line<wanted>& line, const M& leaves,
                                                       const Starts<Arch>& starts) {
         const LocalRays<Arch>& local = line.local;
         const M rises = line.height_slope > zero<Arch>();
         const M at_top = (rises & leaves) | (~rises & ~leaves);
-        const F face = xsimd::select(at_top, F(2.0), F(1.0));
+        const F face = select(at_top, F(2.0), F(1.0));
 
         // The cap's plane; and within the rim, where |across| errs by `off`, so |across|^2 by 2
         // width off + off^2, and 6 u width^2.
         const F inverse = F(1.0) / line.height_slope;
-        const F cap_height = xsimd::select(at_top, line.axis_squared, zero<Arch>());
-        const F width = xsimd::select(at_top, line.top_width, line.base_width);
+        const F cap_height = select(at_top, line.axis_squared, zero<Arch>());
+        const F width = select(at_top, line.top_width, line.base_width);
         const F s = (cap_height - line.height_start) * inverse;
-        const F error_s = line.height_error(s, zero<Arch>()) * xsimd::abs(inverse);
+        const F error_s = line.height_error(s, zero<Arch>()) * abs(inverse);
         const F off = local.error_at(s, 12.0) + error_s;
         const F within = width * width - squared_length(line.across_at(s));
-        const M meets_plane = xsimd::abs(line.height_slope) > F(0x1p-44) * line.axis_size;
+        const M meets_plane = abs(line.height_slope) > F(0x1p-44) * line.axis_size;
         M by_cap = meets_plane & (within > width * (F(3.0) * off + F(0x1p-49) * width));
 
         Passage<Arch> side = line.passage(leaves);
-        M by_side = side.root.certain & side.inside;
+        M by_side = side.root.certain & side.inside & side.steady;
 
         const M from_body = starts.on_surface & (starts.face == zero<Arch>());
         if (any<Arch>(from_body)) {
@@ -246,14 +317,18 @@ struct CappedFinisher {
             const M never = line.quadratic.A < F(-1.0) * line.quadratic.A_error;
             const M beyond = onward.root.certain & onward.outside &
                              ((onward.t > zero<Arch>()) & passes(line, onward, at_top));
-            by_side = (~from_body & by_side) | (from_body & onward.root.certain & onward.inside);
+            by_side = (~from_body & by_side) |
+                      (from_body & onward.root.certain & onward.inside & onward.steady);
             by_cap = (~from_body & by_cap) | (from_body & meets_plane & (never | beyond));
-            side.t = xsimd::select(from_body, onward.t, side.t);
-            side.error = xsimd::select(from_body, onward.error, side.error);
+            side.t = select(from_body, onward.t, side.t);
+            side.error = select(from_body, onward.error, side.error);
             side.normal = select<Arch>(from_body, onward.normal, side.normal);
+            if constexpr (wanted == Wanted::all)
+                side.normal_error = select<Arch>(from_body, onward.normal_error, side.normal_error);
         }
 
         const F t = local.shift + s;
+        // An axis is exact.
         const Finished<Arch> cap = {by_cap, t,       local.error_of_t(t, s, error_s),
                                     face,   ~leaves, negated_where<Arch>(~at_top, line.axis)};
         Finished<Arch> result = select<Arch>(by_cap, cap, side.finished(by_side, ~leaves));
@@ -263,7 +338,8 @@ struct CappedFinisher {
     }
 
     /// Whether what is outside of both ends is so at the end that the ray goes to.
-    static M passes(const Line& line, const Passage<Arch>& passage, const M& at_top) {
+    template <Wanted wanted>
+    static M passes(const Line<wanted>& line, const Passage<Arch>& passage, const M& at_top) {
         const F height = line.height_at(passage.root.s);
         return (at_top & (height > line.axis_squared)) | (~at_top & (height < zero<Arch>()));
     }

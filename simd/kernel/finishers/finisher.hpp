@@ -10,7 +10,7 @@
 ///
 /// Each finisher stands for one kind of shape, is loaded like its solver (solvers/shapes.hpp), in
 /// doubles, and has
-///   Finished<Arch> finish(const Rays<Arch>&, const Starts<Arch>&) const
+///   Finished<Arch> finish<wanted>(const Rays<Arch>&, const Starts<Arch>&) const
 /// Arch is a Double<...> throughout.
 ///
 /// In the comments u = 2^-53 is what one operation is off by, relative to its result. Rays and
@@ -18,6 +18,12 @@
 /// what they bound leave room for the rounding of the bounds themselves. Comparisons are such that
 /// NaN is not certain. Underflow is outside of it, as in core/bounded.hpp.
 namespace raylane::simd {
+
+/// What a caller asks of a finisher.
+enum class Wanted {
+    crossings, ///< certain ones
+    all,       ///< what certainly crosses nowhere, and how far normals are off, as well
+};
 
 /// The first crossing per lane, as core::Searcher counts them.
 template <class Arch>
@@ -27,8 +33,10 @@ struct Finished {
     Floats<Arch> error; ///< |t - true t|
     Floats<Arch> face;
     Mask<Arch> entering;
-    Vectors<Arch> normal;             ///< unit, outward
+    Vectors<Arch> normal;             ///< unit, outward, within 2^-12
     Mask<Arch> misses = none<Arch>(); ///< where not certain: certainly crosses nowhere
+    /// |normal - true normal|, by component, if all is wanted. It is 0 where that is no rounding.
+    Vectors<Arch> normal_error = {zero<Arch>(), zero<Arch>(), zero<Arch>()};
 };
 
 /// The relative accuracy that a t must have, as core::needed_accuracy.
@@ -38,10 +46,14 @@ inline constexpr double needed_accuracy = 0x1p-27;
 template <class Arch>
 [[gnu::always_inline]] inline Finished<Arch> select(const Mask<Arch>& mask, const Finished<Arch>& a,
                                                     const Finished<Arch>& b) {
-    return {(mask & a.certain) | (~mask & b.certain),   xsimd::select(mask, a.t, b.t),
-            xsimd::select(mask, a.error, b.error),      xsimd::select(mask, a.face, b.face),
-            (mask & a.entering) | (~mask & b.entering), select(mask, a.normal, b.normal),
-            (mask & a.misses) | (~mask & b.misses)};
+    return {(mask & a.certain) | (~mask & b.certain),
+            select(mask, a.t, b.t),
+            select(mask, a.error, b.error),
+            select(mask, a.face, b.face),
+            (mask & a.entering) | (~mask & b.entering),
+            select(mask, a.normal, b.normal),
+            (mask & a.misses) | (~mask & b.misses),
+            select(mask, a.normal_error, b.normal_error)};
 }
 
 /// Accurate, and ahead of the ray.
@@ -53,19 +65,37 @@ Mask<Arch> is_result(const Floats<Arch>& t, const Floats<Arch>& error) {
 /// |x| + |y| + |z|, between |v| and 1.74 |v|.
 template <class Arch>
 Floats<Arch> sum_of_sizes(const Vectors<Arch>& v) {
-    return xsimd::abs(v.x) + xsimd::abs(v.y) + xsimd::abs(v.z);
+    return abs(v.x) + abs(v.y) + abs(v.z);
 }
 
-/// core::holds_point
+/// Whether a t that is off by `error`, and what double makes of the point there, is off by no more
+/// than an ulp of float of its largest coordinate.
 template <class Arch>
 [[gnu::always_inline]] inline Mask<Arch> holds_point(const Rays<Arch>& rays, const Floats<Arch>& t,
                                                      const Floats<Arch>& error) {
     using F = Floats<Arch>;
     const Vectors<Arch> point = mul_add<Arch>(t, rays.direction, rays.origin);
-    const F largest =
-        xsimd::max(xsimd::max(xsimd::abs(point.x), xsimd::abs(point.y)), xsimd::abs(point.z));
-    return (error <= F(0x1p-24) * largest) |
-           (error <= F(0x1p-49) * (sum_of_sizes(rays.origin) + t));
+    const F largest = max(max(abs(point.x), abs(point.y)), abs(point.z));
+    return error + F(0x1p-51) * t <= F(0x1p-24) * largest;
+}
+
+/// Of a vector that is exact: what bringing it to length 1 is off by.
+template <class Arch>
+[[gnu::always_inline]] inline Vectors<Arch> error_of_unit(const Vectors<Arch>& unit) {
+    const Floats<Arch> roundings(0x1p-50);
+    return {roundings * abs(unit.x), roundings * abs(unit.y), roundings * abs(unit.z)};
+}
+
+/// Of a vector of length 1 / inverse that is off by `error`: each component errs by its own, and
+/// with the length, which is off by all of them. (If that is not small, nor is the error.)
+template <class Arch>
+[[gnu::always_inline]] inline Vectors<Arch>
+error_of_unit(const Vectors<Arch>& unit, const Vectors<Arch>& error, const Floats<Arch>& inverse) {
+    using F = Floats<Arch>;
+    const F own = F(1.0625) * inverse;
+    const F common = own * (error.x + error.y + error.z) + F(0x1p-50);
+    return {own * error.x + common * abs(unit.x), own * error.y + common * abs(unit.y),
+            own * error.z + common * abs(unit.z)};
 }
 
 template <class Arch>
@@ -76,7 +106,7 @@ bool any(const Mask<Arch>& mask) {
 /// v with the sign of each lane's components turned where `mask`.
 template <class Arch>
 Vectors<Arch> negated_where(const Mask<Arch>& mask, const Vectors<Arch>& v) {
-    const Floats<Arch> sign = xsimd::select(mask, Floats<Arch>(-0.0), zero<Arch>());
+    const Floats<Arch> sign = select(mask, Floats<Arch>(-0.0), zero<Arch>());
     return {v.x ^ sign, v.y ^ sign, v.z ^ sign};
 }
 
@@ -100,14 +130,14 @@ struct LocalRays {
         // The operands of each rounding: u (|from_anchor| + |shift| |direction| + |start|), and
         // |from_anchor| <= |shift| |direction| + |start|. As much again lets directions be off by
         // what bringing them to unit length costs.
-        error = Floats<Arch>(0x1p-50) * (xsimd::abs(shift) + size);
+        error = Floats<Arch>(0x1p-50) * (abs(shift) + size);
     }
 
     Vectors<Arch> at(const Floats<Arch>& s) const { return mul_add<Arch>(s, direction, start); }
 
     /// u (|start| + |s|), `count` times: rounding errors of what is at s.
     Floats<Arch> rounding(double count, const Floats<Arch>& s) const {
-        return Floats<Arch>(count * 0x1.2p-53) * (size + xsimd::abs(s));
+        return Floats<Arch>(count * 0x1.2p-53) * (size + abs(s));
     }
 
     /// What the position at(s) errs by, and `count` roundings.
@@ -115,11 +145,22 @@ struct LocalRays {
         return error + rounding(count, s);
     }
 
+    /// What the position at(s) errs by for an s that is off by `error_s`, by component: where
+    /// neither origin nor direction have one, it has none.
+    Vectors<Arch> off_at(const Floats<Arch>& s, const Floats<Arch>& error_s) const {
+        using F = Floats<Arch>;
+        const F along = F(0x1p-49) * abs(shift) + F(0x1p-50) * abs(s) + error_s;
+        const auto off = [&](const F& from, const F& way) {
+            return F(0x1p-50) * abs(from) + along * abs(way);
+        };
+        return {off(start.x, direction.x), off(start.y, direction.y), off(start.z, direction.z)};
+    }
+
     /// The error of t = shift + s for an s that is off by `error_s`, of which the last rounding is
     /// not yet counted.
     Floats<Arch> error_of_t(const Floats<Arch>& t, const Floats<Arch>& s,
                             const Floats<Arch>& error_s) const {
-        return error_s + Floats<Arch>(0x1p-51) * (xsimd::abs(t) + xsimd::abs(s));
+        return error_s + Floats<Arch>(0x1p-51) * (abs(t) + abs(s));
     }
 };
 

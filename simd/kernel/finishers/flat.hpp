@@ -5,17 +5,24 @@
 
 namespace raylane::simd {
 
-/// A flat shape is not met again by a ray that starts on it.
-template <class Arch>
-Finished<Arch> finish_flat(const Mask<Arch>& certain, const Floats<Arch>& t,
+/// A flat shape is not met again by a ray that starts on it. `passed`: the line surely does not
+/// cross it; `clear`: where t is known, so that it may be behind the ray.
+template <Wanted wanted, class Arch>
+Finished<Arch> finish_flat(const Mask<Arch>& clear, const Mask<Arch>& inside,
+                           const Mask<Arch>& passed, const Floats<Arch>& t,
                            const Floats<Arch>& error, const Floats<Arch>& approach,
                            const Vectors<Arch>& unit_normal, const Starts<Arch>& starts) {
-    return {certain & ~starts.on_surface & is_result<Arch>(t, error),
-            t,
-            error,
-            zero<Arch>(),
-            approach < zero<Arch>(),
-            unit_normal};
+    Finished<Arch> result = {clear & inside & ~starts.on_surface & is_result<Arch>(t, error),
+                             t,
+                             error,
+                             zero<Arch>(),
+                             approach < zero<Arch>(),
+                             unit_normal};
+    if constexpr (wanted == Wanted::all) {
+        result.misses = (clear & (t < negated(error))) | passed;
+        result.normal_error = error_of_unit<Arch>(unit_normal);
+    }
+    return result;
 }
 
 /// t = (normal . (point - origin)) / (normal . direction), where rounding is relative to the single
@@ -29,21 +36,23 @@ struct PlaneFinisher {
     template <class Reader>
     explicit PlaneFinisher(Reader reader) : plane(reader) {}
 
+    template <Wanted wanted>
     [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
                                                  const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
         const F inverse = F(1.0) / dot(plane.normal, rays.direction);
         const Vectors<Arch> to_point = plane.point - rays.origin;
         const F t = dot(plane.normal, to_point) * inverse;
-        const F error = F(0x1p-50) * xsimd::abs(inverse) *
+        const F error = F(0x1p-50) * abs(inverse) *
                         (sum_of_terms(plane.normal, to_point) +
-                         xsimd::abs(t) * sum_of_terms(plane.normal, rays.direction));
-        return finish_flat<Arch>(all<Arch>(), t, error, inverse, unit<Arch>(plane.normal), starts);
+                         abs(t) * sum_of_terms(plane.normal, rays.direction));
+        return finish_flat<wanted, Arch>(all<Arch>(), all<Arch>(), none<Arch>(), t, error, inverse,
+                                         unit<Arch>(plane.normal), starts);
     }
 
   private:
     static Floats<Arch> sum_of_terms(const Vectors<Arch>& a, const Vectors<Arch>& b) {
-        return xsimd::abs(a.x * b.x) + xsimd::abs(a.y * b.y) + xsimd::abs(a.z * b.z);
+        return abs(a.x * b.x) + abs(a.y * b.y) + abs(a.z * b.z);
     }
 };
 
@@ -57,6 +66,7 @@ struct DiscFinisher {
     template <class Reader>
     explicit DiscFinisher(Reader reader) : disc(reader) {}
 
+    template <Wanted wanted>
     [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
                                                  const Starts<Arch>& starts) const {
         using F = Floats<Arch>;
@@ -67,16 +77,19 @@ struct DiscFinisher {
         const F inverse = F(1.0) / approach;
         const F s = negated(dot(disc.normal, local.start)) * inverse;
         const F position_error = local.error_at(s, 8.0);
-        const F error_s = F(1.25) * N * position_error * xsimd::abs(inverse);
+        const F error_s = F(1.25) * N * position_error * abs(inverse);
 
         // |p| <= radius: p is off by `off`, so |p|^2 by 2 radius off + off^2, and 6 u radius^2.
-        const F off = position_error + error_s;
-        const F inside = radius * radius - squared_length(local.at(s));
-        const Mask<Arch> certain = (xsimd::abs(approach) > F(0x1p-44) * N) &
-                                   (inside > radius * (F(3.0) * off + F(0x1p-49) * radius));
+        const F off = position_error + error_s, reach = radius + off;
+        const F squared = squared_length(local.at(s));
+        const Mask<Arch> clear = abs(approach) > F(0x1p-44) * N;
+        const Mask<Arch> inside =
+            radius * radius - squared > radius * (F(3.0) * off + F(0x1p-49) * radius);
+        const Mask<Arch> outside = squared > (reach * reach) * F(1.0 + 0x1p-48);
         const F t = local.shift + s;
-        return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), approach,
-                                 unit<Arch>(disc.normal), starts);
+        return finish_flat<wanted, Arch>(clear, inside, clear & outside, t,
+                                         local.error_of_t(t, s, error_s), approach,
+                                         unit<Arch>(disc.normal), starts);
     }
 };
 
@@ -92,9 +105,9 @@ struct TriangleFinisher {
     template <class Reader>
     explicit TriangleFinisher(Reader reader) : triangle(reader) {}
 
+    template <Wanted wanted>
     [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
                                                  const Starts<Arch>& starts) const {
-        using F = Floats<Arch>;
         const LocalRays<Arch> local(rays, triangle.a);
         const Vectors<Arch> to_b = triangle.b - triangle.a, to_c = triangle.c - triangle.a;
         const F U = sum_of_sizes(to_b), V = sum_of_sizes(to_c);
@@ -102,20 +115,62 @@ struct TriangleFinisher {
         const F determinant = dot(normal, local.direction);
         const F inverse = F(1.0) / determinant;
         const F s = negated(dot(normal, local.start)) * inverse;
-        const F error_s = F(1.25) * (U * V) * local.error_at(s, 12.0) * xsimd::abs(inverse);
+        const F error_s = F(1.25) * (U * V) * local.error_at(s, 12.0) * abs(inverse);
 
+        // The coordinates, times the determinant: of one sign within the triangle.
         const Vectors<Arch> moment = cross(local.start, local.direction);
-        const F sign = xsimd::select(determinant < zero<Arch>(), F(-1.0), F(1.0));
-        const F at_c = sign * dot(moment, to_b), at_b = negated(sign * dot(moment, to_c));
+        const F at_c = dot(moment, to_b), at_b = negated(dot(moment, to_c));
+        const F at_a = determinant - at_b - at_c;
         const F moment_error = F(2.0) * local.error_at(zero<Arch>(), 12.0);
         const F b_error = V * moment_error, c_error = U * moment_error;
-        const F size = xsimd::abs(determinant);
-        const Mask<Arch> inside = (at_b > b_error) & (at_c > c_error) &
-                                  (size - at_b - at_c > b_error + c_error + F(0x1p-48) * (U * V));
-        const Mask<Arch> certain = inside & (size > F(0x1p-44) * (U * V));
+        const F a_error = b_error + c_error + F(0x1p-48) * (U * V);
+        const Mask<Arch> positive[] = {at_a > a_error, at_b > b_error, at_c > c_error};
+        const Mask<Arch> negative[] = {at_a < negated(a_error), at_b < negated(b_error),
+                                       at_c < negated(c_error)};
+        const Mask<Arch> inside =
+            (positive[0] & positive[1] & positive[2]) | (negative[0] & negative[1] & negative[2]);
+        const Mask<Arch> outside =
+            (positive[0] | positive[1] | positive[2]) & (negative[0] | negative[1] | negative[2]);
+        const Mask<Arch> clear = abs(determinant) > F(0x1p-44) * (U * V);
         const F t = local.shift + s;
-        return finish_flat<Arch>(certain, t, local.error_of_t(t, s, error_s), determinant,
-                                 unit<Arch>(normal), starts);
+        Finished<Arch> result =
+            finish_flat<wanted, Arch>(clear, inside, outside, t, local.error_of_t(t, s, error_s),
+                                      determinant, unit<Arch>(normal), starts);
+        if constexpr (wanted == Wanted::all)
+            result.normal_error =
+                error_of_unit<Arch>(result.normal, normal_error(to_b, to_c, normal),
+                                    F(1.0) / sqrt(squared_length(normal)));
+        return result;
+    }
+
+  private:
+    using F = Floats<Arch>;
+
+    /// Of to_b x to_c: what was lost of the products, and of the edges where these were rounded.
+    /// Corners are floats, so as a rule nothing was.
+    Vectors<Arch> normal_error(const Vectors<Arch>& to_b, const Vectors<Arch>& to_c,
+                               const Vectors<Arch>& normal) const {
+        // What a difference of floats loses in double is more than the less of them could.
+        const auto is_exact = [](const F& difference, const F& from, const F& to) {
+            const F back = difference + from;
+            return (back == to) & (back - difference == from);
+        };
+        const auto all_exact = [&](const Vectors<Arch>& edge, const Vectors<Arch>& to) {
+            return is_exact(edge.x, triangle.a.x, to.x) & is_exact(edge.y, triangle.a.y, to.y) &
+                   is_exact(edge.z, triangle.a.z, to.z);
+        };
+        const F rounded = select(all_exact(to_b, triangle.b) & all_exact(to_c, triangle.c),
+                                 zero<Arch>(), F(0x1p-51));
+        const auto lost = [](const F& a, const F& b) {
+            return abs(Lanes<Arch>::product_error(a, b, a * b));
+        };
+        const auto component = [&](const F& a, const F& b, const F& c, const F& d, const F& of) {
+            return F(1.0 + 0x1p-50) * (lost(a, b) + lost(c, d)) + F(0x1p-53) * abs(of) +
+                   rounded * (abs(a * b) + abs(c * d));
+        };
+        return {component(to_b.y, to_c.z, to_b.z, to_c.y, normal.x),
+                component(to_b.z, to_c.x, to_b.x, to_c.z, normal.y),
+                component(to_b.x, to_c.y, to_b.y, to_c.x, normal.z)};
     }
 };
 

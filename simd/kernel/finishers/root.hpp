@@ -27,15 +27,15 @@ struct Quadratic {
 
     Mask<Arch> opens_up() const { return A > A_error; }
     Mask<Arch> opens_down() const { return A < negated(A_error); }
-    Floats<Arch> most_A() const { return xsimd::abs(A) + A_error; }
+    Floats<Arch> most_A() const { return abs(A) + A_error; }
 
     /// Where F rises (the ray leaves), or else falls. Neither form cancels.
     [[gnu::always_inline]] Floats<Arch> root_where(const Mask<Arch>& rises) const {
-        const Floats<Arch> root = xsimd::sqrt(B * B - A * C);
+        const Floats<Arch> root = sqrt(B * B - A * C);
         const Mask<Arch> falling = B < zero<Arch>();
-        const Floats<Arch> q = xsimd::select(falling, root - B, negated(root + B));
+        const Floats<Arch> q = select(falling, root - B, negated(root + B));
         const Mask<Arch> by_A = (falling & rises) | (~falling & ~rises);
-        return xsimd::select(by_A, q, C) / xsimd::select(by_A, A, q);
+        return select(by_A, q, C) / select(by_A, A, q);
     }
 
     /// One step of Newton's method, and a proof. After a step h = value / (2 rise),
@@ -47,7 +47,7 @@ struct Quadratic {
         using F = Floats<Arch>;
         const F inverse = F(1.0) / residual.rise;
         const F step = F(0.5) * residual.value * inverse;
-        const F step_size = xsimd::abs(step), rise_size = xsimd::abs(residual.rise);
+        const F step_size = abs(step), rise_size = abs(residual.rise);
         const F bend = most_A() * step_size;
         const F value = residual.value_error + step_size * (F(5.0) * residual.rise_error + bend);
         const Mask<Arch> wanted_sign =
@@ -55,13 +55,13 @@ struct Quadratic {
         const F eighth = F(0.125) * rise_size;
         return {wanted_sign & (residual.rise_error < eighth) & (bend < eighth) &
                     (F(2.0) * most_A() * value < rise_size * rise_size),
-                s - step, F(1.5) * value * xsimd::abs(inverse), rise_size};
+                s - step, F(1.5) * value * abs(inverse), rise_size};
     }
 
     /// Whether the other root is further than `reach` from s = 0, going by this one: they are
     /// F' / A apart.
     Mask<Arch> other_is_beyond(const Floats<Arch>& reach, const Root<Arch>& root) const {
-        return root.certain & (root.rise > most_A() * (xsimd::abs(root.s) + reach));
+        return root.certain & (root.rise > most_A() * (abs(root.s) + reach));
     }
 };
 
@@ -70,9 +70,11 @@ template <class Arch>
 struct Passage {
     Root<Arch> root;
     Floats<Arch> t, error;
-    Mask<Arch> inside;  ///< certainly within the bounds of the surface
-    Mask<Arch> outside; ///< certainly not
-    Vectors<Arch> normal;
+    Mask<Arch> inside;          ///< certainly within the bounds of the surface
+    Mask<Arch> outside;         ///< certainly not
+    Mask<Arch> steady;          ///< the normal is within 2^-12
+    Vectors<Arch> normal;       ///< of any length
+    Vectors<Arch> normal_error; ///< by component, if all is wanted
 
     /// Of a ray that starts on the surface: t = 0 is one root, so the other is twice the vertex,
     /// where F' = 0. Not certain as yet.
@@ -88,20 +90,32 @@ struct Passage {
         return result;
     }
 
-    Mask<Arch> counts() const { return root.certain & inside & is_result<Arch>(t, error); }
+    Mask<Arch> counts() const { return root.certain & inside & steady & is_result<Arch>(t, error); }
     Mask<Arch> does_not_count() const { return root.certain & (outside | (t < negated(error))); }
     Mask<Arch> is_before(const Passage& other) const { return t + error < other.t - other.error; }
 
     [[gnu::always_inline]] Finished<Arch> finished(const Mask<Arch>& certain,
                                                    const Mask<Arch>& entering) const {
-        return {certain, t, error, zero<Arch>(), entering, normal};
+        return {certain, t, error, zero<Arch>(), entering, normal, none<Arch>(), normal_error};
     }
 };
+
+/// Brings a normal to length 1.
+template <Wanted wanted, class Arch>
+[[gnu::always_inline]] inline void make_unit(Finished<Arch>& finished) {
+    const Floats<Arch> inverse =
+        constant<Arch>(1.0F) / sqrt(squared_length(finished.normal)); // as unit() has it
+    finished.normal = scaled<Arch>(inverse, finished.normal);
+    if constexpr (wanted == Wanted::all)
+        finished.normal_error =
+            error_of_unit<Arch>(finished.normal, finished.normal_error, inverse);
+}
 
 /// The first of both crossings with `surface`, which has
 ///   passage(leaves), from_surface(starts)  as Passage,
 ///   quadratic, reach()                     as Quadratic and how far |s| can be inside its bounds
-template <class Arch, class Surface>
+///   has_no_root()                          certainly
+template <Wanted wanted, class Arch, class Surface>
 Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts) {
     using M = Mask<Arch>;
     const Passage<Arch> entry = surface.passage(none<Arch>());
@@ -120,6 +134,8 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
         const M exit_first = leaves & (no_entry | (enters & exit.is_before(entry)));
         result.certain = entry_first;
         result = select<Arch>(exit_first, exit.finished(exit_first, none<Arch>()), result);
+        if constexpr (wanted == Wanted::all)
+            result.misses = ~starts.on_surface & ((no_entry & no_exit) | surface.has_no_root());
     }
     if (any<Arch>(starts.on_surface)) {
         const Passage<Arch> onward = surface.from_surface(starts);
@@ -130,7 +146,8 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
                          (~starts.inward & surface.quadratic.opens_up());
         // (What rounding alone puts behind the start counts as there: core::not_behind.)
         const M out_of_bounds = onward.root.certain & onward.outside & (onward.t > onward.error);
-        result.misses = starts.on_surface & (behind | out_of_bounds);
+        result.misses =
+            (~starts.on_surface & result.misses) | (starts.on_surface & (behind | out_of_bounds));
     }
     return result;
 }

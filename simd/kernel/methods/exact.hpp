@@ -14,7 +14,7 @@ namespace raylane::simd {
 ///   packet     the rays of a stream from one on, one per lane
 ///   broadcast  one of them in all lanes
 ///   with_filter(kind, visit)  calls visit.operator()<its filter for the kind>()
-///   finish     MethodKernels::finish
+///   finish, finish_all  of MethodKernels
 ///   refine     MethodKernels::refine
 ///
 /// This one is core::Precision::exact: bounds in float, and what they leave in double.
@@ -26,7 +26,10 @@ struct ExactMethod : RaysInFloat<Arch> {
         simd::with_filter<Arch>(kind, visit);
     }
     static void finish(const SceneView& scene, const Found& found) {
-        simd::finish<Arch>(scene, found);
+        simd::finish<Arch, Wanted::crossings>(scene, found);
+    }
+    static void finish_all(const SceneView& scene, const Found& found) {
+        simd::finish<Arch, Wanted::all>(scene, found);
     }
     static constexpr RefineKernels refine() {
         return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>};

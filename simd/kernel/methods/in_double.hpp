@@ -40,10 +40,10 @@ struct DoubleFilter {
                 halves[half].crossings(rays.halves[half], starts_nowhere<D>()), none<D>()));
             const int from = half * static_cast<int>(Floats<D>::size);
             first.t.store_unaligned(t + from);
-            xsimd::select(first.exists, Floats<D>(1.0), zero<D>()).store_unaligned(exist + from);
+            select(first.exists, Floats<D>(1.0), zero<D>()).store_unaligned(exist + from);
         }
         const Mask<Arch> exists = Lanes<Arch>::narrow(exist) > zero<Arch>();
-        const Floats<Arch> rounded = xsimd::min(Lanes<Arch>::narrow(t), Floats<Arch>(__FLT_MAX__));
+        const Floats<Arch> rounded = min(Lanes<Arch>::narrow(t), Floats<Arch>(__FLT_MAX__));
         return {exists, rounded * Floats<Arch>(1 - 0x1p-23F), exists,
                 rounded * Floats<Arch>(1 + 0x1p-22F)};
     }
@@ -81,6 +81,7 @@ struct DoubleMethod {
     static void finish(const SceneView& scene, const Found& found) {
         PlainFinish<D, false>(scene, found).all_rays();
     }
+    static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
     static constexpr RefineKernels refine() { return {nullptr, nullptr}; }
 
   private:

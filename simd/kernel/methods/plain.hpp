@@ -32,6 +32,7 @@ struct PlainMethod : RaysInFloat<Arch> {
     static void finish(const SceneView& scene, const Found& found) {
         PlainFinish<Arch, textbook>(scene, found).all_rays();
     }
+    static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
     static constexpr RefineKernels refine() { return {nullptr, nullptr}; }
 };
 

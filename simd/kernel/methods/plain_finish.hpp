@@ -88,10 +88,10 @@ class PlainFinish {
         const Vectors<Number> point = mul_add<Number>(first.t, rays.direction, rays.origin);
         const Vectors<Number> normal = solver.outward_normal(point, first.face);
 
-        const F bits = xsimd::select(
-            first.exists,
-            first.face + xsimd::select(first.entering, F(Value(hit_entering)), zero<Number>()),
-            F(Value(hit_none)));
+        const F bits =
+            select(first.exists,
+                   first.face + select(first.entering, F(Value(hit_entering)), zero<Number>()),
+                   F(Value(hit_none)));
         Value numbers[lanes];
         bits.store_unaligned(numbers);
         for (std::size_t lane = 0; lane < lanes; ++lane)

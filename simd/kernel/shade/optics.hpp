@@ -19,30 +19,29 @@ struct Refractions {
                 const F& n2)
         : total(false), cos_incident(0.0), cos_transmitted(0.0), transmitted(incident) {
         const F zero(0.0), one(1.0);
-        cos_incident = xsimd::min(xsimd::max(negated(dot<Arch>(incident, normal)), zero), one);
+        cos_incident = min(max(negated(dot<Arch>(incident, normal)), zero), one);
         const Vectors<Arch> tangential = mul_add<Arch>(cos_incident, normal, incident);
         const F ratio = n1 / n2;
         const Vectors<Arch> along = {ratio * tangential.x, ratio * tangential.y,
                                      ratio * tangential.z};
         const F sin_squared = squared_length<Arch>(along);
         total = (sin_squared > one) & (n1 > n2);
-        cos_transmitted =
-            xsimd::select(total, zero, xsimd::sqrt(xsimd::max(zero, one - sin_squared)));
+        cos_transmitted = select(total, zero, sqrt(max(zero, one - sin_squared)));
         transmitted = mul_add<Arch>(negated(cos_transmitted), normal, along);
     }
 
     void replace(const M& where, const Refractions& by) {
         total = (where & by.total) | (~where & total);
-        cos_incident = xsimd::select(where, by.cos_incident, cos_incident);
-        cos_transmitted = xsimd::select(where, by.cos_transmitted, cos_transmitted);
+        cos_incident = select(where, by.cos_incident, cos_incident);
+        cos_transmitted = select(where, by.cos_transmitted, cos_transmitted);
         transmitted = select<Arch>(where, by.transmitted, transmitted);
     }
 
     F reflectance(const MaterialView& material, const F& n1, const F& n2) const {
         const F one(1.0);
-        if (material.reflection == 0) return xsimd::select(total, one, F(material.reflectivity));
+        if (material.reflection == 0) return select(total, one, F(material.reflectivity));
         const F share = material.reflection == 1 ? schlick(n1, n2) : dielectric(n1, n2);
-        return xsimd::select(total, one, xsimd::select(n1 == n2, F(0.0), share));
+        return select(total, one, select(n1 == n2, F(0.0), share));
     }
 
   private:
@@ -50,7 +49,7 @@ struct Refractions {
         const F one(1.0);
         const F root = (n1 - n2) / (n1 + n2);
         const F at_normal = root * root;
-        const F rest = one - xsimd::select(n1 <= n2, cos_incident, cos_transmitted);
+        const F rest = one - select(n1 <= n2, cos_incident, cos_transmitted);
         const F squared = rest * rest;
         return at_normal + (one - at_normal) * (squared * squared * rest);
     }
@@ -60,7 +59,7 @@ struct Refractions {
             (n1 * cos_incident - n2 * cos_transmitted) / (n1 * cos_incident + n2 * cos_transmitted);
         const F parallel =
             (n1 * cos_transmitted - n2 * cos_incident) / (n1 * cos_transmitted + n2 * cos_incident);
-        return xsimd::min(F(1.0), (perpendicular * perpendicular + parallel * parallel) * F(0.5));
+        return min(F(1.0), (perpendicular * perpendicular + parallel * parallel) * F(0.5));
     }
 };
 

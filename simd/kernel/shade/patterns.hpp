@@ -20,8 +20,8 @@ struct Patterns {
 
     /// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ...
     static F parity(const F& value) {
-        const F cell = xsimd::floor(value);
-        return cell - F(2.0) * xsimd::floor(cell * F(0.5));
+        const F cell = floor(value);
+        return cell - F(2.0) * floor(cell * F(0.5));
     }
 
     static Vectors<Arch> color_at(const MaterialView& material, const Vectors<Arch>& point) {
@@ -45,7 +45,7 @@ struct Patterns {
         case 3: { // gradient
             const F raw = dot<Arch>(point - broadcast_vector<Arch>(material.from),
                                     broadcast_vector<Arch>(material.run));
-            const F fraction = xsimd::min(xsimd::max(raw, F(0.0)), F(1.0));
+            const F fraction = min(max(raw, F(0.0)), F(1.0));
             const F rest = F(1.0) - fraction;
             return {fraction * second.x + rest * first.x, fraction * second.y + rest * first.y,
                     fraction * second.z + rest * first.z};
@@ -61,15 +61,14 @@ struct Patterns {
         const F zero(0.0);
         const M above = y > zero, below = y < zero;
         const M sun = (x * x + y * y < F(150.0)) & (above | below);
-        const F root = xsimd::sqrt(xsimd::max(y, zero));
+        const F root = sqrt(max(y, zero));
         const M sky = y >= zero;
-        const Vectors<Arch> bands =
-            select<Arch>(sky,
-                         Vectors<Arch>{xsimd::abs(Elementary::sin_cos(x).cosine),
-                                       xsimd::abs(Elementary::sin_cos(root).sine),
-                                       xsimd::abs(Elementary::sin_cos(root).cosine)},
-                         Vectors<Arch>{zero, zero, xsimd::abs(Elementary::sin_cos(y).cosine)});
-        const Vectors<Arch> orange{xsimd::select(above, F(1.0), F(0.7)), F(0.2), zero};
+        const Vectors<Arch> bands = select<Arch>(
+            sky,
+            Vectors<Arch>{abs(Elementary::sin_cos(x).cosine), abs(Elementary::sin_cos(root).sine),
+                          abs(Elementary::sin_cos(root).cosine)},
+            Vectors<Arch>{zero, zero, abs(Elementary::sin_cos(y).cosine)});
+        const Vectors<Arch> orange{select(above, F(1.0), F(0.7)), F(0.2), zero};
         return select<Arch>(sun, orange, bands);
     }
 };

@@ -56,7 +56,8 @@ struct Shading {
             const Gather gather(numbers + i, run.end - i);
             const V direction = gather(paths.direction);
             const F t = gather(paths.t);
-            const V point = mul_add<Arch>(t, direction, gather(paths.origin));
+            const F way = paths.way == paths.t ? t : gather(paths.way);
+            const V point = mul_add<Arch>(way, direction, gather(paths.origin));
 
             double sides[lanes];
             for (std::size_t k = 0; k < lanes; ++k)
@@ -81,7 +82,7 @@ struct Shading {
             if constexpr (with_fog) {
                 F fogged = fog_fraction(fog, t, point.z);
                 if constexpr (with_media)
-                    fogged = xsimd::select(load(media->inside + i) > F(0.0), F(0.0), fogged);
+                    fogged = select(load(media->inside + i) > F(0.0), F(0.0), fogged);
                 const V before = throughput;
                 throughput = scaled(F(1.0) - fogged, before);
                 radiance = product(throughput, radiance) +
@@ -112,7 +113,7 @@ struct Shading {
         }
     }
 
-    static F clamped(const F& value) { return xsimd::min(xsimd::max(value, F(0.0)), F(1.0)); }
+    static F clamped(const F& value) { return min(max(value, F(0.0)), F(1.0)); }
 
     /// Beer and Lambert's law.
     static V let_through(const V& absorption, const F& distance) {
@@ -158,7 +159,7 @@ struct Shading {
             F distance(__builtin_inf());
             if (light.is_point) {
                 const V offset = broadcast_vector<Arch>(light.position) - point;
-                distance = xsimd::sqrt(squared_length<Arch>(offset));
+                distance = sqrt(squared_length<Arch>(offset));
                 to_light = scaled(F(1.0) / distance, offset);
             }
             const M facing = dot<Arch>(load(surfaces.flat_normal, i), to_light) > zero;
@@ -166,19 +167,17 @@ struct Shading {
             if (wanted == 0) continue;
 
             const V normal = load(surfaces.normal, i);
-            const F cos_light = xsimd::max(dot<Arch>(normal, to_light), zero);
+            const F cos_light = max(dot<Arch>(normal, to_light), zero);
             V share = scaled(F(material.diffuse) * cos_light, load(surfaces.own, i));
             if (material.specular > 0.0) {
                 const V halfway = to_light - load(surfaces.direction, i);
                 const F squared = squared_length<Arch>(halfway);
-                const F cosine_of_halfway =
-                    xsimd::max(dot<Arch>(normal, halfway) / xsimd::sqrt(squared), zero);
-                const F highlight =
-                    xsimd::select(squared > zero,
-                                  F(material.specular) * core::Elementary<F>::pow(
-                                                             xsimd::min(cosine_of_halfway, F(1.0)),
-                                                             F(material.exponent)),
-                                  zero);
+                const F cosine_of_halfway = max(dot<Arch>(normal, halfway) / sqrt(squared), zero);
+                const F highlight = select(
+                    squared > zero,
+                    F(material.specular) * core::Elementary<F>::pow(min(cosine_of_halfway, F(1.0)),
+                                                                    F(material.exponent)),
+                    zero);
                 share = share + V{highlight, highlight, highlight};
             }
             wanted &= Lanes<Arch>::bits((share.x > zero) | (share.y > zero) | (share.z > zero));
@@ -242,7 +241,7 @@ struct Shading {
     }
 
     static M is_worth(const V& weight, double min_weight) {
-        const F most = xsimd::max(xsimd::max(weight.x, weight.y), weight.z);
+        const F most = max(max(weight.x, weight.y), weight.z);
         return (most > F(0.0)) & (most >= F(min_weight));
     }
 

@@ -15,9 +15,10 @@ Crossings<Arch> solve_textbook(const Floats<Arch>& A, const Floats<Arch>& B,
     const Floats<Arch> root = sqrt(discriminant);
     const Floats<Arch> in = (negated(B) - root) / A, out = (root - B) / A;
     const Mask<Arch> falling = B < o, sloped = linear & ((B > o) | falling);
-    return {{curved | sloped, select(linear, negated(C) / (B + B), select(opens_up, in, out)), o,
-             (linear & falling) | opens_up},
-            {curved, select(opens_up, out, in), o, ~linear & ~opens_up}};
+    const Mask<Arch> in_first = opens_up | (~linear & (discriminant == o));
+    return {{curved | sloped, select(linear, negated(C) / (B + B), select(in_first, in, out)), o,
+             (linear & falling) | in_first},
+            {curved, select(in_first, out, in), o, ~linear & ~in_first}};
 }
 
 /// core::solve_quadratic. In lanes where A = 0 the first crossing is the only one.
@@ -37,16 +38,17 @@ Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, co
     const Floats<Arch> q = select(falling, root - B, negated(root) - B);
     const Mask<Arch> tangent = q == o;
     const Floats<Arch> by_A = q / A, by_C = C / q;
-    // by_A leaves where B falls, so it comes first where it enters and A > 0, or neither.
-    const Mask<Arch> A_first = (opens_up & ~falling) | (~opens_up & falling);
+    // by_A leaves where B falls, so it comes first where it enters first, or neither.
+    const Mask<Arch> in_first = opens_up | (discriminant == o);
+    const Mask<Arch> A_first = (in_first & ~falling) | (~in_first & falling);
     const Floats<Arch> first = select(A_first, by_A, by_C);
     const Floats<Arch> second = select(A_first, by_C, by_A);
 
     const Mask<Arch> sloped = linear & ((B > o) | falls);
     const Floats<Arch> on_line = negated(C) / (B + B);
     return {{curved | sloped, select(linear, on_line, select(tangent, o, first)), o,
-             (linear & falls) | (~linear & opens_up)},
-            {curved, select(tangent, o, second), o, ~linear & ~opens_up}};
+             (linear & falls) | (~linear & in_first)},
+            {curved, select(tangent, o, second), o, ~linear & ~in_first}};
 }
 
 } // namespace raylane::simd

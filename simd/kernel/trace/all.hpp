@@ -39,7 +39,7 @@ struct TraceAll : Streams<Arch> {
             const F tau = fast_dot(to_center, rays.direction);
             const F squared = fast_dot(to_center, to_center);
             const F radius = fast_mul_add<Arch>(
-                grace, xsimd::abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, sphere.radius));
+                grace, abs(tau), fast_mul_add<Arch>(F(4.0F), rays.slack, sphere.radius));
             // What overflows proves nothing.
             const M beside = (squared < S::infinity()) &
                              (squared - tau * tau - grace * squared > radius * radius);

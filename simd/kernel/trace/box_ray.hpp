@@ -52,8 +52,8 @@ struct BoxRay {
         };
         F far = t_most;
         for (int axis = 0; axis < 3; ++axis) {
-            near = xsimd::max(at(near_planes[axis], axis, near_offset[axis]), near);
-            far = xsimd::min(at(far_planes[axis], axis, far_offset[axis]), far);
+            near = max(at(near_planes[axis], axis, near_offset[axis]), near);
+            far = min(at(far_planes[axis], axis, far_offset[axis]), far);
         }
         return Lanes<Arch>::bits(near <= far * F(allowance));
     }
@@ -91,7 +91,7 @@ struct BoxRays {
                 // A component of 0 is as good as one that leads nowhere: no 0 * infinity then.
                 const F tiny(0x1p-80F);
                 const F given = S::load(rays.direction[axis] + i);
-                const F d = xsimd::select(xsimd::abs(given) > tiny, given, tiny);
+                const F d = select(abs(given) > tiny, given, tiny);
                 const F o = S::load(rays.origin[axis] + i);
                 const F signed_slack = slack ^ (d & F(-0.0F));
                 F slope = F(1.0F) / d;
@@ -100,10 +100,10 @@ struct BoxRays {
                     at_near = at_near * slope;
                     at_far = at_far * slope;
                     // Too far for float: the axis bounds nothing.
-                    const auto fits = xsimd::abs(at_near) + xsimd::abs(at_far) < S::infinity();
-                    slope = xsimd::select(fits, slope, zero<Arch>());
-                    at_near = xsimd::select(fits, at_near, zero<Arch>());
-                    at_far = xsimd::select(fits, at_far, S::infinity());
+                    const auto fits = abs(at_near) + abs(at_far) < S::infinity();
+                    slope = select(fits, slope, zero<Arch>());
+                    at_near = select(fits, at_near, zero<Arch>());
+                    at_far = select(fits, at_far, S::infinity());
                 }
                 slope.store_unaligned(inverse[axis] + from);
                 at_near.store_unaligned(near_offset[axis] + from);

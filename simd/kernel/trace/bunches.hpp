@@ -75,7 +75,7 @@ class GroupCandidates : Streams<Arch> {
                 PacketCandidates<Arch> found(candidates, i + k);
                 // Rays that are not there have hit at 0.
                 const std::size_t here = i + k < end ? end - i - k : 0;
-                found.first = xsimd::select(S::first_lanes(here), found.first, zero<Arch>());
+                found.first = select(S::first_lanes(here), found.first, zero<Arch>());
                 found.store(bunch.found(), k);
             }
         }

@@ -66,8 +66,8 @@ struct ListCandidates : Streams<Arch> {
             const M counts = possible & (bounds.lower < F(list.limit));
             std::uint32_t bits = Lanes<Arch>::bits(counts);
             if (bits == 0) continue;
-            const float last = Lanes<Arch>::least(
-                xsimd::select(counts & bounds.certain, bounds.upper, S::infinity()));
+            const float last =
+                Lanes<Arch>::least(select(counts & bounds.certain, bounds.upper, S::infinity()));
             const float limit = last * candidate_grace;
             list.limit = limit < list.limit ? limit : list.limit;
             float lower[F::size];

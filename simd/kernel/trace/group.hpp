@@ -70,29 +70,28 @@ struct Group : Streams<Arch> {
             for (int side = 0; side < 2; ++side)
                 high_slope[side] = high_offset[side] = negated(S::infinity());
             for (std::size_t i = from; i < from + 16; i += F::size) {
-                most_slack = xsimd::max(most_slack, S::load(rays.slack + i));
+                most_slack = max(most_slack, S::load(rays.slack + i));
                 const F direction = S::load(rays.direction[along] + i);
                 const F d = F(bundle.towards ? -sense : sense) * direction;
-                speeds_low = xsimd::min(speeds_low, d);
-                speeds_high = xsimd::max(speeds_high, d);
+                speeds_low = min(speeds_low, d);
+                speeds_high = max(speeds_high, d);
                 const F w = S::load(rays.origin[along] + i) - F(apex[along]);
                 if (anywhere) {
-                    starts_low = xsimd::min(starts_low, F(sense) * w);
-                    starts_high = xsimd::max(starts_high, F(sense) * w);
+                    starts_low = min(starts_low, F(sense) * w);
+                    starts_high = max(starts_high, F(sense) * w);
                 }
                 if (t_most != nullptr && bundle.towards && i < end)
-                    ends_high =
-                        xsimd::max(ends_high, xsimd::select(S::first_lanes(end - i),
-                                                            d * S::load(t_most + i), zero<Arch>()));
+                    ends_high = max(ends_high, select(S::first_lanes(end - i),
+                                                      d * S::load(t_most + i), zero<Arch>()));
                 for (int side = 0; side < 2; ++side) {
                     const int a = across[side];
                     const F slope = S::load(rays.direction[a] + i) / direction;
-                    low_slope[side] = xsimd::min(low_slope[side], slope);
-                    high_slope[side] = xsimd::max(high_slope[side], slope);
+                    low_slope[side] = min(low_slope[side], slope);
+                    high_slope[side] = max(high_slope[side], slope);
                     if (!bundle.parallel) continue;
                     const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) - slope * w;
-                    low_offset[side] = xsimd::min(low_offset[side], offset);
-                    high_offset[side] = xsimd::max(high_offset[side], offset);
+                    low_offset[side] = min(low_offset[side], offset);
+                    high_offset[side] = max(high_offset[side], offset);
                 }
             }
             for (int side = 0; side < 2; ++side) {
@@ -178,8 +177,7 @@ struct Group : Streams<Arch> {
 
     /// What roundings may add up to at a distance of w along and across.
     F grace(const F& w_along, const F& w_across) const {
-        return F(grace_factor) * (xsimd::abs(w_along) + xsimd::abs(w_across)) +
-               F(8 * steepest * slack);
+        return F(grace_factor) * (abs(w_along) + abs(w_across)) + F(8 * steepest * slack);
     }
 
     /// The boxes of a node that the group may meet, and the least t at which.
@@ -187,7 +185,7 @@ struct Group : Streams<Arch> {
         const F apex_along(apex[along]);
         const F lower_k = S::load(node.lower[along] + from) - apex_along;
         const F upper_k = S::load(node.upper[along] + from) - apex_along;
-        const F reach_k = xsimd::max(xsimd::abs(lower_k), xsimd::abs(upper_k));
+        const F reach_k = max(abs(lower_k), abs(upper_k));
         const F first_w = sense > 0.0F ? lower_k : negated(upper_k);
         const F last_w = sense > 0.0F ? upper_k : negated(lower_k);
         const F grace_k = grace(reach_k, zero<Arch>());
@@ -197,7 +195,7 @@ struct Group : Streams<Arch> {
             const F apex_across(apex[a]);
             const F lower = S::load(node.lower[a] + from) - apex_across;
             const F upper = S::load(node.upper[a] + from) - apex_across;
-            const F room = grace(reach_k, xsimd::max(xsimd::abs(lower), xsimd::abs(upper)));
+            const F room = grace(reach_k, max(abs(lower), abs(upper)));
             const Side &high = above[side], &low = below[side];
             const F least_above = lower - F(high.slope) * (high.slope > 0.0F ? upper_k : lower_k);
             const F most_below = upper - F(low.slope) * (low.slope > 0.0F ? lower_k : upper_k);
@@ -209,9 +207,7 @@ struct Group : Streams<Arch> {
     }
 
     /// From how far along to a lower bound of t.
-    F near_t(const F& w) const {
-        return xsimd::max((w - F(latest_start)) * F(t_per_w), zero<Arch>());
-    }
+    F near_t(const F& w) const { return max((w - F(latest_start)) * F(t_per_w), zero<Arch>()); }
 
     /// One side's plane, or as many as there are bunches.
     struct Plane {
@@ -304,7 +300,7 @@ struct Group : Streams<Arch> {
             const F radius = S::load(spheres.radius[end] + from);
             const F w_along = S::load(center[along] + from) - F(apex[along]);
             const F w = F(sense) * w_along;
-            const F grace_along = fast_mul_add<Arch>(factor, xsimd::abs(w_along), grace_apart);
+            const F grace_along = fast_mul_add<Arch>(factor, abs(w_along), grace_apart);
             const F room = grace_along + radius;
             Reach reach;
             reach.along[0] = w + room >= F(least_w);
@@ -314,7 +310,7 @@ struct Group : Streams<Arch> {
             radius.store_unaligned(to.radius + from);
             for (int side = 0; side < 2; ++side) {
                 const F w_across = S::load(center[across[side]] + from) - F(apex[across[side]]);
-                const F room_across = fast_mul_add<Arch>(factor, xsimd::abs(w_across), grace_along);
+                const F room_across = fast_mul_add<Arch>(factor, abs(w_across), grace_along);
                 (w_across - room_across).store_unaligned(to.low[side] + from);
                 (w_across + room_across).store_unaligned(to.high[side] + from);
             }

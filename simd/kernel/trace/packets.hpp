@@ -50,11 +50,10 @@ struct PacketCandidates {
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
         const Bounds<Arch> bounds = filter.bounds(packet.rays);
-        const F t =
-            xsimd::select(bounds.possible & packet.elsewhere(id), bounds.lower, S::infinity());
-        slot = xsimd::select(t < first, S::broadcast_bits(this_slot), slot);
-        second = xsimd::min(second, xsimd::max(t, first));
-        first = xsimd::min(first, t);
+        const F t = select(bounds.possible & packet.elsewhere(id), bounds.lower, S::infinity());
+        slot = select(t < first, S::broadcast_bits(this_slot), slot);
+        second = min(second, max(t, first));
+        first = min(first, t);
     }
 };
 

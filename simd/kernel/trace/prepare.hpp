@@ -46,7 +46,7 @@ struct Prepare : Streams<Arch> {
             for (int axis = 0; axis < 3; ++axis) {
                 const F o = Lanes<Arch>::narrow(rays.meant_origin[axis] + i);
                 o.store_unaligned(rays.origin[axis] + i);
-                sum = sum + xsimd::abs(o);
+                sum = sum + abs(o);
                 Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
                     .store_unaligned(rays.direction[axis] + i);
             }
@@ -60,18 +60,17 @@ struct Prepare : Streams<Arch> {
                                       const std::uint32_t* hit, const std::uint8_t* doubtful,
                                       std::uint32_t* lanes) {
         const F none = S::broadcast_bits(no_slot);
-        const F solved_first = S::broadcast_bits(0),
-                solved_last = S::broadcast_bits(hit_doubtful - 1);
+        const F unsolved = S::broadcast_bits(hit_doubtful | hit_none), nothing = zero<Arch>();
         std::size_t listed = 0;
         std::uint32_t asked = 0; // of 16
         for (std::size_t i = 0; i < count; i += F::size) {
             // Rounded to float, each is off by half an ulp, and so are their sum and the product.
             const F last =
                 (Lanes<Arch>::narrow(t + i) + Lanes<Arch>::narrow(error + i)) * F(1 + 0x1p-21F);
-            const F most = xsimd::min(S::load(candidates.second + i),
-                                      S::load(candidates.first + i) * F(culling_slack));
+            const F most = min(S::load(candidates.second + i),
+                               S::load(candidates.first + i) * F(culling_slack));
             const M solved =
-                Lanes<Arch>::in_range(S::load_bits(hit + i), solved_first, solved_last);
+                Lanes<Arch>::in_range(S::load_bits(hit + i) & unsolved, nothing, nothing);
             const M missed = Lanes<Arch>::in_range(S::load_bits(candidates.slot + i), none, none);
             std::uint32_t uncertain = Lanes<Arch>::bits(~(missed | (solved & (last <= most))));
             if (i % 16 == 0) asked = ~ShortLanes<Arch>::equal_16(doubtful + i, 0) & 0xFFFF;

@@ -29,13 +29,13 @@ struct Streams {
     static float greatest_of_16(const float* from) {
         F result = load(from);
         for (std::size_t k = lanes; k < 16; k += lanes)
-            result = xsimd::max(result, load(from + k));
+            result = max(result, load(from + k));
         return Lanes<Arch>::greatest(result);
     }
     static float least_of_16(const float* from) {
         F result = load(from);
         for (std::size_t k = lanes; k < 16; k += lanes)
-            result = xsimd::min(result, load(from + k));
+            result = min(result, load(from + k));
         return Lanes<Arch>::least(result);
     }
 

@@ -14,13 +14,13 @@ struct SphereAround {
 
 template <class Arch>
 SphereAround<Arch> rounded_up(const Vectors<Arch>& center, const Floats<Arch>& radius) {
-    const Floats<Arch> sizes = xsimd::abs(center.x) + xsimd::abs(center.y) + xsimd::abs(center.z);
+    const Floats<Arch> sizes = abs(center.x) + abs(center.y) + abs(center.z);
     return {center, radius + Floats<Arch>(0x1p-20F) * (radius + sizes)};
 }
 
 template <class Arch>
 Floats<Arch> length(const Vectors<Arch>& v) {
-    return xsimd::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
 }
 
 template <class Arch>
@@ -49,15 +49,14 @@ SphereAround<Arch> sphere_around(int kind, Reader reader) {
         const Vectors<Arch> b = next_vector<Arch>(reader), c = next_vector<Arch>(reader);
         const Vectors<Arch> center = half<Arch>(first + half<Arch>(b + c));
         const F to_a = length<Arch>(first - center), to_b = length<Arch>(b - center);
-        return rounded_up<Arch>(center,
-                                xsimd::max(xsimd::max(to_a, to_b), length<Arch>(c - center)));
+        return rounded_up<Arch>(center, max(max(to_a, to_b), length<Arch>(c - center)));
     }
     case 5: { // box
         const Vectors<Arch> u = half<Arch>(next_vector<Arch>(reader));
         const Vectors<Arch> v = half<Arch>(next_vector<Arch>(reader));
         const Vectors<Arch> w = half<Arch>(next_vector<Arch>(reader));
-        const F longest = xsimd::max(xsimd::max(length<Arch>(u + v + w), length<Arch>(u + v - w)),
-                                     xsimd::max(length<Arch>(u - v + w), length<Arch>(u - v - w)));
+        const F longest = max(max(length<Arch>(u + v + w), length<Arch>(u + v - w)),
+                              max(length<Arch>(u - v + w), length<Arch>(u - v - w)));
         return rounded_up<Arch>(first + u + v + w, longest);
     }
     default: { // quadric

@@ -108,10 +108,10 @@ struct SortedTowards : Streams<Arch> {
             for (int side = 0; side < 2; ++side) {
                 const F any = S::load(from.direction[(along + 1 + side) % 3] + i) / w;
                 // What is not a number ends up at one end.
-                const F slope = xsimd::max(xsimd::min(any, F(steepest)), F(-steepest));
+                const F slope = max(min(any, F(steepest)), F(-steepest));
                 slope.store_unaligned((side == 0 ? u_ : v_) + i);
-                low[side] = xsimd::min(low[side], xsimd::select(here, slope, low[side]));
-                high[side] = xsimd::max(high[side], xsimd::select(here, slope, high[side]));
+                low[side] = min(low[side], select(here, slope, low[side]));
+                high[side] = max(high[side], select(here, slope, high[side]));
             }
         }
         for (int side = 0; side < 2; ++side) {
@@ -125,8 +125,8 @@ struct SortedTowards : Streams<Arch> {
         const F u(u_[bunch]), v(v_[bunch]);
         std::uint32_t apart = 0;
         for (std::size_t i = bunch; i < bunch + 16; i += F::size)
-            apart |= Lanes<Arch>::bits(
-                xsimd::abs(S::load(u_ + i) - u) + xsimd::abs(S::load(v_ + i) - v) > F(most));
+            apart |=
+                Lanes<Arch>::bits(abs(S::load(u_ + i) - u) + abs(S::load(v_ + i) - v) > F(most));
         return apart != 0;
     }
 

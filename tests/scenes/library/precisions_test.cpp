@@ -63,7 +63,7 @@ class BruteForce {
         core::Hit<double> first;
         searcher_.each(ray, {}, std::numeric_limits<double>::infinity(),
                        [&](const core::Hit<double>& hit) {
-                           if (hit.t > t_min && hit.t <= t_max && hit.before(first) &&
+                           if (hit.t > t_min && hit.t <= t_max && hit.t < first.t &&
                                scene_.material_of(hit.shape).is_seen(hit.entering))
                                first = hit;
                            return true;

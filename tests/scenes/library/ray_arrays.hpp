@@ -44,16 +44,18 @@ struct Rays {
 
 struct Hits {
     explicit Hits(std::size_t count)
-        : t(count, -1.0F), nx(count, 9.0F), ny(count, 9.0F), nz(count, 9.0F), shape(count, 12345) {}
+        : t(count, -1.0F), nx(count, 9.0F), ny(count, 9.0F), nz(count, 9.0F), shape(count, 12345),
+          entering(count, 77) {}
 
     std::vector<float> t, nx, ny, nz;
     std::vector<ShapeId> shape;
+    std::vector<std::uint8_t> entering;
 
-    HitSpan span() { return {t, nx, ny, nz, shape}; }
+    HitSpan span() { return {t, nx, ny, nz, shape, entering}; }
     bool operator==(const Hits&) const = default;
     bool is_none(std::size_t i) const {
         return t[i] == infinity && nx[i] == 0.0F && ny[i] == 0.0F && nz[i] == 0.0F &&
-               shape[i] == no_shape;
+               shape[i] == no_shape && entering[i] == 0;
     }
 };
 

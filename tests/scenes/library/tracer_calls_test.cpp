@@ -25,8 +25,9 @@ TEST_CASE("answers depend on the ray alone, in spans of any length") {
         for (std::size_t first = 0; first < all.rays.size(); first += length) {
             const std::size_t count = std::min(length, all.rays.size() - first);
             const auto of = [&](auto& values) { return std::span(values).subspan(first, count); };
-            tracer.intersect(all.rays.part(first, count), {of(parts.t), of(parts.nx), of(parts.ny),
-                                                           of(parts.nz), of(parts.shape)});
+            tracer.intersect(all.rays.part(first, count),
+                             {of(parts.t), of(parts.nx), of(parts.ny), of(parts.nz),
+                              of(parts.shape), of(parts.entering)});
             tracer.occluded(all.rays.part(first, count), of(blocked_parts));
         }
         CHECK(parts == whole);
@@ -51,6 +52,7 @@ TEST_CASE("what is not wanted may be left out") {
     tracer.intersect(all.rays.span(), {.normal_y = hits.ny});
     tracer.intersect(all.rays.span(), {.normal_z = hits.nz});
     tracer.intersect(all.rays.span(), {.shape = hits.shape});
+    tracer.intersect(all.rays.span(), {.entering = hits.entering});
     tracer.intersect(all.rays.span(), {});
     CHECK(hits == whole);
 }

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace raylane::core {
+
+/// A vector that has room for `own` elements in itself, and asks for memory only if there are more.
+template <class Value, std::size_t own>
+class InlineVector {
+    static_assert(std::is_trivially_copyable_v<Value>);
+
+  public:
+    InlineVector() = default;
+    InlineVector(const InlineVector& other) { *this = other; }
+    InlineVector(InlineVector&& other) noexcept { *this = std::move(other); }
+    InlineVector& operator=(const InlineVector& other) {
+        if (this == &other) return *this;
+        make_room(other.size_);
+        size_ = other.size_;
+        std::copy_n(other.begin(), size_, begin());
+        return *this;
+    }
+    InlineVector& operator=(InlineVector&& other) noexcept {
+        if (this == &other) return *this;
+        size_ = std::exchange(other.size_, 0);
+        if (other.more_ == nullptr) {
+            std::copy_n(other.few_, size_, begin()); // there is room for that
+            return *this;
+        }
+        more_ = std::move(other.more_);
+        room_ = std::exchange(other.room_, own);
+        return *this;
+    }
+    ~InlineVector() = default;
+
+    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return size_; }
+    Value* begin() { return more_ != nullptr ? more_.get() : few_; }
+    Value* end() { return begin() + size_; }
+    const Value* begin() const { return more_ != nullptr ? more_.get() : few_; }
+    const Value* end() const { return begin() + size_; }
+    Value& operator[](std::size_t i) { return begin()[i]; }
+    const Value& operator[](std::size_t i) const { return begin()[i]; }
+
+    /// `size` elements that have no values yet.
+    void reset(std::size_t size) {
+        size_ = 0;
+        make_room(size);
+        size_ = size;
+    }
+    void insert(const Value* before, const Value& value) {
+        const auto place = static_cast<std::size_t>(before - begin());
+        if (size_ == room_) make_room(2 * room_);
+        std::copy_backward(begin() + place, end(), end() + 1);
+        begin()[place] = value;
+        ++size_;
+    }
+    /// Keeps elements `first` to `last`, the latter excluded.
+    void keep(std::size_t first, std::size_t last) {
+        if (first != 0) std::copy(begin() + first, begin() + last, begin());
+        size_ = last - first;
+    }
+
+  private:
+    void make_room(std::size_t size) {
+        if (size <= room_) return;
+        std::unique_ptr<Value[]> more(new Value[size]);
+        std::copy_n(begin(), size_, more.get());
+        more_ = std::move(more);
+        room_ = size;
+    }
+
+    std::size_t size_ = 0, room_ = own;
+    std::unique_ptr<Value[]> more_; // null: they are in few_
+    Value few_[own];                // NOLINT: only what is set is read
+};
+
+} // namespace raylane::core

@@ -1,0 +1,212 @@
+#include "core/reference/rounding.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace raylane::core {
+
+namespace {
+
+using Limits = std::numeric_limits<float>;
+using Real = Bounded<DoubleDouble>;
+
+float float_of(double t) {
+    return static_cast<float>(std::clamp(t, static_cast<double>(Limits::denorm_min()),
+                                         static_cast<double>(Limits::max())));
+}
+
+/// Bounds of what is off by `error`, which may be less than half an ulp.
+double below(double value, double error) {
+    return error == 0.0 ? value
+                        : std::nextafter(value - error, -std::numeric_limits<double>::infinity());
+}
+double above(double value, double error) {
+    return -below(-value, error);
+}
+
+/// Calls visit(shape) with the shape that was hit.
+template <class Visit>
+decltype(auto) with_shape(const Scene& scene, const Hit<double>& hit, const Visit& visit) {
+    return with_table(scene.shapes(), hit.kind,
+                      [&](const auto& table) { return visit(table.get(hit.slot)); });
+}
+
+template <class To>
+Ray<To> ray_in(const Ray<double>& ray) {
+    return {convert<To>(ray.origin), convert<To>(ray.direction)};
+}
+
+Bounded<double> largest(const Vec3<Bounded<double>>& v) {
+    return std::max({v.x, v.y, v.z},
+                    [](const auto& a, const auto& b) { return a.magnitude() < b.magnitude(); });
+}
+
+/// Each off by less than this, relative to the largest.
+bool are_within(const Vec3<Bounded<double>>& v, double accuracy) {
+    const double most = accuracy * largest(v).magnitude();
+    return v.x.error < most && v.y.error < most && v.z.error < most;
+}
+
+/// t in 106 bits.
+Real wide_t(const Scene& scene, const Departing& from, const Hit<double>& hit) {
+    SharpHit sharp(hit);
+    sharp.widen(scene, from);
+    const Real t = sharp.wide_t();
+    if (t.error <= 0x1p-90 * t.magnitude()) return t;
+    return sharp.root(scene, from).in_wide(hit.t, hit.error);
+}
+
+Vec3<Real> wide_normal(const Scene& scene, const Ray<Real>& ray, const Real& t,
+                       const Hit<double>& hit) {
+    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Real> {
+        const NormalAlong<Real> along = normal_along(shape, ray, hit.face);
+        return mul_add(t, along.slope, along.v);
+    });
+}
+
+/// A vector that is linear in t, at a root: components of it when it is brought to length 1.
+class ExactDirection {
+  public:
+    ExactDirection(const Scene& scene, const Departing& from, const Hit<double>& hit)
+        : root_(SharpHit(hit).root(scene, from)),
+          along_(with_shape(scene, hit, [&](const auto& shape) {
+              return normal_along(shape, ray_in<Dyadic>(from.ray), hit.face);
+          })) {
+        square_ = {squared_length(along_.slope), dot(along_.slope, along_.v),
+                   squared_length(along_.v)};
+        if (root_.sign_of(square_) != 0) return;
+        along_ = {along_.apex};
+        square_ = {0.0, 0.0, squared_length(along_.v)};
+    }
+
+    /// Nearest to the component, ties to even.
+    float rounded(int axis) const {
+        const ExactQuadratic value{0.0, 0.5 * along_.slope[axis], along_.v[axis]};
+        const int sign = root_.sign_of(value);
+        if (sign == 0) return 0.0F;
+        // By their numbers, floats from 0 to 1 are in order.
+        std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0F);
+        while (low < high) {
+            const std::uint32_t next = low + (high - low) / 2;
+            const double middle = 0.5 * static_cast<double>(std::bit_cast<float>(next)) +
+                                  0.5 * static_cast<double>(std::bit_cast<float>(next + 1));
+            const int side = compare_square(axis, middle);
+            if (side < 0 || (side == 0 && (next & 1) == 0))
+                high = next;
+            else
+                low = next + 1;
+        }
+        return static_cast<float>(sign) * std::bit_cast<float>(low);
+    }
+    /// Within 2^-45.
+    double approximately(int axis) const {
+        const int sign = root_.sign_of({0.0, 0.5 * along_.slope[axis], along_.v[axis]});
+        double low = 0.0, high = 1.0;
+        for (int step = 0; step < 46; ++step) {
+            const double middle = 0.5 * (low + high);
+            (compare_square(axis, middle) < 0 ? high : low) = middle;
+        }
+        return sign * 0.5 * (low + high);
+    }
+
+  private:
+    /// Whether the component's size is less (-1), or more than this.
+    int compare_square(int axis, double size) const {
+        const Dyadic &v = along_.v[axis], &slope = along_.slope[axis];
+        const Dyadic factor = Dyadic(size) * size;
+        return root_.sign_of({slope * slope - factor * square_.A, slope * v - factor * square_.B,
+                              v * v - factor * square_.C});
+    }
+
+    ExactRoot root_;
+    NormalAlong<Dyadic> along_;
+    ExactQuadratic square_; // of its length
+};
+
+} // namespace
+
+bool rounds_surely(double t, double error, float& t_rounded) {
+    t_rounded = float_of(below(t, error));
+    return t_rounded == float_of(above(t, error));
+}
+
+float rounded_t(const Scene& scene, const Departing& from, const Hit<double>& hit, int exponent) {
+    float result = 0.0F;
+    const auto is_sure = [&](const Hit<double>& known) {
+        return rounds_surely(std::ldexp(known.t, exponent), std::ldexp(known.error, exponent),
+                             result);
+    };
+    if (is_sure(hit)) return result;
+    SharpHit sharp(hit);
+    sharp.widen(scene, from);
+    const Hit<double> widened = sharp.sharpened();
+    if (is_sure(widened)) return result;
+    return sharp.root(scene, from)
+        .rounded_between(result, float_of(std::ldexp(above(widened.t, widened.error), exponent)),
+                         exponent);
+}
+
+Vec3f rounded_normal(const Scene& scene, const Departing& from, const Hit<double>& hit) {
+    const Vec3<Real> direction =
+        wide_normal(scene, ray_in<Real>(from.ray), wide_t(scene, from, hit), hit);
+    const Real length = core::length(direction);
+    Vec3f normal;
+    bool is_sure = true;
+    for (int axis = 0; axis < 3; ++axis) {
+        const Bounded<double> component = in_double(direction[axis] / length);
+        normal[axis] = static_cast<float>(below(component.value, component.error));
+        is_sure =
+            is_sure && normal[axis] == static_cast<float>(above(component.value, component.error));
+    }
+    if (!is_sure) {
+        const ExactDirection exact(scene, from, hit);
+        for (int axis = 0; axis < 3; ++axis)
+            normal[axis] = exact.rounded(axis);
+    }
+    return normal + Vec3f(0.0F); // no -0
+}
+
+SurfacePoint<double> surface_point(const Scene& scene, const Departing& from,
+                                   const Hit<double>& hit) {
+    const Ray<double>& ray = from.ray;
+    SurfacePoint<double> result;
+    result.point = mul_add(hit.t, ray.direction, ray.origin);
+    Vec3<Bounded<double>> point;
+    for (int axis = 0; axis < 3; ++axis)
+        point[axis] = {result.point[axis], hit.error * std::abs(ray.direction[axis]) +
+                                               0x1p-51 * (std::abs(ray.origin[axis]) +
+                                                          std::abs(hit.t * ray.direction[axis]))};
+    const bool is_close =
+        are_within(point, 0x1p-24) && with_shape(scene, hit, [&](const auto& shape) {
+            return are_within(outward_direction(shape, point, hit.face), 0x1p-20);
+        });
+    if (is_close) {
+        result.normal = with_shape(scene, hit, [&](const auto& shape) {
+            return outward_normal(shape, result.point, hit.face);
+        });
+        return result;
+    }
+    const Ray<Real> wide = ray_in<Real>(ray);
+    const Real t = wide_t(scene, from, hit);
+    const Vec3<Real> true_point = mul_add(t, wide.direction, wide.origin);
+    const Vec3<Real> direction = wide_normal(scene, wide, t, hit);
+    Vec3<Bounded<double>> normal;
+    for (int axis = 0; axis < 3; ++axis) {
+        result.point[axis] = in_double(true_point[axis]).value;
+        normal[axis] = in_double(direction[axis]);
+        result.normal[axis] = normal[axis].value;
+    }
+    if (are_within(normal, 0x1p-40)) {
+        // Of any size: only now is it sure that no square over- or underflows.
+        result.normal = normalized(result.normal / largest(normal).magnitude());
+        return result;
+    }
+    const ExactDirection exact(scene, from, hit);
+    for (int axis = 0; axis < 3; ++axis)
+        result.normal[axis] = exact.approximately(axis);
+    return result;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/reference/crossing_order.hpp"
+
+/// What is answered of a crossing: the floats next to the truth, and doubles as near as double can
+/// be.
+namespace raylane::core {
+
+/// t * 2^exponent, rounded to the nearest float, ties to even, but never to 0 or infinity. For what
+/// is not sure from t and its error alone it is decided exactly.
+float rounded_t(const Scene& scene, const Departing& from, const Hit<double>& hit, int exponent);
+
+/// Whether a t that is off by no more than `error` rounds to one float as above, whatever it is.
+/// That is then `t_rounded`.
+bool rounds_surely(double t, double error, float& t_rounded);
+
+/// The unit normal outside (in front) of the surface at the true point of a crossing, each
+/// component rounded to the nearest float, ties to even; 0 is +0. At an edge it is that of the
+/// lowest of the faces which the ray crosses there; at the apex of a cone the axis, to the outside;
+/// at that of a quadric z.
+Vec3f rounded_normal(const Scene& scene, const Departing& from, const Hit<double>& hit);
+
+/// The same in double, within 2^-40, and the point itself, within 2^-50 of its largest coordinate
+/// or of the shape's distance from it.
+template <class Real>
+struct SurfacePoint {
+    Vec3<Real> point;
+    Vec3<Real> normal;
+};
+SurfacePoint<double> surface_point(const Scene& scene, const Departing& from,
+                                   const Hit<double>& hit);
+
+} // namespace raylane::core
