@@ -12,7 +12,8 @@ namespace raylane::core {
 template <class Real>
 struct Contact {
     Hit<Real> hit;
-    IdRange shapes;    ///< its shape and what lies in one plane with it
+    IdRange shapes; ///< its shape and what lies in one plane with it
+    MaterialIndex material;
     Vec3<Real> normal; ///< unit, outward
     bool inside;       ///< whether the ray is on its inside now
     bool goes_inside;  ///< and where it goes
@@ -23,7 +24,8 @@ struct Contact {
 /// What a secondary ray knows of the surfaces that it leaves: which they are, on which side it is,
 /// and to which it goes. No arithmetic has to find that again. It is more than one surface where a
 /// block stands on a table, or at an edge; any number of them. Those which the ray is still to
-/// cross it crosses at t = 0.
+/// cross it crosses at t = 0. Those of one material that lie in each other, and are entered or left
+/// together, are one surface: it is seen once, however often it is there.
 template <class Real>
 class Departure {
   public:
@@ -50,6 +52,15 @@ class Departure {
         return contact != nullptr ? Start{true, contact->hit.face, contact->goes_inside} : Start{};
     }
 
+    /// How many of the contacts are one surface with that of a hit.
+    int count_as_one(const Hit<Real>& hit) const {
+        const Contact<Real>& surface = *find(hit.shape);
+        int count = 0;
+        for (const Contact<Real>& contact : contacts_)
+            count += are_one(contact, surface) ? 1 : 0;
+        return count;
+    }
+
     /// For a ray in another direction from the same point, which is one of the contacts' `hit`. It
     /// either goes through that surface, or stays on the side from which it was hit.
     Departure turned(const Hit<Real>& hit, bool through, const Vec3<Real>& direction) const {
@@ -57,7 +68,7 @@ class Departure {
         Departure result = *this;
         const bool goes_inside = through == hit.entering;
         for (Contact<Real>& contact : result.contacts_) {
-            if (contact.shapes.first == surface.shapes.first)
+            if (are_one(contact, surface))
                 contact.inside = contact.goes_inside = goes_inside;
             else if (parallel(contact.normal, surface.normal))
                 contact.goes_inside =
@@ -71,6 +82,12 @@ class Departure {
   private:
     static bool is_below(ShapeId id, const Contact<Real>& contact) {
         return id < contact.shapes.first;
+    }
+    static bool are_one(const Contact<Real>& contact, const Contact<Real>& surface) {
+        return contact.shapes.first == surface.shapes.first ||
+               (contact.material == surface.material && contact.inside == surface.inside &&
+                dot(contact.normal, surface.normal) > Real(0) &&
+                parallel(contact.normal, surface.normal));
     }
     /// As far as directions of float precision can tell.
     static bool parallel(const Vec3<Real>& a, const Vec3<Real>& b) {

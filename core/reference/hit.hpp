@@ -19,6 +19,7 @@ struct Hit {
     bool entering = false;
     Kind kind = Kind::sphere;
     Slot slot{};
+    bool joins = false; ///< of several in order: at the same t as the one before
 
     bool any() const { return shape != no_shape; }
 

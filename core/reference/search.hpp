@@ -93,13 +93,17 @@ class Searcher {
                 std::sort(sharp_.begin(), sharp_.end(), [&](const SharpHit& a, const SharpHit& b) {
                     return order.is_before(a, b);
                 });
-                std::transform(sharp_.begin(), sharp_.end(), hits.begin(),
-                               [](const SharpHit& hit) { return hit.sharpened(); });
+                for (std::size_t i = 0; i < hits.size(); ++i) {
+                    hits[i] = sharp_[i].sharpened();
+                    hits[i].joins = i != 0 && order.compare(sharp_[i - 1], sharp_[i]) == 0;
+                }
                 return;
             }
         std::sort(hits.begin(), hits.end(), [](const Hit<Real>& a, const Hit<Real>& b) {
             return a.t != b.t ? a.t < b.t : a.precedes(b);
         });
+        for (std::size_t i = 0; i < hits.size(); ++i)
+            hits[i].joins = i != 0 && hits[i - 1].t == hits[i].t;
     }
 
     Counters counters;
@@ -163,9 +167,9 @@ class Searcher {
         result.hit = sharpened(hits[first]);
         const auto add = [&](const Hit<Real>& hit) {
             if (result.contacts.find(hit.shape) != nullptr) return;
-            result.contacts.add({hit, scene_.coplanar_with(hit.shape),
-                                 surface_at(ray, departure, hit).normal, !hit.entering,
-                                 hit.entering});
+            result.contacts.add(
+                {hit, scene_.coplanar_with(hit.shape), scene_.material_index_of(hit.shape),
+                 surface_at(ray, departure, hit).normal, !hit.entering, hit.entering});
         };
         add(result.hit);
         for (std::size_t i = 0; i < hits.size(); ++i)

@@ -132,7 +132,7 @@ Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface
     const Vector light = throughput * lit(path, surface);
     if (!material.reflects() && !material.transmits()) return light;
 
-    const auto [before, behind] = indices_at(surface.hit, path.media);
+    const auto [before, behind] = indices_at(surface.hit, path.media, media_behind(path, surface));
     Refraction<Real> refraction = refract(path.ray.direction, surface.normal, before, behind);
     // A shading normal may bend the ray to the wrong side of the surface.
     if (!refraction.total && dot(refraction.transmitted, surface.flat_normal) >= Real(0))
@@ -203,14 +203,18 @@ void ReferenceTracer<Real>::reflect(const Path& path, const Surface& surface,
 template <class Real>
 void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
                                      const Vector& throughput, const Vector& direction) {
-    if (path.depth >= settings_.max_depth || !is_worth(throughput)) return;
+    // Further surfaces at the same point are no more depth, unless it goes round in circles there.
+    const bool is_free = surface.hit.at_start && path.crossings > 0;
+    if ((path.depth >= settings_.max_depth && !is_free) || !is_worth(throughput)) return;
 
     ++searcher_.counters.refracted;
-    pending_.push_back({{surface.point, normalized(direction)},
-                        surface.departure(/*through=*/true, direction),
-                        media_behind(surface.hit, path.media),
-                        throughput,
-                        path.depth + 1});
+    pending_.push_back(
+        {{surface.point, normalized(direction)},
+         surface.departure(/*through=*/true, direction),
+         media_behind(path, surface),
+         throughput,
+         path.depth + (is_free ? 0 : 1),
+         surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size())});
 }
 
 template <class Real>
@@ -221,11 +225,18 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
 
     Vector share(1);
     Real reached = 0;
-    for (const Hit<Real>& hit : crossings_) {
-        share *= absorbed(medium_before(hit, media), hit.t - reached);
-        share *= let_through(hit, ray, departure, media);
-        media = media_behind(hit, media);
-        reached = hit.t;
+    for (auto hit = crossings_.begin(); hit != crossings_.end(); ++hit) {
+        share *= absorbed(medium_before(*hit, media), hit->t - reached);
+        reached = hit->t;
+        // Those of one material that lie in each other are one surface.
+        const auto end = std::find_if(hit + 1, crossings_.end(), [&](const Hit<Real>& other) {
+            return !other.joins || other.entering != hit->entering ||
+                   scene_.material_index_of(other.shape) != scene_.material_index_of(hit->shape);
+        });
+        const Media behind = media_behind(*hit, media, static_cast<int>(end - hit));
+        share *= let_through(*hit, ray, departure, media, behind);
+        media = behind;
+        hit = end - 1;
     }
     return share * absorbed(media_.top(media), distance - reached);
 }
@@ -251,10 +262,11 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure
 /// The share that one surface lets through.
 template <class Real>
 Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
-                                        const Departure<Real>& departure, Media media) {
+                                        const Departure<Real>& departure, Media media,
+                                        Media media_behind) {
     const Vector normal = searcher_.surface_at(ray, departure, hit).normal;
     const Real cos = std::abs(dot(ray.direction, normal));
-    const auto [before, behind] = indices_at(hit, media);
+    const auto [before, behind] = indices_at(hit, media, media_behind);
     return let_straight_through(scene_.material_of(hit.shape), std::min(cos, Real(1)), before,
                                 behind);
 }
@@ -272,18 +284,26 @@ bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
 
 /// A surface that transmits nothing has its own index behind it, from whichever side it is seen.
 template <class Real>
-typename ReferenceTracer<Real>::Indices ReferenceTracer<Real>::indices_at(const Hit<Real>& hit,
-                                                                          Media media) {
+typename ReferenceTracer<Real>::Indices
+ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, Media media, Media media_behind) {
     const auto before = static_cast<Real>(index_of(scene_.materials(), medium_before(hit, media)));
     const Material& material = scene_.material_of(hit.shape);
     if (hit.entering || !material.transmits()) return {before, Real(material.index)};
-    const MaterialIndex behind = media_.top(media_behind(hit, media));
+    const MaterialIndex behind = media_.top(media_behind);
     return {before, static_cast<Real>(index_of(scene_.materials(), behind))};
 }
 
+/// Behind so many surfaces of its material.
 template <class Real>
-Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media) {
-    return media_.crossed(media, scene_.material_index_of(hit.shape), hit.entering);
+Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media, int count) {
+    for (; count > 0; --count)
+        media = media_.crossed(media, scene_.material_index_of(hit.shape), hit.entering);
+    return media;
+}
+
+template <class Real>
+Media ReferenceTracer<Real>::media_behind(const Path& path, const Surface& surface) {
+    return media_behind(surface.hit, path.media, surface.contacts.count_as_one(surface.hit));
 }
 
 template <class Real>

@@ -40,6 +40,7 @@ class ReferenceTracer {
         Media media;       ///< what it is inside of
         Vector throughput; ///< what of its colour reaches the pixel
         int depth;         ///< reflections and refractions so far
+        int crossings = 0; ///< of surfaces where it starts that it may cross for nothing
     };
 
     /// What a path brings to the pixel, with all that follows from it: linear RGB.
@@ -99,11 +100,12 @@ class ReferenceTracer {
 
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
-    Indices indices_at(const Hit<Real>& hit, Media media);
+    Indices indices_at(const Hit<Real>& hit, Media media, Media behind);
 
     Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Departure<Real>& departure,
-                     Media media);
-    Media media_behind(const Hit<Real>& hit, Media media);
+                     Media media, Media media_behind);
+    Media media_behind(const Path& path, const Surface& surface);
+    Media media_behind(const Hit<Real>& hit, Media media, int count = 1);
     MaterialIndex medium_before(const Hit<Real>& hit, Media media) const;
     Vector absorbed(MaterialIndex medium, Real distance) const;
 

@@ -50,6 +50,7 @@ core::Departure<Real> departure_of(const SceneData& scene, const Paths& paths, s
     const bool inward = (paths.departure[lane] & departure_inward) != 0;
     departure.add({hit,
                    {paths.departed_first[lane], paths.departed_last[lane]},
+                   shape.material,
                    core::Vec3<Real>(0),
                    inward,
                    inward});

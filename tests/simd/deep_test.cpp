@@ -1,0 +1,77 @@
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+#include "tests/sanitized.hpp"
+
+#include <cmath>
+#include <pthread.h>
+
+/// Rays that go on for long, on threads with little stack.
+using namespace raylane;
+using namespace little_scene;
+
+namespace {
+
+constexpr std::size_t stack_bytes = 512 << 10;
+
+template <class Act>
+void on_small_stack(Act act) {
+    pthread_attr_t attributes;
+    REQUIRE(pthread_attr_init(&attributes) == 0);
+    REQUIRE(pthread_attr_setstacksize(&attributes, stack_bytes) == 0);
+    pthread_t thread;
+    REQUIRE(pthread_create(
+                &thread, &attributes,
+                [](void* to_do) -> void* {
+                    (*static_cast<Act*>(to_do))();
+                    return nullptr;
+                },
+                &act) == 0);
+    pthread_join(thread, nullptr);
+    pthread_attr_destroy(&attributes);
+}
+
+/// Two mirrors, `count` panes of glass all in each other between them.
+Scene hall(int count) {
+    Builder hall;
+    hall.settings.width = hall.settings.height = 3;
+    hall.settings.max_depth = 1000;
+    hall.camera.from = {0.1F, 0.2F, 0.5F};
+    hall.camera.at = {0, 0, 0};
+    Material bright = luminous();
+    bright.reflectivity = 0.999F;
+    const MaterialIndex silver = hall.add_material(bright);
+    hall.add(Plane{{0, 0, -1}, {0, 0, 1}}, silver);
+    hall.add(Plane{{0, 0, 1}, {0, 0, -1}}, silver);
+    for (int i = 0; i < count; ++i) {
+        const Material pane = glass(1.0F + 0.001F * static_cast<float>(i));
+        hall.add_shape(Box{{-5e3F, -5e3F, -0.25F}, {1e4F, 0, 0}, {0, 1e4F, 0}, {0, 0, 0.5F}}, pane);
+    }
+    return hall.finish();
+}
+
+} // namespace
+
+TEST_CASE("a thousand reflections, and any number of contacts, fit a small stack") {
+    if (tests::sanitized) {
+        WARN("skipped: a sanitizer's frames are larger");
+        return;
+    }
+    for (const int panes : {0, 1, 40}) {
+        const Scene scene = hall(panes);
+        // What 1000 reflections add up to; or fewer, with panes to go through between two of them.
+        const int reflections = panes == 0 ? 1000 : 332;
+        const double sum = (1.0 - std::pow(0.999, reflections + 1)) / 0.001;
+        for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
+            Color seen(-1.0F);
+            on_small_stack([&] {
+                simd::RenderOptions options;
+                options.engine = engine;
+                options.threads = 1;
+                seen = simd::render(scene, scene.settings(), options).film.pixels()[4];
+            });
+            CAPTURE(panes, sum, seen.x);
+            CHECK(std::abs(static_cast<double>(seen.x) / sum - 1.0) < 0.01);
+        }
+    }
+}
