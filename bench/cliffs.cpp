@@ -1,0 +1,413 @@
+#include "raylane/raylane.hpp"
+#include "scenes/library/internals.hpp"
+#include "simd/isa.hpp"
+
+#ifdef RAYLANE_EMBREE
+#include "bench/embree_scene.hpp"
+#endif
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+/// Where the time for a ray might fall off a cliff: many shapes that all but meet it, sizes and
+/// distances far from 1. Nanoseconds a ray through the library, one thread: the mean of one call
+/// for all, and the worst of a call each; beside `robust`, which tests in float, and Embree.
+///
+/// usage: raylane-cliffs [NAME...]   parts of names; default: all
+namespace raylane::bench {
+namespace {
+
+class Random {
+  public:
+    float uniform(float low, float high) {
+        return low + (high - low) * static_cast<float>(engine_() >> 40) * 0x1p-24F;
+    }
+    float any() { return uniform(-1.0F, 1.0F); }
+    Vec3 cube(float size) { return {size * any(), size * any(), size * any()}; }
+
+  private:
+    std::mt19937_64 engine_{20261122};
+};
+
+Vec3 operator+(const Vec3& a, const Vec3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Vec3 operator-(const Vec3& a, const Vec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Vec3 operator*(float s, const Vec3& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+
+struct Rays {
+    std::vector<float> values[6];
+
+    void add(const Vec3& origin, const Vec3& direction) {
+        const float all[] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+        for (int k = 0; k < 6; ++k)
+            values[k].push_back(all[k]);
+    }
+    std::size_t size() const { return values[0].size(); }
+    RaySpan span(std::size_t first, std::size_t count) const {
+        const auto part = [&](int k) { return std::span(values[k]).subspan(first, count); };
+        return {part(0), part(1), part(2), part(3), part(4), part(5)};
+    }
+};
+
+struct Place {
+    std::string name;
+    Scene scene;
+    Rays rays;
+};
+
+struct Hits {
+    std::vector<float> t, x, y, z;
+    std::vector<ShapeId> shape;
+
+    explicit Hits(std::size_t n) : t(n), x(n), y(n), z(n), shape(n) {}
+    HitSpan span(std::size_t first, std::size_t count) {
+        const auto part = [&](auto& of) { return std::span(of).subspan(first, count); };
+        return {part(t), part(x), part(y), part(z), part(shape)};
+    }
+};
+
+using Clock = std::chrono::steady_clock;
+
+double nanoseconds_of(const std::function<void()>& act) {
+    const auto start = Clock::now();
+    act();
+    return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+struct Times {
+    double mean = 0.0, worst = 0.0;
+};
+
+/// `ask(first, count)` asks about rays. What a first call sets up is not counted; the worst is that
+/// of three.
+Times times_of(std::size_t count, const std::function<void(std::size_t, std::size_t)>& ask) {
+    Times times;
+    ask(0, std::min<std::size_t>(count, 16));
+    times.mean = nanoseconds_of([&] { ask(0, count); }) / static_cast<double>(count);
+    for (std::size_t i = 0; i < std::min<std::size_t>(count, 500); ++i) {
+        double least = HUGE_VAL;
+        for (int turn = 0; turn < 3; ++turn)
+            least = std::min(least, nanoseconds_of([&] { ask(i, 1); }));
+        times.worst = std::max(times.worst, least);
+    }
+    return times;
+}
+
+Times raylane_times(const Place& place, Precision precision) {
+    const Tracer tracer(place.scene, {.threads = 1, .precision = precision});
+    Hits hits(place.rays.size());
+    return times_of(place.rays.size(), [&](std::size_t first, std::size_t count) {
+        tracer.intersect(place.rays.span(first, count), hits.span(first, count));
+    });
+}
+
+#ifdef RAYLANE_EMBREE
+Times embree_times(const Place& place) {
+    const core::Scene& scene = library::Internals::of(place.scene);
+    if (!EmbreeScene::can_hold(scene)) return {};
+    const EmbreeDevice device = make_embree_device(*simd::best_isa());
+    EmbreeScene embree(device.get(), scene, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
+    embree.commit();
+    const NoDenormals no_denormals;
+    EmbreeQuery query(false);
+    return times_of(place.rays.size(), [&](std::size_t first, std::size_t count) {
+        for (std::size_t i = first; i < first + count; ++i) {
+            RTCRayHit ray{};
+            float* const to[] = {&ray.ray.org_x, &ray.ray.org_y, &ray.ray.org_z,
+                                 &ray.ray.dir_x, &ray.ray.dir_y, &ray.ray.dir_z};
+            for (int k = 0; k < 6; ++k)
+                *to[k] = place.rays.values[k][i];
+            ray.ray.tfar = HUGE_VALF;
+            ray.ray.mask = ~0U;
+            ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+            query.nearest(embree.get(), ray);
+        }
+    });
+}
+#else
+Times embree_times(const Place&) {
+    return {};
+}
+#endif
+
+constexpr int ray_count = 4000;
+
+/// Spheres in a cube of half a side `size` about `middle`; rays any way through it, and from the
+/// surfaces.
+Place heap(const std::string& name, int count, float size, const Vec3& middle, float distance) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    const float radius = 0.5F * size / std::cbrt(static_cast<float>(count));
+    std::vector<Vec3> centers;
+    for (int i = 0; i < count; ++i) {
+        centers.push_back(middle + random.cube(size));
+        builder.add(Sphere{centers.back(), radius}, material);
+    }
+    Rays rays;
+    for (int i = 0; i < ray_count; ++i) {
+        const Vec3& target = centers[static_cast<std::size_t>(
+            random.uniform(0.0F, static_cast<float>(count) - 0.5F))];
+        const Vec3 way = random.cube(1.0F);
+        // From a surface, or from so many sizes away.
+        const float from = distance == 0.0F
+                               ? radius / std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z)
+                               : distance * size;
+        const Vec3 origin = target + from * way;
+        rays.add(origin, distance == 0.0F
+                             ? random.cube(1.0F)
+                             : (1.0F / from) * (target - origin + random.cube(radius)));
+    }
+    return {name, builder.build(), rays};
+}
+
+/// Triangles on the plane y = slope x, and rays along it, so much above.
+Place floor_of(const std::string& name, int side, float slope, float above, bool any_way) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    const auto at = [&](int i, int j) {
+        const float x = 2.0F * static_cast<float>(i) / static_cast<float>(side) - 1.0F;
+        return Vec3{x, slope * x, 2.0F * static_cast<float>(j) / static_cast<float>(side) - 1.0F};
+    };
+    for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j) {
+            builder.add(Triangle{at(i, j), at(i, j + 1), at(i + 1, j)}, material);
+            builder.add(Triangle{at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)}, material);
+        }
+    Rays rays;
+    for (int i = 0; i < ray_count; ++i) {
+        const float x = random.any(), z = random.any();
+        const float dx = any_way ? random.any() : 1.0F, dz = any_way ? random.any() : 0.0F;
+        rays.add({x - 2.0F * dx, slope * (x - 2.0F * dx) + above, z - 2.0F * dz},
+                 {dx, slope * dx, dz});
+    }
+    return {name, builder.build(), rays};
+}
+
+/// Open cylinders end to end, and rays along their surface, so much outside.
+Place pipes(const std::string& name, int count, int rows, float outside, bool tilted) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (int row = 0; row < rows; ++row)
+        for (int i = 0; i < count / rows; ++i)
+            builder.add(OpenCylinder{{0.25F * static_cast<float>(row), 0, static_cast<float>(i)},
+                                     {0, 0, 1},
+                                     0.125F},
+                        material);
+    Rays rays;
+    for (int i = 0; i < ray_count / 4; ++i) {
+        const auto row = std::floor(random.uniform(0.0F, static_cast<float>(rows) - 0.01F));
+        rays.add({0.25F * row + (i % 2 == 0 ? 0.125F + outside : 0.0F),
+                  i % 2 == 0 ? 0.0F : 0.125F + outside, -1.0F},
+                 {0, tilted ? 1e-7F * random.any() : 0.0F, 1});
+    }
+    return {name, builder.build(), rays};
+}
+
+/// The same sphere, or all but the same, so often.
+Place shells(const std::string& name, int count, bool identical) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    float radius = 1.0F;
+    for (int i = 0; i < count; ++i) {
+        builder.add(Sphere{{0, 0, 0}, radius}, material);
+        if (!identical) radius = std::nextafter(radius, 2.0F);
+    }
+    Rays rays;
+    for (int i = 0; i < ray_count / 4; ++i) {
+        const Vec3 origin = random.cube(3.0F);
+        rays.add(origin, random.cube(0.8F) - origin);
+    }
+    return {name, builder.build(), rays};
+}
+
+/// Spheres in a row that touch a line, and rays along it.
+Place row_of_spheres(const std::string& name, int count, float above) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (int i = 0; i < count; ++i)
+        builder.add(Sphere{{static_cast<float>(i), 0, 0}, 0.5F}, material);
+    Rays rays;
+    for (int i = 0; i < ray_count / 4; ++i)
+        rays.add({-1.0F - random.uniform(0.0F, 1.0F), 0.5F + above, 0}, {1, 0, 0});
+    return {name, builder.build(), rays};
+}
+
+/// Shapes whose fronts lie in one plane, on top of each other.
+Place stack(const std::string& name, int count) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (int i = 0; i < count; ++i) {
+        const float a = 1.0F + random.uniform(0.0F, 1.0F), b = 1.0F + random.uniform(0.0F, 1.0F);
+        builder.add(Box{{-a, -b, -1}, {2 * a, 0, 0}, {0, 2 * b, 0}, {0, 0, 1}}, material);
+    }
+    Rays rays;
+    for (int i = 0; i < ray_count / 4; ++i)
+        rays.add({random.any(), random.any(), 3}, {0.3F * random.any(), 0.3F * random.any(), -1});
+    return {name, builder.build(), rays};
+}
+
+/// Triangles around one corner, and rays at it.
+Place fan(const std::string& name, int count) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    const auto at = [&](int i) {
+        const float angle = 6.2831853F * static_cast<float>(i) / static_cast<float>(count);
+        return Vec3{std::cos(angle), std::sin(angle), 0.25F};
+    };
+    for (int i = 0; i < count; ++i)
+        builder.add(Triangle{{0, 0, 0}, at(i), at((i + 1) % count)}, material);
+    Rays rays;
+    for (int i = 0; i < ray_count / 4; ++i) {
+        const Vec3 way{std::round(4 * random.any()), std::round(4 * random.any()), -4};
+        rays.add((i % 2 == 0 ? -1.0F : -1.25F) * way, way);
+    }
+    return {name, builder.build(), rays};
+}
+
+/// Boxes stacked face on face, and rays along faces, edges and any way.
+Place crates(const std::string& name, int side) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (int i = 0; i < side * side * side; ++i) {
+        const Vec3 corner{static_cast<float>(i % side), static_cast<float>(i / side % side),
+                          static_cast<float>(i / side / side)};
+        builder.add(Box{corner, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, material);
+    }
+    Rays rays;
+    const auto whole = [&] { return std::floor(random.uniform(0.0F, static_cast<float>(side))); };
+    for (int i = 0; i < ray_count; ++i)
+        switch (i % 3) {
+        case 0:
+            rays.add({whole(), whole(), -1}, {0, 0, 1});
+            break;
+        case 1:
+            rays.add({whole(), whole() + 0.5F, whole() - 0.5F}, {0, 1, 1});
+            break;
+        default:
+            rays.add({whole(), whole(), whole()}, random.cube(1.0F));
+        }
+    return {name, builder.build(), rays};
+}
+
+/// Of sizes far apart.
+Place sizes(const std::string& name, float large, float small) {
+    Random random;
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (int i = 0; i < 20; ++i) {
+        const float size = i % 2 == 0 ? large : small;
+        builder.add(Sphere{random.cube(size), 0.4F * size}, material);
+        builder.add(CappedCone{random.cube(size), random.cube(size), 0.3F * size, 0}, material);
+        builder.add(Box{random.cube(size), {size, 0, 0}, {0, size, 0}, {0, 0, size}}, material);
+    }
+    Rays rays;
+    for (int i = 0; i < ray_count / 4; ++i) {
+        const Vec3 origin = random.cube(i % 2 == 0 ? large : small);
+        const Vec3 target = random.cube(i % 4 < 2 ? large : small);
+        rays.add(origin, (i % 8 < 4 ? 1.0F : 1.0F / large) * (target - origin));
+    }
+    return {name, builder.build(), rays};
+}
+
+using Make = std::function<Place(const std::string&)>;
+
+std::vector<std::pair<std::string, Make>> all_places() {
+    std::vector<std::pair<std::string, Make>> all;
+    const auto add = [&](const std::string& name, const Make& make) {
+        all.emplace_back(name, make);
+    };
+    for (const float size : {1e-6F, 1e-3F, 1.0F, 1e3F, 1e6F})
+        for (const float distance : {0.0F, 3.0F, 1e3F, 1e6F}) {
+            char name[100];
+            std::snprintf(name, sizeof name, "heap/size:%g/away:%g", static_cast<double>(size),
+                          static_cast<double>(distance));
+            add(name, [=](const std::string& n) { return heap(n, 10'000, size, {}, distance); });
+        }
+    for (const float offset : {1e1F, 1e3F, 1e5F, 1e6F}) {
+        const std::string name = "heap/offset:" + std::to_string(static_cast<int>(offset));
+        add(name, [=](const std::string& n) {
+            return heap(n, 10'000, 1.0F, {offset, -0.7F * offset, 0.3F * offset}, 3.0F);
+        });
+    }
+    for (const float distance : {0.0F, 3.0F})
+        add(distance == 0.0F ? "molecule/from_surfaces" : "molecule/any",
+            [=](const std::string& n) { return heap(n, 200'000, 1e-6F, {}, distance); });
+    for (const int side : {32, 128, 512}) {
+        const std::string triangles = std::to_string(2 * side * side);
+        add("floor/" + triangles + "/above",
+            [=](const std::string& n) { return floor_of(n, side, 0.0F, 1e-7F, false); });
+        add("floor/" + triangles + "/above_any_way",
+            [=](const std::string& n) { return floor_of(n, side, 0.0F, 1e-7F, true); });
+        add("floor/" + triangles + "/within",
+            [=](const std::string& n) { return floor_of(n, side, 0.0F, 0.0F, true); });
+        add("slope/" + triangles + "/above",
+            [=](const std::string& n) { return floor_of(n, side, 0.3F, 1e-7F, true); });
+        add("slope/" + triangles + "/within",
+            [=](const std::string& n) { return floor_of(n, side, 0.3F, 0.0F, true); });
+    }
+    for (const int count : {4096, 262'144}) {
+        const std::string cylinders = std::to_string(count);
+        for (const int rows : {1, 64})
+            for (const float outside : {0.0F, 1e-7F})
+                add("pipes/" + cylinders + "/rows:" + std::to_string(rows) +
+                        (outside == 0.0F ? "/along" : "/above"),
+                    [=](const std::string& n) { return pipes(n, count, rows, outside, false); });
+        add("pipes/" + cylinders + "/rows:64/tilted",
+            [=](const std::string& n) { return pipes(n, count, 64, 0.0F, true); });
+    }
+    add("shells/65536/identical", [](const std::string& n) { return shells(n, 65'536, true); });
+    add("shells/1000/ulps_apart", [](const std::string& n) { return shells(n, 1000, false); });
+    add("row/10000/touching", [](const std::string& n) { return row_of_spheres(n, 10'000, 0.0F); });
+    add("row/10000/above", [](const std::string& n) { return row_of_spheres(n, 10'000, 1e-7F); });
+    for (const int count : {10, 100, 1000})
+        add("stack/" + std::to_string(count),
+            [=](const std::string& n) { return stack(n, count); });
+    for (const int count : {100, 1000})
+        add("fan/" + std::to_string(count), [=](const std::string& n) { return fan(n, count); });
+    add("crates/8000", [](const std::string& n) { return crates(n, 20); });
+    add("sizes/1e30/1e-30", [](const std::string& n) { return sizes(n, 1e30F, 1e-30F); });
+    add("sizes/1e9/1e-9", [](const std::string& n) { return sizes(n, 1e9F, 1e-9F); });
+    return all;
+}
+
+} // namespace
+} // namespace raylane::bench
+
+int main(int argc, char** argv) {
+    using namespace raylane;
+    using namespace raylane::bench;
+    std::printf("%-36s %9s %9s %9s %9s %9s %9s\n", "ns a ray", "exact", "worst", "robust", "worst",
+                "embree", "worst");
+    for (const auto& [name, make] : all_places()) {
+        bool wanted = argc == 1;
+        for (int i = 1; i < argc; ++i)
+            wanted = wanted || name.find(argv[i]) != std::string::npos;
+        if (!wanted) continue;
+        const Place place = make(name);
+        const Times exact = raylane_times(place, Precision::exact),
+                    robust = raylane_times(place, Precision::robust), embree = embree_times(place);
+        std::printf("%-36s %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f\n", name.c_str(), exact.mean,
+                    exact.worst, robust.mean, robust.worst, embree.mean, embree.worst);
+        std::fflush(stdout);
+    }
+}
