@@ -49,13 +49,17 @@ bool are_within(const Vec3<Bounded<double>>& v, double accuracy) {
     return v.x.error < most && v.y.error < most && v.z.error < most;
 }
 
-/// t in 106 bits.
-Real wide_t(const Scene& scene, const Departing& from, const Hit<double>& hit) {
-    SharpHit sharp(hit);
+/// Calls is_enough(t) with t as well as it is known, then in 106 bits, then within 2^-100 of
+/// itself, until that returns true. Returns whether it did.
+template <class IsEnough>
+bool with_better_t(const Scene& scene, const Departing& from, const Hit<double>& hit,
+                   const IsEnough& is_enough) {
+    const SharpHit sharp(hit);
+    if (is_enough(sharp.wide_t())) return true;
     sharp.widen(scene, from);
-    const Real t = sharp.wide_t();
-    if (t.error <= 0x1p-90 * t.magnitude()) return t;
-    return sharp.root(scene, from).in_wide(hit.t, hit.error);
+    if (is_enough(sharp.wide_t())) return true;
+    return sharp.wide_t().error != 0.0 &&
+           is_enough(sharp.root(scene, from).in_wide(hit.t, hit.error));
 }
 
 Vec3<Real> wide_normal(const Scene& scene, const Ray<Real>& ray, const Real& t,
@@ -149,18 +153,20 @@ float rounded_t(const Scene& scene, const Departing& from, const Hit<double>& hi
 }
 
 Vec3f rounded_normal(const Scene& scene, const Departing& from, const Hit<double>& hit) {
-    const Vec3<Real> direction =
-        wide_normal(scene, ray_in<Real>(from.ray), wide_t(scene, from, hit), hit);
-    const Real length = core::length(direction);
+    const Ray<Real> ray = ray_in<Real>(from.ray);
     Vec3f normal;
-    bool is_sure = true;
-    for (int axis = 0; axis < 3; ++axis) {
-        const Bounded<double> component = in_double(direction[axis] / length);
-        normal[axis] = static_cast<float>(below(component.value, component.error));
-        is_sure =
-            is_sure && normal[axis] == static_cast<float>(above(component.value, component.error));
-    }
-    if (!is_sure) {
+    const auto is_sure = [&](const Real& t) {
+        const Vec3<Real> direction = wide_normal(scene, ray, t, hit);
+        const Real length = core::length(direction);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Bounded<double> component = in_double(direction[axis] / length);
+            normal[axis] = static_cast<float>(below(component.value, component.error));
+            if (normal[axis] != static_cast<float>(above(component.value, component.error)))
+                return false;
+        }
+        return true;
+    };
+    if (!with_better_t(scene, from, hit, is_sure)) {
         const ExactDirection exact(scene, from, hit);
         for (int axis = 0; axis < 3; ++axis)
             normal[axis] = exact.rounded(axis);
@@ -189,18 +195,21 @@ SurfacePoint<double> surface_point(const Scene& scene, const Departing& from,
         return result;
     }
     const Ray<Real> wide = ray_in<Real>(ray);
-    const Real t = wide_t(scene, from, hit);
-    const Vec3<Real> true_point = mul_add(t, wide.direction, wide.origin);
-    const Vec3<Real> direction = wide_normal(scene, wide, t, hit);
-    Vec3<Bounded<double>> normal;
-    for (int axis = 0; axis < 3; ++axis) {
-        result.point[axis] = in_double(true_point[axis]).value;
-        normal[axis] = in_double(direction[axis]);
-        result.normal[axis] = normal[axis].value;
-    }
-    if (are_within(normal, 0x1p-40)) {
+    Vec3<Bounded<double>> direction;
+    const auto is_known = [&](const Real& t) {
+        const Vec3<Real> true_point = mul_add(t, wide.direction, wide.origin);
+        const Vec3<Real> normal = wide_normal(scene, wide, t, hit);
+        for (int axis = 0; axis < 3; ++axis) {
+            point[axis] = in_double(true_point[axis]);
+            result.point[axis] = point[axis].value;
+            direction[axis] = in_double(normal[axis]);
+            result.normal[axis] = direction[axis].value;
+        }
+        return are_within(direction, 0x1p-40) && are_within(point, 0x1p-50);
+    };
+    if (with_better_t(scene, from, hit, is_known) || are_within(direction, 0x1p-40)) {
         // Of any size: only now is it sure that no square over- or underflows.
-        result.normal = normalized(result.normal / largest(normal).magnitude());
+        result.normal = normalized(result.normal / largest(direction).magnitude());
         return result;
     }
     const ExactDirection exact(scene, from, hit);
