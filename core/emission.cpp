@@ -80,12 +80,11 @@ Tally count(const Cursor& at, int slots, Workers& workers) {
     return tally;
 }
 
-Bounds padded(Bounds bounds, float padding) {
+/// By an ulp, so that nothing touches them.
+Bounds padded(Bounds bounds) {
     for (int axis = 0; axis < 3; ++axis) {
-        bounds.lower[axis] =
-            std::nextafter(bounds.lower[axis] - padding, -std::numeric_limits<float>::max());
-        bounds.upper[axis] =
-            std::nextafter(bounds.upper[axis] + padding, std::numeric_limits<float>::max());
+        bounds.lower[axis] = std::nextafter(bounds.lower[axis], -std::numeric_limits<float>::max());
+        bounds.upper[axis] = std::nextafter(bounds.upper[axis], std::numeric_limits<float>::max());
     }
     return bounds;
 }
@@ -99,8 +98,8 @@ struct BlocksOf<std::tuple<Table<Shapes>...>> {
 
 class Emitter {
   public:
-    Emitter(const BinaryTree& tree, const ShapeLists& lists, float padding, Workers& workers)
-        : positions_(tree.positions), lists_(lists), padding_(padding), workers_(workers) {}
+    Emitter(const BinaryTree& tree, const ShapeLists& lists, Workers& workers)
+        : positions_(tree.positions), lists_(lists), workers_(workers) {}
 
     void emit(const Cursor& root) {
         const Tally whole = count(root, 1, workers_);
@@ -151,7 +150,7 @@ class Emitter {
         if (shares.left > 0) return emit_children(at, shares, wide, places);
         const int slot = places.slots++;
         const Child child = at.is_leaf() ? emit_block(at.node(), places) : emit_node(at, places);
-        nodes_[wide].set(slot, padded(at.node().bounds, padding_), child);
+        nodes_[wide].set(slot, padded(at.node().bounds), child);
     }
 
     Child emit_node(const Cursor& at, Tally& places) {
@@ -189,7 +188,6 @@ class Emitter {
 
     const BigArray<std::uint32_t>& positions_;
     const ShapeLists& lists_;
-    float padding_;
     Workers& workers_;
     BigArray<WideNode> nodes_;
     BlocksOf<Tables>::type blocks_;
@@ -197,13 +195,13 @@ class Emitter {
 
 } // namespace
 
-void emit(BinaryTree& tree, const ShapeLists& lists, float padding, Workers& workers,
-          Hierarchy& hierarchy, Tables& tables) {
+void emit(BinaryTree& tree, const ShapeLists& lists, Workers& workers, Hierarchy& hierarchy,
+          Tables& tables) {
     const Cursor root(tree.root);
-    Emitter emitter(tree, lists, padding, workers);
+    Emitter emitter(tree, lists, workers);
     emitter.emit(root);
     hierarchy.nodes = emitter.take_nodes();
-    hierarchy.bounds = padded(root.node().bounds, padding);
+    hierarchy.bounds = padded(root.node().bounds);
     for_each_table(tables, [&]<class Shape>(Table<Shape>& table) {
         if constexpr (kind_of<Shape> != Kind::plane) table = emitter.take_table<Shape>();
     });

@@ -60,28 +60,16 @@ BigArray<Item> bounded_items(const ShapeLists& lists, Workers& workers) {
     return items;
 }
 
-/// What a traversal in float may be off by: six roundings of the largest coordinate that takes
-/// part.
-float traversal_padding(const Bounds& bounds, const Vec3f& eye) {
-    float extent = 0.0F;
-    for (const Vec3f& p : {eye, bounds.lower, bounds.upper})
-        for (int axis = 0; axis < 3; ++axis)
-            extent = std::max(extent, std::abs(p[axis]));
-    return 6.0F * 0x1p-24F * extent;
-}
-
 } // namespace
 
-Hierarchy build_hierarchy(const ShapeLists& lists, const Vec3f& eye, Workers& workers,
-                          Tables& tables) {
+Hierarchy build_hierarchy(const ShapeLists& lists, Workers& workers, Tables& tables) {
     auto& planes = std::get<Table<Plane>>(tables);
     planes = Table<Plane>(std::get<ShapeList<Plane>>(lists));
     Hierarchy hierarchy;
     BigArray<Item> items = bounded_items(lists, workers);
     if (items.empty()) return hierarchy;
     BinaryTree tree = build_binary_tree(std::move(items), workers);
-    const float padding = traversal_padding(tree.bounds(), eye);
-    emit(tree, lists, padding, workers, hierarchy, tables);
+    emit(tree, lists, workers, hierarchy, tables);
     return hierarchy;
 }
 

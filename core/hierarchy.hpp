@@ -57,9 +57,8 @@ struct Hierarchy {
 
 /// Builds the hierarchy by the binned surface-area heuristic, whose cost counts blocks of 16 rather
 /// than shapes, and collapses the binary tree into wide nodes. Fills the tables, so that each leaf
-/// is one block. The result depends on the shapes alone, whoever the workers are; the bounds are
-/// padded by what a traversal in float may be off by, from `eye` as from anywhere in the scene.
-Hierarchy build_hierarchy(const ShapeLists& lists, const Vec3f& eye, Workers& workers,
-                          Tables& tables);
+/// is one block. The result depends on the shapes alone, whoever the workers are. No shape touches
+/// its bounds; what a traversal is off by, rays bring themselves.
+Hierarchy build_hierarchy(const ShapeLists& lists, Workers& workers, Tables& tables);
 
 } // namespace raylane::core

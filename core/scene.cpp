@@ -115,7 +115,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
 
     Workers alone;
     scene_.hierarchy_ =
-        build_hierarchy(lists_, camera.from, workers != nullptr ? *workers : alone, scene_.shapes_);
+        build_hierarchy(lists_, workers != nullptr ? *workers : alone, scene_.shapes_);
     lists_ = {};
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
         const Light& light = scene_.lights_[i];

@@ -139,6 +139,7 @@ class StreamTracer::Worker {
         : scene_(scene), data_(data), tracing_(tracing),
           searcher_(scene, core::Search::hierarchy, tracing.precision) {
         if (data == nullptr) return;
+        approach_.emplace(*data);
         finder_.emplace(*data, tracing);
         arena_ = arena_for([&](Arena& arena) { take_from(arena, capacity); });
     }
@@ -188,16 +189,19 @@ class StreamTracer::Worker {
         }
         start(rays, first, last);
         const std::size_t count = paths_.count;
+        paths_.pass_to(rounded_);
+        if (is_exact()) approach_->bring_near(paths_, rounded_);
+        tracing_.kernels->rays.round_rays(count, rounded_);
+        approach_->widen(rounded_);
         for (std::size_t lane = 0; lane < count; ++lane) {
             const Query query(rays, first + paths_.sample[lane]);
-            t_most_[lane] = static_cast<float>(query.t_most() * paths_.length_of(lane));
+            t_most_[lane] = static_cast<float>(query.t_most() * paths_.length_of(lane) -
+                                               approach_->before(lane));
             // A limit from below is no matter for bounds, nor is a t that is none until rounded.
             const bool simple = query.t_min() <= 0.0F &&
                                 query.t_max() >= std::numeric_limits<float>::min() * 0x1p24F;
             state_[lane] = simple ? open : doubtful;
         }
-        paths_.pass_to(rounded_);
-        tracing_.kernels->rays.round_rays(count, rounded_);
         TraceCounters counters{};
         tracing_.method().trace.occluded(data_->view(), data_->listed_kinds(), nullptr, count,
                                          rounded_, {t_most_, state_}, workspace_, counters);
@@ -261,6 +265,7 @@ class StreamTracer::Worker {
         finder_->take_from(arena, capacity);
         paths_.take_from(arena, capacity, false, /*for_others=*/true);
         is_open_ = arena.take<std::uint8_t>(capacity);
+        approach_->take_from(arena, capacity);
         take_rounded(arena, rounded_, capacity);
         t_most_ = arena.take<float>(capacity);
         state_ = arena.take<std::uint8_t>(capacity);
@@ -295,6 +300,7 @@ class StreamTracer::Worker {
     Arena arena_;
     Paths paths_{}; // sample: the ray's number in the stream
     std::uint8_t* is_open_ = nullptr;
+    std::optional<Approach> approach_;
     RoundedRays rounded_{};
     float* t_most_ = nullptr;
     std::uint8_t* state_ = nullptr;

@@ -38,12 +38,13 @@ Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capaci
 HitFinder::HitFinder(const SceneData& scene, const Tracing& tracing,
                      core::ReferenceTracer<double>* reference, bool looks_through)
     : scene_(scene), tracing_(tracing), reference_(reference), refinery_(scene, tracing),
-      for_points_(reference != nullptr) {
+      for_points_(reference != nullptr), approach_(scene) {
     if (!tracing.certifies()) tie_breaker_.emplace(scene, tracing.precision);
     if (looks_through) onward_.reset(new HitFinder(scene, tracing, reference, false));
 }
 
 void HitFinder::take_from(Arena& arena, std::size_t capacity) {
+    approach_.take_from(arena, capacity);
     take_rounded(arena, rounded_, capacity);
     candidates_.first = arena.take<float>(capacity);
     candidates_.second = arena.take<float>(capacity);
@@ -64,6 +65,7 @@ void HitFinder::take_from(Arena& arena, std::size_t capacity) {
 void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& counters) {
     start(paths);
     find_own_exits(paths);
+    if (approach_.any() && bundle != nullptr) bundle = &neighbours;
 
     TraceCounters traced{};
     tracing_.method().trace.nearest(scene_.view(), scene_.listed_kinds(), bundle, paths.count,
@@ -72,18 +74,19 @@ void HitFinder::find(const Paths& paths, const Bundle* bundle, core::Counters& c
 
     if (tie_breaker_) break_ties(paths);
     finish(hits_.found(paths, 0, paths.count));
-    lane_count_ =
-        tracing_.certifies()
-            ? tracing_.kernels->rays.list_uncertain(paths.count, candidates_, hits_.t, hits_.error,
-                                                    hits_.hit, doubtful_, lanes_)
-            : 0;
+    lane_count_ = tracing_.certifies()
+                      ? tracing_.kernels->rays.list_uncertain(
+                            paths.count, candidates_, approach_.from_there(hits_.t), hits_.error,
+                            hits_.hit, doubtful_, lanes_)
+                      : 0;
     open_count_ = 0;
     points_.clear();
     if (!refinery_.works()) {
         ask_reference(paths, counters);
     } else {
-        const std::size_t met_several = refinery_.refine(paths, rounded_, workspace_, doubtful_,
-                                                         {lanes_, lane_count_}, hits_, counters);
+        const std::size_t met_several =
+            refinery_.refine(paths, {rounded_, approach_}, workspace_, doubtful_,
+                             {lanes_, lane_count_}, hits_, counters);
         std::copy_n(lanes_, met_several, open_);
         open_count_ = met_several;
         points_.assign(refinery_.points().begin(), refinery_.points().end());
@@ -173,7 +176,9 @@ void HitFinder::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
 
 void HitFinder::start(const Paths& paths) {
     paths.pass_to(rounded_);
+    if (tracing_.precision == core::Precision::exact) approach_.bring_near(paths, rounded_);
     tracing_.kernels->rays.round_rays(paths.count, rounded_);
+    approach_.widen(rounded_);
     candidates_.slot = hits_.slot;
     const std::size_t padded = (paths.count + 15) / 16 * 16;
     std::fill_n(candidates_.first, padded, infinity);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/reference/tracer.hpp"
+#include "simd/wavefront/approach.hpp"
 #include "simd/wavefront/as_core.hpp"
 #include "simd/wavefront/hits.hpp"
 #include "simd/wavefront/refinery.hpp"
@@ -65,6 +66,7 @@ class HitFinder {
     Refinery refinery_;
     bool for_points_;
 
+    Approach approach_;
     RoundedRays rounded_{};
     Candidates candidates_{};
     Workspace workspace_{};

@@ -15,11 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Places behind the last candidate that kernels may write to.
 constexpr std::size_t beyond = 32;
 
-/// Not before what is behind a certain crossing by as little as does not tell them apart.
-float limit_behind(double t) {
-    return static_cast<float>(t) * candidate_grace;
-}
-
 bool crosses(std::uint32_t hit) {
     return (hit & (hit_doubtful | hit_none)) == 0;
 }
@@ -30,7 +25,7 @@ void Refinery::take_from(Arena& arena, bool stand_for_others, bool for_points) {
     for_points_ = for_points;
     paths_.take_from(arena, most + beyond, false, stand_for_others);
     hits_.take_from(arena, most + beyond, scene_.smooth());
-    lower_ = arena.take<float>(most);
+    lower_ = arena.take<double>(most);
     slots_.resize(most);
     bounds_.resize(most);
     listed_.reserve(most);
@@ -40,7 +35,7 @@ void Refinery::take_from(Arena& arena, bool stand_for_others, bool for_points) {
     points_.reserve(64);
 }
 
-std::size_t Refinery::refine(const Paths& paths, const RoundedRays& rounded, const Pending& pending,
+std::size_t Refinery::refine(const Paths& paths, const Stream& stream, const Pending& pending,
                              const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
                              const Hits& hits, core::Counters& counters) {
     counters.refined += lanes.size();
@@ -62,8 +57,8 @@ std::size_t Refinery::refine(const Paths& paths, const RoundedRays& rounded, con
             const std::uint32_t lane = lanes[next];
             const bool is_hit =
                 doubtful[lane] == 0 && hits.slot[lane] != no_slot && crosses(hits.hit[lane]);
-            list(paths, rounded, pending, lane,
-                 limit_behind(is_hit ? hits.t[lane] + hits.error[lane] : infinity), counters);
+            list(paths, stream, pending, lane, is_hit ? hits.t[lane] + hits.error[lane] : infinity,
+                 counters);
             if (listed_.size() > most - count_) break;
             rays_.push_back({lane, static_cast<std::uint32_t>(count_)});
             add(paths, lane, listed_);
@@ -83,11 +78,14 @@ std::size_t Refinery::refine(const Paths& paths, const RoundedRays& rounded, con
 }
 
 /// All that a ray may cross before the limit, or what is surely crossed.
-void Refinery::list(const Paths& paths, const RoundedRays& rounded, const Pending& pending,
-                    std::size_t lane, float limit, core::Counters& counters) {
+void Refinery::list(const Paths& paths, const Stream& stream, const Pending& pending,
+                    std::size_t lane, double limit, core::Counters& counters) {
     CandidateList list{};
+    const double before = stream.approach.before(lane);
+    // Not before what is behind a certain crossing by as little as does not tell them apart.
+    const float limit_there = static_cast<float>(limit - before) * candidate_grace;
     for (;;) {
-        list = {slots_.data(), bounds_.data(), slots_.size(), 0, limit};
+        list = {slots_.data(), bounds_.data(), slots_.size(), 0, limit_there};
         // No filter sees the shape that it starts on.
         if ((paths.departure[lane] & departure_may_return) != 0) {
             list.slot[0] = paths.departed_slot[lane];
@@ -95,7 +93,7 @@ void Refinery::list(const Paths& paths, const RoundedRays& rounded, const Pendin
         }
         TraceCounters traced{};
         const bool has_room = tracing_.method().refine.list_candidates(
-            scene_.view(), scene_.listed_kinds(), rounded, lane, pending, list, traced);
+            scene_.view(), scene_.listed_kinds(), stream.rounded, lane, pending, list, traced);
         count(traced, counters);
         if (has_room) break;
         slots_.resize(2 * slots_.size());
@@ -104,7 +102,8 @@ void Refinery::list(const Paths& paths, const RoundedRays& rounded, const Pendin
     listed_.clear();
     for (std::size_t i = 0; i < list.count; ++i)
         if (list.lower[i] <= list.limit) // which may have moved
-            listed_.push_back({list.lower[i], list.slot[i]});
+            listed_.push_back(
+                {(before + static_cast<double>(list.lower[i])) * (1.0 - 0x1p-50), list.slot[i]});
     std::sort(listed_.begin(), listed_.end(),
               [](const Listed& a, const Listed& b) { return a.lower < b.lower; });
 }
@@ -131,8 +130,7 @@ std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
     count_ = 0;
     for (std::size_t next = 0; next < listed_.size();) {
         const std::size_t found = count_;
-        if (found != 0 && static_cast<double>(listed_[next].lower) > hits_.t[0] + hits_.error[0])
-            break;
+        if (found != 0 && listed_[next].lower > hits_.t[0] + hits_.error[0]) break;
         const std::size_t some = std::min(most - count_, listed_.size() - next);
         add(paths, lane, std::span(listed_).subspan(next, some));
         finish(found);
@@ -149,7 +147,7 @@ std::size_t Refinery::first_of(std::size_t begin, std::size_t end, core::Counter
     for (std::size_t i = begin; i < end; ++i)
         if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
     for (std::size_t i = begin; i < end; ++i) {
-        if ((hits_.hit[i] & hit_doubtful) == 0 || static_cast<double>(lower_[i]) > last) continue;
+        if ((hits_.hit[i] & hit_doubtful) == 0 || lower_[i] > last) continue;
         solve(i, counters);
         if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
     }

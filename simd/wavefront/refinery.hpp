@@ -2,6 +2,7 @@
 
 #include "core/counters.hpp"
 #include "core/reference/crossing_order.hpp"
+#include "simd/wavefront/approach.hpp"
 #include "simd/wavefront/hits.hpp"
 #include "simd/wavefront/scene_data.hpp"
 #include "simd/wavefront/tracing.hpp"
@@ -28,10 +29,16 @@ class Refinery {
     /// Whether there is anything to be had of it.
     bool works() const { return tracing_.method().refine.finish_again != nullptr; }
 
+    /// What paths are to filters.
+    struct Stream {
+        const RoundedRays& rounded;
+        const Approach& approach;
+    };
+
     /// Decides on `lanes`, for which hits has what has been found so far, but for those that are
     /// `doubtful`. Puts first, and counts, those that meet several surfaces at one point; they have
     /// the one that comes first.
-    std::size_t refine(const Paths& paths, const RoundedRays& rounded, const Pending& pending,
+    std::size_t refine(const Paths& paths, const Stream& stream, const Pending& pending,
                        const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
                        const Hits& hits, core::Counters& counters);
 
@@ -50,12 +57,12 @@ class Refinery {
         std::uint32_t begin;
     };
     struct Listed {
-        float lower;
+        double lower; ///< of t
         std::uint32_t slot;
     };
 
-    void list(const Paths& paths, const RoundedRays& rounded, const Pending& pending,
-              std::size_t lane, float limit, core::Counters& counters);
+    void list(const Paths& paths, const Stream& stream, const Pending& pending, std::size_t lane,
+              double limit, core::Counters& counters);
     void add(const Paths& paths, std::size_t lane, std::span<const Listed> candidates);
     void finish(std::size_t begin);
     std::size_t first_of_many(const Paths& paths, std::size_t lane, core::Counters& counters);
@@ -73,7 +80,7 @@ class Refinery {
     bool for_points_ = true;
     Paths paths_{}; ///< by candidate
     Hits hits_{};
-    float* lower_ = nullptr;
+    double* lower_ = nullptr;
     std::size_t count_ = 0;
     std::vector<Ray> rays_;
 

@@ -7,9 +7,9 @@ namespace raylane::simd {
 /// A ray against boxes.
 ///
 /// It meets a plane across an axis at (plane - o) / d, or, where that is one instruction, at
-/// plane / d - o / d. The planes are shifted by the slack of the origin, away from the box; o and
-/// o / d are rounded, which shifts them by as much again at most, each. The result is off by 3 u
-/// and the direction by u more, relative to itself, which `allowance` grants.
+/// plane / d - o / d. The planes are shifted by the slack of the origin, away from the box, and by
+/// 3 u |o|, as the sum of both and o / d are rounded. The result is off by 3 u and the direction by
+/// u more, relative to itself, which `allowance` grants.
 struct BoxRay {
     static constexpr float allowance = 1 + 16 * half_ulp;
 
@@ -86,16 +86,17 @@ struct BoxRays {
     void load(const RoundedRays& rays, std::size_t begin) {
         for (std::size_t from = 0; from < 16; from += F::size) {
             const std::size_t i = begin + from;
-            const F slack = F(4.0F) * S::load(rays.slack + i);
+            const F slack = S::load(rays.slack + i);
             for (int axis = 0; axis < 3; ++axis) {
                 // A component of 0 is as good as one that leads nowhere: no 0 * infinity then.
                 const F tiny(0x1p-80F);
                 const F given = S::load(rays.direction[axis] + i);
                 const F d = select(abs(given) > tiny, given, tiny);
                 const F o = S::load(rays.origin[axis] + i);
-                const F signed_slack = slack ^ (d & F(-0.0F));
+                const F shift = fast_mul_add<Arch>(F(3 * half_ulp), abs(o), slack);
+                const F signed_shift = shift ^ (d & F(-0.0F));
                 F slope = F(1.0F) / d;
-                F at_near = negated(o + signed_slack), at_far = negated(o - signed_slack);
+                F at_near = negated(o + signed_shift), at_far = negated(o - signed_shift);
                 if constexpr (Lanes<Arch>::has_mul_add) {
                     at_near = at_near * slope;
                     at_far = at_far * slope;

@@ -41,17 +41,27 @@ struct Prepare : Streams<Arch> {
     }
 
     static void round_rays(std::size_t count, const RoundedRays& rays) {
+        using D = Double<Arch>;
+        using Number = Floats<D>;
         for (std::size_t i = 0; i < count; i += F::size) {
-            F sum = zero<Arch>();
+            double moved[F::size] = {}; // by rounding, all coordinates together
             for (int axis = 0; axis < 3; ++axis) {
-                const F o = Lanes<Arch>::narrow(rays.meant_origin[axis] + i);
+                const double* const meant = rays.meant_origin[axis] + i;
+                const F o = Lanes<Arch>::narrow(meant);
                 o.store_unaligned(rays.origin[axis] + i);
-                sum = sum + abs(o);
+                for (int half = 0; half < 2; ++half) {
+                    double* const sum = moved + half * Number::size;
+                    const Number rounded = Lanes<D>::widen(o, half);
+                    const Number off =
+                        rounded - Number::load_unaligned(meant + half * Number::size);
+                    (Number::load_unaligned(sum) + abs(off)).store_unaligned(sum);
+                }
                 Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
                     .store_unaligned(rays.direction[axis] + i);
             }
-            // Half an ulp of each coordinate, and what FilterRays asks for.
-            (sum * F(half_ulp * (1 + 0x1p-15F)) + F(slack_floor)).store_unaligned(rays.slack + i);
+            // As FilterRays asks for.
+            (Lanes<Arch>::narrow(moved) * F(1 + 0x1p-15F) + F(slack_floor))
+                .store_unaligned(rays.slack + i);
         }
     }
 

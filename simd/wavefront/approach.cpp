@@ -1,0 +1,96 @@
+#include "simd/wavefront/approach.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::simd {
+
+namespace {
+
+/// Radii. Nearer rays are off by less than a thousandth of the scene wherever they go.
+constexpr double far_away = 64.0;
+
+} // namespace
+
+/// In a scene without a tree there is little to tell apart.
+Approach::Approach(const SceneData& scene) : scene_(scene) {
+    if (!scene.has_tree()) return;
+    const core::Bounds& bounds = scene.scene().hierarchy().bounds;
+    const core::Vec3d lower = core::convert<double>(bounds.lower);
+    const core::Vec3d upper = core::convert<double>(bounds.upper);
+    center_ = 0.5 * (lower + upper);
+    radius_ = 0.5 * core::length(upper - lower) * (1.0 + 0x1p-20);
+}
+
+void Approach::take_from(Arena& arena, std::size_t capacity) {
+    if (radius_ < 0.0) return;
+    arena.take(origin_, capacity);
+    before_ = arena.take<double>(capacity);
+    off_ = arena.take<double>(capacity);
+    t_ = arena.take<double>(capacity);
+}
+
+void Approach::bring_near(const Paths& paths, RoundedRays& rays) {
+    any_ = false;
+    if (radius_ < 0.0) return;
+    double farthest = 0.0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane)
+        for (int axis = 0; axis < 3; ++axis)
+            farthest = std::max(farthest, std::abs(paths.origin[axis][lane] - center_[axis]));
+    if (!(farthest > far_away * radius_)) return;
+    any_ = true;
+    count_ = paths.count;
+    for (std::size_t lane = 0; lane < count_; ++lane) {
+        core::Ray<double> ray; // of unit length
+        for (int axis = 0; axis < 3; ++axis) {
+            ray.origin[axis] = paths.origin[axis][lane];
+            ray.direction[axis] = paths.direction[axis][lane];
+        }
+        const double before = before_of(ray);
+        const core::Vec3d there = core::mul_add(before, ray.direction, ray.origin);
+        before_[lane] = before;
+        off_[lane] = before == 0.0 ? 0.0 : 0x1p-50 * (core::length(ray.origin) + before);
+        for (int axis = 0; axis < 3; ++axis)
+            origin_[axis][lane] = there[axis];
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        rays.meant_origin[axis] = origin_[axis];
+}
+
+/// No further than to a radius before the sphere about all that is bounded, and before any plane.
+double Approach::before_of(const core::Ray<double>& ray) const {
+    const core::Vec3d to_center = center_ - ray.origin;
+    double before = core::dot(to_center, ray.direction) - 2.0 * radius_;
+    if (!(before > far_away * radius_)) return 0.0;
+    for (const core::Block<core::Plane>& block :
+         std::get<core::Table<core::Plane>>(scene_.scene().shapes()).blocks())
+        for (int i = 0; i < core::block_size && block.ids[i] != core::no_shape; ++i) {
+            const core::Plane plane = block.get(i);
+            const core::Vec3d normal = core::convert<double>(plane.normal);
+            const core::Vec3d to_plane = core::convert<double>(plane.point) - ray.origin;
+            const double size = core::length(normal);
+            const double approach = core::dot(normal, ray.direction);
+            const double t = core::dot(normal, to_plane) / approach;
+            // Each product is off by less than a few ulps of its vectors' lengths.
+            const double error =
+                0x1p-49 * size * (core::length(to_plane) + std::abs(t)) / std::abs(approach);
+            if (!(error < radius_)) return 0.0;
+            if (t > -radius_) before = std::min(before, t - 2.0 * radius_);
+        }
+    return std::max(before, 0.0);
+}
+
+void Approach::widen(const RoundedRays& rays) const {
+    if (!any_) return;
+    for (std::size_t lane = 0; lane < count_; ++lane)
+        rays.slack[lane] += static_cast<float>(off_[lane]) * (1.0F + 0x1p-15F);
+}
+
+const double* Approach::from_there(const double* t) {
+    if (!any_) return t;
+    for (std::size_t lane = 0; lane < count_; ++lane)
+        t_[lane] = t[lane] - before_[lane];
+    return t_;
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,98 @@
+#include "simd/isa.hpp"
+#include "simd/wavefront/hit_finder.hpp"
+#include "tests/catch.hpp"
+#include "tests/random.hpp"
+
+#include <cmath>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::core;
+using namespace raylane::simd;
+
+/// The work for a ray depends on what is near it: not on where the camera is, on the size of
+/// everything, or on how far away it starts.
+
+namespace {
+
+constexpr int sphere_count = 2000;
+constexpr std::size_t ray_count = 300;
+
+Scene cloud(double size, double camera) {
+    SceneBuilder builder;
+    builder.wants_light = false;
+    builder.camera.from = {0.0F, 0.0F, static_cast<float>(camera)};
+    builder.add_material({});
+    ray_sets::Random random(1605);
+    for (int i = 0; i < sphere_count; ++i) {
+        const auto across = [&] { return static_cast<float>(size * random.uniform(-1.0, 1.0)); };
+        builder.add(Sphere{{across(), across(), across()}, static_cast<float>(0.03 * size)}, 0);
+    }
+    return std::move(builder).build();
+}
+
+struct Work {
+    Counters counters;
+    int hits = 0;
+};
+
+/// Rays from about `distance` sizes away into the cloud.
+Work work_for(const Scene& scene, double size, double distance) {
+    const SceneData data(scene);
+    Paths paths{};
+    const Arena stream = arena_for([&](Arena& a) { paths.take_from(a, ray_count, false); });
+    paths.count = ray_count;
+    paths.start_in_the_open(0, ray_count);
+    ray_sets::Random random(729);
+    for (std::size_t lane = 0; lane < ray_count; ++lane) {
+        const Vec3d from = random.direction() * (distance * random.uniform(0.7, 1.0));
+        const Vec3d to = random.direction() * random.uniform(0.0, 1.0);
+        const Vec3d direction = normalized(to - from);
+        for (int axis = 0; axis < 3; ++axis) {
+            paths.origin[axis][lane] = size * from[axis];
+            paths.direction[axis][lane] = direction[axis];
+        }
+    }
+    ReferenceTracer<double> reference(scene, scene.settings());
+    HitFinder finder(data, {&kernels_of(*best_isa()), Precision::exact}, reference);
+    const Arena found = arena_for([&](Arena& a) { finder.take_from(a, ray_count); });
+    Work work;
+    finder.find(paths, nullptr, work.counters);
+    for (std::size_t lane = 0; lane < ray_count; ++lane)
+        work.hits += static_cast<int>(finder.hits().slot[lane] != no_slot);
+    return work;
+}
+
+void check_same(const Work& a, const Work& b) {
+    CHECK(a.hits == b.hits);
+    CHECK(a.counters.nodes == b.counters.nodes);
+    CHECK(a.counters.shapes == b.counters.shapes);
+    CHECK(a.counters.refined == b.counters.refined);
+    CHECK(a.counters.doubtful == b.counters.doubtful);
+}
+
+} // namespace
+
+TEST_CASE("The work for a ray does not depend on the camera or on the size of everything") {
+    if (!best_isa()) return;
+    const Work work = work_for(cloud(1.0, 5.0), 1.0, 3.0);
+    CHECK(work.hits > 100);
+    check_same(work, work_for(cloud(1.0, 5e6), 1.0, 3.0));
+    for (const int exponent : {-40, -20, 20, 40}) {
+        CAPTURE(exponent);
+        const double size = std::ldexp(1.0, exponent);
+        check_same(work, work_for(cloud(size, 5.0), size, 3.0));
+    }
+}
+
+TEST_CASE("Rays from far away have little more to do than others") {
+    if (!best_isa()) return;
+    const Scene scene = cloud(1.0, 5.0);
+    const Work near = work_for(scene, 1.0, 3.0);
+    for (const double distance : {100.0, 1e4, 1e6, 1e8}) {
+        CAPTURE(distance);
+        const Work far = work_for(scene, 1.0, distance);
+        CHECK(far.hits > 100);
+        CHECK(far.counters.shapes < 2 * near.counters.shapes);
+    }
+}
