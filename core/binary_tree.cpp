@@ -13,11 +13,22 @@ namespace {
 /// takes long, much more than handing them over costs.
 constexpr std::size_t most_in_a_part = std::size_t{1} << 14;
 
+/// Drops duplicates where they are sure to be together: in what is few, or all in one place.
+void drop_duplicates(std::span<Item> items, const Duplicates& duplicates,
+                     std::vector<std::uint32_t>& room, Range& range) {
+    const auto [lower, upper] = range.centers.bounds();
+    const bool is_place = lower == upper;
+    if (range.size() <= Sweep::most_items || is_place)
+        range.last = range.first +
+                     duplicates.drop_from(items.subspan(range.first, range.size()), room, is_place);
+}
+
 /// Grows parts of the tree that are one task each.
 class PartBuilder {
   public:
-    PartBuilder(std::span<Item> items, std::span<std::uint32_t> positions)
-        : items_(items), positions_(positions) {}
+    PartBuilder(std::span<Item> items, const Duplicates& duplicates,
+                std::span<std::uint32_t> positions)
+        : items_(items), duplicates_(duplicates), positions_(positions) {}
 
     SlotCosts build(const Range& range, TreePart& part) {
         nodes_.assign(1, {range.box.bounds(), 0, 0, {}, {}});
@@ -27,7 +38,8 @@ class PartBuilder {
     }
 
   private:
-    SlotCosts grow(const Range& range, std::uint32_t node) {
+    SlotCosts grow(Range range, std::uint32_t node) {
+        drop_duplicates(items_, duplicates_, room_, range);
         if (range.size() <= Sweep::most_items)
             return sweep_.build(items_.subspan(range.first, range.size()), range.first,
                                 positions_.subspan(range.first, range.size()), nodes_, node);
@@ -43,37 +55,57 @@ class PartBuilder {
     }
 
     std::span<Item> items_;
+    const Duplicates& duplicates_;
     std::span<std::uint32_t> positions_;
     std::vector<BinaryNode> nodes_;
+    std::vector<std::uint32_t> room_;
     Sweep sweep_;
     Workers alone_;
 };
 
-SlotCosts build_part(std::span<Item> items, std::span<std::uint32_t> positions, const Range& range,
-                     TreePart& part, Workers& workers) {
-    if (range.size() <= most_in_a_part) {
-        const SlotCosts costs = PartBuilder(items, positions).build(range, part);
-        workers.placed(range.size(), items.size());
-        return costs;
+class TreeBuilder {
+  public:
+    TreeBuilder(std::span<Item> items, const Duplicates& duplicates,
+                std::span<std::uint32_t> positions, Workers& workers)
+        : items_(items), duplicates_(duplicates), positions_(positions), workers_(workers) {}
+
+    SlotCosts build(Range range, TreePart& part) {
+        if (range.size() > most_in_a_part) {
+            std::vector<std::uint32_t> room;
+            const std::size_t before = range.size();
+            drop_duplicates(items_, duplicates_, room, range);
+            if (range.size() < before) workers_.placed(before - range.size(), items_.size());
+        }
+        if (range.size() <= most_in_a_part) {
+            const SlotCosts costs = PartBuilder(items_, duplicates_, positions_).build(range, part);
+            workers_.placed(range.size(), items_.size());
+            return costs;
+        }
+        const Halves halves = split_by_bins(items_, range, workers_);
+        part.left = std::make_unique<TreePart>();
+        part.right = std::make_unique<TreePart>();
+        SlotCosts left, right;
+        workers_.both([&] { left = build(halves.left, *part.left); },
+                      [&] { right = build(halves.right, *part.right); });
+        BinaryNode& node = part.nodes.emplace_back(BinaryNode{range.box.bounds(), 0, 0, {}, {}});
+        return collapse(node.bounds.half_area(), left, right, node.shares);
     }
-    const Halves halves = split_by_bins(items, range, workers);
-    part.left = std::make_unique<TreePart>();
-    part.right = std::make_unique<TreePart>();
-    SlotCosts left, right;
-    workers.both([&] { left = build_part(items, positions, halves.left, *part.left, workers); },
-                 [&] { right = build_part(items, positions, halves.right, *part.right, workers); });
-    BinaryNode& node = part.nodes.emplace_back(BinaryNode{range.box.bounds(), 0, 0, {}, {}});
-    return collapse(node.bounds.half_area(), left, right, node.shares);
-}
+
+  private:
+    std::span<Item> items_;
+    const Duplicates& duplicates_;
+    std::span<std::uint32_t> positions_;
+    Workers& workers_;
+};
 
 } // namespace
 
-BinaryTree build_binary_tree(BigArray<Item> items, Workers& workers) {
+BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers) {
     BinaryTree tree;
     tree.positions = BigArray<std::uint32_t>(items.size());
     const std::span<Item> all(items.data(), items.size());
-    build_part(all, {tree.positions.data(), tree.positions.size()}, whole_range(all, workers),
-               tree.root, workers);
+    TreeBuilder(all, duplicates, {tree.positions.data(), tree.positions.size()}, workers)
+        .build(whole_range(all, workers), tree.root);
     return tree;
 }
 

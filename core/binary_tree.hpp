@@ -2,6 +2,7 @@
 
 #include "core/big_array.hpp"
 #include "core/collapse.hpp"
+#include "core/duplicates.hpp"
 #include "core/item.hpp"
 #include "core/workers.hpp"
 
@@ -55,7 +56,7 @@ struct BinaryTree {
 };
 
 /// The tree by the surface-area heuristic, its collapse into wide nodes decided. `items` must not
-/// be empty; they are used up.
-BinaryTree build_binary_tree(BigArray<Item> items, Workers& workers);
+/// be empty; they are used up. Of duplicates, it has one.
+BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers);
 
 } // namespace raylane::core

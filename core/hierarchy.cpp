@@ -62,13 +62,15 @@ BigArray<Item> bounded_items(const ShapeLists& lists, Workers& workers) {
 
 } // namespace
 
-Hierarchy build_hierarchy(const ShapeLists& lists, Workers& workers, Tables& tables) {
-    auto& planes = std::get<Table<Plane>>(tables);
-    planes = Table<Plane>(std::get<ShapeList<Plane>>(lists));
+Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates, Workers& workers,
+                          Tables& tables) {
+    const auto& planes = std::get<ShapeList<Plane>>(lists);
+    std::get<Table<Plane>>(tables) =
+        Table<Plane>(duplicates.without_duplicates(planes), planes.size());
     Hierarchy hierarchy;
     BigArray<Item> items = bounded_items(lists, workers);
     if (items.empty()) return hierarchy;
-    BinaryTree tree = build_binary_tree(std::move(items), workers);
+    BinaryTree tree = build_binary_tree(std::move(items), duplicates, workers);
     emit(tree, lists, workers, hierarchy, tables);
     return hierarchy;
 }

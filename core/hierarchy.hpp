@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/bounds.hpp"
+#include "core/duplicates.hpp"
 #include "core/shape_list.hpp"
 #include "core/shape_table.hpp"
 #include "core/workers.hpp"
@@ -57,8 +58,9 @@ struct Hierarchy {
 
 /// Builds the hierarchy by the binned surface-area heuristic, whose cost counts blocks of 16 rather
 /// than shapes, and collapses the binary tree into wide nodes. Fills the tables, so that each leaf
-/// is one block. The result depends on the shapes alone, whoever the workers are. No shape touches
-/// its bounds; what a traversal is off by, rays bring themselves.
-Hierarchy build_hierarchy(const ShapeLists& lists, Workers& workers, Tables& tables);
+/// is one block; of duplicates, they have one. The result depends on the shapes alone, whoever the
+/// workers are. No shape touches its bounds; what a traversal is off by, rays bring themselves.
+Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates, Workers& workers,
+                          Tables& tables);
 
 } // namespace raylane::core

@@ -30,11 +30,8 @@ std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id) {
 }
 
 IdRange Scene::coplanar_with(ShapeId id) const {
-    const auto after =
-        std::upper_bound(polygons_.begin(), polygons_.end(), id,
-                         [](ShapeId value, const IdRange& range) { return value < range.first; });
-    if (after != polygons_.begin() && std::prev(after)->contains(id)) return *std::prev(after);
-    return {id, id};
+    const IdRange* polygon = range_with(polygons_, id);
+    return polygon != nullptr ? *polygon : IdRange{id, id};
 }
 
 std::size_t Scene::bytes() const {
@@ -114,8 +111,8 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
                            "must have at least one light where there are objects, got none");
 
     Workers alone;
-    scene_.hierarchy_ =
-        build_hierarchy(lists_, workers != nullptr ? *workers : alone, scene_.shapes_);
+    scene_.hierarchy_ = build_hierarchy(lists_, {lists_, scene_.material_of_, scene_.polygons_},
+                                        workers != nullptr ? *workers : alone, scene_.shapes_);
     lists_ = {};
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
         const Light& light = scene_.lights_[i];

@@ -15,15 +15,6 @@
 
 namespace raylane::core {
 
-/// A range of shape ids, first to last.
-struct IdRange {
-    ShapeId first;
-    ShapeId last;
-
-    /// Wraps below `first`, so that one comparison does.
-    bool contains(ShapeId id) const { return id - first <= last - first; }
-};
-
 /// If `groups`, ascending, were one shape each, as which one would shape `id` be counted?
 std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id);
 
@@ -33,6 +24,7 @@ using NameOfShape = std::function<std::string(ShapeId)>;
 /// A validated scene that no longer changes. Copying it is expensive, moving it is not.
 class Scene {
   public:
+    /// Of shapes that are the same, of one material, the first alone.
     const Tables& shapes() const { return shapes_; }
     std::size_t shape_count() const { return material_of_.size(); }
     const Hierarchy& hierarchy() const { return hierarchy_; }

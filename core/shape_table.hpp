@@ -56,19 +56,21 @@ template <class Shape>
 class Table {
   public:
     Table() = default;
-    /// `size` shapes in all.
+    /// `size` shapes in all, with duplicates.
     Table(BigArray<Block<Shape>> blocks, std::size_t size)
         : blocks_(std::move(blocks)), size_(size) {}
     /// In the list's order.
-    explicit Table(const ShapeList<Shape>& list)
-        : blocks_((list.size() + block_size - 1) / block_size), size_(list.size()) {
-        for (std::size_t i = 0; i < size_; ++i) {
+    explicit Table(const ShapeList<Shape>& list) : Table(list, list.size()) {}
+    Table(const ShapeList<Shape>& list, std::size_t size)
+        : blocks_((list.size() + block_size - 1) / block_size), size_(size) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
             Block<Shape>& block = blocks_[i / block_size];
             if (i % block_size == 0) block = Block<Shape>();
             block.set(static_cast<int>(i % block_size), list[i].shape, list[i].id);
         }
     }
 
+    /// With duplicates, of which the blocks have one each.
     std::size_t size() const { return size_; }
     const BigArray<Block<Shape>>& blocks() const { return blocks_; }
     Shape get(Slot slot) const { return blocks_[slot.block].get(slot.lane); }

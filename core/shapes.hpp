@@ -2,10 +2,13 @@
 
 #include "core/vector.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <span>
 #include <string_view>
 
 /// The shapes. Each *is* its floats: the surface meant is the one that real arithmetic gives for
@@ -150,5 +153,23 @@ inline constexpr std::string_view name_of(Kind kind) {
 /// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added.
 using ShapeId = std::uint32_t;
 inline constexpr ShapeId no_shape = std::numeric_limits<ShapeId>::max();
+
+/// A range of shape ids, first to last.
+struct IdRange {
+    ShapeId first;
+    ShapeId last;
+
+    /// Wraps below `first`, so that one comparison does.
+    bool contains(ShapeId id) const { return id - first <= last - first; }
+};
+
+/// The one of some ranges, ascending, that has an id; null if none has.
+inline const IdRange* range_with(std::span<const IdRange> ranges, ShapeId id) {
+    const auto after =
+        std::upper_bound(ranges.begin(), ranges.end(), id,
+                         [](ShapeId value, const IdRange& range) { return value < range.first; });
+    if (after == ranges.begin() || !std::prev(after)->contains(id)) return nullptr;
+    return &*std::prev(after);
+}
 
 } // namespace raylane::core

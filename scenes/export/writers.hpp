@@ -17,13 +17,14 @@ void write_json(TextFile& file, const core::Scene& scene);
 void write_nff(TextFile& file, const core::Scene& scene, LeftOut& left_out);
 void write_pov(TextFile& file, const core::Scene& scene, LeftOut& left_out);
 
-/// Calls visit(shape, id) for all shapes in the order of their ids, which decides where surfaces
-/// coincide.
+/// Calls visit(shape, id) for all shapes that the tables have, in the order of their ids, which
+/// decides where surfaces coincide.
 template <class Visit>
 void for_each_by_id(const core::Scene& scene, const Visit& visit) {
     struct Place {
         core::Slot slot;
         core::Kind kind;
+        bool exists;
     };
     std::vector<Place> places(scene.shape_count());
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
@@ -31,12 +32,13 @@ void for_each_by_id(const core::Scene& scene, const Visit& visit) {
             for (std::uint8_t lane = 0; lane < core::block_size; ++lane) {
                 const core::Slot slot{block, lane};
                 if (const core::ShapeId id = table.id(slot); id != core::no_shape)
-                    places[id] = {slot, core::kind_of<Shape>};
+                    places[id] = {slot, core::kind_of<Shape>, true};
             }
     });
     for (core::ShapeId id = 0; id < places.size(); ++id)
-        core::with_table(scene.shapes(), places[id].kind,
-                         [&](const auto& table) { visit(table.get(places[id].slot), id); });
+        if (places[id].exists)
+            core::with_table(scene.shapes(), places[id].kind,
+                             [&](const auto& table) { visit(table.get(places[id].slot), id); });
 }
 
 } // namespace raylane::scenes

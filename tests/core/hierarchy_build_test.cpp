@@ -3,6 +3,8 @@
 #include "tests/targets.hpp"
 
 #include <map>
+#include <numeric>
+#include <vector>
 
 using namespace raylane;
 using namespace raylane::core;
@@ -15,17 +17,25 @@ struct Built {
     Hierarchy hierarchy;
 };
 
+std::size_t count_of(const ShapeLists& lists) {
+    std::size_t count = 0;
+    for_each_table(lists, [&](const auto& list) { count += list.size(); });
+    return count;
+}
+
 Built build(const ShapeLists& lists) {
     Workers alone;
     Built built;
-    built.hierarchy = build_hierarchy(lists, alone, built.tables);
+    // Of as many materials: none is another's duplicate.
+    std::vector<MaterialIndex> material_of(count_of(lists));
+    std::iota(material_of.begin(), material_of.end(), 0);
+    built.hierarchy = build_hierarchy(lists, {lists, material_of, {}}, alone, built.tables);
     return built;
 }
 
 template <class Shape>
 ShapeId add(ShapeLists& lists, const Shape& shape) {
-    ShapeId next = 0;
-    for_each_table(lists, [&](const auto& list) { next += static_cast<ShapeId>(list.size()); });
+    const auto next = static_cast<ShapeId>(count_of(lists));
     std::get<ShapeList<Shape>>(lists).add(shape, next);
     return next;
 }

@@ -62,18 +62,20 @@ TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[nat
         const ShapeLists lists = many_shapes(mixed);
         Workers alone;
         Tables tables;
-        const Hierarchy hierarchy = build_hierarchy(lists, alone, tables);
+        const std::vector<MaterialIndex> one_material(mixed ? 231'000 : 150'000);
+        const Duplicates duplicates(lists, one_material, {});
+        const Hierarchy hierarchy = build_hierarchy(lists, duplicates, alone, tables);
         CHECK(hierarchy.nodes.size() > 500);
         for (const int threads : {1, 2, 3, 8}) {
             CAPTURE(mixed, threads);
             Told workers(threads);
             Tables others;
-            const Hierarchy other = build_hierarchy(lists, workers, others);
+            const Hierarchy other = build_hierarchy(lists, duplicates, workers, others);
             CHECK(same_bits(hierarchy.nodes, other.nodes));
             for_each_table(tables, [&]<class Shape>(const Table<Shape>& table) {
                 CHECK(same_bits(table.blocks(), std::get<Table<Shape>>(others).blocks()));
             });
-            CHECK(workers.of == (mixed ? 231'000 : 150'000));
+            CHECK(workers.of == one_material.size());
             CHECK(workers.shapes == workers.of);
         }
     }
@@ -86,5 +88,8 @@ TEST_CASE("what a worker throws comes out of the build") {
     };
     Failing workers(3);
     Tables tables;
-    CHECK_THROWS_AS(build_hierarchy(many_shapes(false), workers, tables), std::bad_alloc);
+    const ShapeLists lists = many_shapes(false);
+    const std::vector<MaterialIndex> one_material(150'000);
+    CHECK_THROWS_AS(build_hierarchy(lists, {lists, one_material, {}}, workers, tables),
+                    std::bad_alloc);
 }
