@@ -137,11 +137,18 @@ struct CandidateList {
     std::size_t room, count;
     /// In and out: what lies beyond is not listed.
     float limit;
+    /// Whether RoundedRays has the ray as it is: of many, what it surely misses is not listed.
+    bool sifts;
 };
 
 /// How far the limit of a list is behind the upper bound that it is taken from, so that what is
 /// nearly as near is listed, too.
 inline constexpr float candidate_grace = 1.0F + 0x1p-18F;
+
+/// Numbers as sums of two doubles, and what these may be off by.
+struct WideNumbers {
+    double *high, *low, *error;
+};
 
 /// What is done to rays that are left in doubt.
 struct RefineKernels {
@@ -153,6 +160,11 @@ struct RefineKernels {
     /// MethodKernels::finish once more for lanes that it left doubtful. The others are left as they
     /// are.
     void (*finish_again)(const SceneView& scene, const Found& found);
+    /// t of `count` crossings that have been found, at some places of `found`, in twice the digits,
+    /// of the rays that are meant. The error is infinite where it is not known, as of those that
+    /// start on the shape.
+    void (*widen)(const SceneView& scene, const Found& found, const std::size_t* places,
+                  std::size_t count, const WideNumbers& t);
 };
 
 } // namespace raylane::simd

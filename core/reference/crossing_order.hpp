@@ -34,6 +34,13 @@ ExactRoot root_of(const Shape& shape, const Departing& from, const Hit<double>& 
 class SharpHit {
   public:
     SharpHit(const Hit<double>& hit) : hit_(hit) {} // NOLINT: implicit
+    /// Of which t has been found out in 106 bits, if its error is less.
+    SharpHit(const Hit<double>& hit, const DoubleDouble& t, double error) : hit_(hit) {
+        if (!(error < hit.error)) return;
+        is_wide_ = true;
+        t_ = t;
+        t_error_ = error;
+    }
 
     const Hit<double>& hit() const { return hit_; }
     /// In 106 bits, if that is more.

@@ -254,4 +254,16 @@ struct Lanes<Double<Arch>> : DoubleLanes<Arch> {
     static F mul_add(const F& a, const F& b, const F& c) { return a * b + c; }
 };
 
+/// Half of what a reader reads, in double.
+template <class Arch, class Reader>
+class HalfReader {
+  public:
+    HalfReader(const Reader& reader, int half) : reader_(reader), half_(half) {}
+    Floats<Double<Arch>> next() { return Lanes<Double<Arch>>::widen(reader_.next(), half_); }
+
+  private:
+    Reader reader_;
+    int half_;
+};
+
 } // namespace raylane::simd

@@ -30,6 +30,21 @@ class FinishAgain {
             finish<Wide<D>>(packet);
     }
 
+    /// RefineKernels::widen
+    void widen(const std::size_t* places, std::size_t count, const WideNumbers& t) {
+        for (std::size_t k = 0; k < count; ++k) {
+            t.error[k] = __builtin_inf();
+            if (starts_on_shape(places[k])) continue;
+            const int kind = S::kind_of(scene_, found_.slot[places[k]]);
+            Packet& packet = wide_[kind];
+            packet.of[packet.count] = k;
+            packet.rays[packet.count++] = places[k];
+            if (packet.count == width) widen(packet, t);
+        }
+        for (Packet& packet : wide_)
+            widen(packet, t);
+    }
+
   private:
     using D = Double<Arch>;
     using S = Slots<Arch>;
@@ -40,18 +55,21 @@ class FinishAgain {
     /// Rays that found shapes of one kind.
     struct Packet {
         std::size_t rays[width];
+        std::size_t of[width]; ///< what they are to whoever asks
         std::size_t count = 0;
     };
 
-    /// And do not start on the shape.
     bool is_doubtful(std::size_t i) const {
+        return found_.slot[i] != no_slot && (found_.hit[i] & hit_doubtful) != 0 &&
+               !starts_on_shape(i);
+    }
+    bool starts_on_shape(std::size_t i) const {
         const std::uint32_t slot = found_.slot[i];
-        if (slot == no_slot || (found_.hit[i] & hit_doubtful) == 0) return false;
         const TableView& table = scene_.tables[S::kind_of(scene_, slot)];
         const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
         const auto id = __builtin_bit_cast(std::uint32_t, ids[S::offset(table, slot)]);
         const std::uint32_t first = found_.departed_first[i];
-        return id - first > found_.departed_last[i] - first;
+        return id - first <= found_.departed_last[i] - first;
     }
 
     template <class Number>
@@ -80,12 +98,16 @@ class FinishAgain {
         Floats<Certified<Number>> next() { return Floats<Certified<Number>>(reader.next()); }
     };
 
-    template <class Number>
-    void finish(Packet& packet) {
-        if (packet.count == 0) return;
-        const auto kind = static_cast<KindNumber>(S::kind_of(scene_, found_.slot[packet.rays[0]]));
-        const TableView& table = scene_.tables[kind];
+    /// A packet's rays, as they are meant, and shapes.
+    struct Loaded {
         Reader reader;
+        Rays<D> rays;
+        F length;
+    };
+
+    Loaded load(const Packet& packet, KindNumber kind) const {
+        const TableView& table = scene_.tables[kind];
+        Loaded loaded;
         const bool stand_for_others = found_.meant_length != nullptr;
         const double* const* const directions =
             stand_for_others ? found_.meant_direction : found_.direction;
@@ -93,22 +115,35 @@ class FinishAgain {
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
-            reader.from[lane] = table.blocks + S::offset(table, found_.slot[ray]);
+            loaded.reader.from[lane] = table.blocks + S::offset(table, found_.slot[ray]);
             for (int axis = 0; axis < 3; ++axis) {
                 numbers[axis][lane] = found_.origin[axis][ray];
                 numbers[3 + axis][lane] = directions[axis][ray];
             }
             numbers[6][lane] = stand_for_others ? found_.meant_length[ray] : 1.0;
         }
-        const auto load = [&](double(*from)[width]) {
+        const auto vectors = [&](double(*from)[width]) {
             return Vectors<D>{F::load_unaligned(from[0]), F::load_unaligned(from[1]),
                               F::load_unaligned(from[2])};
         };
-        const Rays<D> rays = {load(numbers), load(numbers + 3)};
+        loaded.rays = {vectors(numbers), vectors(numbers + 3)};
+        loaded.length = F::load_unaligned(numbers[6]);
+        return loaded;
+    }
+
+    KindNumber kind_of(const Packet& packet) const {
+        return static_cast<KindNumber>(S::kind_of(scene_, found_.slot[packet.rays[0]]));
+    }
+
+    template <class Number>
+    void finish(Packet& packet) {
+        if (packet.count == 0) return;
+        const KindNumber kind = kind_of(packet);
+        const Loaded loaded = load(packet, kind);
         std::uint32_t certain = 0, misses = 0;
         with_lanes<Certified<Number>>(kind, [&]<class Solver>() {
             const Finished<D> finished = first_crossing<Solver, Number>(
-                reader, rays, F::load_unaligned(numbers[6]), found_.holds_points);
+                loaded.reader, loaded.rays, loaded.length, found_.holds_points);
             certain = Lanes<D>::bits(finished.certain);
             misses = Lanes<D>::bits(finished.misses);
             if (certain != 0) store(finished, packet, certain);
@@ -122,18 +157,59 @@ class FinishAgain {
         packet.count = 0;
     }
 
-    /// Where rays that do not start on it first cross a shape. The normal is not known.
     template <class Solver, class Number>
-    [[gnu::noinline]] static Finished<D> first_crossing(const Reader& reader, const Rays<D>& rays,
-                                                        const F& length, bool holds_points) {
+    static Crossing<Certified<Number>> crossing_of(const Reader& reader, const Rays<D>& rays) {
         using C = Certified<Number>;
         const auto exact = [](const Vectors<D>& v) {
             return Vectors<C>{Floats<C>(v.x), Floats<C>(v.y), Floats<C>(v.z)};
         };
         const Solver solver(ExactReader<Number>{reader});
-        const Crossing<C> first = first_ahead<C>(
+        return first_ahead<C>(
             solver.crossings({exact(rays.origin), exact(rays.direction)}, starts_nowhere<C>()),
             none<C>());
+    }
+
+    void widen(Packet& packet, const WideNumbers& t) {
+        if (packet.count == 0) return;
+        const KindNumber kind = kind_of(packet);
+        const Loaded loaded = load(packet, kind);
+        with_lanes<Certified<Wide<D>>>(kind,
+                                       [&]<class Solver>() { store<Solver>(loaded, packet, t); });
+        packet.count = 0;
+    }
+
+    /// If it is the crossing that was found.
+    template <class Solver>
+    [[gnu::noinline]] void store(const Loaded& loaded, const Packet& packet,
+                                 const WideNumbers& t) const {
+        const Crossing<Certified<Wide<D>>> first =
+            crossing_of<Solver, Wide<D>>(loaded.reader, loaded.rays);
+        const std::uint32_t known = Lanes<D>::bits(
+            first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known);
+        const std::uint32_t entering = Lanes<D>::bits(first.entering.answer);
+        double face[width], high[width], low[width], error[width];
+        first.face.in_double().store_unaligned(face);
+        first.t.value.high.store_unaligned(high);
+        first.t.value.low.store_unaligned(low);
+        first.t.error.store_unaligned(error);
+        for (std::size_t lane = 0; lane < packet.count; ++lane) {
+            const std::uint32_t hit = found_.hit[packet.rays[lane]];
+            const bool is_it = (known >> lane & 1) != 0 &&
+                               static_cast<std::uint32_t>(face[lane]) == (hit & hit_face) &&
+                               (entering >> lane & 1) == ((hit & hit_entering) != 0 ? 1U : 0U);
+            if (!is_it) continue;
+            const std::size_t k = packet.of[lane];
+            t.high[k] = high[lane];
+            t.low[k] = low[lane];
+            t.error[k] = error[lane];
+        }
+    }
+
+    /// Where rays that do not start on it first cross a shape. The normal is not known.
+    template <class Solver, class Number>
+    [[gnu::noinline]] static Finished<D> first_crossing(const Reader& reader, const Rays<D>& rays,
+                                                        const F& length, bool holds_points) {
+        const Crossing<Certified<Number>> first = crossing_of<Solver, Number>(reader, rays);
         using Its = Digits<Number>;
         const F t = first.t.in_double();
         const F error = (first.t.error + Its::lost_in_double(first.t.value)) * F(1.0 + 0x1p-50);
@@ -175,6 +251,12 @@ class FinishAgain {
 template <class Arch>
 void finish_again(const SceneView& scene, const Found& found) {
     FinishAgain<Arch>(scene, found).doubtful_rays();
+}
+
+template <class Arch>
+void widen(const SceneView& scene, const Found& found, const std::size_t* places, std::size_t count,
+           const WideNumbers& t) {
+    FinishAgain<Arch>(scene, found).widen(places, count, t);
 }
 
 } // namespace raylane::simd

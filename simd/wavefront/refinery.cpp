@@ -15,6 +15,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Places behind the last candidate that kernels may write to.
 constexpr std::size_t beyond = 32;
 
+/// So many candidates are listed before the nearest of them are asked whether there is need of
+/// more.
+constexpr std::size_t some = 64;
+
 bool crosses(std::uint32_t hit) {
     return (hit & (hit_doubtful | hit_none)) == 0;
 }
@@ -32,6 +36,7 @@ void Refinery::take_from(Arena& arena, bool stand_for_others, bool for_points) {
     rays_.reserve(most);
     close_.reserve(most);
     sharp_.reserve(64);
+    wide_.reserve(3 * 64);
     points_.reserve(64);
 }
 
@@ -80,12 +85,15 @@ std::size_t Refinery::refine(const Paths& paths, const Stream& stream, const Pen
 /// All that a ray may cross before the limit, or what is surely crossed.
 void Refinery::list(const Paths& paths, const Stream& stream, const Pending& pending,
                     std::size_t lane, double limit, core::Counters& counters) {
-    CandidateList list{};
     const double before = stream.approach.before(lane);
-    // Not before what is behind a certain crossing by as little as does not tell them apart.
-    const float limit_there = static_cast<float>(limit - before) * candidate_grace;
-    for (;;) {
-        list = {slots_.data(), bounds_.data(), slots_.size(), 0, limit_there};
+    for (std::size_t room = some;; room *= 8) {
+        // Not before what is behind a certain crossing by as little as does not tell them apart.
+        const float limit_there = static_cast<float>(limit - before) * candidate_grace;
+        if (room > slots_.size()) {
+            slots_.resize(room);
+            bounds_.resize(room);
+        }
+        CandidateList list = {slots_.data(), bounds_.data(), room, 0, limit_there, before == 0.0};
         // No filter sees the shape that it starts on.
         if ((paths.departure[lane] & departure_may_return) != 0) {
             list.slot[0] = paths.departed_slot[lane];
@@ -95,10 +103,14 @@ void Refinery::list(const Paths& paths, const Stream& stream, const Pending& pen
         const bool has_room = tracing_.method().refine.list_candidates(
             scene_.view(), scene_.listed_kinds(), stream.rounded, lane, pending, list, traced);
         count(traced, counters);
-        if (has_room) break;
-        slots_.resize(2 * slots_.size());
-        bounds_.resize(slots_.size());
+        take(list, before);
+        if (has_room) return;
+        limit = std::min(limit, end_of_first(paths, lane, counters));
     }
+}
+
+/// In the order of their bounds.
+void Refinery::take(const CandidateList& list, double before) {
     listed_.clear();
     for (std::size_t i = 0; i < list.count; ++i)
         if (list.lower[i] <= list.limit) // which may have moved
@@ -106,6 +118,16 @@ void Refinery::list(const Paths& paths, const Stream& stream, const Pending& pen
                 {(before + static_cast<double>(list.lower[i])) * (1.0 - 0x1p-50), list.slot[i]});
     std::sort(listed_.begin(), listed_.end(),
               [](const Listed& a, const Listed& b) { return a.lower < b.lower; });
+}
+
+/// What the first crossing is surely not behind, by the nearest that are listed.
+double Refinery::end_of_first(const Paths& paths, std::size_t lane, core::Counters& counters) {
+    const std::size_t begin = count_;
+    add(paths, lane, std::span(listed_).first(std::min({some, listed_.size(), most - begin})));
+    finish(begin);
+    const double end = end_of_first(begin, count_, counters);
+    count_ = begin;
+    return end;
 }
 
 void Refinery::add(const Paths& paths, std::size_t lane, std::span<const Listed> candidates) {
@@ -140,10 +162,9 @@ std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
     return count_;
 }
 
-/// Puts first, of one ray's candidates, what it crosses first, and behind that another that it
-/// crosses at the same point. Returns how many these are: 0, 1 or 2.
-std::size_t Refinery::first_of(std::size_t begin, std::size_t end, core::Counters& counters) {
-    double last = infinity; // that the first can be
+/// What the first crossing with some candidates is surely not behind. Solves those in doubt.
+double Refinery::end_of_first(std::size_t begin, std::size_t end, core::Counters& counters) {
+    double last = infinity;
     for (std::size_t i = begin; i < end; ++i)
         if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
     for (std::size_t i = begin; i < end; ++i) {
@@ -151,6 +172,13 @@ std::size_t Refinery::first_of(std::size_t begin, std::size_t end, core::Counter
         solve(i, counters);
         if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
     }
+    return last;
+}
+
+/// Puts first, of one ray's candidates, what it crosses first, and behind that another that it
+/// crosses at the same point. Returns how many these are: 0, 1 or 2.
+std::size_t Refinery::first_of(std::size_t begin, std::size_t end, core::Counters& counters) {
+    const double last = end_of_first(begin, end, counters);
     close_.clear();
     for (std::size_t i = begin; i < end; ++i)
         if (crosses(hits_.hit[i]) && hits_.t[i] - hits_.error[i] <= last * (1.0 + 0x1p-50))
@@ -161,14 +189,24 @@ std::size_t Refinery::first_of(std::size_t begin, std::size_t end, core::Counter
     return 1;
 }
 
+/// The hits of what is close, with as much of t as comes at little cost.
+void Refinery::widen_close() {
+    const std::size_t count = close_.size();
+    wide_.resize(3 * count);
+    const WideNumbers t = {wide_.data(), wide_.data() + count, wide_.data() + 2 * count};
+    tracing_.method().refine.widen(scene_.view(), hits_.found(paths_, 0, count_), close_.data(),
+                                   count, t);
+    sharp_.clear();
+    for (std::size_t k = 0; k < count; ++k)
+        sharp_.emplace_back(hit_of(close_[k]), core::DoubleDouble(t.high[k], t.low[k]), t.error[k]);
+}
+
 /// By core's order.
 std::size_t Refinery::first_of_close(std::size_t begin) {
     const core::Ray<double> ray = ray_of(paths_, begin);
     const core::Departure<double> departure = departure_of(scene_, paths_, begin);
     const core::CrossingOrder order(scene_.scene(), {ray, departure});
-    sharp_.clear();
-    for (const std::size_t i : close_)
-        sharp_.emplace_back(hit_of(i));
+    widen_close();
     std::size_t first = 0;
     for (std::size_t k = 1; k < sharp_.size(); ++k)
         if (order.is_before(sharp_[k], sharp_[first])) first = k;

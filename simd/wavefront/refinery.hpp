@@ -63,11 +63,15 @@ class Refinery {
 
     void list(const Paths& paths, const Stream& stream, const Pending& pending, std::size_t lane,
               double limit, core::Counters& counters);
+    void take(const CandidateList& list, double before);
+    double end_of_first(const Paths& paths, std::size_t lane, core::Counters& counters);
+    double end_of_first(std::size_t begin, std::size_t end, core::Counters& counters);
     void add(const Paths& paths, std::size_t lane, std::span<const Listed> candidates);
     void finish(std::size_t begin);
     std::size_t first_of_many(const Paths& paths, std::size_t lane, core::Counters& counters);
     std::size_t first_of(std::size_t begin, std::size_t end, core::Counters& counters);
     std::size_t first_of_close(std::size_t begin);
+    void widen_close();
     void solve(std::size_t candidate, core::Counters& counters);
     core::Hit<double> hit_of(std::size_t candidate) const;
     void swap(std::size_t a, std::size_t b);
@@ -89,6 +93,7 @@ class Refinery {
     std::vector<Listed> listed_;        ///< of one ray, the nearest first
     std::vector<std::size_t> close_;    ///< candidates that bounds do not tell from the first
     std::vector<core::SharpHit> sharp_; ///< their hits
+    std::vector<double> wide_;          ///< their t
     std::vector<Point> points_;
 };
 

@@ -36,31 +36,39 @@ struct Work {
     int hits = 0;
 };
 
-/// Rays from about `distance` sizes away into the cloud.
-Work work_for(const Scene& scene, double size, double distance) {
+/// `aim` says where rays come from and where to, in doubles.
+template <class Aim>
+Work work_for(const Scene& scene, std::size_t count, const Aim& aim) {
     const SceneData data(scene);
     Paths paths{};
-    const Arena stream = arena_for([&](Arena& a) { paths.take_from(a, ray_count, false); });
-    paths.count = ray_count;
-    paths.start_in_the_open(0, ray_count);
-    ray_sets::Random random(729);
-    for (std::size_t lane = 0; lane < ray_count; ++lane) {
-        const Vec3d from = random.direction() * (distance * random.uniform(0.7, 1.0));
-        const Vec3d to = random.direction() * random.uniform(0.0, 1.0);
-        const Vec3d direction = normalized(to - from);
+    const Arena stream = arena_for([&](Arena& a) { paths.take_from(a, count, false); });
+    paths.count = count;
+    paths.start_in_the_open(0, count);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        const Ray<double> ray = aim();
         for (int axis = 0; axis < 3; ++axis) {
-            paths.origin[axis][lane] = size * from[axis];
-            paths.direction[axis][lane] = direction[axis];
+            paths.origin[axis][lane] = ray.origin[axis];
+            paths.direction[axis][lane] = ray.direction[axis];
         }
     }
     ReferenceTracer<double> reference(scene, scene.settings());
     HitFinder finder(data, {&kernels_of(*best_isa()), Precision::exact}, reference);
-    const Arena found = arena_for([&](Arena& a) { finder.take_from(a, ray_count); });
+    const Arena found = arena_for([&](Arena& a) { finder.take_from(a, count); });
     Work work;
     finder.find(paths, nullptr, work.counters);
-    for (std::size_t lane = 0; lane < ray_count; ++lane)
+    for (std::size_t lane = 0; lane < count; ++lane)
         work.hits += static_cast<int>(finder.hits().slot[lane] != no_slot);
     return work;
+}
+
+/// Rays from about `distance` sizes away into the cloud.
+Work work_for(const Scene& scene, double size, double distance) {
+    ray_sets::Random random(729);
+    return work_for(scene, ray_count, [&]() -> Ray<double> {
+        const Vec3d from = random.direction() * (distance * random.uniform(0.7, 1.0));
+        const Vec3d to = random.direction() * random.uniform(0.0, 1.0);
+        return {size * from, normalized(to - from)};
+    });
 }
 
 void check_same(const Work& a, const Work& b) {
@@ -95,4 +103,44 @@ TEST_CASE("Rays from far away have little more to do than others") {
         CHECK(far.hits > 100);
         CHECK(far.counters.shapes < 2 * near.counters.shapes);
     }
+}
+
+TEST_CASE("what is met first ends the search, though a ray touches all that follows") {
+    if (!best_isa()) return;
+    SceneBuilder builder;
+    builder.wants_light = false;
+    const MaterialIndex material = builder.add_material({});
+    for (int i = 0; i < 4000; ++i)
+        builder.add(Sphere{{2.0F * static_cast<float>(i), 0, 0}, 1}, material);
+    const Work work = work_for(std::move(builder).build(), 1, [] {
+        return Ray<double>{{-5, 1, 0}, {1, 0, 0}};
+    });
+    CHECK(work.hits == 1);
+    CHECK(work.counters.shapes < 1000);
+}
+
+/// Not a bit above it, nor below.
+TEST_CASE("rays in the plane of a floor leave nothing to the reference") {
+    if (!best_isa()) return;
+    SceneBuilder builder;
+    builder.wants_light = false;
+    const MaterialIndex material = builder.add_material({});
+    const auto corner = [](int i, int k) {
+        return Vec3f(static_cast<float>(i), 0.5F, static_cast<float>(k));
+    };
+    for (int i = 0; i < 40; ++i)
+        for (int k = 0; k < 40; ++k) {
+            builder.add(Triangle{corner(i, k), corner(i + 1, k), corner(i, k + 1)}, material);
+            builder.add(Triangle{corner(i + 1, k), corner(i + 1, k + 1), corner(i, k + 1)},
+                        material);
+        }
+    ray_sets::Random random(5);
+    const Work work = work_for(std::move(builder).build(), ray_count, [&]() -> Ray<double> {
+        const Vec3d to(random.uniform(0.0, 40.0), 0.5, random.uniform(0.0, 40.0));
+        const Vec3d from(-3.0, 0.5, random.uniform(0.0, 40.0));
+        return {from, normalized(to - from)};
+    });
+    CHECK(work.hits == 0);
+    CHECK(work.counters.refined > 0);
+    CHECK(work.counters.doubtful == 0);
 }

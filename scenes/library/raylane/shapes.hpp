@@ -10,9 +10,9 @@
 ///
 /// Coordinates and lengths are from -1e30 to 1e30. Normals and axes may have any length but zero.
 /// A solid (sphere, box, capped cylinder, capped cone) is closed: its surface belongs to it, a line
-/// that only touches it hits it. A surface (the others) ends at its rim, and the rim belongs to it.
-/// A line inside a flat surface's own plane, or along an open cylinder's or cone's own surface,
-/// does not hit it.
+/// that only touches it hits it, as does one within a face. A surface (the others) ends at its rim,
+/// and the rim belongs to it. A line that touches it hits it; one that lies in it, in a flat
+/// surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
 namespace raylane {
 
 struct Sphere {

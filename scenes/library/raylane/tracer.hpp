@@ -29,18 +29,19 @@ struct RaySpan {
 struct HitSpan {
     std::span<float> t{}; ///< > 0 and finite; infinity where nothing is hit
     /// Unit length, perpendicular to the surface on its outside (front), whichever side is hit; 0
-    /// where nothing is. A smooth triangle's is the flat one's.
+    /// where nothing is. A smooth triangle's is the flat one's. Where a ray grazes, it does not
+    /// tell whether that enters: `entering` does.
     std::span<float> normal_x{}, normal_y{}, normal_z{};
     std::span<ShapeId> shape{}; ///< no_shape where nothing is hit
-    /// 1 where the ray goes from the outside (front) to the inside (back), 0 where it comes out, or
-    /// nothing is hit.
+    /// 1 where the ray goes from the outside (front) to the inside (back), or touches; 0 where it
+    /// comes out, or nothing is hit.
     std::span<std::uint8_t> entering{};
 };
 
 struct TracerOptions {
     int threads = 0; ///< at most, 1 to 4096; 0: all that the machine has
     /// With others than exact, `occluded` may say otherwise than `intersect` where that is close,
-    /// and ties may go either way. fast and robust are exact on processors without vectors.
+    /// and ties may go either way.
     Precision precision = Precision::exact;
 };
 
@@ -48,17 +49,27 @@ struct TracerOptions {
 /// a time on one Tracer; long spans are shared out among threads of its own. What a ray hits
 /// depends on the scene and that ray alone.
 ///
-/// With Precision::exact, which surface a ray crosses, and which first, is decided as real
-/// arithmetic decides it for exactly the floats given; t is rounded
-/// from within a relative 2^-27 of its true value. The limits compare with t as it is answered:
-/// rounded to float, and where that would be 0 or infinite, the nearest float that is neither. So
-/// each t, given back as t_min, leads on to the next crossing.
+/// With Precision::exact, all that is answered is what real arithmetic gives for exactly the floats
+/// given, whatever the shapes, however near they are to each other and on any processor:
+/// - Which surface is crossed, which is first, and whether the ray enters. A tie is where t is the
+///   same in real arithmetic, and nowhere else. Then what the ray enters comes before what it
+///   leaves, and then the lower id.
+/// - t is the float nearest to the true one, but never 0 or infinite. The limits compare with this
+///   float: so each t, given back as t_min, leads on to the next crossing; of crossings that round
+///   to one float, it passes all. `occluded` says 1 where `intersect` finds a shape.
+/// - Components of normals are the floats nearest to those of the true normal where the crossing
+///   truly is. Where faces of a box meet, it is that of edge_u before edge_v before edge_w; at the
+///   rim of a capped cylinder or cone, the side's; at the apex of a cone, along the axis away from
+///   the base; where the gradient of a quadric vanishes, (0, 0, 1).
 ///
-/// - Where surfaces coincide, one that the ray enters comes before one that it leaves, and then the
-///   lower id.
+/// A line that touches a surface enters it, and leaves it at the same t. One that lies in a flat or
+/// open surface, or in a quadric, does not hit it there; one in a face or along the side of a solid
+/// does, where it comes upon it.
+///
 /// - Sides that Material::visible hides are not hit. Glass is: any surface occludes.
 /// - A crossing at the origin itself (t = 0) is none. But an origin that was computed is seldom
 ///   exactly on its surface: give such rays a small t_min.
+/// - Shapes that are the same, of one material, count as the first of them.
 /// - A ray of which a component is infinite or NaN, or its direction 0, or a limit NaN, hits
 ///   nothing.
 class Tracer {

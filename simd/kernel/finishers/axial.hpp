@@ -225,8 +225,25 @@ struct OpenFinisher {
                                                  const Starts<Arch>& starts) const {
         const AxialLine<Arch, Profile, wanted> line(shape, rays);
         Finished<Arch> result = first_passage<wanted, Arch>(line, starts);
+        if constexpr (wanted == Wanted::all && !Profile::tapers)
+            result.misses = result.misses | (~result.certain & is_along_axis(rays.direction));
         make_unit<wanted>(result);
         return result;
+    }
+
+  private:
+    /// Where that shows: each term of direction x axis has a factor 0. Such a line is nowhere
+    /// across the body.
+    Mask<Arch> is_along_axis(const Vectors<Arch>& direction) const {
+        const auto o = zero<Arch>();
+        const Vectors<Arch>& axis = shape.axis;
+        const auto has = [&](const Floats<Arch>& one, const Floats<Arch>& other) {
+            return (one != o) & (other != o);
+        };
+        const Mask<Arch> turned = has(direction.x, axis.y) | has(direction.x, axis.z) |
+                                  has(direction.y, axis.z) | has(direction.y, axis.x) |
+                                  has(direction.z, axis.x) | has(direction.z, axis.y);
+        return ~turned;
     }
 };
 

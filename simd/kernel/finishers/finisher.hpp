@@ -110,6 +110,13 @@ Vectors<Arch> negated_where(const Mask<Arch>& mask, const Vectors<Arch>& v) {
     return {v.x ^ sign, v.y ^ sign, v.z ^ sign};
 }
 
+/// Whether each term of a . b has a factor 0: all of it is 0 then, whatever rounding does.
+template <class Arch>
+Mask<Arch> have_no_product(const Vectors<Arch>& a, const Vectors<Arch>& b) {
+    const Floats<Arch> o = zero<Arch>();
+    return ((a.x == o) | (b.x == o)) & ((a.y == o) | (b.y == o)) & ((a.z == o) | (b.z == o));
+}
+
 /// A ray relative to a point of its shape, and moved along itself to where it is next to that
 /// point: then all that follows happens at the scale of the shape, and how far away the ray starts
 /// shows in `error` alone.

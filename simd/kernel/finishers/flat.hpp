@@ -6,7 +6,8 @@
 namespace raylane::simd {
 
 /// A flat shape is not met again by a ray that starts on it. `passed`: the line surely does not
-/// cross it; `clear`: where t is known, so that it may be behind the ray.
+/// cross it, for one as it is parallel to it; `clear`: where t is known, so that it may be behind
+/// the ray.
 template <Wanted wanted, class Arch>
 Finished<Arch> finish_flat(const Mask<Arch>& clear, const Mask<Arch>& inside,
                            const Mask<Arch>& passed, const Floats<Arch>& t,
@@ -46,8 +47,9 @@ struct PlaneFinisher {
         const F error = F(0x1p-50) * abs(inverse) *
                         (sum_of_terms(plane.normal, to_point) +
                          abs(t) * sum_of_terms(plane.normal, rays.direction));
-        return finish_flat<wanted, Arch>(all<Arch>(), all<Arch>(), none<Arch>(), t, error, inverse,
-                                         unit<Arch>(plane.normal), starts);
+        return finish_flat<wanted, Arch>(all<Arch>(), all<Arch>(),
+                                         have_no_product(plane.normal, rays.direction), t, error,
+                                         inverse, unit<Arch>(plane.normal), starts);
     }
 
   private:
@@ -87,9 +89,9 @@ struct DiscFinisher {
             radius * radius - squared > radius * (F(3.0) * off + F(0x1p-49) * radius);
         const Mask<Arch> outside = squared > (reach * reach) * F(1.0 + 0x1p-48);
         const F t = local.shift + s;
-        return finish_flat<wanted, Arch>(clear, inside, clear & outside, t,
-                                         local.error_of_t(t, s, error_s), approach,
-                                         unit<Arch>(disc.normal), starts);
+        const Mask<Arch> passed = (clear & outside) | have_no_product(disc.normal, local.direction);
+        return finish_flat<wanted, Arch>(clear, inside, passed, t, local.error_of_t(t, s, error_s),
+                                         approach, unit<Arch>(disc.normal), starts);
     }
 };
 
@@ -136,15 +138,31 @@ struct TriangleFinisher {
         Finished<Arch> result =
             finish_flat<wanted, Arch>(clear, inside, outside, t, local.error_of_t(t, s, error_s),
                                       determinant, unit<Arch>(normal), starts);
-        if constexpr (wanted == Wanted::all)
+        if constexpr (wanted == Wanted::all) {
+            result.misses = result.misses | is_parallel(local.direction, to_b, to_c);
             result.normal_error =
                 error_of_unit<Arch>(result.normal, normal_error(to_b, to_c, normal),
                                     F(1.0) / sqrt(squared_length(normal)));
+        }
         return result;
     }
 
   private:
     using F = Floats<Arch>;
+    using M = Mask<Arch>;
+
+    /// Where that shows: of direction . (to_b x to_c), each term has a factor 0. Differences of
+    /// floats are 0 only where they are so truly.
+    static M is_parallel(const Vectors<Arch>& direction, const Vectors<Arch>& to_b,
+                         const Vectors<Arch>& to_c) {
+        const F o = zero<Arch>();
+        const auto vanishes = [&](const F& along, const F& b, const F& c, const F& d, const F& e) {
+            return (along == o) | (((b == o) | (c == o)) & ((d == o) | (e == o)));
+        };
+        return vanishes(direction.x, to_b.y, to_c.z, to_b.z, to_c.y) &
+               vanishes(direction.y, to_b.z, to_c.x, to_b.x, to_c.z) &
+               vanishes(direction.z, to_b.x, to_c.y, to_b.y, to_c.x);
+    }
 
     /// Of to_b x to_c: what was lost of the products, and of the edges where these were rounded.
     /// Corners are floats, so as a rule nothing was.

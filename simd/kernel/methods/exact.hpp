@@ -32,7 +32,7 @@ struct ExactMethod : RaysInFloat<Arch> {
         simd::finish<Arch, Wanted::all>(scene, found);
     }
     static constexpr RefineKernels refine() {
-        return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>};
+        return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>, widen<Arch>};
     }
 };
 

@@ -10,18 +10,6 @@ struct DoubleRays : FilterRays<Arch> {
     Rays<Double<Arch>> halves[2];
 };
 
-/// Half of what a reader reads, in double.
-template <class Arch, class Reader>
-class HalfReader {
-  public:
-    HalfReader(const Reader& reader, int half) : reader_(reader), half_(half) {}
-    Floats<Double<Arch>> next() { return Lanes<Double<Arch>>::widen(reader_.next(), half_); }
-
-  private:
-    Reader reader_;
-    int half_;
-};
-
 /// A solver's first crossing in double.
 template <class Arch, class Solver>
 struct DoubleFilter {
@@ -82,7 +70,7 @@ struct DoubleMethod {
         PlainFinish<D, false>(scene, found).all_rays();
     }
     static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
-    static constexpr RefineKernels refine() { return {nullptr, nullptr}; }
+    static constexpr RefineKernels refine() { return {}; }
 
   private:
     static Vectors<D> load(const double* const (&from)[3], std::size_t i) {

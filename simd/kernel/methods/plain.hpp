@@ -33,7 +33,7 @@ struct PlainMethod : RaysInFloat<Arch> {
         PlainFinish<Arch, textbook>(scene, found).all_rays();
     }
     static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
-    static constexpr RefineKernels refine() { return {nullptr, nullptr}; }
+    static constexpr RefineKernels refine() { return {}; }
 };
 
 } // namespace raylane::simd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/finish.hpp"
 #include "simd/kernel/trace/leaf.hpp"
 #include "simd/kernel/trace/queue.hpp"
 
@@ -42,19 +43,22 @@ struct ListCandidates : Streams<Arch> {
     }
 
   private:
+    /// Candidates that are not worth the sifting.
+    static constexpr std::size_t few = 16;
+
     static bool visit(const SceneView& scene, KindNumber kind, std::uint32_t block,
                       const RoundedRays& rays, std::size_t i, CandidateList& list,
                       TraceCounters& counters) {
         bool has_room = true;
         counters.shapes += 16;
         Method::with_filter(kind, [&]<class Filter>() {
-            has_room = add<Filter>(scene.tables[kind], block, rays, i, list);
+            has_room = add<Filter>(scene.tables[kind], kind, block, rays, i, list);
         });
         return has_room;
     }
 
     template <class Filter>
-    [[gnu::noinline]] static bool add(const TableView& table, std::uint32_t number,
+    [[gnu::noinline]] static bool add(const TableView& table, KindNumber kind, std::uint32_t number,
                                       const RoundedRays& rays, std::size_t i, CandidateList& list) {
         const float* block = S::block_of(table, number);
         const std::uint32_t* ids = S::ids_of(table, block);
@@ -70,6 +74,11 @@ struct ListCandidates : Streams<Arch> {
                 Lanes<Arch>::least(select(counts & bounds.certain, bounds.upper, S::infinity()));
             const float limit = last * candidate_grace;
             list.limit = limit < list.limit ? limit : list.limit;
+            if (list.sifts && list.count >= few) {
+                with_finisher<Arch>(kind, [&]<class Finisher>() {
+                    bits = sifted<Finisher>(S::rows_of(block), from, rays, i, bits);
+                });
+            }
             float lower[F::size];
             bounds.lower.store_unaligned(lower);
             for (; bits != 0; bits &= bits - 1) {
@@ -81,6 +90,29 @@ struct ListCandidates : Streams<Arch> {
             }
         }
         return true;
+    }
+
+    /// The lanes of a block from one on, as bits, but those that the ray surely misses.
+    template <class Finisher>
+    [[gnu::noinline]] static std::uint32_t sifted(const float (*rows)[16], int from,
+                                                  const RoundedRays& rays, std::size_t i,
+                                                  std::uint32_t bits) {
+        using D = Double<Arch>;
+        const auto in_all = [&](const double* const(&of)[3]) {
+            return Vectors<D>{Floats<D>(of[0][i]), Floats<D>(of[1][i]), Floats<D>(of[2][i])};
+        };
+        const Rays<D> ray = {in_all(rays.meant_origin), in_all(rays.meant_direction)};
+        constexpr int width = static_cast<int>(Floats<D>::size);
+        for (int half = 0; half < 2; ++half) {
+            const std::uint32_t lanes = ((1U << width) - 1) << (half * width);
+            if ((bits & lanes) == 0) continue;
+            const Finisher finisher{
+                HalfReader<Arch, BlockReader<Arch>>(BlockReader<Arch>(rows, from), half)};
+            const Finished<D> finished =
+                finisher.template finish<Wanted::all>(ray, starts_nowhere<D>());
+            bits &= ~(Lanes<D>::bits(finished.misses & ~finished.certain) << (half * width));
+        }
+        return bits;
     }
 };
 
