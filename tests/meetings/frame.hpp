@@ -49,6 +49,14 @@ class Frame {
         return turned;
     }
 
+    /// With another axis, 0 to 2, up.
+    Frame with_up(int axis) const {
+        Frame turned = *this;
+        for (int row = 0; row < 3; ++row)
+            turned.rows_[row] = rows_[(row + axis + 1) % 3];
+        return turned;
+    }
+
     Vec3d operator()(double x, double y, double z) const {
         return x * rows_[0] + y * rows_[1] + z * rows_[2];
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/ray.hpp"
+#include "tests/meetings/aim.hpp"
 #include "tests/meetings/touching.hpp"
 
 #include <iterator>
@@ -44,28 +44,17 @@ Shape beside(const Shape& shape, Random& random) {
         ulps_off(value, random.integer(0, 1) == 0 ? random.integer(1, 4) : random.integer(-4, -1));
     return core::shape_of<Shape>(floats);
 }
+inline AnyShape beside(const AnyShape& any, Random& random) {
+    return std::visit([&](const auto& shape) { return AnyShape(beside(shape, random)); }, any);
+}
 
 class MeetingMaker {
   public:
     MeetingMaker(int kind, int other_kind, Way way, Random& random)
-        : random_(random), frame_(random) {
-        // From a millionth to a million, and now and then where floats end.
-        const int power = random.integer(0, 19) == 0  ? random.integer(-142, -125)
-                          : random.integer(0, 2) == 0 ? 0
-                                                      : random.integer(-20, 20);
-        size_ = std::ldexp(1.0, power);
-        switch (random.integer(0, 5)) {
-        case 0: // anywhere near, as far as its bits go
-            place_ = Vec3f(static_cast<float>(random.integer(-8, 8)),
-                           static_cast<float>(random.integer(-8, 8)),
-                           static_cast<float>(random.integer(-8, 8)));
-            break;
-        case 1: // far off: what is made is rounded
-            place_ = ray_sets::rounded(random.direction() * random.log_uniform(1.0, 1e6));
-            break;
-        default:
-            break;
-        }
+        : MeetingMaker(kind, other_kind, way, random, Place::any(random)) {}
+
+    MeetingMaker(int kind, int other_kind, Way way, Random& random, const Place& place)
+        : random_(random), frame_(random), place_(place) {
         const int r = random.integer(1, 3);
         const bool turned = random.integer(0, 1) == 0;
         const AnyShape first = make_touching[kind](frame_, r, random);
@@ -77,14 +66,12 @@ class MeetingMaker {
             second = make_touching[other_kind](from_above ? aside.turned_over() : aside,
                                                turned ? r : random.integer(1, 4), random);
         }
-        add(first);
-        add(second);
+        meeting_.shapes = {place_(first), place_(second)};
         if (way == Way::ulps_apart) {
             // Of what has been placed: a copy beside itself, or the other one beside where it was.
             AnyShape& moved = meeting_.shapes[random.integer(0, 1) == 0 ? 0 : 1];
             if (random.integer(0, 2) == 0) moved = meeting_.shapes[0];
-            moved = std::visit([&](const auto& shape) { return AnyShape(beside(shape, random)); },
-                               moved);
+            moved = beside(moved, random);
         }
         const int copies = way == Way::coincident ? random.integer(0, 5) : random.integer(0, 1);
         for (int i = 0; i < copies; ++i) {
@@ -94,76 +81,16 @@ class MeetingMaker {
     }
 
     Meeting make(int rays) {
+        const Aim aim(frame_, place_, Vec3d(0.0));
         for (int i = 0; i < rays; ++i)
-            meeting_.rays.push_back(ray());
+            meeting_.rays.push_back(aim.ray(random_));
         return meeting_;
     }
 
   private:
-    void add(const AnyShape& shape) {
-        meeting_.shapes.push_back(tests::Placing(place_, static_cast<float>(size_))(shape));
-    }
-
-    /// Through the meeting, or past it by 1e-12 to 1e-3 or a few whole numbers; in whole numbers,
-    /// along the common tangent, all but along it, or any way; from near or far, either side.
-    core::Ray<float> ray() {
-        Random& r = random_;
-        const auto whole = [&](int most) { return static_cast<double>(r.integer(-most, most)); };
-        Vec3d way;
-        switch (r.integer(0, 5)) {
-        case 0:
-            way = {whole(2), whole(2), 0.0};
-            break;
-        case 1:
-            way = {whole(1), whole(1), r.log_uniform(1e-12, 1e-1)};
-            break;
-        case 2:
-            way = {0.0, 0.0, 1.0};
-            break;
-        case 3:
-            way = {r.log_uniform(1e-12, 1.0), r.log_uniform(1e-12, 1e-1), -1.0};
-            break;
-        case 4:
-            way = r.direction();
-            break;
-        default:
-            way = {whole(4), whole(4), whole(4)};
-        }
-        if (way == Vec3d(0.0)) way.x = 1.0;
-        Vec3d past(0.0);
-        switch (r.integer(0, 3)) {
-        case 0:
-            past = r.direction() * r.log_uniform(1e-12, 1e-3);
-            break;
-        case 1:
-            past = {whole(3), whole(3), whole(1)};
-            break;
-        case 2:
-            past[r.integer(0, 2)] = r.log_uniform(1e-12, 1e-3);
-            break;
-        default:
-            break;
-        }
-        double before = whole(4);
-        if (r.integer(0, 2) == 0) before = r.log_uniform(1e-3, 1e7);
-        const Vec3d from = frame_(past - before * way);
-        const Vec3f origin = ray_sets::rounded(size_ * (core::convert<double>(place_) + from));
-        Vec3d direction = frame_(way);
-        if (r.integer(0, 2) == 0) direction *= r.log_uniform(1e-3, 1e3);
-        // Towards what is meant from where rounding has put the origin.
-        if (r.integer(0, 2) == 0 && before != 0.0)
-            direction = (size_ * (core::convert<double>(place_) + frame_(past)) -
-                         core::convert<double>(origin)) /
-                        size_;
-        Vec3f rounded = ray_sets::rounded(direction);
-        if (rounded == Vec3f(0.0F)) rounded.x = 1.0F;
-        return {origin, rounded};
-    }
-
     Random& random_;
     Frame frame_;
-    Vec3f place_{0.0F};
-    double size_;
+    Place place_;
     Meeting meeting_;
 };
 

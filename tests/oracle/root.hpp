@@ -34,12 +34,19 @@ inline Number value_at(const Root& t, const Exact& a, const Exact& b) {
     return value({a * t.W + b * t.U, b * Exact(t.V)}, t.D) / Number(t.W);
 }
 
-/// -1, 0, 1: a is less, the same, more. What differs in the first digits needs no more of them:
-/// these come without cancellation.
+/// -1 or 1 where the first digits say which is less, 0 where they do not: those of a value above
+/// come without cancellation.
+inline int compare_digits(const Number& a, const Number& b) {
+    static const Number unclear("1e-80");
+    const Number difference = a - b;
+    if (abs(difference) <= (abs(a) + abs(b)) * unclear) return 0;
+    return difference > 0 ? 1 : -1;
+}
+
+/// -1, 0, 1: a is less, the same, more. What differs in the first digits needs no more of them.
 inline int compare(const Root& a, const Number& a_value, const Root& b, const Number& b_value) {
-    const Number difference = a_value - b_value;
-    if (abs(difference) > (abs(a_value) + abs(b_value)) * Number("1e-80"))
-        return difference > 0 ? 1 : -1;
+    const int order = compare_digits(a_value, b_value);
+    if (order != 0) return order;
     return sign({a.U * b.W - b.U * a.W, Exact(a.V) * b.W}, a.D, Exact(-b.V) * a.W, b.D);
 }
 inline int compare(const Root& a, const Root& b) {
@@ -65,24 +72,35 @@ inline std::vector<FoundRoot> roots(const Exact& A, const Exact& B, const Exact&
     return {{Root{U, W, -V, D}, opens_up}, {Root{U, W, V, D}, !opens_up}};
 }
 
-/// The float that is nearest to a positive root, ties to even, but never 0 or infinite.
-inline float rounded(const Root& root) {
-    using Limits = std::numeric_limits<float>;
-    float low = static_cast<float>(Number(root));
-    if (low == Limits::infinity()) return Limits::max();
-    // The digits above may have rounded up what was below the middle of two floats, or twice.
-    low = std::nextafter(low, 0.0F);
+/// The float nearest to what is not negative and has these first digits, ties to even.
+/// compare(middle) says on which side of the middle between two floats it is, where digits do not.
+template <class Compare>
+float nearest_float(const Number& digits, const Compare& compare) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    // The digits may have rounded up what was below the middle of two floats, or twice.
+    float low = std::nextafter(static_cast<float>(digits), 0.0F);
     for (int steps = 0; steps < 3; ++steps) {
-        const float next = std::nextafter(low, Limits::infinity());
-        if (next == Limits::infinity()) break;
+        const float next = std::nextafter(low, infinity);
+        if (next == infinity) break;
         const double middle = 0.5 * (static_cast<double>(low) + static_cast<double>(next));
-        const int side = sign_at(root, Exact(-middle), Exact(1));
+        int side = compare_digits(digits, Number(middle));
+        if (side == 0) side = compare(middle);
         if (side < 0) break;
         const bool low_is_even = (__builtin_bit_cast(std::uint32_t, low) & 1) == 0;
         if (side == 0 && low_is_even) break;
         low = next;
     }
-    return low == 0.0F ? Limits::denorm_min() : low;
+    return low;
+}
+
+/// The float that is nearest to a positive root, ties to even, but never 0 or infinite.
+inline float rounded(const Root& root, const Number& digits) {
+    const float nearest = nearest_float(
+        digits, [&](double middle) { return sign_at(root, Exact(-middle), Exact(1)); });
+    return nearest == 0.0F ? std::numeric_limits<float>::denorm_min() : nearest;
+}
+inline float rounded(const Root& root) {
+    return rounded(root, Number(root));
 }
 
 } // namespace raylane::oracle

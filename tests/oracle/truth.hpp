@@ -1,19 +1,19 @@
 #pragma once
 
+#include "tests/oracle/near.hpp"
 #include "tests/oracle/normals.hpp"
-#include "tests/placing.hpp"
 
-#include <limits>
+#include <algorithm>
+#include <optional>
 #include <span>
+#include <vector>
 
 namespace raylane::oracle {
-
-using tests::AnyShape;
 
 inline std::vector<Hit> crossings(const AnyShape& any, const core::Ray<double>& ray) {
     return std::visit([&](const auto& shape) { return crossings(shape, ray); }, any);
 }
-inline Direction normal(const AnyShape& any, const core::Ray<double>& ray, const Hit& hit) {
+inline Normal normal(const AnyShape& any, const core::Ray<double>& ray, const Hit& hit) {
     return std::visit([&](const auto& shape) { return normal(shape, ray, hit); }, any);
 }
 
@@ -21,6 +21,10 @@ inline Direction normal(const AnyShape& any, const core::Ray<double>& ray, const
 struct Found {
     Hit hit;
     core::ShapeId shape;
+    float t; ///< as it is answered
+
+    Found(const Hit& crossing, core::ShapeId with)
+        : hit(crossing), shape(with), t(rounded(hit.root, hit.t)) {}
 
     /// By t; at the same t what is entered before what is left, then by shape.
     bool is_before(const Found& other) const {
@@ -31,29 +35,40 @@ struct Found {
     }
 };
 
-/// All crossings ahead of a ray, in no order.
-inline std::vector<Found> all_ahead(std::span<const AnyShape> shapes,
-                                    const core::Ray<double>& ray) {
-    std::vector<Found> all;
-    for (core::ShapeId id = 0; id < shapes.size(); ++id)
-        for (const Hit& hit : crossings(shapes[id], ray))
-            if (hit.t > 0) all.push_back({hit, id});
-    return all;
-}
-
-/// The first of those whose rounded t is in (t_min, t_max], or null.
-inline const Found* nearest(std::span<const Found> all, float t_min = 0.0F,
-                            float t_max = std::numeric_limits<float>::infinity()) {
-    const bool unlimited = t_min <= 0.0F && t_max == std::numeric_limits<float>::infinity();
-    const Found* first = nullptr;
-    for (const Found& found : all) {
-        if (!unlimited) {
-            const float t = rounded(found.hit.root);
-            if (!(t_min < t && t <= t_max)) continue;
+/// All crossings ahead of a ray, in order.
+class Sight {
+  public:
+    Sight(std::span<const AnyShape> shapes, const Neighbours& neighbours,
+          const core::Ray<double>& ray)
+        : ray_(ray) {
+        for (core::ShapeId id = 0; id < shapes.size(); ++id) {
+            if (!neighbours.may_cross(id, ray)) continue;
+            for (const Hit& hit : crossings(shapes[id], ray))
+                if (hit.t > 0) all_.emplace_back(hit, id);
         }
-        if (first == nullptr || found.is_before(*first)) first = &found;
+        std::sort(all_.begin(), all_.end(),
+                  [](const Found& a, const Found& b) { return a.is_before(b); });
     }
-    return first;
-}
+
+    const std::vector<Found>& all() const { return all_; }
+    /// The first of those whose rounded t is in (t_min, t_max], or null.
+    const Found* first(float t_min, float t_max) const {
+        for (const Found& found : all_)
+            if (t_min < found.t && found.t <= t_max) return &found;
+        return nullptr;
+    }
+    /// Of its shape there, to the nearest floats.
+    const core::Vec3f& normal_of(const Found& found, const AnyShape& shape) {
+        normals_.resize(all_.size());
+        auto& known = normals_[static_cast<std::size_t>(&found - all_.data())];
+        if (!known) known = rounded(normal(shape, ray_, found.hit));
+        return *known;
+    }
+
+  private:
+    core::Ray<double> ray_;
+    std::vector<Found> all_;
+    std::vector<std::optional<core::Vec3f>> normals_; // as far as they have been asked for
+};
 
 } // namespace raylane::oracle

@@ -2,6 +2,7 @@
 
 #include "tests/sanitized.hpp"
 
+#include <cstdint>
 #include <cstdlib>
 
 namespace raylane::tests {
@@ -11,6 +12,13 @@ namespace raylane::tests {
 inline int rounds(int usual, int few = 20) {
     const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
     return wanted != nullptr ? std::atoi(wanted) : sanitized ? few : usual;
+}
+
+/// What to begin random numbers with. RAYLANE_TEST_SEED asks for others than usual.
+inline std::uint64_t seed(std::uint64_t usual) {
+    const char* const wanted = std::getenv("RAYLANE_TEST_SEED");
+    return wanted == nullptr ? usual
+                             : usual + 0x9e3779b97f4a7c15 * std::strtoull(wanted, nullptr, 10);
 }
 
 } // namespace raylane::tests

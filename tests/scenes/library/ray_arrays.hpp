@@ -53,6 +53,11 @@ struct Hits {
 
     HitSpan span() { return {t, nx, ny, nz, shape, entering}; }
     bool operator==(const Hits&) const = default;
+    bool is_same(std::size_t i, const Hits& other) const {
+        return t[i] == other.t[i] && nx[i] == other.nx[i] && ny[i] == other.ny[i] &&
+               nz[i] == other.nz[i] && shape[i] == other.shape[i] &&
+               entering[i] == other.entering[i];
+    }
     bool is_none(std::size_t i) const {
         return t[i] == infinity && nx[i] == 0.0F && ny[i] == 0.0F && nz[i] == 0.0F &&
                shape[i] == no_shape && entering[i] == 0;

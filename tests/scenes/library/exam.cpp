@@ -1,0 +1,200 @@
+#include "tests/scenes/library/exam.hpp"
+
+#include "core/validate.hpp"
+#include "scenes/library/internals.hpp"
+#include "simd/isa.hpp"
+#include "simd/stream_tracer.hpp"
+
+#include <cmath>
+#include <ios>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+namespace raylane::tests {
+
+namespace {
+
+using core::Vec3f;
+
+using LibraryShapes = std::tuple<Sphere, Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder,
+                                 CappedCylinder, OpenCone, CappedCone, Quadric>;
+
+bool is_valid(const AnyShape& any) {
+    try {
+        std::visit([](const auto& shape) { core::validate(shape); }, any);
+        return true;
+    } catch (const core::InvalidValue&) {
+        return false;
+    }
+}
+
+std::vector<AnyShape> valid(std::vector<AnyShape> shapes) {
+    std::erase_if(shapes, [](const AnyShape& shape) { return !is_valid(shape); });
+    return shapes;
+}
+
+/// Kind, floats, t and side, to be put into a test of its own.
+void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, float t,
+              bool entering) {
+    if (id >= shapes.size()) {
+        out << "nothing";
+        return;
+    }
+    out << "shape " << id << " of " << shapes.size() << ", kind " << shapes[id].index() << " {";
+    std::visit(
+        [&](const auto& shape) {
+            for (const float value : core::floats_of(shape))
+                out << ' ' << value;
+        },
+        shapes[id]);
+    out << " } at " << t << (entering ? " entered" : " left");
+}
+
+} // namespace
+
+Scene scene_of(std::span<const AnyShape> shapes) {
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (const AnyShape& any : shapes)
+        std::visit(
+            [&]<class Shape>(const Shape& shape) {
+                constexpr auto kind = static_cast<std::size_t>(core::kind_of<Shape>);
+                builder.add(std::bit_cast<std::tuple_element_t<kind, LibraryShapes>>(shape),
+                            material);
+            },
+            any);
+    return builder.build();
+}
+
+std::string Tally::report() const {
+    std::string text = std::to_string(lines) + " lines, " + std::to_string(rays) + " rays, " +
+                       std::to_string(hits) + " hits, " + std::to_string(wrong()) + " wrong\n";
+    for (std::size_t i = 0; i < std::size(faults); ++i) {
+        if (faults[i] == 0) continue;
+        text += std::to_string(faults[i]) + " of " + fault_names[i] + ", the first:\n" + first[i];
+    }
+    return text;
+}
+
+Exam::Exam(std::vector<AnyShape> shapes)
+    : shapes_(valid(std::move(shapes))), neighbours_(shapes_), scene_(scene_of(shapes_)),
+      tracer_(scene_, {.threads = 1}) {}
+
+void Exam::ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways, Tally& tally) {
+    Questions questions;
+    for (const core::Ray<float>& ray : rays) {
+        const core::Ray<double> wide{core::convert<double>(ray.origin),
+                                     core::convert<double>(ray.direction)};
+        questions.sights.emplace_back(shapes_, neighbours_, wide);
+        add(questions, ray, 0.0F, infinity);
+        if (limits == Limits::at_crossings) add_limited(questions, ray);
+    }
+    tally.lines += static_cast<long>(rays.size());
+    tally.rays += static_cast<long>(questions.rays.size());
+    const Answers answers{intersect(tracer_, questions.rays), occluded(tracer_, questions.rays)};
+    for (std::size_t i = 0; i < questions.rays.size(); ++i)
+        check(questions, i, answers, tally);
+    check_others(questions.rays, answers, ways, tally);
+}
+
+void Exam::add(Questions& questions, const core::Ray<float>& ray, float t_min, float t_max) {
+    questions.rays.add({ray.origin.x, ray.origin.y, ray.origin.z},
+                       {ray.direction.x, ray.direction.y, ray.direction.z});
+    questions.rays.t_min.push_back(t_min);
+    questions.rays.t_max.push_back(t_max);
+    questions.sight_of.push_back(questions.sights.size() - 1);
+}
+
+void Exam::add_limited(Questions& questions, const core::Ray<float>& ray) {
+    constexpr int most = 6; // crossings
+    float last = 0.0F;
+    int count = 0;
+    for (const oracle::Found& found : questions.sights.back().all()) {
+        if (found.t == last) continue;
+        if (++count > most) return;
+        last = found.t;
+        const float before = std::nextafter(last, 0.0F), behind = std::nextafter(last, infinity);
+        for (const float limit : {before, last, behind}) {
+            add(questions, ray, limit, infinity);
+            add(questions, ray, 0.0F, limit);
+        }
+        add(questions, ray, before, last);
+    }
+}
+
+void Exam::check(Questions& questions, std::size_t i, const Answers& answers, Tally& tally) const {
+    const Rays& rays = questions.rays;
+    const Hits& hits = answers.hits;
+    oracle::Sight& sight = questions.sights[questions.sight_of[i]];
+    const oracle::Found* const truth = sight.first(rays.t_min[i], rays.t_max[i]);
+    const auto wrong = [&](Fault fault) { blame(fault, rays, i, answers, truth, tally); };
+    const bool any = truth != nullptr;
+    tally.hits += any ? 1 : 0;
+    if (answers.blocked[i] != (any ? 1 : 0)) wrong(Fault::occlusion);
+    if (any ? hits.shape[i] != truth->shape : !hits.is_none(i)) wrong(Fault::shape);
+    if (!any || hits.shape[i] != truth->shape) return;
+    if (hits.t[i] != truth->t) wrong(Fault::t);
+    if (hits.entering[i] != (truth->hit.entering ? 1 : 0)) wrong(Fault::side);
+    if (Vec3f(hits.nx[i], hits.ny[i], hits.nz[i]) != sight.normal_of(*truth, shapes_[truth->shape]))
+        wrong(Fault::normal);
+}
+
+/// StreamTracer gives the same bits with each instruction set, by one and by several threads.
+void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tally& tally) const {
+    static std::size_t turn = 0;
+    const std::size_t only = turn++ % (2 * std::size(simd::all_isas));
+    std::size_t way = 0;
+    for (const simd::Isa isa : simd::all_isas)
+        for (const int threads : {1, 3}) {
+            if (ways == Ways::one && way++ != only) continue;
+            if (!simd::is_available(isa)) continue;
+            const simd::StreamTracer tracer(library::Internals::of(scene_), threads, isa);
+            const simd::RayStream stream{rays.size(),
+                                         {rays.x.data(), rays.y.data(), rays.z.data()},
+                                         {rays.dx.data(), rays.dy.data(), rays.dz.data()},
+                                         rays.t_min.data(),
+                                         rays.t_max.data()};
+            Answers same{Hits(rays.size()), std::vector<std::uint8_t>(rays.size(), 77)};
+            Hits& hits = same.hits;
+            tracer.nearest(stream, {hits.t.data(),
+                                    {hits.nx.data(), hits.ny.data(), hits.nz.data()},
+                                    hits.shape.data(),
+                                    hits.entering.data()});
+            tracer.occluded(stream, same.blocked.data());
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (hits.is_same(i, answers.hits) && same.blocked[i] == answers.blocked[i])
+                    continue;
+                blame(Fault::other, rays, i, same, nullptr, tally);
+                break;
+            }
+        }
+}
+
+void Exam::blame(Fault fault, const Rays& rays, std::size_t i, const Answers& answers,
+                 const oracle::Found* truth, Tally& tally) const {
+    const auto which = static_cast<std::size_t>(fault);
+    if (tally.faults[which]++ == 0) tally.first[which] = described(rays, i, answers, truth);
+}
+
+std::string Exam::described(const Rays& rays, std::size_t i, const Answers& answers,
+                            const oracle::Found* truth) const {
+    const Hits& hits = answers.hits;
+    std::ostringstream out;
+    out << std::hexfloat << "  ray";
+    for (const float value : {rays.x[i], rays.y[i], rays.z[i], rays.dx[i], rays.dy[i], rays.dz[i],
+                              rays.t_min[i], rays.t_max[i]})
+        out << ' ' << value;
+    out << "\n  answered: ";
+    describe(out, shapes_, hits.shape[i], hits.t[i], hits.entering[i] != 0);
+    out << ", normal " << hits.nx[i] << ' ' << hits.ny[i] << ' ' << hits.nz[i]
+        << (answers.blocked[i] != 0 ? ", occluded" : ", not occluded") << "\n  truly:    ";
+    if (truth == nullptr)
+        out << "nothing";
+    else
+        describe(out, shapes_, truth->shape, truth->t, truth->hit.entering);
+    out << '\n';
+    return out.str();
+}
+
+} // namespace raylane::tests

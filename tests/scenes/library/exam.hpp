@@ -1,0 +1,77 @@
+#pragma once
+
+#include "tests/oracle/truth.hpp"
+#include "tests/scenes/library/ray_arrays.hpp"
+
+#include <iterator>
+#include <numeric>
+#include <string>
+#include <vector>
+
+/// Scenes and rays asked of the library in every way there is, against the oracle.
+namespace raylane::tests {
+
+Scene scene_of(std::span<const AnyShape> shapes);
+
+/// What may be wrong with an answer.
+enum class Fault {
+    shape,
+    t,
+    normal,
+    side,      ///< entered or left
+    occlusion, ///< by `occluded`
+    other,     ///< another instruction set or number of threads gives other bits; counts spans
+};
+inline constexpr const char* fault_names[] = {"shape", "t", "normal", "side", "occlusion", "other"};
+
+/// What was asked, and how many answers were wrong.
+struct Tally {
+    long lines = 0; ///< without their limits
+    long rays = 0, hits = 0;
+    long faults[std::size(fault_names)] = {};
+    std::string first[std::size(fault_names)]; ///< of each
+
+    long wrong() const { return std::accumulate(std::begin(faults), std::end(faults), 0L); }
+    std::string report() const;
+};
+
+enum class Limits {
+    none,
+    at_crossings, ///< t_min and t_max at each crossing's t, an ulp before and an ulp behind it
+};
+enum class Ways { one, all }; ///< of instruction sets and threads besides the library's
+
+/// One scene. What core finds not valid is left out of it.
+class Exam {
+  public:
+    explicit Exam(std::vector<AnyShape> shapes);
+
+    void ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways, Tally& tally);
+
+  private:
+    struct Questions {
+        std::vector<oracle::Sight> sights;
+        Rays rays;
+        std::vector<std::size_t> sight_of; ///< by ray
+    };
+    struct Answers {
+        Hits hits;
+        std::vector<std::uint8_t> blocked;
+    };
+
+    static void add(Questions& questions, const core::Ray<float>& ray, float t_min, float t_max);
+    static void add_limited(Questions& questions, const core::Ray<float>& ray);
+    void check(Questions& questions, std::size_t i, const Answers& answers, Tally& tally) const;
+    void check_others(const Rays& rays, const Answers& answers, Ways ways, Tally& tally) const;
+    void blame(Fault fault, const Rays& rays, std::size_t i, const Answers& answers,
+               const oracle::Found* truth, Tally& tally) const;
+    std::string described(const Rays& rays, std::size_t i, const Answers& answers,
+                          const oracle::Found* truth) const;
+
+    std::vector<AnyShape> shapes_;
+    oracle::Neighbours neighbours_;
+    Scene scene_;
+    Tracer tracer_;
+};
+
+} // namespace raylane::tests
