@@ -36,6 +36,7 @@ struct SceneView {
     /// the node's slots in the order of their distance, 4 bits each, the nearest lowest.
     const std::uint64_t* orders;
     std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
+    float reach;              ///< the largest coordinate of what is in the tree
     bool large;               ///< nodes and shapes do not fit in the cache of a core
     bool small;               ///< they take no more than a sixteenth of it
     /// By slot / 16: which lanes of a block are opaque and seen from both sides, so that whatever

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <unistd.h>
 #include <utility>
@@ -119,6 +120,13 @@ std::vector<std::uint64_t> orders_of(const core::BigArray<core::WideNode>& nodes
     return orders;
 }
 
+float largest_coordinate(const core::Bounds& bounds) {
+    float largest = 0.0F;
+    for (int axis = 0; axis < 3; ++axis)
+        largest = std::max({largest, std::abs(bounds.lower[axis]), std::abs(bounds.upper[axis])});
+    return largest;
+}
+
 } // namespace
 
 SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(scene.fog())) {
@@ -160,6 +168,7 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
     if (has_tree()) {
         orders_ = orders_of(nodes);
         view_.orders = orders_.data();
+        view_.reach = largest_coordinate(scene.hierarchy().bounds);
     }
     view_.nodes = reinterpret_cast<const NodeView*>(nodes.data());
     std::size_t bytes = scene.hierarchy().bytes();

@@ -81,19 +81,27 @@ template <class Arch>
 struct BoxRays {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
+    using M = Mask<Arch>;
     float near_offset[3][16], far_offset[3][16], inverse[3][16];
 
-    void load(const RoundedRays& rays, std::size_t begin) {
+    void load(const SceneView& scene, const RoundedRays& rays, std::size_t begin) {
         for (std::size_t from = 0; from < 16; from += F::size) {
             const std::size_t i = begin + from;
             const F slack = S::load(rays.slack + i);
+            F reach(scene.reach); // of a ray: no further than 2^30 times that
+            for (const float* const origin : rays.origin)
+                reach = reach + abs(S::load(origin + i));
+            const F drift = reach * F(0x1p-50F);
             for (int axis = 0; axis < 3; ++axis) {
-                // A component of 0 is as good as one that leads nowhere: no 0 * infinity then.
+                // A component of 0 is as good as one that leads nowhere, and drifts by as much: no
+                // 0 * infinity then.
                 const F tiny(0x1p-80F);
                 const F given = S::load(rays.direction[axis] + i);
-                const F d = select(abs(given) > tiny, given, tiny);
+                const M leads = abs(given) > tiny;
+                const F d = select(leads, given, tiny);
                 const F o = S::load(rays.origin[axis] + i);
-                const F shift = fast_mul_add<Arch>(F(3 * half_ulp), abs(o), slack);
+                const F shift = fast_mul_add<Arch>(F(3 * half_ulp), abs(o), slack) +
+                                select(leads, zero<Arch>(), drift);
                 const F signed_shift = shift ^ (d & F(-0.0F));
                 F slope = F(1.0F) / d;
                 F at_near = negated(o + signed_shift), at_far = negated(o - signed_shift);

@@ -24,7 +24,7 @@ struct ListCandidates : Streams<Arch> {
         if (pending.key == nullptr) return true;
 
         BoxRays<Arch> box_rays;
-        box_rays.load(rays, i / 16 * 16);
+        box_rays.load(scene, rays, i / 16 * 16);
         const BoxRay ray = box_rays.get(static_cast<int>(i % 16));
         const BoxRay::Rows ray_rows = ray.template rows<Arch>();
         Queue<Arch> queue;

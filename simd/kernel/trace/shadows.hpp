@@ -50,7 +50,7 @@ class TraceShadows : InFlight<Arch, Method> {
         if (next_ >= count_) return false;
         if (loaded_ != next_ / 16) {
             loaded_ = next_ / 16;
-            box_rays_.load(rays_, 16 * loaded_);
+            box_rays_.load(scene_, rays_, 16 * loaded_);
         }
         shadow.set_out(box_rays_, next_);
         shadow.t_most = occlusions_.t_most[next_];

@@ -57,7 +57,7 @@ class TraceStream : Streams<Arch> {
         BoxRays<Arch> box_rays;
         int starts[9] = {};
         for (std::size_t i = 0; i < count; ++i) {
-            if (i % 16 == 0) box_rays.load(rays_, i);
+            if (i % 16 == 0) box_rays.load(scene_, rays_, i);
             records_[i].box = box_rays.get(static_cast<int>(i % 16));
             ++starts[octant_of(records_[i]) + 1];
         }

@@ -42,7 +42,7 @@ class TraceTree : InFlight<Arch, Method> {
 
     bool start(Flight& flight) {
         if (next_ == count_) return false;
-        if (next_ % 16 == 0) box_rays_.load(rays_, next_);
+        if (next_ % 16 == 0) box_rays_.load(scene_, rays_, next_);
         flight.set_out(box_rays_, next_);
         flight.queue.size = 0;
         flight.best = Leaf<Arch, Method>::best_of(candidates_, next_);
