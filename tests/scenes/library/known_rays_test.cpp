@@ -64,3 +64,18 @@ TEST_CASE("a ray in the planes of bounds hits what touches them", "[known]") {
         sphere = Placing(Vec3f(0.0F), 0x1p-90F)(sphere);
     CHECK(answer(row, {{0, 0, 0}, {1, 0, 0}}).shape == 1);
 }
+
+TEST_CASE("from afar, t_max is the limit that it says", "[known]") {
+    Shapes row;
+    for (int i = 0; i < 30; ++i)
+        row.push_back(core::Sphere{{3.0F * static_cast<float>(i), 0, 0}, 1});
+    std::vector<Ray> rays;
+    ray_sets::Random random(19);
+    for (const double distance : {1e3, 1e5, 1e7, 1e10})
+        for (int i = 0; i < 30; ++i) {
+            const Vec3d to(3.0 * i, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+            const Vec3f origin = rounded(to + distance * random.direction());
+            rays.push_back({origin, rounded(to - core::convert<double>(origin))});
+        }
+    check(row, rays);
+}
