@@ -1,6 +1,9 @@
+#include "scenes/library/internals.hpp"
+#include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/exam.hpp"
 
+#include <cmath>
 #include <vector>
 
 /// Rays that were once answered wrongly, and those around them. The numbers are the whole case: one
@@ -47,7 +50,275 @@ Answer answer(const Shapes& shapes, const Ray& ray, float t_min = 0.0F, float t_
             Vec3f(hits.nx[0], hits.ny[0], hits.nz[0]), occluded(tracer, rays)[0] != 0};
 }
 
+core::Box cube(const Vec3f& corner, float size = 1.0F) {
+    return {corner, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
+}
+
 } // namespace
+
+TEST_CASE("a disc on a cylinder's end, seen from five million sizes, is in it", "[known]") {
+    const Shapes shapes = {core::CappedCylinder{{0, -1, 0}, {0, 1, 0}, 1},
+                           core::Disc{{0, 0, 0}, {0, 1, 0}, 1}};
+    const Ray ray{{0x1.72ae76p+22F, 0x1.f5ecfap+22F, 0x1.4bbabp+22F},
+                  {-0x1.0c91acp-1F, -0x1.6ba8bcp-1F, -0x1.e0b1b6p-2F}};
+    CHECK(answer(shapes, ray).shape == 0);
+}
+
+TEST_CASE("of stacked boxes, the one that is entered comes before the one that is left",
+          "[known]") {
+    const Shapes shapes = {cube({0, 0, 0}), cube({0, -1, 0})};
+    const Ray ray{{0.25F, -0.75F, 0x1.000004p+0F}, {2, 5, -1}};
+    const Answer first = answer(shapes, ray, 0x1p-22F);
+    CHECK(first.shape == 0);
+    CHECK(first.entering);
+}
+
+TEST_CASE("a triangle in a box's face is at the face, from any distance", "[known]") {
+    ray_sets::Random random(11);
+    const Shapes shapes = {cube({-2, -2, -4}, 4.0F),
+                           core::Triangle{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}},
+                           cube({-2, -2, -4}, 4.0F)};
+    std::vector<Ray> rays;
+    for (const double distance : {10.0, 1e4, 1e7})
+        for (int i = 0; i < 100; ++i) {
+            Vec3d from = random.direction();
+            from.z = std::abs(from.z);
+            const Vec3d to(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.0);
+            const Vec3f origin = rounded(to + distance * from);
+            rays.push_back({origin, rounded(to - core::convert<double>(origin))});
+        }
+    check(shapes, rays);
+}
+
+TEST_CASE("of two spheres in contact, the one nearer by a double's last bits is hit", "[known]") {
+    const Shapes shapes = {core::Sphere{{0, 1.0F / 32, 0.5F}, 1.0F / 32},
+                           core::Sphere{{1.0F / 16, 1.0F / 32, 0.5F}, 1.0F / 32}};
+    const Ray ray{{0x1.25da72p-6F, 0x1.b880ccp-6F, 0x1.040432p-1F},
+                  {0x1.a8879cp-1F, 0x1.1646cap-2F, -0x1.f43c78p-2F}};
+    CHECK(answer(shapes, ray).shape == 0);
+}
+
+TEST_CASE("rays within 1e-8 of where unit spheres touch tell one from the other", "[known]") {
+    ray_sets::Random random(12);
+    const Shapes shapes = {core::Sphere{{-1, 0, 0}, 1}, core::Sphere{{1, 0, 0}, 1}};
+    std::vector<Ray> rays;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3d to = random.direction() * random.log_uniform(1e-16, 1e-8);
+        Vec3d way = random.direction();
+        if (i % 2 == 0) way.x *= random.log_uniform(1e-12, 1e-2);
+        const Vec3f origin = rounded(to - random.uniform(0.5, 3.0) * way);
+        rays.push_back({origin, rounded(to - core::convert<double>(origin))});
+    }
+    check(shapes, rays);
+}
+
+/// x^2 + z^2 + bend y^2 + lean y = 1 about y = 0.
+static core::Quadric rim(float bend, float lean) {
+    core::Quadric q{};
+    q.xx = q.zz = 1;
+    q.yy = bend;
+    q.y = 0.5F * lean;
+    q.one = -1;
+    q.lower = Vec3f(-2);
+    q.upper = Vec3f(2);
+    return q;
+}
+
+TEST_CASE("a quadric and a cylinder 2^-148 apart, or its square, at their rim are in order",
+          "[known]") {
+    const core::CappedCylinder pipe{{0, -1, 0}, {0, 2, 0}, 1};
+    for (const float y : {-0x1.8p-148F, 0x1.8p-148F})
+        for (const bool first : {false, true}) {
+            const auto both = [&](const core::Quadric& quadric) {
+                return first ? Shapes{quadric, pipe} : Shapes{pipe, quadric};
+            };
+            const ShapeId of_quadric = first ? 0 : 1;
+            const Ray ray{{-2, y, 0}, {1, 0, 0}};
+            CAPTURE(y, first);
+            // Below y = 0 it is the wider one, above the narrower.
+            CHECK((answer(both(rim(0, 1)), ray).shape == of_quadric) == (y < 0));
+            CHECK(answer(both(rim(1, 0)), ray).shape != of_quadric);
+            CHECK(answer(both(rim(-1, 0)), ray).shape == of_quadric);
+            CHECK(answer(both(rim(0, 0)), ray).shape == 0); // the same
+        }
+}
+
+TEST_CASE("a t given back as t_min leads on to the exit of a thin cone", "[known]") {
+    const Shapes shapes = {core::OpenCone{{-0x1.040d94p+2F, -0x1.c3773ap+1F, 0x1.b76b34p+2F},
+                                          {-0x1.9fe7dep-5F, -0x1.4db4ep-3F, -0x1.0c6236p-4F},
+                                          0x1.318d2ap-7F,
+                                          0x1.ee2598p-9F}};
+    const Ray ray{{0x1.8a054cp+3F, 0x1.5bfcdcp+5F, 0x1.a09972p+4F},
+                  {-0x1.fd0b3p+1F, -0x1.6da78p+3F, -0x1.2a215cp+2F}};
+    const Answer entry = answer(shapes, ray);
+    CHECK(entry.t == 0x1.081744p+2F);
+    CHECK(entry.entering);
+    const Answer exit = answer(shapes, ray, entry.t);
+    CHECK(exit.t == 0x1.083e98p+2F);
+    CHECK(!exit.entering);
+    CHECK(exit.occluded);
+    const Answer none = answer(shapes, ray, exit.t);
+    CHECK(none.shape == no_shape);
+    CHECK(!none.occluded);
+}
+
+TEST_CASE("an apex is answered once", "[known]") {
+    const core::OpenCone open{{0, 0, 0}, {0, 0, 2}, 1, 0};
+    const core::CappedCone capped{{0, 0, 0}, {0, 0, 2}, 1, 0};
+    for (const Shapes& shapes : {Shapes{open}, Shapes{capped}, Shapes{open, capped}})
+        for (const Vec3f& way : {Vec3f(1, 0, 0), Vec3f(3, 1, 0.25F), Vec3f(1, 0, -0.25F)}) {
+            const Ray ray{Vec3f(0, 0, 2) - 4.0F * way, way};
+            CHECK(answer(shapes, ray).t == 4.0F);
+            CHECK(answer(shapes, ray, 4.0F).shape == no_shape);
+            CHECK(!answer(shapes, ray, 4.0F).occluded);
+        }
+    // Along the axis it is entered there, and a capped one left by its base.
+    const Ray along{{0, 0, 4}, {0, 0, -1}};
+    CHECK(answer({open}, along).t == 2.0F);
+    CHECK(answer({open}, along, 2.0F).shape == no_shape);
+    CHECK(answer({capped}, along, 2.0F).t == 4.0F);
+}
+
+TEST_CASE("subnormal spheres block a ray that ends on them", "[known]") {
+    for (const float radius : {0x1p-130F, 0x1p-140F, 0x1.8p-148F, 0x1p-149F})
+        for (const float scale : {1.0F, radius}) {
+            const Shapes shapes = {core::Sphere{{0, 0, 0}, radius}};
+            const Ray ray{{-4.0F * radius, 0, 0}, {scale, 0, 0}};
+            const Answer hit = answer(shapes, ray);
+            CHECK(hit.shape == 0);
+            CHECK(answer(shapes, ray, 0.0F, hit.t).occluded);
+            CHECK(answer(shapes, ray, 0.0F, hit.t).shape == 0);
+            CHECK(!answer(shapes, ray, 0.0F, std::nextafter(hit.t, 0.0F)).occluded);
+        }
+}
+
+TEST_CASE("a cylinder of size 1e-7 at 1e-3 is left at the nearest float", "[known]") {
+    ray_sets::Random random(14);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3d base = 1e-3 * random.direction();
+        const Vec3d axis = 1e-7 * random.uniform(0.3, 3.0) * random.direction();
+        const double radius = 1e-7 * random.uniform(0.3, 3.0);
+        std::vector<Ray> rays;
+        for (int j = 0; j < 10; ++j)
+            rays.push_back({rounded(base + random.uniform(0.0, 1.0) * axis +
+                                    random.uniform(0.0, 0.9) * radius * random.direction()),
+                            rounded(random.direction())});
+        check({core::CappedCylinder{rounded(base), rounded(axis), rounded(radius)}}, rays);
+    }
+}
+
+TEST_CASE("an apex has the axis for a normal, a corner and an edge the lowest face's", "[known]") {
+    const core::OpenCone up{{0, 0, 0}, {0, 0, 2}, 1, 0}, down{{0, 0, 0}, {0, 0, 2}, 0, 1};
+    const Ray across{{-4, 0, 2}, {1, 0, 0}}, across_base{{-4, 0, 0}, {1, 0, 0}};
+    CHECK(answer({up}, across).normal == Vec3f(0, 0, 1));
+    CHECK(answer({down}, across_base).normal == Vec3f(0, 0, -1));
+    core::Quadric cone{};
+    cone.xx = cone.yy = 1;
+    cone.zz = -1;
+    cone.lower = Vec3f(-1);
+    cone.upper = Vec3f(1);
+    CHECK(answer({cone}, across_base).normal == Vec3f(0, 0, 1));
+
+    const Shapes box = {cube({0, 0, 0})};
+    CHECK(answer(box, {{-1, -1, -1}, {1, 1, 1}}).normal == Vec3f(-1, 0, 0));
+    CHECK(answer(box, {{0.5F, -1, -1}, {0, 1, 1}}).normal == Vec3f(0, -1, 0));
+    CHECK(answer(box, {{2, 2, 2}, {-1, -1, -1}}).normal == Vec3f(1, 0, 0));
+    CHECK(answer(box, {{0.5F, 2, 2}, {0, -1, -1}}).normal == Vec3f(0, 1, 0));
+    CHECK(answer(box, {{-1, 0.5F, -1}, {1, 0, 1}}).normal == Vec3f(-1, 0, 0));
+}
+
+TEST_CASE("next to an apex and to corners normals point outwards", "[known]") {
+    ray_sets::Random random(15);
+    const Shapes shapes = {core::CappedCone{{0, 0, -2}, {0, 0, 2}, 1, 0}, cube({0, 0, 0})};
+    std::vector<Ray> rays;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3d to = random.direction() * random.log_uniform(1e-20, 1e-12);
+        const Vec3d way = random.direction();
+        rays.push_back({rounded(to - 2.0 * way), rounded(way)});
+        rays.push_back({rounded(to), rounded(way)});
+    }
+    check(shapes, rays, 0.1);
+}
+
+TEST_CASE("which side a ray comes from is right at grazing planes", "[known]") {
+    ray_sets::Random random(16);
+    long hits = 0;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3f point = rounded(random.cube(3.0)), normal = rounded(random.direction());
+        std::vector<Ray> rays;
+        for (int j = 0; j < 10; ++j) {
+            Vec3d along = ray_sets::across(core::convert<double>(normal), random);
+            along += random.log_uniform(1e-18, 1e-6) * random.direction();
+            rays.push_back({rounded(random.cube(5.0)), rounded(along)});
+        }
+        hits += check({core::Plane{point, normal}}, rays, 0.0);
+        check({core::Disc{point, normal, 1e9F}}, rays, 0.0);
+    }
+    CHECK(hits > 400);
+}
+
+TEST_CASE("what is far away is hit in its order, with its normals", "[known]") {
+    ray_sets::Random random(17);
+    const core::Sphere one{{0, 0, 0}, 1}, other{{0, 0, 1}, 1};
+    CHECK(answer({one, other}, {{0.01F, 0.02F, 1e17F}, {0, 0, -1}}).shape == 1);
+    const Answer hit = answer({one}, {{0.01F, 0.02F, 1e16F}, {0, 0, -1}});
+    CHECK(hit.normal.x == Approx(0.01));
+    CHECK(hit.normal.z > 0.9F);
+    CHECK(answer({core::Sphere{{0, 0, 0}, 1e-20F}}, {{0, 0, 1}, {0, 0, -1}}).normal ==
+          Vec3f(0, 0, 1));
+
+    const Shapes all = {one,
+                        other,
+                        core::CappedCylinder{{0, 0, -3}, {0.25F, 0, 4.5F}, 0.5F},
+                        core::OpenCylinder{{0, 0, -3}, {0, 0, 4.25F}, 0.75F},
+                        core::Disc{{0, 0, 1.5F}, {0.5F, 0, 1}, 0.5F},
+                        cube({-0.5F, -0.5F, 0.625F}),
+                        core::CappedCone{{0, 0, 0}, {0, 0, 3}, 0.5F, 0.125F}};
+    for (const double distance : {1e10, 1e16, 1e17, 1e25})
+        for (std::size_t first = 0; first < all.size(); ++first) {
+            std::vector<Ray> rays;
+            for (int i = 0; i < 20; ++i) {
+                Vec3d from = random.cube(0.75);
+                from.z = distance;
+                rays.push_back({rounded(from), {0, 0, -1}});
+            }
+            check({all.begin() + static_cast<std::ptrdiff_t>(first), all.end()}, rays, 0.1);
+        }
+}
+
+TEST_CASE("a light 2^-61 above a tilted plane lights it with finite numbers", "[known]") {
+    SceneBuilder builder;
+    builder.add(Plane{{0, 0, 0}, {1, 2, 2}}, builder.add_material({}));
+    builder.add_light({.position = {0, 0x1p-61F, 0}});
+    builder.camera.from = {2, 3, 4};
+    builder.camera.at = {0, 0, 0};
+    builder.settings.width = builder.settings.height = 33; // the middle one is seen right there
+    const Scene scene = builder.build();
+    const core::Scene& inside = library::Internals::of(scene);
+    for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
+        simd::RenderOptions options;
+        options.engine = engine;
+        const core::Film film = simd::render(inside, inside.settings(), options).film;
+        for (const core::Color& pixel : film.pixels())
+            for (int axis = 0; axis < 3; ++axis)
+                CHECK(std::isfinite(pixel[axis]));
+    }
+}
+
+TEST_CASE("sizes of 1e30 and 1e-30 are right beside each other", "[known]") {
+    ray_sets::Random random(18);
+    Shapes shapes = {core::Sphere{{0, 0, -1e30F}, 1e30F}, core::Plane{{0, 0, -1e29F}, {0, 0, 1}}};
+    for (int i = 0; i < 30; ++i) {
+        shapes.push_back(core::Sphere{rounded(1e-30 * random.cube(5.0)), 1e-30F});
+        shapes.push_back(core::Sphere{rounded(1e30 * random.cube(0.5)), 1e29F});
+        shapes.push_back(cube(rounded(random.cube(5.0)), 1.0F));
+    }
+    std::vector<Ray> rays;
+    for (const double size : {1e-30, 1.0, 1e30})
+        for (int i = 0; i < 100; ++i)
+            rays.push_back({rounded(size * random.cube(0.9)), rounded(random.direction())});
+    check(shapes, rays);
+}
 
 TEST_CASE("a ray in the planes of bounds hits what touches them", "[known]") {
     Shapes row;
@@ -78,4 +349,66 @@ TEST_CASE("from afar, t_max is the limit that it says", "[known]") {
             rays.push_back({origin, rounded(to - core::convert<double>(origin))});
         }
     check(row, rays);
+}
+
+TEST_CASE("spheres within 1e-6 are hit in their order", "[known]") {
+    ray_sets::Random random(20);
+    Shapes shapes;
+    std::vector<Ray> rays;
+    for (int i = 0; i < 2000; ++i)
+        shapes.push_back(core::Sphere{rounded(1e-6 * random.cube(1.0)), 2e-8F});
+    for (int i = 0; i < 200; ++i) {
+        const Vec3d from = (i % 2 == 0 ? 5.0 : 1e-6) * random.direction();
+        rays.push_back({rounded(from), rounded(1e-6 * random.cube(1.0) - from)});
+    }
+    check(shapes, rays);
+}
+
+TEST_CASE("rays along a floor of triangles, 1e-7 above it", "[known]") {
+    ray_sets::Random random(21);
+    Shapes shapes;
+    constexpr int across = 32;
+    for (int i = 0; i < across; ++i)
+        for (int j = 0; j < across; ++j) {
+            const auto corner = [](int x, int z) {
+                return Vec3f(static_cast<float>(x), 0, static_cast<float>(z));
+            };
+            shapes.push_back(core::Triangle{corner(i, j), corner(i, j + 1), corner(i + 1, j)});
+            shapes.push_back(
+                core::Triangle{corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)});
+        }
+    std::vector<Ray> rays;
+    for (int i = 0; i < 60; ++i) {
+        const double fall = i % 2 == 0 ? 0.0 : -random.log_uniform(1e-9, 1e-6);
+        rays.push_back({rounded(Vec3d(-1.0, 1e-7, random.uniform(0.0, across))),
+                        rounded(Vec3d(1.0, fall, random.uniform(-0.25, 0.25)))});
+    }
+    check(shapes, rays);
+}
+
+TEST_CASE("rays along the side of cylinders end to end", "[known]") {
+    ray_sets::Random random(22);
+    Shapes shapes;
+    for (int i = 0; i < 300; ++i)
+        shapes.push_back(core::OpenCylinder{{static_cast<float>(i), 0, 0}, {1, 0, 0}, 1});
+    std::vector<Ray> rays;
+    for (int i = 0; i < 40; ++i) {
+        const double angle = random.uniform(0.0, 6.3), tilt = random.log_uniform(1e-12, 1e-3);
+        const Vec3d on(0.0, std::cos(angle), std::sin(angle));
+        rays.push_back({rounded(on - Vec3d(2.0, 0.0, 0.0)),
+                        rounded(Vec3d(1.0, 0.0, 0.0) + tilt * random.direction())});
+    }
+    rays.push_back({{-2, 1, 0}, {1, 0, 0}}); // in it
+    check(shapes, rays, 0.1);
+}
+
+TEST_CASE("of a thousand identical spheres the first one is hit", "[known]") {
+    ray_sets::Random random(23);
+    const Shapes shapes(1000, core::Sphere{{0.1F, 0.2F, 0.3F}, 1.1F});
+    std::vector<Ray> rays;
+    for (int i = 0; i < 3; ++i)
+        rays.push_back({rounded(random.cube(3.0)), rounded(-random.direction())});
+    rays.push_back({{3, 0.25F, 0.5F}, {-1, 0, 0}});
+    check(shapes, rays, 0.1);
+    CHECK(answer(shapes, rays.back()).shape == 0);
 }
