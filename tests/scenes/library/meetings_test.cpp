@@ -1,5 +1,5 @@
 #include "tests/catch.hpp"
-#include "tests/meetings/meeting.hpp"
+#include "tests/meetings/gathering.hpp"
 #include "tests/scenes/library/exam.hpp"
 #include "tests/simd/rounds.hpp"
 
@@ -39,5 +39,18 @@ TEST_CASE("pairs of shapes that meet are hit in the order of real arithmetic", "
                         Ways::one, tally);
                 }
         check(meetings::way_names[static_cast<int>(way)], tally);
+    }
+}
+
+TEST_CASE("many shapes that meet are hit in the order of real arithmetic", "[meetings]") {
+    ray_sets::Random random(seed(20261123));
+    for (const meetings::Kind& kind : meetings::gatherings) {
+        Tally tally;
+        for (int round = 0; round < rounds(4, 1); ++round) {
+            const int size = random.integer(kind.least, kind.most);
+            ask(kind.make(size, random, 200), Limits::none, Ways::one, tally);
+            ask(kind.make(size, random, 100), Limits::at_crossings, Ways::all, tally);
+        }
+        check(kind.name, tally);
     }
 }
