@@ -119,31 +119,60 @@ inline Meeting terrain(int across, Random& random, int rays) {
     return gathering.make(rays - rays / 4);
 }
 
-/// Shapes about one center or axis, of one size, some ulps more, or a little more.
+/// A shape of one center and one size with others of its kind.
+inline AnyShape shell(int kind, const Frame& frame, int r) {
+    const Vec3f center = frame.exact(0, 0, -r);
+    const float radius = radius_of(frame, r);
+    core::Quadric ball{};
+    switch (kind) {
+    case 0:
+        return core::Sphere{center, radius};
+    case 1:
+        return core::CappedCylinder{frame.exact(-2, 0, -r), frame.exact(4, 0, 0), radius};
+    case 2:
+        return core::OpenCylinder{frame.exact(-1, 0, -r), frame.exact(3, 0, 0), radius};
+    case 3:
+        return core::CappedCone{frame.exact(-2, 0, -r), frame.exact(2, 0, 0), 0.5F * radius,
+                                radius};
+    case 4:
+        return core::Box{frame.exact(-r, -r, -2 * r), frame.exact(2 * r, 0, 0),
+                         frame.exact(0, 2 * r, 0), frame.exact(0, 0, 2 * r)};
+    case 5:
+        return core::Disc{frame.exact(0, 0, 0), frame.exact(0, 0, 1), radius};
+    default:
+        ball.center = center;
+        ball.xx = ball.yy = ball.zz = 1;
+        ball.one = -radius * radius;
+        ball.lower = Vec3f(-2.0F * radius);
+        ball.upper = Vec3f(2.0F * radius);
+        return ball;
+    }
+}
+
+/// Shapes about one center, of one or several kinds, which touch at its top; the same, some ulps
+/// off, or a little larger.
 inline Meeting shells(int count, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
-    const int r = random.integer(1, 3), which = random.integer(0, 3);
+    constexpr int kinds = 7;
+    const int r = random.integer(1, 3), only = random.integer(0, 2 * kinds);
     for (int i = 0; i < count; ++i) {
-        float radius = radius_of(frame, r);
-        radius = random.integer(0, 2) == 0
-                     ? radius * (1.0F + std::ldexp(1.0F, random.integer(-22, -4)))
-                     : ulps_off(radius, random.integer(-4, 4));
-        const Vec3f center = frame.exact(0, 0, -r), base = frame.exact(-2, 0, -r),
-                    axis = frame.exact(4, 0, 0);
-        switch (which == 3 ? random.integer(0, 2) : which) {
+        const int kind = only < kinds ? only : random.integer(0, kinds - 1);
+        AnyShape shape = shell(kind, frame, r);
+        switch (random.integer(0, 3)) {
         case 0:
-            gathering.add(core::Sphere{center, radius});
             break;
-        case 1:
-            gathering.add(core::CappedCylinder{base, axis, radius});
+        case 1: // not about that center, but by very little
+            shape = tests::Placing(Vec3f(0.0F),
+                                   1.0F + std::ldexp(1.0F, random.integer(-22, -4)))(shape);
             break;
         default:
-            gathering.add(core::OpenCylinder{base, axis, radius});
+            shape = beside(shape, random);
         }
+        gathering.add(shape);
     }
     gathering.meet_at({0, 0, 0});
-    gathering.meet_at({-2, 0, 0});
+    gathering.meet_at({0, 0, -2 * r});
     return gathering.make(rays);
 }
 

@@ -38,13 +38,15 @@ struct Found {
 /// All crossings ahead of a ray, in order.
 class Sight {
   public:
+    /// is_seen(shape, entering): whether a crossing counts.
+    template <class IsSeen>
     Sight(std::span<const AnyShape> shapes, const Neighbours& neighbours,
-          const core::Ray<double>& ray)
+          const core::Ray<double>& ray, const IsSeen& is_seen)
         : ray_(ray) {
         for (core::ShapeId id = 0; id < shapes.size(); ++id) {
             if (!neighbours.may_cross(id, ray)) continue;
             for (const Hit& hit : crossings(shapes[id], ray))
-                if (hit.t > 0) all_.emplace_back(hit, id);
+                if (hit.t > 0 && is_seen(id, hit.entering)) all_.emplace_back(hit, id);
         }
         std::sort(all_.begin(), all_.end(),
                   [](const Found& a, const Found& b) { return a.is_before(b); });

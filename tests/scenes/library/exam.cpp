@@ -34,6 +34,17 @@ std::vector<AnyShape> valid(std::vector<AnyShape> shapes) {
     return shapes;
 }
 
+constexpr Visible visible_sides[] = {Visible::both, Visible::outside, Visible::inside};
+
+/// Of these.
+std::size_t which_sides(std::size_t shape, Sides sides) {
+    return sides == Sides::both ? 0 : shape % std::size(visible_sides);
+}
+bool is_seen(std::size_t shape, Sides sides, bool entering) {
+    const Visible visible = visible_sides[which_sides(shape, sides)];
+    return visible != (entering ? Visible::inside : Visible::outside);
+}
+
 /// Kind, floats, t and side, to be put into a test of its own.
 void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, float t,
               bool entering) {
@@ -53,10 +64,13 @@ void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, f
 
 } // namespace
 
-Scene scene_of(std::span<const AnyShape> shapes) {
+Scene scene_of(std::span<const AnyShape> shapes, Sides sides) {
     SceneBuilder builder;
-    const MaterialIndex material = builder.add_material({});
-    for (const AnyShape& any : shapes)
+    std::vector<MaterialIndex> materials;
+    for (const Visible visible : visible_sides)
+        materials.push_back(builder.add_material({.visible = visible}));
+    for (const AnyShape& any : shapes) {
+        const MaterialIndex material = materials[which_sides(builder.shape_count(), sides)];
         std::visit(
             [&]<class Shape>(const Shape& shape) {
                 constexpr auto kind = static_cast<std::size_t>(core::kind_of<Shape>);
@@ -64,6 +78,7 @@ Scene scene_of(std::span<const AnyShape> shapes) {
                             material);
             },
             any);
+    }
     return builder.build();
 }
 
@@ -77,16 +92,18 @@ std::string Tally::report() const {
     return text;
 }
 
-Exam::Exam(std::vector<AnyShape> shapes)
-    : shapes_(valid(std::move(shapes))), neighbours_(shapes_), scene_(scene_of(shapes_)),
-      tracer_(scene_, {.threads = 1}) {}
+Exam::Exam(std::vector<AnyShape> shapes, Sides sides)
+    : shapes_(valid(std::move(shapes))), sides_(sides), neighbours_(shapes_),
+      scene_(scene_of(shapes_, sides)), tracer_(scene_, {.threads = 1}) {}
 
 void Exam::ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways, Tally& tally) {
     Questions questions;
     for (const core::Ray<float>& ray : rays) {
         const core::Ray<double> wide{core::convert<double>(ray.origin),
                                      core::convert<double>(ray.direction)};
-        questions.sights.emplace_back(shapes_, neighbours_, wide);
+        questions.sights.emplace_back(
+            shapes_, neighbours_, wide,
+            [&](ShapeId shape, bool entering) { return is_seen(shape, sides_, entering); });
         add(questions, ray, 0.0F, infinity);
         if (limits == Limits::at_crossings) add_limited(questions, ray);
     }

@@ -11,7 +11,13 @@
 /// Scenes and rays asked of the library in every way there is, against the oracle.
 namespace raylane::tests {
 
-Scene scene_of(std::span<const AnyShape> shapes);
+/// Which sides of shapes there are to be seen.
+enum class Sides {
+    both,
+    some, ///< of every third shape the outside, of every third the inside, of the others both
+};
+
+Scene scene_of(std::span<const AnyShape> shapes, Sides sides = Sides::both);
 
 /// What may be wrong with an answer.
 enum class Fault {
@@ -44,7 +50,7 @@ enum class Ways { one, all }; ///< of instruction sets and threads besides the l
 /// One scene. What core finds not valid is left out of it.
 class Exam {
   public:
-    explicit Exam(std::vector<AnyShape> shapes);
+    explicit Exam(std::vector<AnyShape> shapes, Sides sides = Sides::both);
 
     void ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways, Tally& tally);
 
@@ -69,6 +75,7 @@ class Exam {
                           const oracle::Found* truth) const;
 
     std::vector<AnyShape> shapes_;
+    Sides sides_;
     oracle::Neighbours neighbours_;
     Scene scene_;
     Tracer tracer_;
