@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstdint>
 #include <immintrin.h>
+#include <type_traits>
 
 /// What raylane needs of vector registers and xsimd does not give, or not in all of its versions.
 /// Everything in kernel/ is a template over the instruction set, so that no two kernel units share
@@ -49,6 +50,20 @@ xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
     return xsimd::bitwise_cast<To>(from);
 #endif
 }
+
+#if XSIMD_VERSION_MAJOR >= 14
+/// SSE's, as in xsimd's older versions: b where one is not a number, and of two zeros.
+template <class Number, class Arch>
+requires std::is_floating_point_v<Number> xsimd::batch<Number, Arch>
+min(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
+    return xsimd::min(b, a);
+}
+template <class Number, class Arch>
+requires std::is_floating_point_v<Number> xsimd::batch<Number, Arch>
+max(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
+    return xsimd::max(b, a);
+}
+#endif
 
 /// By loops over memory: what the native forms below are tested against, and what other processors
 /// can use.
