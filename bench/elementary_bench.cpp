@@ -82,6 +82,8 @@ void in_registers(benchmark::State& state, const Case& c, Function function) {
 
 bench::ElementaryUnit unit_of(simd::Isa isa) {
     switch (isa) {
+    case simd::Isa::portable:
+        return bench::elementary_portable();
     case simd::Isa::sse42:
         return bench::elementary_sse42();
     case simd::Isa::avx2:

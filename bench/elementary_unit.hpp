@@ -13,7 +13,7 @@ struct ElementaryUnit {
 
 template <class Arch>
 struct ElementaryArrays {
-    using Number = xsimd::batch<double, Arch>;
+    using Number = simd::Floats<simd::Double<Arch>>;
     using Functions = core::Elementary<Number>;
     static constexpr int lanes = static_cast<int>(Number::size);
 
@@ -34,6 +34,7 @@ struct ElementaryArrays {
                                             of_two<Functions::pow>, of_one<Functions::sin>};
 };
 
+ElementaryUnit elementary_portable();
 ElementaryUnit elementary_sse42();
 ElementaryUnit elementary_avx2();
 ElementaryUnit elementary_avx512();

@@ -102,7 +102,8 @@ class Buffers {
 } // namespace
 
 EmbreeDevice make_embree_device(simd::Isa isa) {
-    const std::string config = "threads=1,isa=" + std::string(simd::name_of(isa));
+    const std::string name(isa == simd::Isa::portable ? "sse2" : simd::name_of(isa));
+    const std::string config = "threads=1,isa=" + name;
     return EmbreeDevice(rtcNewDevice(config.c_str()));
 }
 

@@ -3,7 +3,10 @@
 namespace raylane::simd {
 
 bool is_available(Isa isa) {
+#ifdef __x86_64__
     switch (isa) {
+    case Isa::portable:
+        return true;
     case Isa::sse42:
         return __builtin_cpu_supports("sse4.2") != 0;
     case Isa::avx2:
@@ -14,6 +17,9 @@ bool is_available(Isa isa) {
     return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
            __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
            __builtin_cpu_supports("avx512vl") != 0;
+#else
+    return isa == Isa::portable;
+#endif
 }
 
 std::optional<Isa> best_isa() {
@@ -23,16 +29,20 @@ std::optional<Isa> best_isa() {
     return best;
 }
 
-const Kernels& kernels_of(Isa isa) {
+const Kernels& kernels_of([[maybe_unused]] Isa isa) {
+#ifdef __x86_64__
     switch (isa) {
+    case Isa::portable:
+        break;
     case Isa::sse42:
         return kernels_sse42();
     case Isa::avx2:
         return kernels_avx2();
     case Isa::avx512:
-        break;
+        return kernels_avx512();
     }
-    return kernels_avx512();
+#endif
+    return kernels_portable();
 }
 
 } // namespace raylane::simd

@@ -8,12 +8,12 @@
 
 namespace raylane::simd {
 
-enum class Isa : std::uint8_t { sse42, avx2, avx512 };
+enum class Isa : std::uint8_t { portable, sse42, avx2, avx512 };
 
-inline constexpr Isa all_isas[] = {Isa::sse42, Isa::avx2, Isa::avx512};
+inline constexpr Isa all_isas[] = {Isa::portable, Isa::sse42, Isa::avx2, Isa::avx512};
 
-/// Whether this processor, and the system on it, can run it. avx2 stands for AVX2 and FMA, avx512
-/// for the F, CD, BW, DQ and VL parts.
+/// Whether this processor, and the system on it, can run it: portable on any. avx2 stands for AVX2
+/// and FMA, avx512 for the F, CD, BW, DQ and VL parts.
 bool is_available(Isa isa);
 
 /// The widest that is available, if any is.
@@ -21,7 +21,7 @@ std::optional<Isa> best_isa();
 
 /// What people call it.
 inline constexpr std::string_view name_of(Isa isa) {
-    constexpr std::string_view names[] = {"sse4.2", "avx2", "avx512"};
+    constexpr std::string_view names[] = {"portable", "sse4.2", "avx2", "avx512"};
     return names[static_cast<std::size_t>(isa)];
 }
 

@@ -117,6 +117,7 @@ struct Kernels {
     ShadeKernels shade[2][2];
 };
 
+const Kernels& kernels_portable();
 const Kernels& kernels_sse42();
 const Kernels& kernels_avx2();
 const Kernels& kernels_avx512();

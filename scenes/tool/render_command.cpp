@@ -244,7 +244,8 @@ Command add_render_command(CLI::App& app) {
         "What traces: vector, or reference, which is slow and written to be read (default: vector)",
         "NAME");
     add("--isa", arguments->isa,
-        "The vector engine's instructions: sse4.2, avx2 or avx512 (default: the best there are)",
+        "The vector engine's instructions: portable, sse4.2, avx2 or avx512 (default: the best "
+        "there are)",
         "NAME");
     add("--tile", arguments->tile,
         "Pixels on the side of the squares that threads work on, 8 to 64; changes no exact picture",

@@ -27,6 +27,67 @@ struct Spots {
 template <class Arch>
 struct DoubleLanes;
 
+/// product_error without fused operations, for operands below 2^995 (Dekker 1971).
+template <class Number>
+Number product_error_by_halves(const Number& a, const Number& b, const Number& product) {
+    const Number split(0x1p27 + 1.0), scaled_a = split * a, scaled_b = split * b;
+    const Number a_high = scaled_a - (scaled_a - a), b_high = scaled_b - (scaled_b - b);
+    const Number a_low = a - a_high, b_low = b - b_high;
+    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+}
+
+template <>
+struct DoubleLanes<Portable> {
+    using F = Floats<Double<Portable>>;
+    using M = Mask<Double<Portable>>;
+
+    static std::uint32_t bits(const M& mask) { return mask.bits(); }
+    static M from_bits(std::uint32_t bits) { return mask((bits & 1) != 0, (bits & 2) != 0); }
+    static M in_range(const std::uint32_t* value, const std::uint32_t* first,
+                      const std::uint32_t* last) {
+        return mask(value[0] - first[0] <= last[0] - first[0],
+                    value[1] - first[1] <= last[1] - first[1]);
+    }
+    static M in_range(const std::uint32_t* value, std::uint32_t first, std::uint32_t last) {
+        return mask(value[0] - first <= last - first, value[1] - first <= last - first);
+    }
+    static F from_numbers(const std::uint32_t* from, std::uint32_t kept) {
+        return pair(static_cast<std::int32_t>(from[0] & kept),
+                    static_cast<std::int32_t>(from[1] & kept));
+    }
+    static void to_numbers(std::uint32_t* out, const F& values) {
+        for (int lane = 0; lane < 2; ++lane)
+            out[lane] = static_cast<std::uint32_t>(static_cast<std::int32_t>(values.lanes()[lane]));
+    }
+    static F gather(const Spots<Portable>& spots, int row) {
+        const float* const from = spots.base + row;
+        return pair(static_cast<double>(from[spots.offsets[0]]),
+                    static_cast<double>(from[spots.offsets[1]]));
+    }
+
+    static F widen(const Floats<Portable>& values, int half) { return widened(values, half); }
+    static F product_error(const F& a, const F& b, const F& product) {
+        return product_error_by_halves(a, b, product);
+    }
+    static M round_alike(const F& a, const F& b) {
+        return mask(in_float(a, 0) == in_float(b, 0), in_float(a, 1) == in_float(b, 1));
+    }
+    static F pick(const double* from, const std::uint32_t* places) {
+        return pair(from[places[0]], from[places[1]]);
+    }
+    static void compress_store(double* out, const F& values, std::uint32_t wanted) {
+        out[0] = values.lanes()[wanted == 2 ? 1 : 0];
+        out[1] = values.lanes()[1];
+    }
+
+  private:
+    static M mask(bool first, bool second) { return M(M::Lanes{first ? -1 : 0, second ? -1 : 0}); }
+    static F pair(double first, double second) { return F(F::Lanes{first, second}); }
+    static float in_float(const F& values, int lane) {
+        return static_cast<float>(values.lanes()[lane]);
+    }
+};
+
 #ifdef __SSE4_2__
 template <>
 struct DoubleLanes<Sse42> {
@@ -66,12 +127,8 @@ struct DoubleLanes<Sse42> {
         const __m128 lanes = values;
         return F(_mm_cvtps_pd(half == 0 ? lanes : _mm_movehl_ps(lanes, lanes)));
     }
-    /// Dekker's way, for operands below 2^995.
     static F product_error(const F& a, const F& b, const F& product) {
-        const F split(0x1p27 + 1.0), scaled_a = split * a, scaled_b = split * b;
-        const F a_high = scaled_a - (scaled_a - a), b_high = scaled_b - (scaled_b - b);
-        const F a_low = a - a_high, b_low = b - b_high;
-        return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+        return product_error_by_halves(a, b, product);
     }
     static M round_alike(const F& a, const F& b) {
         const __m128 same = _mm_cmpeq_ps(_mm_cvtpd_ps(a), _mm_cvtpd_ps(b));

@@ -4,13 +4,17 @@
 #if defined(__AVX512F__) && !defined(_mm512_rsqrt23_ps)
 #define _mm512_rsqrt23_ps _mm512_rsqrt14_ps
 #endif
+#include "simd/kernel/portable.hpp"
+
 #include <xsimd/xsimd.hpp>
 
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <immintrin.h>
 #include <type_traits>
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
 
 /// What raylane needs of vector registers and xsimd does not give, or not in all of its versions.
 /// Everything in kernel/ is a template over the instruction set, so that no two kernel units share
@@ -34,6 +38,16 @@ template <class Arch>
 struct Registers<Double<Arch>> {
     using Floats = xsimd::batch<double, Arch>;
     using Mask = xsimd::batch_bool<double, Arch>;
+};
+template <>
+struct Registers<Portable> {
+    using Floats = PortableBatch<float>;
+    using Mask = PortableMask<float>;
+};
+template <>
+struct Registers<Double<Portable>> {
+    using Floats = PortableBatch<double>;
+    using Mask = PortableMask<double>;
 };
 
 template <class Arch>
@@ -65,8 +79,8 @@ max(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
 }
 #endif
 
-/// By loops over memory: what the native forms below are tested against, and what other processors
-/// can use.
+/// By loops over memory: what the native forms below are tested against, and some of what any
+/// processor uses.
 namespace generic {
 
 template <class Arch>
@@ -145,27 +159,61 @@ Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Flo
 
 /// bits: lane i of a mask as bit i.
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
+/// has_mul_add: whether the next is one instruction.
 /// mul_add: a * b + c, rounded once.
 /// least, greatest: of all lanes.
 /// narrow: doubles from memory, rounded to float.
 /// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
 template <class Arch>
-struct Lanes {
-    static constexpr bool has_mul_add = false; ///< in one instruction
-    static std::uint32_t bits(const Mask<Arch>& mask) { return generic::bits<Arch>(mask); }
-    static void compress_store(float* out, const Floats<Arch>& values, std::uint32_t wanted) {
-        generic::compress_store<Arch>(out, values, wanted);
+struct Lanes;
+
+/// a + b in double, rounded to odd: rounding that to float rounds as if once (Boldo and Melquiond,
+/// "Emulation of FMA and correctly rounded sums: proved algorithms using rounding to odd", 2008).
+template <class Number>
+Number sum_to_odd(const Number& a, const Number& b) {
+    const Number sum = a + b;
+    const Number part = sum - a;
+    const Number error = (a - (sum - part)) + (b - part);
+    const Number zero(0.0);
+    using Bits = decltype(bits_as<std::uint64_t>(sum));
+    const Bits bits = bits_as<std::uint64_t>(sum), one(std::uint64_t{1});
+    // One step of the last bit towards the error, where the sum is even.
+    const Bits shrinks = (bits_as<std::uint64_t>(error) ^ bits) >> 63;
+    const Bits from_even = shrinks ^ (shrinks & bits);
+    const Bits odd = (bits | one) - (from_even << 1);
+    // NaN compares unequal to itself alone, and infinite sums have NaN errors.
+    const auto inexact = (error < zero) | (error > zero);
+    return select(inexact, bits_as<double>(odd), sum);
+}
+
+/// On any processor.
+template <>
+struct Lanes<Portable> {
+    using F = Floats<Portable>;
+    using M = Mask<Portable>;
+    static constexpr bool has_mul_add = false;
+    static std::uint32_t bits(const M& mask) { return mask.bits(); }
+    static void compress_store(float* out, const F& values, std::uint32_t wanted) {
+        for (std::size_t i = 0; i < F::size; ++i) {
+            *out = values.lanes()[i];
+            out += wanted >> i & 1;
+        }
     }
-    static Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b,
-                                const Floats<Arch>& c) {
-        return generic::mul_add<Arch>(a, b, c);
+    static F mul_add(const F& a, const F& b, const F& c) {
+        double sums[F::size];
+        for (int half = 0; half < 2; ++half) {
+            const auto product = widened(a, half) * widened(b, half);
+            sum_to_odd(product, widened(c, half)).store_unaligned(sums + 2 * half);
+        }
+        return narrow(sums);
     }
-    static float least(const Floats<Arch>& values) { return generic::least<Arch>(values); }
-    static float greatest(const Floats<Arch>& values) { return generic::greatest<Arch>(values); }
-    static Floats<Arch> narrow(const double* from) { return generic::narrow<Arch>(from); }
-    static Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first,
-                               const Floats<Arch>& last) {
-        return generic::in_range<Arch>(id, first, last);
+    static float least(const F& values) { return generic::least<Portable>(values); }
+    static float greatest(const F& values) { return generic::greatest<Portable>(values); }
+    static F narrow(const double* from) { return generic::narrow<Portable>(from); }
+    static M in_range(const F& id, const F& first, const F& last) {
+        const auto from = bits_as<std::uint32_t>(first);
+        return M(
+            (bits_as<std::uint32_t>(id) - from <= bits_as<std::uint32_t>(last) - from).lanes());
     }
 };
 
@@ -187,9 +235,7 @@ struct Lanes<Sse42> {
     /// the engine's filters and its double arithmetic do without fused operations and have the same
     /// bits in pictures, at half of AVX2's speed.
     ///
-    /// By way of double: the product is exact there. The sum is rounded to odd, so that rounding it
-    /// again to float rounds as if once (Boldo and Melquiond, "Emulation of FMA and correctly
-    /// rounded sums: proved algorithms using rounding to odd", 2008).
+    /// By way of double: the product is exact there.
     static Floats<Sse42> mul_add(const Floats<Sse42>& a, const Floats<Sse42>& b,
                                  const Floats<Sse42>& c) {
         const __m128 low = by_double(a, b, c);
@@ -222,25 +268,9 @@ struct Lanes<Sse42> {
 
   private:
     static __m128 by_double(__m128 a, __m128 b, __m128 c) {
-        const __m128d product = _mm_mul_pd(_mm_cvtps_pd(a), _mm_cvtps_pd(b));
-        const __m128d addend = _mm_cvtps_pd(c);
-        const __m128d sum = _mm_add_pd(product, addend);
-        const __m128d part = _mm_sub_pd(sum, product);
-        const __m128d error =
-            _mm_add_pd(_mm_sub_pd(product, _mm_sub_pd(sum, part)), _mm_sub_pd(addend, part));
-        // Inexact and even: one step of the last bit towards the error. NaN compares unequal to
-        // itself alone, and infinite sums have NaN errors.
-        const __m128d zero = _mm_setzero_pd();
-        const __m128i inexact =
-            _mm_castpd_si128(_mm_or_pd(_mm_cmplt_pd(error, zero), _mm_cmpgt_pd(error, zero)));
-        const __m128i bits = _mm_castpd_si128(sum);
-        const __m128i one = _mm_set1_epi64x(1);
-        const __m128i odd = _mm_cmpeq_epi64(_mm_and_si128(bits, one), one);
-        const __m128i signs = _mm_castpd_si128(_mm_xor_pd(error, sum));
-        const __m128i shrinks = _mm_cmpgt_epi64(_mm_setzero_si128(), signs);
-        const __m128i step = _mm_or_si128(shrinks, one); // -1 or 1
-        const __m128i adjust = _mm_andnot_si128(odd, _mm_and_si128(inexact, step));
-        return _mm_cvtpd_ps(_mm_castsi128_pd(_mm_add_epi64(bits, adjust)));
+        using Number = Floats<Double<Sse42>>;
+        const Number product = Number(_mm_cvtps_pd(a)) * Number(_mm_cvtps_pd(b));
+        return _mm_cvtpd_ps(sum_to_odd(product, Number(_mm_cvtps_pd(c))));
     }
 
     struct alignas(16) Order {

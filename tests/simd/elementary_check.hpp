@@ -20,7 +20,7 @@ struct ElementaryArrays {
 template <class Arch>
 struct ElementaryCheck {
     static void fill(const ElementaryArrays& arrays) {
-        using Number = xsimd::batch<double, Arch>;
+        using Number = Floats<Double<Arch>>;
         using Functions = core::Elementary<Number>;
         for (int i = 0; i < arrays.count; i += static_cast<int>(Number::size)) {
             const auto x = Number::load_unaligned(arrays.x + i);
@@ -35,6 +35,7 @@ struct ElementaryCheck {
     }
 };
 
+void elementary_portable(const ElementaryArrays& arrays);
 void elementary_sse42(const ElementaryArrays& arrays);
 void elementary_avx2(const ElementaryArrays& arrays);
 void elementary_avx512(const ElementaryArrays& arrays);

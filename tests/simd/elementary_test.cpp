@@ -73,6 +73,7 @@ void check(void (*fill)(const ElementaryArrays&)) {
 } // namespace
 
 TEST_CASE("elementary functions have the scalar ones' bits in every lane") {
+    check(elementary_portable);
     if (is_available(Isa::sse42)) check(elementary_sse42);
     if (is_available(Isa::avx2)) check(elementary_avx2);
     if (is_available(Isa::avx512)) check(elementary_avx512);

@@ -28,6 +28,8 @@ int rounds() {
 
 ScaledFilters scaled_filters_of(Isa isa) {
     switch (isa) {
+    case Isa::portable:
+        return scaled_filters_portable();
     case Isa::sse42:
         return scaled_filters_sse42();
     case Isa::avx2:

@@ -28,6 +28,7 @@ struct FilterChecks {
                         std::size_t ray);
 };
 
+FilterChecks filter_checks_portable();
 FilterChecks filter_checks_sse42();
 FilterChecks filter_checks_avx2();
 FilterChecks filter_checks_avx512();

@@ -21,6 +21,8 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline FilterChecks checks_of(Isa isa) {
     switch (isa) {
+    case Isa::portable:
+        return filter_checks_portable();
     case Isa::sse42:
         return filter_checks_sse42();
     case Isa::avx2:

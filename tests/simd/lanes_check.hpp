@@ -274,6 +274,7 @@ struct LanesCheck {
     }
 };
 
+int lanes_failures_portable();
 int lanes_failures_sse42();
 int lanes_failures_avx2();
 int lanes_failures_avx512();

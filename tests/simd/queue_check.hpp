@@ -50,6 +50,7 @@ int queue_failures() {
     return failures;
 }
 
+int queue_failures_portable();
 int queue_failures_sse42();
 int queue_failures_avx2();
 int queue_failures_avx512();

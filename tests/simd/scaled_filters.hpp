@@ -11,6 +11,7 @@ struct ScaledFilters {
     float* half_ulp; ///< the constant that the filters of this instruction set use
 };
 
+ScaledFilters scaled_filters_portable();
 ScaledFilters scaled_filters_sse42();
 ScaledFilters scaled_filters_avx2();
 ScaledFilters scaled_filters_avx512();
