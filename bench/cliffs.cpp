@@ -117,7 +117,7 @@ Times raylane_times(const Place& place, Precision precision) {
 Times embree_times(const Place& place) {
     const core::Scene& scene = library::Internals::of(place.scene);
     if (!EmbreeScene::can_hold(scene)) return {};
-    const EmbreeDevice device = make_embree_device(*simd::best_isa());
+    const EmbreeDevice device = make_embree_device(simd::best_isa());
     EmbreeScene embree(device.get(), scene, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
     embree.commit();
     const NoDenormals no_denormals;

@@ -1,5 +1,8 @@
 #include "simd/isa.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace raylane::simd {
 
 bool is_available(Isa isa) {
@@ -22,11 +25,8 @@ bool is_available(Isa isa) {
 #endif
 }
 
-std::optional<Isa> best_isa() {
-    std::optional<Isa> best;
-    for (const Isa isa : all_isas)
-        if (is_available(isa)) best = isa;
-    return best;
+Isa best_isa() {
+    return *std::find_if(std::rbegin(all_isas), std::rend(all_isas), is_available);
 }
 
 const Kernels& kernels_of([[maybe_unused]] Isa isa) {

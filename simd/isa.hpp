@@ -3,7 +3,6 @@
 #include "simd/kernels.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace raylane::simd {
@@ -16,8 +15,8 @@ inline constexpr Isa all_isas[] = {Isa::portable, Isa::sse42, Isa::avx2, Isa::av
 /// and FMA, avx512 for the F, CD, BW, DQ and VL parts.
 bool is_available(Isa isa);
 
-/// The widest that is available, if any is.
-std::optional<Isa> best_isa();
+/// The widest that is available.
+Isa best_isa();
 
 /// What people call it.
 inline constexpr std::string_view name_of(Isa isa) {

@@ -62,10 +62,9 @@ Rendering render_vector(const SceneData& scene, const core::Settings& settings,
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& options) {
     core::validate(settings);
-    const std::optional<Isa> isa = options.isa ? options.isa : best_isa();
-    if (options.engine == Engine::vector && isa)
+    if (options.engine == Engine::vector)
         return render_vector(SceneData(scene), settings, options,
-                             {&kernels_of(*isa), options.precision});
+                             {&kernels_of(options.isa), options.precision});
     return core::is_single(options.precision) ? render_reference<float>(scene, settings, options)
                                               : render_reference<double>(scene, settings, options);
 }

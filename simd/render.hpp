@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
-#include <optional>
 
 namespace raylane::simd {
 
@@ -17,7 +16,7 @@ class SceneData;
 struct Tracing;
 
 enum class Engine : std::uint8_t {
-    vector,    ///< Wavefront; where a processor has none of its instruction sets, the reference
+    vector,    ///< Wavefront
     reference, ///< core::ReferenceTracer
 };
 
@@ -30,8 +29,8 @@ struct Progress {
 
 struct RenderOptions {
     Engine engine = Engine::vector;
-    std::optional<Isa> isa; ///< of the vector engine, an available one; default: the best
-    int tile = 0;           ///< pixels on a tile's side, in [8, 64]; 0: as suits the engine
+    Isa isa = best_isa(); ///< of the vector engine, an available one
+    int tile = 0;         ///< pixels on a tile's side, in [8, 64]; 0: as suits the engine
     core::Precision precision = core::Precision::exact;
     int threads = 0; ///< 0: all that the machine has
     Progress* progress = nullptr;

@@ -134,33 +134,26 @@ bool is_occluded(const core::Scene& scene, Searcher& searcher, const Query& quer
 /// Answers up to some rays at a time, for one thread.
 class StreamTracer::Worker {
   public:
-    Worker(const core::Scene& scene, const SceneData* data, const Tracing& tracing,
+    Worker(const core::Scene& scene, const SceneData& data, const Tracing& tracing,
            std::size_t capacity)
         : scene_(scene), data_(data), tracing_(tracing),
-          searcher_(scene, core::Search::hierarchy, tracing.precision) {
-        if (data == nullptr) return;
-        approach_.emplace(*data);
-        finder_.emplace(*data, tracing);
+          searcher_(scene, core::Search::hierarchy, tracing.precision), finder_(data, tracing),
+          approach_(data) {
         arena_ = arena_for([&](Arena& arena) { take_from(arena, capacity); });
     }
 
     void nearest(const RayStream& rays, std::size_t first, std::size_t last,
                  const HitStream& hits) {
-        if (!finder_) {
-            for (std::size_t i = first; i < last; ++i)
-                search(Query(rays, i), hits, i);
-            return;
-        }
         for (std::size_t i = first; i < last; ++i)
             store_none(hits, i);
         start(rays, first, last);
         core::Counters counters;
-        finder_->find(paths_, nullptr, counters);
+        finder_.find(paths_, nullptr, counters);
         if (!is_exact()) // else they meet several shapes there, and have the first
-            for (const std::uint32_t lane : finder_->left_open())
+            for (const std::uint32_t lane : finder_.left_open())
                 is_open_[lane] = 1;
         const bool with_normals = wants_normals(hits);
-        const Hits& found = finder_->hits();
+        const Hits& found = finder_.hits();
         for (std::size_t lane = 0; lane < paths_.count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
             const Query query(rays, i);
@@ -174,7 +167,7 @@ class StreamTracer::Worker {
             if (!(t <= query.t_max())) continue;
             const bool entering = (found.hit[lane] & hit_entering) != 0;
             store(hits, i, t, with_normals ? normal_at(lane) : core::Vec3f(0.0F),
-                  data_->id_of(found.slot[lane]), entering);
+                  data_.id_of(found.slot[lane]), entering);
         }
     }
 
@@ -182,28 +175,23 @@ class StreamTracer::Worker {
                   std::uint8_t* occluded) {
         for (std::size_t i = first; i < last; ++i)
             occluded[i] = 0;
-        if (!finder_) {
-            for (std::size_t i = first; i < last; ++i)
-                occluded[i] = is_occluded(scene_, searcher_, Query(rays, i)) ? 1 : 0;
-            return;
-        }
         start(rays, first, last);
         const std::size_t count = paths_.count;
         paths_.pass_to(rounded_);
-        if (is_exact()) approach_->bring_near(paths_, rounded_);
+        if (is_exact()) approach_.bring_near(paths_, rounded_);
         tracing_.kernels->rays.round_rays(count, rounded_);
-        approach_->widen(rounded_);
+        approach_.widen(rounded_);
         for (std::size_t lane = 0; lane < count; ++lane) {
             const Query query(rays, first + paths_.sample[lane]);
             t_most_[lane] = static_cast<float>(query.t_most() * paths_.length_of(lane) -
-                                               approach_->before(lane));
+                                               approach_.before(lane));
             // A limit from below is no matter for bounds, nor is a t that is none until rounded.
             const bool simple = query.t_min() <= 0.0F &&
                                 query.t_max() >= std::numeric_limits<float>::min() * 0x1p24F;
             state_[lane] = simple ? open : doubtful;
         }
         TraceCounters counters{};
-        tracing_.method().trace.occluded(data_->view(), data_->listed_kinds(), nullptr, count,
+        tracing_.method().trace.occluded(data_.view(), data_.listed_kinds(), nullptr, count,
                                          rounded_, {t_most_, state_}, workspace_, counters);
         for (std::size_t lane = 0; lane < count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
@@ -243,41 +231,41 @@ class StreamTracer::Worker {
 
     /// Whether the lane's hit can be seen from where the ray comes.
     bool is_seen(std::size_t lane) const {
-        if (!data_->one_sided()) return true;
-        const Hits& found = finder_->hits();
-        const core::MaterialIndex material = data_->occupant_of(found.slot[lane]).material;
+        if (!data_.one_sided()) return true;
+        const Hits& found = finder_.hits();
+        const core::MaterialIndex material = data_.occupant_of(found.slot[lane]).material;
         return scene_.materials()[material].is_seen((found.hit[lane] & hit_entering) != 0);
     }
 
     /// Of the lane's hit, for the caller.
     float t_at(std::size_t lane, const Query& query) const {
-        const Hits& found = finder_->hits();
+        const Hits& found = finder_.hits();
         const double per_unit = query.scale() / paths_.length_of(lane);
         const double t = found.t[lane] * per_unit;
         float rounded = 0.0F;
         // The length and both operations are off by a few ulps.
         const double error = found.error[lane] * per_unit * (1.0 + 0x1p-50) + 0x1p-50 * t;
         if (core::rounds_surely(t, is_exact() ? error : 0.0, rounded)) return rounded;
-        return query.t_of(scene_, hit_of(*data_, paths_, found, lane));
+        return query.t_of(scene_, hit_of(data_, paths_, found, lane));
     }
 
     core::Vec3f normal_at(std::size_t lane) const {
-        const Hits& found = finder_->hits();
+        const Hits& found = finder_.hits();
         if ((found.hit[lane] & (hit_normal_doubtful | hit_normal_unknown)) != 0)
             return core::rounded_normal(scene_, {ray_of(paths_, lane), {}},
-                                        hit_of(*data_, paths_, found, lane));
+                                        hit_of(data_, paths_, found, lane));
         return in_float({found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]});
     }
 
     void take_from(Arena& arena, std::size_t capacity) {
-        finder_->take_from(arena, capacity);
+        finder_.take_from(arena, capacity);
         paths_.take_from(arena, capacity, false, /*for_others=*/true);
         is_open_ = arena.take<std::uint8_t>(capacity);
-        approach_->take_from(arena, capacity);
+        approach_.take_from(arena, capacity);
         take_rounded(arena, rounded_, capacity);
         t_most_ = arena.take<float>(capacity);
         state_ = arena.take<std::uint8_t>(capacity);
-        workspace_ = workspace_for(*data_, arena, capacity);
+        workspace_ = workspace_for(data_, arena, capacity);
     }
 
     /// The rays that are any, with unit directions.
@@ -301,14 +289,14 @@ class StreamTracer::Worker {
     }
 
     const core::Scene& scene_;
-    const SceneData* data_;
+    const SceneData& data_;
     Tracing tracing_;
     Searcher searcher_;
-    std::optional<HitFinder> finder_;
+    HitFinder finder_;
+    Approach approach_;
     Arena arena_;
     Paths paths_{}; // sample: the ray's number in the stream
     std::uint8_t* is_open_ = nullptr;
-    std::optional<Approach> approach_;
     RoundedRays rounded_{};
     float* t_most_ = nullptr;
     std::uint8_t* state_ = nullptr;
@@ -327,7 +315,7 @@ class StreamTracer::Lease {
             }
         }
         if (worker_ == nullptr)
-            worker_ = std::make_unique<Worker>(tracer.scene_, tracer.data_.get(), tracer.tracing_,
+            worker_ = std::make_unique<Worker>(tracer.scene_, *tracer.data_, tracer.tracing_,
                                                tracer.at_a_time());
     }
     ~Lease() {
@@ -347,19 +335,15 @@ class StreamTracer::Lease {
     std::unique_ptr<Worker> worker_;
 };
 
-StreamTracer::StreamTracer(const core::Scene& scene, int threads, std::optional<Isa> isa,
+StreamTracer::StreamTracer(const core::Scene& scene, int threads, Isa isa,
                            core::Precision precision)
-    : scene_(scene), threads_(threads), tracing_{nullptr, precision} {
-    if (!isa) return;
-    data_ = std::make_unique<const SceneData>(scene);
-    tracing_.kernels = &kernels_of(*isa);
-}
+    : scene_(scene), threads_(threads),
+      data_(std::make_unique<const SceneData>(scene)), tracing_{&kernels_of(isa), precision} {}
 
 StreamTracer::~StreamTracer() = default;
 
 std::size_t StreamTracer::at_a_time() const {
-    return data_ != nullptr && tracing_.precision == core::Precision::exact ? data_->best_stream()
-                                                                            : fewest;
+    return tracing_.precision == core::Precision::exact ? data_->best_stream() : fewest;
 }
 
 /// Calls answer(worker, first, last) for ranges of at most `most` that together are all rays.

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <vector>
 
 namespace raylane::simd {
@@ -42,8 +41,7 @@ struct HitStream {
 class StreamTracer {
   public:
     /// `threads`: 0 is default_threads(). `isa`: an available one; default: the best.
-    explicit StreamTracer(const core::Scene& scene, int threads = 0,
-                          std::optional<Isa> isa = best_isa(),
+    explicit StreamTracer(const core::Scene& scene, int threads = 0, Isa isa = best_isa(),
                           core::Precision precision = core::Precision::exact);
     ~StreamTracer();
 
@@ -66,7 +64,7 @@ class StreamTracer {
 
     const core::Scene& scene_;
     int threads_;
-    std::unique_ptr<const SceneData> data_; ///< null where the processor has no vectors for us
+    std::unique_ptr<const SceneData> data_;
     Tracing tracing_;
 
     // Workers that nobody uses now: their memory is made once.

@@ -91,7 +91,7 @@ simd::Bundle bundle_at(const Vec3f& apex, bool towards) {
 /// What the camera's rays hit, and where rays go from there.
 void add_secondary(const core::Scene& scene, const simd::SceneData& data, const RaySet& camera,
                    RaySet& mirror, RaySet& shadow) {
-    const simd::Tracing tracing{&simd::kernels_of(*simd::best_isa())};
+    const simd::Tracing tracing{&simd::kernels_of(simd::best_isa())};
     core::ReferenceTracer<double> reference(scene, scene.settings());
     simd::HitFinder finder(data, tracing, reference);
     const simd::Arena arena =

@@ -107,9 +107,7 @@ simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
     const auto isa = choice_argument<simd::Isa>("--isa", text, choices);
     if (engine != simd::Engine::vector) throw BadInput("--isa", "", "goes with --engine vector");
     if (!simd::is_available(isa))
-        throw BadInput("--isa", "",
-                       "this processor has no " + text + ", but " +
-                           (available.empty() ? "none of the others either" : available));
+        throw BadInput("--isa", "", "this processor has no " + text + ", but " + available);
     return isa;
 }
 
@@ -136,8 +134,7 @@ simd::RenderOptions options_of(const RenderArguments& arguments) {
 }
 
 std::string isa_in_use(const std::string& engine) {
-    const std::optional<simd::Isa> best = simd::best_isa();
-    return engine == "vector" && best ? std::string(simd::name_of(*best)) : "none";
+    return engine == "vector" ? std::string(simd::name_of(simd::best_isa())) : "none";
 }
 
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,

@@ -32,13 +32,6 @@ inline FilterChecks checks_of(Isa isa) {
     }
 }
 
-inline Isa widest_isa() {
-    Isa best = Isa::sse42;
-    for (const Isa isa : all_isas)
-        if (is_available(isa)) best = isa;
-    return best;
-}
-
 /// A ray as it is meant, and as the filters see it.
 struct Doubled {
     Ray<double> ray;

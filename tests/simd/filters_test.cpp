@@ -208,7 +208,7 @@ Tightness tightness(Set set) {
             stream.add(rays.back());
         }
         const FilterStream view = stream.view();
-        checks_of(widest_isa())
+        checks_of(best_isa())
             .bound_rays(static_cast<KindNumber>(kind_of<Shape>), view_of(block), 0, view);
         for (std::size_t i = 0; i < rays.size(); ++i)
             result.add(stream.answer(i), first_crossing(shape, rays[i].ray),

@@ -115,7 +115,7 @@ double part_needed(const Started<Shape>& attempt, Aim aim) {
         ray.direction = normalized(ray.direction);
     }
     const Finish result =
-        finish(kernels_of(*best_isa()), attempt.shape, ray, attempt.start, aim == Aim::again);
+        finish(kernels_of(best_isa()), attempt.shape, ray, attempt.start, aim == Aim::again);
     if ((result.hit & hit_doubtful) != 0) return 0.0;
     const auto truth = first_crossing(attempt.shape, attempt.ray, attempt.start);
     if (result.hit == hit_none) return truth ? 1.0 : 0.0;
@@ -131,7 +131,7 @@ double part_needed(const Started<Shape>& attempt, Aim aim) {
     // Without the last rounding, to double, which would hide all others; and of rays that need it.
     const double rounding = 0x1p-52 * std::abs(result.t), error = result.error - rounding;
     const bool needs_it =
-        (finish(kernels_of(*best_isa()), attempt.shape, ray, attempt.start, false).hit &
+        (finish(kernels_of(best_isa()), attempt.shape, ray, attempt.start, false).hit &
          hit_doubtful) != 0;
     if (!needs_it || !(error > rounding)) return 0.0;
     return std::max(std::abs(off) - 0.5 * rounding, 0.0) / error;

@@ -138,13 +138,12 @@ class Trial {
 TEMPLATE_TEST_CASE("the engine decides as the oracle does", "[long]", Sphere, Plane, Disc, Triangle,
                    SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone, CappedCone,
                    Quadric) {
-    const std::optional<Isa> isa = best_isa();
-    if (!isa) return;
+    const Kernels& kernels = kernels_of(best_isa());
     Random random(20261100 + static_cast<std::uint64_t>(kind_of<TestType>));
     for (const Set set : ray_sets::all_sets) {
         Tally tally;
         for (int i = 0; i < tests::rounds(60, 5); ++i)
-            Trial<TestType>(set, random).trace(kernels_of(*isa), tally);
+            Trial<TestType>(set, random).trace(kernels, tally);
         REQUIRE(tally.hits > tally.rays / 100);
         const double t_99 = Tally::at(tally.t_errors, 0.99), t_max = Tally::at(tally.t_errors, 1);
         const double point_99 = Tally::at(tally.point_errors, 0.99),

@@ -211,7 +211,6 @@ void check_rounds(int of_each) {
                         static_cast<std::size_t>(random.integer(0, ray_count - 1)));
         }
     }
-    if (!best_isa()) return;
     const auto rays = static_cast<std::uint64_t>(rounds()) * ray_count;
     CAPTURE(counters.refined, counters.doubtful, rays);
     CHECK(counters.refined * 20 > rays);

@@ -28,7 +28,7 @@ Builder looking_at(const Vec3f& center, const Vec3f& from) {
     return builder;
 }
 
-Film picture(const Scene& scene, simd::Engine engine, std::optional<simd::Isa> isa = {}) {
+Film picture(const Scene& scene, simd::Engine engine, simd::Isa isa = simd::best_isa()) {
     simd::RenderOptions options;
     options.engine = engine;
     options.isa = isa;

@@ -157,7 +157,7 @@ TEST_CASE("rays do not find what they leave however they go") {
 }
 
 TEST_CASE("random rays make lists where these are long and the hierarchy is in the cache") {
-    const Kernels& kernels = kernels_of(*best_isa());
+    const Kernels& kernels = kernels_of(best_isa());
     Rays rays(4096, 12.0);
     const Traced traced(make_scene(false), rays.padded);
     const RoundedRays rounded = rays.round(kernels);

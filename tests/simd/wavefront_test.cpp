@@ -56,7 +56,7 @@ TEST_CASE("waves that outgrow their queues are divided", "[long]") {
     const Scene scene = panes(9);
     CHECK(differing(scene) == 0);
     const auto counters = simd::render(scene, scene.settings(), by(simd::Engine::vector)).counters;
-    CHECK((counters.deferred > 0 || !simd::best_isa()));
+    CHECK(counters.deferred > 0);
     CHECK(counters.followed == 0);
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("a sample that outgrows a queue by itself is followed to its end", "[l
     const simd::Rendering rendering = simd::render(scene, settings, by(simd::Engine::vector));
     for (std::size_t i = 0; i < expected.pixels().size(); ++i)
         CHECK(rendering.film.pixels()[i].z == Approx(expected.pixels()[i].z).epsilon(1e-5));
-    CHECK((rendering.counters.followed > 0 || !simd::best_isa()));
+    CHECK(rendering.counters.followed > 0);
 }
 
 TEST_CASE("more samples than a chunk holds make one pixel") {
@@ -181,6 +181,6 @@ TEST_CASE("the vector engine is what renders, unless told otherwise", "[native]"
     const auto deferred = [&](const simd::RenderOptions& options) {
         return simd::render(scene, scene.settings(), options).counters.deferred;
     };
-    if (simd::best_isa()) CHECK(deferred({}) > 0);
+    CHECK(deferred({}) > 0);
     CHECK(deferred(by(simd::Engine::reference)) == 0);
 }
