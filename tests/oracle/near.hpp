@@ -24,11 +24,11 @@ struct Ball {
 
 class BallAround {
   public:
-    Ball operator()(const core::Sphere& s) const { return about(s.center, s.radius); }
+    Ball operator()(const core::Sphere& s) const { return about(s.center, wide(s.radius)); }
     Ball operator()(const core::Plane& p) const {
         return {wide(p.point), std::numeric_limits<double>::infinity()};
     }
-    Ball operator()(const core::Disc& d) const { return about(d.center, d.radius); }
+    Ball operator()(const core::Disc& d) const { return about(d.center, wide(d.radius)); }
     template <class AnyTriangle>
     requires requires(AnyTriangle triangle) { triangle.c; }
     Ball operator()(const AnyTriangle& t) const {
@@ -39,12 +39,11 @@ class BallAround {
     }
     template <core::Ends ends>
     Ball operator()(const core::Cylinder<ends>& c) const {
-        return about(c.base, size(c.axis) + static_cast<double>(c.radius));
+        return about(c.base, size(c.axis) + wide(c.radius));
     }
     template <core::Ends ends>
     Ball operator()(const core::Cone<ends>& c) const {
-        return about(c.base,
-                     size(c.axis) + static_cast<double>(std::max(c.base_radius, c.top_radius)));
+        return about(c.base, size(c.axis) + wide(std::max(c.base_radius, c.top_radius)));
     }
     Ball operator()(const core::Quadric& q) const {
         return about(q.center, size(q.lower) + size(q.upper));
@@ -53,6 +52,7 @@ class BallAround {
   private:
     static constexpr double slack = 1.0 + 0x1p-20; // far more than what is rounded here
 
+    static double wide(float value) { return static_cast<double>(value); }
     static Vec3d wide(const core::Vec3f& v) { return core::convert<double>(v); }
     static double size(const core::Vec3f& v) { return core::length(wide(v)); }
     static double distance(const core::Vec3f& a, const core::Vec3f& b) {

@@ -321,19 +321,19 @@ TEST_CASE("sizes of 1e30 and 1e-30 are right beside each other", "[known]") {
 }
 
 TEST_CASE("a ray in the planes of bounds hits what touches them", "[known]") {
-    Shapes row;
-    for (int i = 0; i < 30; ++i)
-        row.push_back(core::Sphere{{2.0F * static_cast<float>(i), -1, 0}, 1});
-    std::vector<Ray> rays;
-    for (const float x : {-3.0F, 0.0F, 0.5F, 1e6F})
-        for (const Vec3f& way : {Vec3f(1, 0, 0), Vec3f(-1, 0, 0), Vec3f(1, 0, 0.125F)})
-            rays.push_back({{x, 0, 0}, way});
-    check(row, rays, 0.1);
-    CHECK(answer(row, {{-3, 0, 0}, {1, 0, 0}}).shape == 0);
-    CHECK(answer(row, {{0x1p20F, 0, 0}, {-1, 0, 0}}).shape == 29);
-    for (AnyShape& sphere : row) // where all that is not in line is smaller still
-        sphere = Placing(Vec3f(0.0F), 0x1p-90F)(sphere);
-    CHECK(answer(row, {{0, 0, 0}, {1, 0, 0}}).shape == 1);
+    for (const float size : {1.0F, 0x1p20F, 0x1p60F, 0x1p-60F}) {
+        CAPTURE(size);
+        Shapes row;
+        for (int i = 0; i < 30; ++i)
+            row.push_back(core::Sphere{Vec3f(2.0F * static_cast<float>(i), -1, 0) * size, size});
+        std::vector<Ray> rays;
+        for (const float x : {-3.0F, 0.0F, 0.5F, 1e6F})
+            for (const Vec3f& way : {Vec3f(1, 0, 0), Vec3f(-1, 0, 0), Vec3f(1, 0, 0.125F)})
+                rays.push_back({Vec3f(x, 0, 0) * size, way});
+        check(row, rays, 0.1);
+        CHECK(answer(row, {Vec3f(-3, 0, 0) * size, {1, 0, 0}}).shape == 0);
+        CHECK(answer(row, {Vec3f(100, 0, 0) * size, {-1, 0, 0}}).shape == 29);
+    }
 }
 
 TEST_CASE("from afar, t_max is the limit that it says", "[known]") {
