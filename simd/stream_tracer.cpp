@@ -211,7 +211,7 @@ class StreamTracer::Worker {
     /// Whether a ray's t_max, less what lies before where it has been brought, is off by no more
     /// than kernels grant: little more than half an ulp of t_max.
     bool is_fine(std::size_t lane, const Query& query) const {
-        const double before = approach_->before(lane);
+        const double before = approach_.before(lane);
         return before <= 0.25 * query.t_most() * paths_.length_of(lane);
     }
 

@@ -21,7 +21,7 @@ using ray_sets::Set;
 namespace {
 
 int rounds() {
-    return tests::rounds(4000);
+    return tests::rounds(1500);
 }
 
 constexpr std::size_t rays_a_round = 16 * 16 + 5; // the last packet is not full
