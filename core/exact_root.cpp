@@ -63,7 +63,7 @@ float ExactRoot::rounded_between(float low, float high, int exponent) const {
 
 Bounded<DoubleDouble> ExactRoot::in_wide(double t, double error) const {
     DoubleDouble middle(t);
-    double half = error;
+    double half = std::ldexp(1.0, std::ilogb(error) + 1); // so that no sum is rounded
     while (half > 0x1p-101 * std::abs(t)) {
         half *= 0.5;
         const int side = sign_of(ExactQuadratic::minus(Dyadic(middle.high) + middle.low));

@@ -52,13 +52,6 @@ class InlineVector {
         make_room(size);
         size_ = size;
     }
-    void insert(const Value* before, const Value& value) {
-        const auto place = static_cast<std::size_t>(before - begin());
-        if (size_ == room_) make_room(2 * room_);
-        std::copy_backward(begin() + place, end(), end() + 1);
-        begin()[place] = value;
-        ++size_;
-    }
     /// Keeps elements `first` to `last`, the latter excluded.
     void keep(std::size_t first, std::size_t last) {
         if (first != 0) std::copy(begin() + first, begin() + last, begin());

@@ -100,14 +100,12 @@ void store_none(const HitStream& hits, std::size_t i) {
 /// The nearest crossing between a ray's limits, or none.
 Hit<double> nearest_of(const core::Scene& scene, Searcher& searcher, const Query& query) {
     if (!query.is_ray()) return {};
-    return searcher
-        .nearest(
-            query.ray(), {},
-            [&](const Hit<double>& candidate) {
-                return query.contains(scene, candidate) && is_visible(scene, candidate);
-            },
-            query.t_most())
-        .hit;
+    return searcher.nearest_hit(
+        query.ray(),
+        [&](const Hit<double>& candidate) {
+            return query.contains(scene, candidate) && is_visible(scene, candidate);
+        },
+        query.t_most());
 }
 
 bool wants_normals(const HitStream& hits) {

@@ -5,6 +5,7 @@
 #include "core/scene.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace raylane::core {
 
@@ -29,11 +30,15 @@ struct Contact {
 template <class Real>
 class Departure {
   public:
-    /// Of shapes that are none of those before.
-    void add(const Contact<Real>& contact) {
-        contacts_.insert(
-            std::upper_bound(contacts_.begin(), contacts_.end(), contact.shapes.first, is_below),
-            contact);
+    Departure() = default;
+    /// Of shapes that are all others.
+    explicit Departure(std::span<const Contact<Real>> contacts) {
+        contacts_.reset(contacts.size());
+        std::copy(contacts.begin(), contacts.end(), contacts_.begin());
+        std::sort(contacts_.begin(), contacts_.end(),
+                  [](const Contact<Real>& a, const Contact<Real>& b) {
+                      return a.shapes.first < b.shapes.first;
+                  });
     }
 
     const Contact<Real>* begin() const { return contacts_.begin(); }

@@ -22,6 +22,7 @@ class Searcher {
         pending_.reserve(512);
         candidates_.reserve(64);
         sharp_.reserve(64);
+        contacts_.reserve(64);
     }
 
     /// The first crossing with t < t_most that `counts(hit)`. Its t is infinite if there is none.
@@ -35,23 +36,16 @@ class Searcher {
             if (!first.any() || contact_hit(contact).precedes(first)) first = contact_hit(contact);
         }
         if (first.any()) return {first, departure};
+        const Hit<Real> best = look(ray, departure, counts, t_most);
+        return best.any() ? encounter(ray, departure, best, /*whole=*/true) : Encounter<Real>{};
+    }
 
-        Hit<Real> best;
-        best.t = t_most;
-        candidates_.clear();
-        for_each_candidate(
-            ray, [&] { return best.t; },
-            [&](Kind kind, std::uint32_t block) {
-                cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
-                    if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
-                    // What does not count may still lie where the ray will go on from.
-                    const bool may_be_hit = counts(hit);
-                    candidates_.push_back({hit, may_be_hit});
-                    if (may_be_hit && (hit.t < best.t || !best.any())) best = hit;
-                });
-                return true;
-            });
-        return best.any() ? encounter(ray, departure, best) : Encounter<Real>{};
+    /// The same for a ray that starts on no surface, without what it touches there.
+    template <class Counts>
+    Hit<Real> nearest_hit(const Ray<Real>& ray, const Counts& counts, Real t_most) {
+        const Departure<Real> nowhere{};
+        const Hit<Real> best = look(ray, nowhere, counts, t_most);
+        return best.any() ? encounter(ray, nowhere, best, /*whole=*/false).hit : Hit<Real>{};
     }
 
     /// Calls visit(hit) for the crossings with t < t_most, in no order, until it returns false.
@@ -126,9 +120,31 @@ class Searcher {
         bool may_be_hit;
     };
 
-    /// Of the candidates, among which is `best`.
+    /// Fills the candidates; returns one that may be the first, if any.
+    template <class Counts>
+    Hit<Real> look(const Ray<Real>& ray, const Departure<Real>& departure, const Counts& counts,
+                   Real t_most) {
+        Hit<Real> best;
+        best.t = t_most;
+        candidates_.clear();
+        for_each_candidate(
+            ray, [&] { return best.t; },
+            [&](Kind kind, std::uint32_t block) {
+                cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
+                    if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
+                    // What does not count may still lie where the ray will go on from.
+                    const bool may_be_hit = counts(hit);
+                    candidates_.push_back({hit, may_be_hit});
+                    if (may_be_hit && (hit.t < best.t || !best.any())) best = hit;
+                });
+                return true;
+            });
+        return best;
+    }
+
+    /// Of the candidates, among which is `best`; `whole`: with its contacts.
     Encounter<Real> encounter(const Ray<Real>& ray, const Departure<Real>& departure,
-                              const Hit<Real>& best) {
+                              const Hit<Real>& best, bool whole) {
         std::erase_if(candidates_, [&](const Candidate& candidate) {
             return best.is_surely_before(candidate.hit);
         });
@@ -138,13 +154,17 @@ class Searcher {
                 sharp_.clear();
                 for (const Candidate& candidate : candidates_)
                     sharp_.emplace_back(candidate.hit);
-                return first_of(sharp_, ray, departure, [&](const SharpHit& a, const SharpHit& b) {
-                    return order.compare(a, b);
-                });
+                return first_of(
+                    sharp_, ray, departure,
+                    [&](const SharpHit& a, const SharpHit& b) { return order.compare(a, b); },
+                    whole);
             }
-        return first_of(candidates_, ray, departure, [](const Candidate& a, const Candidate& b) {
-            return a.hit.t < b.hit.t ? -1 : a.hit.t > b.hit.t ? 1 : 0;
-        });
+        return first_of(
+            candidates_, ray, departure,
+            [](const Candidate& a, const Candidate& b) {
+                return a.hit.t < b.hit.t ? -1 : a.hit.t > b.hit.t ? 1 : 0;
+            },
+            whole);
     }
 
     static const Hit<Real>& hit_of(const Candidate& candidate) { return candidate.hit; }
@@ -155,7 +175,7 @@ class Searcher {
     /// Of hits that belong to the candidates: the first that counts, and all that are where it is.
     template <class AnyHit, class Compare>
     Encounter<Real> first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
-                             const Departure<Real>& departure, const Compare& compare) const {
+                             const Departure<Real>& departure, const Compare& compare, bool whole) {
         std::size_t first = hits.size();
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (!candidates_[i].may_be_hit) continue;
@@ -163,18 +183,25 @@ class Searcher {
             if (order < 0 || (order == 0 && hit_of(hits[i]).precedes(hit_of(hits[first]))))
                 first = i;
         }
-        Encounter<Real> result;
-        result.hit = sharpened(hits[first]);
+        const Hit<Real> hit_first = sharpened(hits[first]);
+        if (!whole) return {hit_first, {}};
+        contacts_.clear();
         const auto add = [&](const Hit<Real>& hit) {
-            if (result.contacts.find(hit.shape) != nullptr) return;
-            result.contacts.add(
-                {hit, scene_.coplanar_with(hit.shape), scene_.material_index_of(hit.shape),
-                 surface_at(ray, departure, hit).normal, !hit.entering, hit.entering});
+            const IdRange shapes = scene_.coplanar_with(hit.shape);
+            // An edge between triangles of one polygon is of both.
+            if (shapes.first != shapes.last &&
+                std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<Real>& other) {
+                    return other.shapes.first == shapes.first;
+                }))
+                return;
+            contacts_.push_back({hit, shapes, scene_.material_index_of(hit.shape),
+                                 surface_at(ray, departure, hit).normal, !hit.entering,
+                                 hit.entering});
         };
-        add(result.hit);
+        add(hit_first);
         for (std::size_t i = 0; i < hits.size(); ++i)
             if (i != first && compare(hits[i], hits[first]) == 0) add(sharpened(hits[i]));
-        return result;
+        return {hit_first, Departure<Real>(contacts_)};
     }
 
     struct Pending {
@@ -272,7 +299,8 @@ class Searcher {
     Precision precision_;
     std::vector<Pending> pending_;      // nearest last
     std::vector<Candidate> candidates_; // for what is nearest
-    std::vector<SharpHit> sharp_;       // the same, or what is sorted
+    std::vector<Contact<Real>> contacts_;
+    std::vector<SharpHit> sharp_; // the same, or what is sorted
 };
 
 } // namespace raylane::core

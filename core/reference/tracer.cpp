@@ -228,11 +228,16 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
     for (auto hit = crossings_.begin(); hit != crossings_.end(); ++hit) {
         share *= absorbed(medium_before(*hit, media), hit->t - reached);
         reached = hit->t;
-        // Those of one material that lie in each other are one surface.
-        const auto end = std::find_if(hit + 1, crossings_.end(), [&](const Hit<Real>& other) {
-            return !other.joins || other.entering != hit->entering ||
-                   scene_.material_index_of(other.shape) != scene_.material_index_of(hit->shape);
+        // Those of one material that lie in each other are one surface, whatever else does.
+        const auto others = std::find_if(hit + 1, crossings_.end(), [&](const Hit<Real>& other) {
+            return !other.joins || other.entering != hit->entering;
         });
+        auto end = hit + 1;
+        for (auto other = end; other != others; ++other)
+            if (scene_.material_index_of(other->shape) == scene_.material_index_of(hit->shape)) {
+                std::rotate(end, other, other + 1);
+                ++end;
+            }
         const Media behind = media_behind(*hit, media, static_cast<int>(end - hit));
         share *= let_through(*hit, ray, departure, media, behind);
         media = behind;

@@ -10,6 +10,14 @@ namespace {
 /// Radii. Nearer rays are off by less than a thousandth of the scene wherever they go.
 constexpr double far_away = 64.0;
 
+/// Where each term of the product has a factor 0.
+bool is_parallel(const core::Vec3d& normal, const core::Vec3d& direction) {
+    bool is = true;
+    for (int axis = 0; axis < 3; ++axis)
+        is = is && (normal[axis] == 0.0 || direction[axis] == 0.0);
+    return is;
+}
+
 } // namespace
 
 /// In a scene without a tree there is little to tell apart.
@@ -57,10 +65,13 @@ void Approach::bring_near(const Paths& paths, RoundedRays& rays) {
         rays.meant_origin[axis] = origin_[axis];
 }
 
-/// No further than to a radius before the sphere about all that is bounded, and before any plane.
+/// No further than to a radius before the sphere about all that is bounded, and before any plane
+/// that it may cross until there.
 double Approach::before_of(const core::Ray<double>& ray) const {
     const core::Vec3d to_center = center_ - ray.origin;
-    double before = core::dot(to_center, ray.direction) - 2.0 * radius_;
+    // The product is off by less than a few ulps of both lengths, and so is what t is compared to.
+    double before = core::dot(to_center, ray.direction) - 2.0 * radius_ -
+                    0x1p-49 * (core::length(ray.origin) + core::length(to_center));
     if (!(before > far_away * radius_)) return 0.0;
     for (const core::Block<core::Plane>& block :
          std::get<core::Table<core::Plane>>(scene_.scene().shapes()).blocks())
@@ -68,14 +79,16 @@ double Approach::before_of(const core::Ray<double>& ray) const {
             const core::Plane plane = block.get(i);
             const core::Vec3d normal = core::convert<double>(plane.normal);
             const core::Vec3d to_plane = core::convert<double>(plane.point) - ray.origin;
+            if (is_parallel(normal, ray.direction)) continue;
             const double size = core::length(normal);
             const double approach = core::dot(normal, ray.direction);
             const double t = core::dot(normal, to_plane) / approach;
             // Each product is off by less than a few ulps of its vectors' lengths.
             const double error =
                 0x1p-49 * size * (core::length(to_plane) + std::abs(t)) / std::abs(approach);
+            if (t + error < 0.0 || t - error > before + radius_) continue;
             if (!(error < radius_)) return 0.0;
-            if (t > -radius_) before = std::min(before, t - 2.0 * radius_);
+            before = std::min(before, t - 2.0 * radius_);
         }
     return std::max(before, 0.0);
 }

@@ -38,9 +38,8 @@ inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, cons
 
 template <class Real = double>
 core::Departure<Real> departure_of(const SceneData& scene, const Paths& paths, std::size_t lane) {
-    core::Departure<Real> departure;
     const std::uint32_t slot = paths.departed_slot[lane];
-    if (slot == no_slot) return departure;
+    if (slot == no_slot) return {};
     core::Hit<Real> hit;
     const SceneData::Occupant shape = scene.occupant_of(slot);
     hit.shape = shape.id;
@@ -48,13 +47,13 @@ core::Departure<Real> departure_of(const SceneData& scene, const Paths& paths, s
     hit.kind = shape.kind;
     hit.slot = scene.place_of(slot);
     const bool inward = (paths.departure[lane] & departure_inward) != 0;
-    departure.add({hit,
-                   {paths.departed_first[lane], paths.departed_last[lane]},
-                   shape.material,
-                   core::Vec3<Real>(0),
-                   inward,
-                   inward});
-    return departure;
+    const core::Contact<Real> surface{hit,
+                                      {paths.departed_first[lane], paths.departed_last[lane]},
+                                      shape.material,
+                                      core::Vec3<Real>(0),
+                                      inward,
+                                      inward};
+    return core::Departure<Real>(std::span(&surface, 1));
 }
 
 /// What a kernel has done, among what core counts.

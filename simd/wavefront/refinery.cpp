@@ -17,7 +17,10 @@ constexpr std::size_t beyond = 32;
 
 /// So many candidates are listed before the nearest of them are asked whether there is need of
 /// more.
-constexpr std::size_t some = 64;
+constexpr std::size_t at_first = 64;
+
+/// What a list has to be limited by for bounds of 0 to be within.
+constexpr float least_limit = std::numeric_limits<float>::min();
 
 bool crosses(std::uint32_t hit) {
     return (hit & (hit_doubtful | hit_none)) == 0;
@@ -86,9 +89,12 @@ std::size_t Refinery::refine(const Paths& paths, const Stream& stream, const Pen
 void Refinery::list(const Paths& paths, const Stream& stream, const Pending& pending,
                     std::size_t lane, double limit, core::Counters& counters) {
     const double before = stream.approach.before(lane);
-    for (std::size_t room = some;; room *= 8) {
-        // Not before what is behind a certain crossing by as little as does not tell them apart.
-        const float limit_there = static_cast<float>(limit - before) * candidate_grace;
+    for (std::size_t room = at_first;; room *= 8) {
+        // Not before what is behind a certain crossing by as little as does not tell them apart,
+        // nor by what the difference is off by.
+        const double beyond_there = before == 0.0 ? limit : limit * (1.0 + 0x1p-50) - before;
+        const float limit_there =
+            std::max(static_cast<float>(beyond_there) * candidate_grace, least_limit);
         if (room > slots_.size()) {
             slots_.resize(room);
             bounds_.resize(room);
@@ -123,7 +129,7 @@ void Refinery::take(const CandidateList& list, double before) {
 /// What the first crossing is surely not behind, by the nearest that are listed.
 double Refinery::end_of_first(const Paths& paths, std::size_t lane, core::Counters& counters) {
     const std::size_t begin = count_;
-    add(paths, lane, std::span(listed_).first(std::min({some, listed_.size(), most - begin})));
+    add(paths, lane, std::span(listed_).first(std::min({at_first, listed_.size(), most - begin})));
     finish(begin);
     const double end = end_of_first(begin, count_, counters);
     count_ = begin;

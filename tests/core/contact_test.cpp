@@ -2,6 +2,8 @@
 #include "tests/core/little_scene.hpp"
 #include "tests/random.hpp"
 
+#include <vector>
+
 using namespace little_scene;
 using namespace raylane;
 
@@ -121,4 +123,29 @@ TEST_CASE("where surfaces meet at an edge, neither hides the other") {
     const Scene scene = builder.finish();
     for (const double z : {0.0, 0.1, 1.0 / 3.0})
         CHECK(color_along<double>(scene, {1, 1, z}, {-1, -1, 0.25}) == red);
+}
+
+TEST_CASE("light passes each material once, whatever else lies in it") {
+    const auto seen = [](const std::vector<int>& materials) {
+        Builder builder;
+        Material matte = luminous({1, 0, 0});
+        matte.ambient = 0.0F;
+        matte.diffuse = 1.0F;
+        builder.add_shape(Plane{{0, 0, 0}, {0, 1, 0}}, matte);
+        Material tinted = glass(1.0F);
+        tinted.transmission = 0.5F;
+        const MaterialIndex of[] = {builder.add_material(tinted), builder.add_material(tinted)};
+        float radius = 20;
+        for (const int material : materials)
+            builder.add(Disc{{0, 3, 0}, {0, 1, 0}, radius++}, of[material]);
+        Light sun;
+        sun.kind = LightKind::directional;
+        return color_along<double>(builder.finish(sun), {0.25, 1, 0.5}, {0.1, -1, 0.2});
+    };
+    const Vec3d one = seen({0}), both = seen({0, 1});
+    CHECK(one == Vec3d(0.5, 0, 0));
+    CHECK(both == Vec3d(0.25, 0, 0));
+    CHECK(seen({0, 0, 1}) == both);
+    CHECK(seen({0, 1, 0}) == both);
+    CHECK(seen({1, 0, 0, 1, 0, 1, 1}) == both);
 }

@@ -69,7 +69,8 @@ struct TracerOptions {
 /// - Sides that Material::visible hides are not hit. Glass is: any surface occludes.
 /// - A crossing at the origin itself (t = 0) is none. But an origin that was computed is seldom
 ///   exactly on its surface: give such rays a small t_min.
-/// - Shapes that are the same, of one material, count as the first of them.
+/// - Shapes that are the same, float by float and by the index of their material, count as the
+///   first of them; but for triangles of polygons.
 /// - A ray of which a component is infinite or NaN, or its direction 0, or a limit NaN, hits
 ///   nothing.
 class Tracer {

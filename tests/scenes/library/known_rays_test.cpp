@@ -412,3 +412,23 @@ TEST_CASE("of a thousand identical spheres the first one is hit", "[known]") {
     check(shapes, rays, 0.1);
     CHECK(answer(shapes, rays.back()).shape == 0);
 }
+
+/// What is nearest is behind where double brings such rays, and more than are listed at first may
+/// be.
+TEST_CASE("of many shapes that a ray from afar may hit, it hits the first", "[known]") {
+    Shapes balls, cubes;
+    for (int i = 0; i < 65; ++i)
+        balls.push_back(core::Sphere{{0, 0, 0}, 1.0F + static_cast<float>(i) / 64.0F});
+    for (int i = 0; i < 100; ++i)
+        cubes.push_back(
+            cube({1.5F * static_cast<float>(i % 10), 1.5F * static_cast<float>(i / 10), 0}));
+    std::vector<Ray> at_balls, at_cubes;
+    for (const float distance :
+         {0x1p40F, 0x1p50F, 0x1p55F, 1e17F, 0x1p57F, 0x1p58F, 1e18F, 1e20F, 1e29F})
+        for (const float aside : {0.0F, 0.25F, 2.5F}) {
+            at_balls.push_back({{aside, 0, distance}, {0, 0, -1}});
+            at_cubes.push_back({{2.5F, aside, distance}, {0, 0, -1}});
+        }
+    check(balls, at_balls, 0.1);
+    check(cubes, at_cubes, 0.1);
+}
