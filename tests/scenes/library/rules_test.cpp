@@ -89,7 +89,7 @@ TEST_CASE("a line that touches a surface enters it there") {
 }
 
 TEST_CASE("a line in a surface does not hit it, and one in a solid's does") {
-    const Vec3 from(-3, 0, 0), along(1, 0, 0);
+    const Vec3 from{-3, 0, 0}, along{1, 0, 0};
     CHECK(answers(from, along, Plane{{0, 0, 0}, {0, 1, 0}}).empty());
     CHECK(answers(from, along, Disc{{0, 0, 0}, {0, 1, 0}, 1}).empty());
     CHECK(answers(from, along, Triangle{{-1, 0, -1}, {1, 0, -1}, {0, 0, 2}}).empty());
