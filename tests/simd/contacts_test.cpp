@@ -168,41 +168,41 @@ void check_is_one_shape() {
 
 } // namespace
 
-TEST_CASE("any number of the same sphere is one sphere") {
+TEST_CASE("any number of the same sphere is one sphere", "[native]") {
     check_are_one([](Room& room, int, MaterialIndex material) {
         room.add(Sphere{{0, 0.5F, 0}, 1.25F}, material);
     });
 }
 
-TEST_CASE("any number of planes in each other are one") {
+TEST_CASE("any number of planes in each other are one", "[native]") {
     check_is_one_shape<Plane>();
 }
-TEST_CASE("any number of discs in each other are one") {
+TEST_CASE("any number of discs in each other are one", "[native]") {
     check_is_one_shape<Disc>();
 }
-TEST_CASE("any number of triangles in each other are one") {
+TEST_CASE("any number of triangles in each other are one", "[native]") {
     check_is_one_shape<Triangle>();
 }
-TEST_CASE("any number of the same smooth triangle are one") {
+TEST_CASE("any number of the same smooth triangle are one", "[native]") {
     check_are_one([](Room& room, int, MaterialIndex material) {
         room.add(again<SmoothTriangle>(0), material);
     });
 }
-TEST_CASE("any number of boxes in each other are one") {
+TEST_CASE("any number of boxes in each other are one", "[native]") {
     check_is_one_shape<Box>();
 }
-TEST_CASE("any number of cylinders in each other are one") {
+TEST_CASE("any number of cylinders in each other are one", "[native]") {
     check_is_one_shape<CappedCylinder>();
     check_is_one_shape<OpenCylinder>();
 }
-TEST_CASE("any number of cones in each other are one") {
+TEST_CASE("any number of cones in each other are one", "[native]") {
     check_is_one_shape<CappedCone>();
     check_is_one_shape<OpenCone>();
 }
-TEST_CASE("any number of quadrics in each other are one") {
+TEST_CASE("any number of quadrics in each other are one", "[native]") {
     check_is_one_shape<Quadric>();
 }
-TEST_CASE("a sphere and the quadrics in it are one") {
+TEST_CASE("a sphere and the quadrics in it are one", "[native]") {
     check_are_one([](Room& room, int i, MaterialIndex material) {
         const float scale = static_cast<float>(i);
         Quadric ball{};
@@ -215,7 +215,7 @@ TEST_CASE("a sphere and the quadrics in it are one") {
 }
 
 /// An atom of five bonds has five balls where one model puts one.
-TEST_CASE("balls at the ends of bonds are one ball") {
+TEST_CASE("balls at the ends of bonds are one ball", "[native]") {
     check_are_one([](Room& room, int i, MaterialIndex material) {
         if (i == 0)
             for (int bond = 0; bond < 5; ++bond) {
@@ -228,7 +228,7 @@ TEST_CASE("balls at the ends of bonds are one ball") {
 }
 
 /// Of fronts that overlap, what is in front of the others is the whole of it.
-TEST_CASE("boxes whose fronts lie in one plane have one front") {
+TEST_CASE("boxes whose fronts lie in one plane have one front", "[native]") {
     check_are_one(
         [](Room& room, int i, MaterialIndex material) {
             const float less = 0.015625F * static_cast<float>(i);
