@@ -1,5 +1,5 @@
 #include "bench/elementary_unit.hpp"
-#include "core/elementary.hpp"
+#include "core/numbers/elementary.hpp"
 #include "simd/isa.hpp"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/elementary.hpp"
+#include "simd/kernel/lanes/elementary.hpp"
 
 namespace raylane::bench {
 

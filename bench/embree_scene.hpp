@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/embree.hpp"
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 #include "simd/isa.hpp"
 
 #include <memory>

@@ -1,4 +1,4 @@
-#include "core/optics.hpp"
+#include "core/optics/optics.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 #include "bench/random_shapes.hpp"
-#include "core/shape_table.hpp"
-#include "core/solve.hpp"
+#include "core/scene/shape_table.hpp"
+#include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
 
 #include <benchmark/benchmark.h>

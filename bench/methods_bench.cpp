@@ -1,5 +1,5 @@
 #include "bench/method_rays.hpp"
-#include "core/precision.hpp"
+#include "core/shapes/precision.hpp"
 #include "simd/isa.hpp"
 
 /// Each precision's speed beside its error, over the same rays at the same shapes: rays per second

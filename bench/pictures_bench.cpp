@@ -1,4 +1,4 @@
-#include "core/precision.hpp"
+#include "core/shapes/precision.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 

@@ -1,6 +1,6 @@
 #include "scenes/generators.hpp"
 
-#include "core/validate.hpp"
+#include "core/scene/validate.hpp"
 
 #include <array>
 #include <charconv>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 
 /// Shapes that are quicker said than listed. Positions are computed in double and rounded once.
 /// All functions throw core::InvalidValue, whose fields are the arguments' names.

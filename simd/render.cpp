@@ -1,7 +1,7 @@
 #include "simd/render.hpp"
 
 #include "core/reference/tracer.hpp"
-#include "core/validate.hpp"
+#include "core/scene/validate.hpp"
 #include "simd/tiles.hpp"
 #include "simd/wavefront/wavefront.hpp"
 

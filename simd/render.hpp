@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/counters.hpp"
-#include "core/film.hpp"
-#include "core/precision.hpp"
-#include "core/scene.hpp"
+#include "core/reference/counters.hpp"
+#include "core/scene/film.hpp"
+#include "core/scene/scene.hpp"
+#include "core/shapes/precision.hpp"
 #include "simd/isa.hpp"
 
 #include <atomic>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/region.hpp"
+#include "core/scene/region.hpp"
 #include "simd/threads.hpp"
 
 #include <functional>

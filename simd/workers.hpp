@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/workers.hpp"
+#include "core/hierarchy/workers.hpp"
 
 #include <memory>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/vector.hpp"
+#include "core/numbers/vector.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/ray.hpp"
+#include "core/shapes/ray.hpp"
 #include "tests/targets.hpp"
 
 #include <glm/common.hpp>

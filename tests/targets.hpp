@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/shapes.hpp"
+#include "core/shapes/shapes.hpp"
 #include "tests/random.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "bench/peers/workload.hpp"
 
-#include "core/camera_rays.hpp"
+#include "core/scene/camera_rays.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/isa.hpp"
 #include "simd/wavefront/hit_finder.hpp"

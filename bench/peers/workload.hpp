@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/ray.hpp"
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
+#include "core/shapes/ray.hpp"
 #include "simd/wavefront/paths.hpp"
 
 #include <optional>

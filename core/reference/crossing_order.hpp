@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/reference/departure.hpp"
-#include "core/solve.hpp"
+#include "core/shapes/solve.hpp"
 
 #include <optional>
 #include <utility>

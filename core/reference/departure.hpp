@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/inline_vector.hpp"
+#include "core/numbers/inline_vector.hpp"
 #include "core/reference/hit.hpp"
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 
 #include <algorithm>
 #include <span>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/media.hpp"
+#include "core/optics/media.hpp"
 #include "core/reference/search.hpp"
 
 #include <algorithm>

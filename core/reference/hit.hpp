@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/ray.hpp"
-#include "core/shape_table.hpp"
+#include "core/scene/shape_table.hpp"
+#include "core/shapes/ray.hpp"
 
 #include <cmath>
 #include <limits>

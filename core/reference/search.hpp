@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/counters.hpp"
+#include "core/reference/counters.hpp"
 #include "core/reference/rounding.hpp"
 
 #include <algorithm>

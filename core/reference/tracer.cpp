@@ -1,10 +1,10 @@
 #include "core/reference/tracer.hpp"
 
-#include "core/elementary.hpp"
-#include "core/fog.hpp"
-#include "core/optics.hpp"
-#include "core/pattern.hpp"
+#include "core/numbers/elementary.hpp"
+#include "core/optics/fog.hpp"
+#include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
+#include "core/scene/pattern.hpp"
 
 #include <algorithm>
 

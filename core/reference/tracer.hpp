@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/camera_rays.hpp"
-#include "core/film.hpp"
-#include "core/media.hpp"
+#include "core/optics/media.hpp"
 #include "core/reference/search.hpp"
-#include "core/region.hpp"
+#include "core/scene/camera_rays.hpp"
+#include "core/scene/film.hpp"
+#include "core/scene/region.hpp"
 
 #include <optional>
 

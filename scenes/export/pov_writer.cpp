@@ -1,4 +1,4 @@
-#include "core/camera_rays.hpp"
+#include "core/scene/camera_rays.hpp"
 #include "scenes/export/writers.hpp"
 
 #include <algorithm>

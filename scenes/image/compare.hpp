@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/film.hpp"
+#include "core/scene/film.hpp"
 #include "scenes/image/reader.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "scenes/image/float_pictures.hpp"
 
-#include "core/surroundings.hpp"
+#include "core/scene/surroundings.hpp"
 #include "scenes/number.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "scenes/image/writer.hpp"
 
-#include "core/transfer.hpp"
+#include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/film.hpp"
-#include "core/surroundings.hpp"
+#include "core/scene/film.hpp"
+#include "core/scene/surroundings.hpp"
 #include "scenes/atomic_file.hpp"
 
 namespace raylane::scenes {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/material.hpp"
+#include "core/scene/material.hpp"
 #include "scenes/json/value.hpp"
 
 namespace raylane::scenes {

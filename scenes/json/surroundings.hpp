@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/surroundings.hpp"
+#include "core/scene/surroundings.hpp"
 #include "scenes/json/value.hpp"
 
 /// What is in a scene file besides materials and objects. These functions do not check what

@@ -1,6 +1,6 @@
 #include "scenes/json/value.hpp"
 
-#include "core/elementary.hpp"
+#include "core/numbers/elementary.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/invalid_value.hpp"
-#include "core/material.hpp"
+#include "core/scene/invalid_value.hpp"
+#include "core/scene/material.hpp"
 #include "scenes/errors.hpp"
 
 #include <cstdint>

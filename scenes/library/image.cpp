@@ -1,6 +1,6 @@
 #include "raylane/image.hpp"
 
-#include "core/method_choice.hpp"
+#include "core/scene/method_choice.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"

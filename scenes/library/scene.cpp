@@ -1,4 +1,4 @@
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 
 #include "raylane/scene.hpp"
 #include "scenes/library/convert.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/invalid_value.hpp"
-#include "core/precision.hpp"
+#include "core/scene/invalid_value.hpp"
+#include "core/shapes/precision.hpp"
 #include "raylane/errors.hpp"
 #include "raylane/precision.hpp"
 #include "scenes/errors.hpp"

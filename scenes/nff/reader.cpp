@@ -1,6 +1,6 @@
 #include "scenes/nff/reader.hpp"
 
-#include "core/validate.hpp"
+#include "core/scene/validate.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/nff/fields.hpp"
 #include "scenes/nff/object_name.hpp"

@@ -1,6 +1,6 @@
 #include "scenes/nff/surface.hpp"
 
-#include "core/validate.hpp"
+#include "core/scene/validate.hpp"
 #include "scenes/number.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/vector.hpp"
+#include "core/numbers/vector.hpp"
 #include "scenes/nff/point_grid.hpp"
 
 #include <array>

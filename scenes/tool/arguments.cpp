@@ -1,6 +1,6 @@
 #include "scenes/tool/arguments.hpp"
 
-#include "core/surroundings.hpp"
+#include "core/scene/surroundings.hpp"
 
 #include <cmath>
 #include <filesystem>

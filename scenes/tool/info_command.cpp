@@ -1,5 +1,5 @@
-#include "core/features.hpp"
-#include "core/method_choice.hpp"
+#include "core/scene/features.hpp"
+#include "core/scene/method_choice.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 #include "scenes/tool/arguments.hpp"

@@ -1,4 +1,4 @@
-#include "core/method_choice.hpp"
+#include "core/scene/method_choice.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/tool/arguments.hpp"

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "simd/kernel/methods/exact.hpp"
-#include "simd/kernel/methods/in_double.hpp"
-#include "simd/kernel/methods/plain.hpp"
+#include "simd/kernel/certify/exact.hpp"
+#include "simd/kernel/certify/in_double.hpp"
+#include "simd/kernel/certify/plain.hpp"
 #include "simd/kernel/shade/shade.hpp"
-#include "simd/kernel/trace/prepare.hpp"
-#include "simd/kernel/trace/trace.hpp"
+#include "simd/kernel/traverse/prepare.hpp"
+#include "simd/kernel/traverse/traverse.hpp"
 #include "simd/kernels.hpp"
 
 namespace raylane::simd {

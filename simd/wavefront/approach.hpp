@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/ray.hpp"
+#include "core/shapes/ray.hpp"
 #include "simd/wavefront/paths.hpp"
 #include "simd/wavefront/scene_data.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/counters.hpp"
+#include "core/reference/counters.hpp"
 #include "core/reference/departure.hpp"
 #include "simd/wavefront/hits.hpp"
 #include "simd/wavefront/scene_data.hpp"

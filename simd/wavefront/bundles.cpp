@@ -1,6 +1,6 @@
 #include "simd/wavefront/bundles.hpp"
 
-#include "core/vector.hpp"
+#include "core/numbers/vector.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/vector.hpp"
+#include "core/numbers/vector.hpp"
 #include "simd/wavefront/paths.hpp"
 
 #include <utility>

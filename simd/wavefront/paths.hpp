@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/media.hpp"
+#include "core/optics/media.hpp"
 #include "simd/kernels.hpp"
 #include "simd/wavefront/arena.hpp"
 #include "simd/wavefront/scene_data.hpp"

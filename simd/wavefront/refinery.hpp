@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/counters.hpp"
+#include "core/reference/counters.hpp"
 #include "core/reference/crossing_order.hpp"
 #include "simd/wavefront/approach.hpp"
 #include "simd/wavefront/hits.hpp"

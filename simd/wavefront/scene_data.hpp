@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/media.hpp"
-#include "core/scene.hpp"
+#include "core/optics/media.hpp"
+#include "core/scene/scene.hpp"
 #include "simd/shade_kernels.hpp"
 #include "simd/trace_kernels.hpp"
 

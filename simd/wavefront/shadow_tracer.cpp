@@ -1,6 +1,6 @@
 #include "simd/wavefront/shadow_tracer.hpp"
 
-#include "core/optics.hpp"
+#include "core/optics/optics.hpp"
 #include "simd/wavefront/bundles.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/precision.hpp"
+#include "core/shapes/precision.hpp"
 #include "simd/kernels.hpp"
 
 #include <iterator>

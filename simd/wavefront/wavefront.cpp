@@ -1,7 +1,7 @@
 #include "simd/wavefront/wavefront.hpp"
 
-#include "core/fog.hpp"
-#include "core/optics.hpp"
+#include "core/optics/fog.hpp"
+#include "core/optics/optics.hpp"
 #include "simd/wavefront/bundles.hpp"
 
 #include <algorithm>

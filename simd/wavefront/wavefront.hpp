@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/camera_rays.hpp"
-#include "core/film.hpp"
-#include "core/region.hpp"
+#include "core/scene/camera_rays.hpp"
+#include "core/scene/film.hpp"
+#include "core/scene/region.hpp"
 #include "simd/wavefront/hit_sorter.hpp"
 #include "simd/wavefront/shadow_tracer.hpp"
 

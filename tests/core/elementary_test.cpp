@@ -1,4 +1,4 @@
-#include "core/elementary.hpp"
+#include "core/numbers/elementary.hpp"
 #include "tests/catch.hpp"
 
 #include <boost/math/constants/constants.hpp>

@@ -1,4 +1,4 @@
-#include "core/exact_root.hpp"
+#include "core/numbers/exact_root.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
 #include "tests/random.hpp"

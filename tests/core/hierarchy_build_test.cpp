@@ -1,4 +1,4 @@
-#include "core/hierarchy.hpp"
+#include "core/hierarchy/hierarchy.hpp"
 #include "tests/catch.hpp"
 #include "tests/targets.hpp"
 

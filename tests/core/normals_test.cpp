@@ -1,4 +1,4 @@
-#include "core/solve.hpp"
+#include "core/shapes/solve.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 

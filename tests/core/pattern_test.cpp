@@ -1,4 +1,4 @@
-#include "core/pattern.hpp"
+#include "core/scene/pattern.hpp"
 #include "tests/catch.hpp"
 
 using namespace raylane::core;

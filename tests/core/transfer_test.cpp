@@ -1,4 +1,4 @@
-#include "core/transfer.hpp"
+#include "core/scene/transfer.hpp"
 #include "tests/catch.hpp"
 
 #include <bit>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/vector.hpp"
+#include "core/numbers/vector.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/cpp_int.hpp>

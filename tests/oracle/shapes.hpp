@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/ray.hpp"
-#include "core/shapes.hpp"
+#include "core/shapes/ray.hpp"
+#include "core/shapes/shapes.hpp"
 #include "tests/oracle/root.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/transfer.hpp"
+#include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/image/reader.hpp"
 #include "scenes/image/writer.hpp"

@@ -1,4 +1,4 @@
-#include "core/transfer.hpp"
+#include "core/scene/transfer.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/surroundings.hpp"
+#include "core/scene/surroundings.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "core/method_choice.hpp"
+#include "core/scene/method_choice.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/elementary.hpp"
+#include "simd/kernel/lanes/elementary.hpp"
 
 /// The elementary functions of arrays, for units that are built for one instruction set.
 namespace raylane::simd {

@@ -1,4 +1,4 @@
-#include "core/elementary.hpp"
+#include "core/numbers/elementary.hpp"
 #include "simd/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/elementary_check.hpp"

@@ -1,4 +1,4 @@
-#include "core/optics.hpp"
+#include "core/optics/optics.hpp"
 #include "tests/catch.hpp"
 #include "tests/random.hpp"
 #include "tests/sanitized.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/camera_rays.hpp"
-#include "core/solve.hpp"
+#include "core/scene/camera_rays.hpp"
+#include "core/shapes/solve.hpp"
 #include "simd/render.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/oracle.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/shape_table.hpp"
-#include "core/solve.hpp"
+#include "core/scene/shape_table.hpp"
+#include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
 #include "tests/random.hpp"
 #include "tests/simd/filter_check.hpp"

@@ -1,5 +1,5 @@
-#include "core/shape_table.hpp"
-#include "core/solve.hpp"
+#include "core/scene/shape_table.hpp"
+#include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
 #include "simd/wavefront/tracing.hpp"
 #include "tests/catch.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/shape_table.hpp"
+#include "core/scene/shape_table.hpp"
 #include "tests/ray_sets.hpp"
 
 #include <cmath>

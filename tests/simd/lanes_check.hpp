@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/kernel/doubles.hpp"
-#include "simd/kernel/short_lanes.hpp"
+#include "simd/kernel/lanes/doubles.hpp"
+#include "simd/kernel/lanes/short_lanes.hpp"
 
 /// The native forms of `Lanes` against the generic ones, and registers against numbers. For units
 /// that are built for one instruction set, so without anything inline that others share.

@@ -1,5 +1,5 @@
-#include "core/bounds.hpp"
 #include "core/reference/search.hpp"
+#include "core/shapes/bounds.hpp"
 #include "simd/stream_tracer.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"

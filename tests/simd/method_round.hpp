@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/solve.hpp"
+#include "core/shapes/solve.hpp"
 #include "simd/wavefront/hit_finder.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/separate.hpp"

@@ -1,4 +1,4 @@
-#include "core/invalid_value.hpp"
+#include "core/scene/invalid_value.hpp"
 #include "simd/isa.hpp"
 #include "tests/placing.hpp"
 #include "tests/simd/method_round.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/validate.hpp"
+#include "core/scene/validate.hpp"
 #include "tests/simd/hard_cases.hpp"
 
 #include <cmath>

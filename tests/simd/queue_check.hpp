@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/trace/queue.hpp"
+#include "simd/kernel/traverse/queue.hpp"
 
 /// For units that are built for one instruction set, as lanes_check.hpp.
 namespace raylane::simd {

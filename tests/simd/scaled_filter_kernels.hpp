@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/crossings.hpp"
+#include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/solvers/shapes.hpp"
 #include "simd/scene_view.hpp"
 #include "tests/simd/scaled_filters.hpp"

@@ -1,4 +1,4 @@
-#include "core/camera_rays.hpp"
+#include "core/scene/camera_rays.hpp"
 #include "simd/isa.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"

@@ -1,4 +1,4 @@
-#include "core/optics.hpp"
+#include "core/optics/optics.hpp"
 #include "simd/isa.hpp"
 #include "simd/wavefront/shadow_tracer.hpp"
 #include "tests/catch.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/reference/search.hpp"
-#include "core/scene.hpp"
+#include "core/scene/scene.hpp"
 #include "simd/wavefront/hit_finder.hpp"
 #include "tests/catch.hpp"
 #include "tests/targets.hpp"

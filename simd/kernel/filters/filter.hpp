@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/crossings.hpp"
+#include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/solvers/shapes.hpp"
 
 /// Filters: float arithmetic that cannot be wrong, because it does not say where a ray crosses a

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/kernel/crossings.hpp"
-#include "simd/kernel/doubles.hpp"
+#include "simd/kernel/lanes/doubles.hpp"
+#include "simd/kernel/shapes/crossings.hpp"
 
 /// Finishers: where a ray first crosses a shape, in double, with a bound on the error of t; and
 /// whether that is certain. What is not is rare, and a scalar solver that knows how to ask again in
@@ -16,7 +16,7 @@
 /// In the comments u = 2^-53 is what one operation is off by, relative to its result. Rays and
 /// shapes are exact, directions have a length of 1 +- 2^-48. Powers of two that are larger than
 /// what they bound leave room for the rounding of the bounds themselves. Comparisons are such that
-/// NaN is not certain. Underflow is outside of it, as in core/bounded.hpp.
+/// NaN is not certain. Underflow is outside of it, as in core/numbers/bounded.hpp.
 namespace raylane::simd {
 
 /// What a caller asks of a finisher.

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "simd/kernel/vectors.hpp"
+#include "simd/kernel/lanes/vectors.hpp"
 #include "simd/shade_kernels.hpp"
 
 namespace raylane::simd {
 
-/// core::Refraction, and the reflected fraction, per lane (core/optics.hpp).
+/// core::Refraction, and the reflected fraction, per lane (core/optics/optics.hpp).
 template <class Arch>
 struct Refractions {
     using F = Floats<Arch>;

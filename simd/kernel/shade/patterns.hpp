@@ -1,10 +1,10 @@
 #pragma once
 
-#include "simd/kernel/elementary.hpp"
-#include "simd/kernel/vectors.hpp"
+#include "simd/kernel/lanes/elementary.hpp"
+#include "simd/kernel/lanes/vectors.hpp"
 #include "simd/shade_kernels.hpp"
 
-/// core/pattern.hpp
+/// core/scene/pattern.hpp
 namespace raylane::simd {
 
 template <class Arch>

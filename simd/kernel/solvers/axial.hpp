@@ -2,7 +2,7 @@
 
 #include "simd/kernel/solvers/shapes.hpp"
 
-/// core/solvers/axial.hpp
+/// core/shapes/axial.hpp
 namespace raylane::simd {
 
 template <class Arch>

@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// core/solvers/box.hpp
+/// core/shapes/box.hpp
 template <class Arch>
 struct BoxLanes {
     Vectors<Arch> corner, edge_u, edge_v, edge_w;

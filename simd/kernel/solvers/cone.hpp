@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// core/solvers/cone.hpp
+/// core/shapes/cone.hpp
 template <class Arch, bool capped, bool textbook = false>
 struct ConeLanes {
     Vectors<Arch> base, axis;

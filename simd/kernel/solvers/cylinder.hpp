@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// core/solvers/cylinder.hpp
+/// core/shapes/cylinder.hpp
 template <class Arch, bool capped, bool textbook = false>
 struct CylinderLanes {
     Vectors<Arch> base, axis;

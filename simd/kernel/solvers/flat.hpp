@@ -2,7 +2,7 @@
 
 #include "simd/kernel/solvers/shapes.hpp"
 
-/// core/solvers/flat.hpp
+/// core/shapes/flat.hpp
 namespace raylane::simd {
 
 template <class Arch>

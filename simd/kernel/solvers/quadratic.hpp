@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/crossings.hpp"
+#include "simd/kernel/shapes/crossings.hpp"
 
 namespace raylane::simd {
 

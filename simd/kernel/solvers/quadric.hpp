@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// core/solvers/quadric.hpp
+/// core/shapes/quadric.hpp
 template <class Arch, bool textbook = false>
 struct QuadricLanes {
     Vectors<Arch> center;

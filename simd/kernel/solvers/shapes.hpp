@@ -1,9 +1,9 @@
 #pragma once
 
-#include "simd/kernel/crossings.hpp"
+#include "simd/kernel/shapes/crossings.hpp"
 
-/// The shapes of core/shapes.hpp, one per lane. Each can be loaded from one shape's floats for all
-/// lanes, or from a block of shapes, structure of arrays.
+/// The shapes of core/shapes/shapes.hpp, one per lane. Each can be loaded from one shape's floats
+/// for all lanes, or from a block of shapes, structure of arrays.
 namespace raylane::simd {
 
 /// Reads the floats of one shape after the other from a block: row k, from `lane` on.

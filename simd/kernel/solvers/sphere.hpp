@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// core/solvers/sphere.hpp
+/// core/shapes/sphere.hpp
 template <class Arch, bool textbook = false>
 struct SphereLanes {
     Vectors<Arch> center;

@@ -1,6 +1,6 @@
 #include "tests/scenes/library/exam.hpp"
 
-#include "core/validate.hpp"
+#include "core/scene/validate.hpp"
 #include "scenes/library/internals.hpp"
 #include "simd/isa.hpp"
 #include "simd/stream_tracer.hpp"

@@ -1,0 +1,112 @@
+#include "core/hierarchy/binary_tree.hpp"
+
+#include "core/hierarchy/bins.hpp"
+#include "core/hierarchy/sweep.hpp"
+
+#include <span>
+
+namespace raylane::core {
+
+namespace {
+
+/// Up to so many items are built by one thread: much less than there are of them in a scene that
+/// takes long, much more than handing them over costs.
+constexpr std::size_t most_in_a_part = std::size_t{1} << 14;
+
+/// Drops duplicates where they are sure to be together: in what is few, or all in one place.
+void drop_duplicates(std::span<Item> items, const Duplicates& duplicates,
+                     std::vector<std::uint32_t>& room, Range& range) {
+    const auto [lower, upper] = range.centers.bounds();
+    const bool is_place = lower == upper;
+    if (range.size() <= Sweep::most_items || is_place)
+        range.last = range.first +
+                     duplicates.drop_from(items.subspan(range.first, range.size()), room, is_place);
+}
+
+/// Grows parts of the tree that are one task each.
+class PartBuilder {
+  public:
+    PartBuilder(std::span<Item> items, const Duplicates& duplicates,
+                std::span<std::uint32_t> positions)
+        : items_(items), duplicates_(duplicates), positions_(positions) {}
+
+    SlotCosts build(const Range& range, TreePart& part) {
+        nodes_.assign(1, {range.box.bounds(), 0, 0, {}, {}});
+        const SlotCosts costs = grow(range, 0);
+        part.nodes.assign(nodes_.begin(), nodes_.end()); // exactly as many
+        return costs;
+    }
+
+  private:
+    SlotCosts grow(Range range, std::uint32_t node) {
+        drop_duplicates(items_, duplicates_, room_, range);
+        if (range.size() <= Sweep::most_items)
+            return sweep_.build(items_.subspan(range.first, range.size()), range.first,
+                                positions_.subspan(range.first, range.size()), nodes_, node);
+        const Halves halves = split_by_bins(items_, range, alone_);
+        const auto left = static_cast<std::uint32_t>(nodes_.size());
+        nodes_.push_back({halves.left.box.bounds(), 0, 0, {}, {}});
+        nodes_.push_back({halves.right.box.bounds(), 0, 0, {}, {}});
+        const SlotCosts left_costs = grow(halves.left, left);
+        const SlotCosts right_costs = grow(halves.right, left + 1);
+        BinaryNode& parent = nodes_[node];
+        parent.first = left;
+        return collapse(parent.bounds.half_area(), left_costs, right_costs, parent.shares);
+    }
+
+    std::span<Item> items_;
+    const Duplicates& duplicates_;
+    std::span<std::uint32_t> positions_;
+    std::vector<BinaryNode> nodes_;
+    std::vector<std::uint32_t> room_;
+    Sweep sweep_;
+    Workers alone_;
+};
+
+class TreeBuilder {
+  public:
+    TreeBuilder(std::span<Item> items, const Duplicates& duplicates,
+                std::span<std::uint32_t> positions, Workers& workers)
+        : items_(items), duplicates_(duplicates), positions_(positions), workers_(workers) {}
+
+    SlotCosts build(Range range, TreePart& part) {
+        if (range.size() > most_in_a_part) {
+            std::vector<std::uint32_t> room;
+            const std::size_t before = range.size();
+            drop_duplicates(items_, duplicates_, room, range);
+            if (range.size() < before) workers_.placed(before - range.size(), items_.size());
+        }
+        if (range.size() <= most_in_a_part) {
+            const SlotCosts costs = PartBuilder(items_, duplicates_, positions_).build(range, part);
+            workers_.placed(range.size(), items_.size());
+            return costs;
+        }
+        const Halves halves = split_by_bins(items_, range, workers_);
+        part.left = std::make_unique<TreePart>();
+        part.right = std::make_unique<TreePart>();
+        SlotCosts left, right;
+        workers_.both([&] { left = build(halves.left, *part.left); },
+                      [&] { right = build(halves.right, *part.right); });
+        BinaryNode& node = part.nodes.emplace_back(BinaryNode{range.box.bounds(), 0, 0, {}, {}});
+        return collapse(node.bounds.half_area(), left, right, node.shares);
+    }
+
+  private:
+    std::span<Item> items_;
+    const Duplicates& duplicates_;
+    std::span<std::uint32_t> positions_;
+    Workers& workers_;
+};
+
+} // namespace
+
+BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers) {
+    BinaryTree tree;
+    tree.positions = BigArray<std::uint32_t>(items.size());
+    const std::span<Item> all(items.data(), items.size());
+    TreeBuilder(all, duplicates, {tree.positions.data(), tree.positions.size()}, workers)
+        .build(whole_range(all, workers), tree.root);
+    return tree;
+}
+
+} // namespace raylane::core

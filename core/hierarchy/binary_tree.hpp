@@ -1,0 +1,62 @@
+#pragma once
+
+#include "core/hierarchy/collapse.hpp"
+#include "core/hierarchy/duplicates.hpp"
+#include "core/hierarchy/item.hpp"
+#include "core/hierarchy/workers.hpp"
+#include "core/scene/big_array.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace raylane::core {
+
+/// A node of the binary tree over items. Its leaves hold at most block_size items of one kind.
+struct BinaryNode {
+    Bounds bounds;
+    std::uint32_t first; ///< leaf: of its items; inner: the left child, the right one is first + 1
+    std::uint8_t count;  ///< leaf: how many items; inner: 0
+    Kind kind;           ///< leaf: of all its items
+    SlotShares shares;   ///< inner
+
+    bool is_leaf() const { return count != 0; }
+};
+
+/// How much of everything a subtree comes to.
+struct Tally {
+    int slots = 0; ///< of the wide node that its parent is in
+    std::uint32_t nodes = 0;
+    std::array<std::uint32_t, kind_count> blocks{};
+
+    Tally& operator+=(const Tally& other) {
+        slots += other.slots;
+        nodes += other.nodes;
+        for (int kind = 0; kind < kind_count; ++kind)
+            blocks[kind] += other.blocks[kind];
+        return *this;
+    }
+};
+
+/// Part of the binary tree: a whole subtree, or one inner node whose children are parts of their
+/// own.
+struct TreePart {
+    std::vector<BinaryNode> nodes; ///< the root first, children behind parents
+    std::unique_ptr<TreePart> left, right;
+    Tally left_tally; ///< for whoever walks it first
+};
+
+/// The tree, and the items' positions in the order in which leaves refer to them.
+struct BinaryTree {
+    TreePart root;
+    BigArray<std::uint32_t> positions;
+
+    const Bounds& bounds() const { return root.nodes.front().bounds; }
+};
+
+/// The tree by the surface-area heuristic, its collapse into wide nodes decided. `items` must not
+/// be empty; they are used up. Of duplicates, it has one.
+BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers);
+
+} // namespace raylane::core

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "core/hierarchy/item.hpp"
+#include "core/hierarchy/workers.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace raylane::core {
+
+/// Items that stand together, what bounds them, and what bounds their centres, doubled.
+struct Range {
+    std::size_t first, last;
+    Box4 box, centers;
+
+    std::size_t size() const { return last - first; }
+};
+
+struct Halves {
+    Range left, right;
+};
+
+/// What bounds all items and their centres.
+Range whole_range(std::span<const Item> items, Workers& workers);
+
+/// Parts a range of more than one block by the surface-area heuristic over bins of centres (Wald,
+/// "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007), whose cost counts blocks
+/// of 16. Rearranges the range's items. Neither half is empty.
+Halves split_by_bins(std::span<Item> items, const Range& range, Workers& workers);
+
+} // namespace raylane::core

@@ -1,0 +1,96 @@
+#include "core/hierarchy/duplicates.hpp"
+
+#include "core/scene/shape_table.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace raylane::core {
+
+namespace {
+
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15;
+    return hash ^ hash >> 32;
+}
+
+std::uint64_t hash_of_bounds(const Item& item) {
+    std::uint64_t hash = static_cast<std::uint64_t>(item.kind());
+    for (int axis = 0; axis < 3; ++axis)
+        hash =
+            mixed(hash, std::uint64_t{std::bit_cast<std::uint32_t>(float(item.lower[axis]))} << 32 |
+                            std::bit_cast<std::uint32_t>(float(item.upper[axis])));
+    return hash;
+}
+
+bool have_same_bounds(const Item& a, const Item& b) {
+    return std::memcmp(&a.lower, &b.lower, 3 * sizeof(float)) == 0 &&
+           std::memcmp(&a.upper, &b.upper, 3 * sizeof(float)) == 0;
+}
+
+} // namespace
+
+std::size_t Duplicates::drop_from(std::span<Item> items, std::vector<std::uint32_t>& room,
+                                  bool deep) const {
+    // A hash table of the places of what is left, plus 1; 0: free.
+    const std::size_t size = std::bit_ceil(2 * items.size());
+    room.assign(size, 0);
+    std::uint32_t left = 0;
+    for (const Item& item : items) {
+        std::size_t at = (deep ? hash_of_shape(item) : hash_of_bounds(item)) & (size - 1);
+        while (room[at] != 0 && !are_duplicates(items[room[at] - 1], item))
+            at = (at + 1) & (size - 1);
+        if (room[at] == 0) {
+            items[left] = item;
+            room[at] = ++left;
+        } else if (item.position() < items[room[at] - 1].position()) {
+            items[room[at] - 1] = item;
+        }
+    }
+    return left;
+}
+
+ShapeList<Plane> Duplicates::without_duplicates(const ShapeList<Plane>& planes) const {
+    std::vector<Item> items;
+    items.reserve(planes.size());
+    for (std::size_t i = 0; i < planes.size(); ++i)
+        items.emplace_back(Bounds{planes[i].shape.point, planes[i].shape.normal}, Kind::plane,
+                           static_cast<std::uint32_t>(i));
+    std::vector<std::uint32_t> room;
+    items.resize(drop_from(items, room, true));
+    std::sort(items.begin(), items.end(),
+              [](const Item& a, const Item& b) { return a.position() < b.position(); });
+    ShapeList<Plane> left;
+    for (const Item& item : items)
+        left.add(planes[item.position()].shape, planes[item.position()].id);
+    return left;
+}
+
+bool Duplicates::are_duplicates(const Item& a, const Item& b) const {
+    if (a.kind() != b.kind() || !have_same_bounds(a, b)) return false;
+    return with_shape_type(a.kind(), [&]<class Shape>(std::type_identity<Shape>) {
+        const auto& list = std::get<ShapeList<Shape>>(lists_);
+        const Listed<Shape>&one = list[a.position()], &other = list[b.position()];
+        return std::memcmp(&one.shape, &other.shape, sizeof(Shape)) == 0 &&
+               material_of_[one.id] == material_of_[other.id] && !is_in_polygon(one.id) &&
+               !is_in_polygon(other.id);
+    });
+}
+
+std::uint64_t Duplicates::hash_of_shape(const Item& item) const {
+    return with_shape_type(item.kind(), [&]<class Shape>(std::type_identity<Shape>) {
+        const Listed<Shape>& listed = std::get<ShapeList<Shape>>(lists_)[item.position()];
+        std::uint64_t hash =
+            mixed(static_cast<std::uint64_t>(item.kind()), material_of_[listed.id]);
+        for (const float value : floats_of(listed.shape))
+            hash = mixed(hash, std::bit_cast<std::uint32_t>(value));
+        // None is like another then.
+        return is_in_polygon(listed.id) ? mixed(hash, listed.id) : hash;
+    });
+}
+
+bool Duplicates::is_in_polygon(ShapeId id) const {
+    return range_with(polygons_, id) != nullptr;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/hierarchy/item.hpp"
+#include "core/scene/material.hpp"
+#include "core/scene/shape_list.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace raylane::core {
+
+/// Knows shapes that say again what another one says: the same floats, of the same material. A
+/// scene needs one of them, the first. Triangles of a larger polygon are never duplicates: what
+/// they lie in one plane with is said of each.
+class Duplicates {
+  public:
+    /// `material_of`: by id. `polygons`: of more than one triangle, ascending.
+    Duplicates(const ShapeLists& lists, std::span<const MaterialIndex> material_of,
+               std::span<const IdRange> polygons)
+        : lists_(lists), material_of_(material_of), polygons_(polygons) {}
+
+    /// Leaves one item of each shape, at the front, and returns how many these are. In time that
+    /// grows with the number of items, if not too many have the same bounds; or else, if `deep`.
+    /// `room` is worked in.
+    std::size_t drop_from(std::span<Item> items, std::vector<std::uint32_t>& room, bool deep) const;
+
+    /// Of unbounded shapes.
+    ShapeList<Plane> without_duplicates(const ShapeList<Plane>& planes) const;
+
+  private:
+    bool are_duplicates(const Item& a, const Item& b) const;
+    std::uint64_t hash_of_shape(const Item& item) const;
+    bool is_in_polygon(ShapeId id) const;
+
+    const ShapeLists& lists_;
+    std::span<const MaterialIndex> material_of_;
+    std::span<const IdRange> polygons_;
+};
+
+} // namespace raylane::core

@@ -1,0 +1,210 @@
+#include "core/hierarchy/emission.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace raylane::core {
+
+namespace {
+
+/// A node of the binary tree, wherever it is.
+class Cursor {
+  public:
+    explicit Cursor(TreePart& part, std::uint32_t index = 0) : part_(&part), index_(index) {}
+
+    const BinaryNode& node() const { return part_->nodes[index_]; }
+    bool is_leaf() const { return node().is_leaf(); }
+    /// Whether the children are parts of their own.
+    bool forks() const { return part_->left != nullptr; }
+    Cursor left() const { return forks() ? Cursor(*part_->left) : Cursor(*part_, node().first); }
+    Cursor right() const {
+        return forks() ? Cursor(*part_->right) : Cursor(*part_, node().first + 1);
+    }
+    /// What the left child comes to, once it has been counted, where this forks.
+    Tally& left_tally() const { return part_->left_tally; }
+
+  private:
+    TreePart* part_;
+    std::uint32_t index_;
+};
+
+/// How many slots go to each child.
+struct Shares {
+    int left, right;
+};
+
+/// What becomes of `slots` slots for a subtree: nothing for the children if it takes one itself.
+Shares shares_of(const Cursor& at, int slots) {
+    if (at.is_leaf()) return {0, 0};
+    for (; slots > 1; --slots)
+        if (const int left = at.node().shares.left_of(slots); left != 0)
+            return {left, slots - left};
+    return {0, 0};
+}
+
+Shares own_shares_of(const Cursor& at) {
+    const int left = at.node().shares.left_of_own();
+    return {left, block_size - left};
+}
+
+/// What a subtree comes to that may fill `slots` slots of a wide node. Where it forks, remembers
+/// the left child's part.
+Tally count(const Cursor& at, int slots, Workers& workers);
+
+Tally count_children(const Cursor& at, const Shares& shares, Workers& workers) {
+    Tally left, right;
+    if (at.forks()) {
+        workers.both([&] { left = count(at.left(), shares.left, workers); },
+                     [&] { right = count(at.right(), shares.right, workers); });
+        at.left_tally() = left;
+    } else {
+        left = count(at.left(), shares.left, workers);
+        right = count(at.right(), shares.right, workers);
+    }
+    left += right;
+    return left;
+}
+
+Tally count(const Cursor& at, int slots, Workers& workers) {
+    const Shares shares = shares_of(at, slots);
+    if (shares.left > 0) return count_children(at, shares, workers);
+    Tally tally;
+    if (at.is_leaf()) {
+        tally.blocks[static_cast<std::size_t>(at.node().kind)] = 1;
+    } else {
+        tally = count_children(at, own_shares_of(at), workers);
+        ++tally.nodes;
+    }
+    tally.slots = 1;
+    return tally;
+}
+
+/// By an ulp, so that nothing touches them.
+Bounds padded(Bounds bounds) {
+    for (int axis = 0; axis < 3; ++axis) {
+        bounds.lower[axis] = std::nextafter(bounds.lower[axis], -std::numeric_limits<float>::max());
+        bounds.upper[axis] = std::nextafter(bounds.upper[axis], std::numeric_limits<float>::max());
+    }
+    return bounds;
+}
+
+template <class AnyTables>
+struct BlocksOf;
+template <class... Shapes>
+struct BlocksOf<std::tuple<Table<Shapes>...>> {
+    using type = std::tuple<BigArray<Block<Shapes>>...>;
+};
+
+class Emitter {
+  public:
+    Emitter(const BinaryTree& tree, const ShapeLists& lists, Workers& workers)
+        : positions_(tree.positions), lists_(lists), workers_(workers) {}
+
+    void emit(const Cursor& root) {
+        const Tally whole = count(root, 1, workers_);
+        // A root that is a leaf needs a node to be in.
+        nodes_ = BigArray<WideNode>(whole.nodes + (root.is_leaf() ? 1 : 0));
+        for_each_table(lists_, [&]<class Shape>(const ShapeList<Shape>&) {
+            blocks_of<Shape>() =
+                BigArray<Block<Shape>>(whole.blocks[static_cast<std::size_t>(kind_of<Shape>)]);
+        });
+        Tally places;
+        if (root.is_leaf()) {
+            places.nodes = 1;
+            nodes_[0] = WideNode();
+            emit(root, 1, 0, places);
+        } else {
+            emit_node(root, places);
+        }
+    }
+
+    BigArray<WideNode> take_nodes() { return std::move(nodes_); }
+
+    template <class Shape>
+    Table<Shape> take_table() {
+        return {std::move(blocks_of<Shape>()), std::get<ShapeList<Shape>>(lists_).size()};
+    }
+
+  private:
+    template <class Shape>
+    BigArray<Block<Shape>>& blocks_of() {
+        return std::get<BigArray<Block<Shape>>>(blocks_);
+    }
+
+    /// `places`, here and below: where the next of everything goes; `slots` counts in `wide`.
+    void emit_children(const Cursor& at, const Shares& shares, std::uint32_t wide, Tally& places) {
+        if (!at.forks()) {
+            emit(at.left(), shares.left, wide, places);
+            emit(at.right(), shares.right, wide, places);
+            return;
+        }
+        Tally left = places;
+        places += at.left_tally();
+        workers_.both([&] { emit(at.left(), shares.left, wide, left); },
+                      [&] { emit(at.right(), shares.right, wide, places); });
+    }
+
+    void emit(const Cursor& at, int slots, std::uint32_t wide, Tally& places) {
+        const Shares shares = shares_of(at, slots);
+        if (shares.left > 0) return emit_children(at, shares, wide, places);
+        const int slot = places.slots++;
+        const Child child = at.is_leaf() ? emit_block(at.node(), places) : emit_node(at, places);
+        nodes_[wide].set(slot, padded(at.node().bounds), child);
+    }
+
+    Child emit_node(const Cursor& at, Tally& places) {
+        const std::uint32_t own = places.nodes++;
+        nodes_[own] = WideNode();
+        const int slots = std::exchange(places.slots, 0);
+        emit_children(at, own_shares_of(at), own, places);
+        places.slots = slots;
+        return Child::node(own);
+    }
+
+    Child emit_block(const BinaryNode& leaf, Tally& places) {
+        const std::uint32_t index = places.blocks[static_cast<std::size_t>(leaf.kind)]++;
+        with_shape_type(leaf.kind, [&]<class Shape>(std::type_identity<Shape>) {
+            const auto& list = std::get<ShapeList<Shape>>(lists_);
+            Block<Shape> block;
+            for (int lane = 0; lane < leaf.count; ++lane) {
+                const Listed<Shape>& listed = list[positions_[leaf.first + lane]];
+                block.set(lane, listed.shape, listed.id);
+                fetch_ahead(list, leaf.first + lane);
+            }
+            blocks_of<Shape>()[index] = block;
+        });
+        return Child::block(leaf.kind, index);
+    }
+
+    /// Leaves come in the order of their items. What a later one asks for is all over the list.
+    template <class Shape>
+    void fetch_ahead(const ShapeList<Shape>& list, std::size_t at) const {
+        constexpr std::size_t ahead = 4 * block_size;
+        if (at + ahead >= positions_.size()) return;
+        const std::uint32_t position = positions_[at + ahead];
+        if (position < list.size()) __builtin_prefetch(&list[position]); // it may be another kind's
+    }
+
+    const BigArray<std::uint32_t>& positions_;
+    const ShapeLists& lists_;
+    Workers& workers_;
+    BigArray<WideNode> nodes_;
+    BlocksOf<Tables>::type blocks_;
+};
+
+} // namespace
+
+void emit(BinaryTree& tree, const ShapeLists& lists, Workers& workers, Hierarchy& hierarchy,
+          Tables& tables) {
+    const Cursor root(tree.root);
+    Emitter emitter(tree, lists, workers);
+    emitter.emit(root);
+    hierarchy.nodes = emitter.take_nodes();
+    hierarchy.bounds = padded(root.node().bounds);
+    for_each_table(tables, [&]<class Shape>(Table<Shape>& table) {
+        if constexpr (kind_of<Shape> != Kind::plane) table = emitter.take_table<Shape>();
+    });
+}
+
+} // namespace raylane::core

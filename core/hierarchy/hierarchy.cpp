@@ -1,0 +1,78 @@
+#include "core/hierarchy/hierarchy.hpp"
+
+#include "core/hierarchy/binary_tree.hpp"
+#include "core/hierarchy/emission.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace raylane::core {
+
+WideNode::WideNode() {
+    for (int axis = 0; axis < 3; ++axis)
+        for (int slot = 0; slot < block_size; ++slot) {
+            lower[axis][slot] = std::numeric_limits<float>::infinity();
+            upper[axis][slot] = -std::numeric_limits<float>::infinity();
+        }
+}
+
+Bounds WideNode::bounds(int slot) const {
+    return {{lower[0][slot], lower[1][slot], lower[2][slot]},
+            {upper[0][slot], upper[1][slot], upper[2][slot]}};
+}
+
+void WideNode::set(int slot, const Bounds& bounds, Child child) {
+    for (int axis = 0; axis < 3; ++axis) {
+        lower[axis][slot] = bounds.lower[axis];
+        upper[axis][slot] = bounds.upper[axis];
+    }
+    children[slot] = child;
+}
+
+namespace {
+
+/// So many shapes at a time: enough to be worth a task.
+constexpr std::size_t shapes_in_a_task = std::size_t{1} << 14;
+
+template <class Shape>
+void add_items(const ShapeList<Shape>& list, Item* to, Workers& workers) {
+    workers.each((list.size() + shapes_in_a_task - 1) / shapes_in_a_task, [&](std::size_t task) {
+        const std::size_t first = task * shapes_in_a_task;
+        const std::size_t last = std::min(first + shapes_in_a_task, list.size());
+        for (std::size_t i = first; i < last; ++i)
+            to[i] = Item(bounds_of(list[i].shape), kind_of<Shape>, static_cast<std::uint32_t>(i));
+    });
+}
+
+BigArray<Item> bounded_items(const ShapeLists& lists, Workers& workers) {
+    std::size_t count = 0;
+    for_each_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
+        if constexpr (kind_of<Shape> != Kind::plane) count += list.size();
+    });
+    BigArray<Item> items(count);
+    Item* next = items.data();
+    for_each_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
+        if constexpr (kind_of<Shape> != Kind::plane) {
+            add_items(list, next, workers);
+            next += list.size();
+        }
+    });
+    return items;
+}
+
+} // namespace
+
+Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates, Workers& workers,
+                          Tables& tables) {
+    const auto& planes = std::get<ShapeList<Plane>>(lists);
+    std::get<Table<Plane>>(tables) =
+        Table<Plane>(duplicates.without_duplicates(planes), planes.size());
+    Hierarchy hierarchy;
+    BigArray<Item> items = bounded_items(lists, workers);
+    if (items.empty()) return hierarchy;
+    BinaryTree tree = build_binary_tree(std::move(items), duplicates, workers);
+    emit(tree, lists, workers, hierarchy, tables);
+    return hierarchy;
+}
+
+} // namespace raylane::core

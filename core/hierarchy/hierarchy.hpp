@@ -1,0 +1,66 @@
+#pragma once
+
+#include "core/hierarchy/duplicates.hpp"
+#include "core/hierarchy/workers.hpp"
+#include "core/scene/shape_list.hpp"
+#include "core/scene/shape_table.hpp"
+#include "core/shapes/bounds.hpp"
+
+#include <cstdint>
+
+namespace raylane::core {
+
+/// What a node's slot refers to: nothing, another node, or a block of shapes of one kind.
+class Child {
+  public:
+    static constexpr std::uint32_t max_index = (1U << 27) - 1;
+
+    constexpr Child() = default;
+    static constexpr Child node(std::uint32_t index) { return Child(index); }
+    static constexpr Child block(Kind kind, std::uint32_t index) {
+        return Child(leaf_bit | static_cast<std::uint32_t>(kind) << 27 | index);
+    }
+
+    constexpr bool empty() const { return bits_ == none; }
+    constexpr bool is_block() const { return (bits_ & leaf_bit) != 0; }
+    constexpr Kind kind() const { return static_cast<Kind>(bits_ >> 27 & 0xF); }
+    constexpr std::uint32_t index() const { return bits_ & max_index; }
+
+  private:
+    static constexpr std::uint32_t leaf_bit = 1U << 31;
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
+    constexpr explicit Child(std::uint32_t bits) : bits_(bits) {}
+
+    std::uint32_t bits_ = none;
+};
+
+/// Up to 16 children with their bounds, structure of arrays: axis a of slot i is lower[a][i]. The
+/// bounds are closed and contain all of the child's shapes. Filled slots come first; an empty one
+/// has lower > upper.
+struct alignas(64) WideNode {
+    float lower[3][block_size];
+    float upper[3][block_size];
+    Child children[block_size];
+
+    WideNode();
+    Bounds bounds(int slot) const;
+    void set(int slot, const Bounds& bounds, Child child);
+};
+
+/// Bounding volume hierarchy over the bounded shapes of a scene. Its leaves are the blocks of the
+/// scene's tables. Planes are not in it.
+struct Hierarchy {
+    BigArray<WideNode> nodes; ///< the root first; empty if there are no bounded shapes
+    Bounds bounds;            ///< of everything in it
+
+    std::size_t bytes() const { return nodes.bytes(); }
+};
+
+/// Builds the hierarchy by the binned surface-area heuristic, whose cost counts blocks of 16 rather
+/// than shapes, and collapses the binary tree into wide nodes. Fills the tables, so that each leaf
+/// is one block; of duplicates, they have one. The result depends on the shapes alone, whoever the
+/// workers are. No shape touches its bounds; what a traversal is off by, rays bring themselves.
+Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates, Workers& workers,
+                          Tables& tables);
+
+} // namespace raylane::core

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "core/numbers/inline_vector.hpp"
+
+#include <concepts>
+#include <cstdint>
+
+namespace raylane::core {
+
+/// A double and a power of two that double's exponents need not hold: value * 2^exponent.
+struct Scaled {
+    double value = 0.0; ///< 0, or of magnitude [0.5, 1)
+    std::int64_t exponent = 0;
+
+    static Scaled of(double value, std::int64_t exponent);
+    /// What overflows is the largest double, what underflows the smallest: the sign stays.
+    double to_double() const;
+};
+
+/// A whole number times a power of two, of any size: sums and products of doubles are exact.
+class Dyadic {
+  public:
+    Dyadic() = default;
+    template <std::floating_point Real>
+    Dyadic(Real value) : Dyadic(from_double, static_cast<double>(value)) {} // NOLINT: exact, finite
+
+    int sign() const { return digits_.size() == 0 ? 0 : negative_ ? -1 : 1; }
+    /// Within 2^-50 of itself.
+    Scaled approximately() const;
+
+    friend Dyadic operator-(Dyadic a) {
+        a.negative_ = !a.negative_;
+        return a;
+    }
+    friend Dyadic operator+(const Dyadic& a, const Dyadic& b) { return sum(a, b, b.negative_); }
+    friend Dyadic operator-(const Dyadic& a, const Dyadic& b) { return sum(a, b, !b.negative_); }
+    friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
+    friend bool operator==(const Dyadic& a, const Dyadic& b);
+
+  private:
+    using Digit = std::uint64_t;
+    struct FromDouble {};
+    static constexpr FromDouble from_double{};
+
+    Dyadic(FromDouble, double value);
+
+    std::int64_t end() const { return exponent_ + static_cast<std::int64_t>(digits_.size()); }
+    Digit digit_at(std::int64_t place) const {
+        return place < exponent_ || place >= end()
+                   ? 0
+                   : digits_[static_cast<std::size_t>(place - exponent_)];
+    }
+    static Dyadic sum(const Dyadic& a, const Dyadic& b, bool b_is_negative);
+    static int compare_magnitudes(const Dyadic& a, const Dyadic& b);
+    void trim();
+
+    // |value| = sum of digits_[i] 2^(64 (exponent_ + i)); neither end's digit is 0, and 0 has none.
+    InlineVector<Digit, 20> digits_; // more than most need
+    std::int64_t exponent_ = 0;
+    bool negative_ = false;
+};
+
+} // namespace raylane::core

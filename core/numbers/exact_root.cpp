@@ -1,0 +1,76 @@
+#include "core/numbers/exact_root.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace raylane::core {
+
+namespace {
+
+Dyadic doubled(const Dyadic& a) {
+    return a + a;
+}
+
+} // namespace
+
+/// With t = (-B + s sqrt(D)) / A for D = B^2 - A C, s = 1 where F rises, and
+///   J = A B' - A' B,  K = A C' - A' C,  L = B C' - B' C
+/// for G = A' t^2 + 2 B' t + C', it is
+///   A^2 G(t) = X + Y sqrt(D),  X = A K - 2 J B,  Y = 2 s J.
+/// Where X and Y oppose each other, the larger square decides, and
+///   X^2 - Y^2 D = A^2 (K^2 - 4 J L).
+int ExactRoot::sign_of(const ExactQuadratic& G) const {
+    const auto& [A, B, C] = F_;
+    const auto& [A2, B2, C2] = G;
+    if (is_linear()) // t = -C / 2 B
+        return (A2 * C * C + 4.0 * B * (B * C2 - B2 * C)).sign();
+    const Dyadic J = A * B2 - A2 * B, K = A * C2 - A2 * C;
+    const int y = rises_ ? J.sign() : -J.sign();
+    const int x = (A * K - doubled(J * B)).sign();
+    if (y == 0 || x == y) return x;
+    const int larger = (K * K - 4.0 * J * (B * C2 - B2 * C)).sign();
+    return larger > 0 ? x : larger < 0 ? y : 0;
+}
+
+int compare(const ExactRoot& a, const ExactRoot& b) {
+    const int of_F = a.sign_of(b.F_);
+    if (b.is_linear()) return of_F * b.F_.B.sign();
+    // Between the roots of b's polynomial, at one of them, or on which side of both?
+    const int opens = b.F_.A.sign();
+    const bool b_is_second = b.rises_ == (opens > 0);
+    if (of_F * opens < 0) return b_is_second ? -1 : 1;
+    const int side = a.sign_of(b.F_.half_derivative()) * opens;
+    if (of_F != 0) return side;
+    return side > 0 ? (b_is_second ? 0 : 1) : side < 0 ? (b_is_second ? -1 : 0) : 0;
+}
+
+float ExactRoot::rounded_between(float low, float high, int exponent) const {
+    // By the number of the float, which is in the order of floats that are not negative.
+    auto below = std::bit_cast<std::uint32_t>(low), above = std::bit_cast<std::uint32_t>(high);
+    while (below < above) {
+        const std::uint32_t next = below + (above - below) / 2;
+        const double middle = 0.5 * static_cast<double>(std::bit_cast<float>(next)) +
+                              0.5 * static_cast<double>(std::bit_cast<float>(next + 1));
+        const int side = sign_of(ExactQuadratic::minus(std::ldexp(middle, -exponent)));
+        if (side < 0 || (side == 0 && (next & 1) == 0))
+            above = next;
+        else
+            below = next + 1;
+    }
+    return std::bit_cast<float>(below);
+}
+
+Bounded<DoubleDouble> ExactRoot::in_wide(double t, double error) const {
+    DoubleDouble middle(t);
+    double half = std::ldexp(1.0, std::ilogb(error) + 1); // so that no sum is rounded
+    while (half > 0x1p-101 * std::abs(t)) {
+        half *= 0.5;
+        const int side = sign_of(ExactQuadratic::minus(Dyadic(middle.high) + middle.low));
+        if (side == 0) return {middle, 0.0};
+        middle = middle + DoubleDouble(side * half);
+    }
+    return {middle, half + 0x1p-101 * std::abs(t)};
+}
+
+} // namespace raylane::core

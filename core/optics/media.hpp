@@ -1,0 +1,81 @@
+#pragma once
+
+#include "core/scene/material.hpp"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace raylane::core {
+
+/// Empty space, among materials.
+inline constexpr MaterialIndex no_medium = std::numeric_limits<MaterialIndex>::max();
+
+/// Of a medium; of empty space 1.
+inline float index_of(const std::vector<Material>& materials, MaterialIndex medium) {
+    return medium == no_medium ? 1.0F : materials[medium].index;
+}
+
+/// The transmissive materials that a ray is inside of, by number: MediaStacks knows them.
+using Media = std::uint32_t;
+inline constexpr Media in_the_open = 0;
+
+/// All stacks of materials that rays have been inside of, the last entered on top. That one decides
+/// index and absorption. Each is said once, so two are the same where their numbers are, and a ray
+/// carries any number of materials in one. To be used by one thread.
+class MediaStacks {
+  public:
+    MediaStacks() {
+        stacks_.reserve(256);
+        clear();
+    }
+    /// Forgets all but empty space.
+    void clear() { stacks_.assign(1, {no_medium, in_the_open, none, none}); }
+
+    MaterialIndex top(Media media) const { return stacks_[media].material; }
+
+    Media entered(Media media, MaterialIndex material) {
+        for (Media above = stacks_[media].above; above != none; above = stacks_[above].next)
+            if (top(above) == material) return above;
+        const auto number = static_cast<Media>(stacks_.size());
+        stacks_.push_back({material, media, none, stacks_[media].above});
+        return stacks_[media].above = number;
+    }
+    /// Without the innermost entry of this material, if there is one.
+    Media left(Media media, MaterialIndex material) {
+        above_.clear();
+        Media at = media;
+        for (; at != in_the_open && top(at) != material; at = stacks_[at].below)
+            above_.push_back(top(at));
+        if (at == in_the_open) return media;
+        at = stacks_[at].below;
+        for (; !above_.empty(); above_.pop_back())
+            at = entered(at, above_.back());
+        return at;
+    }
+    /// Through a surface of this material.
+    Media crossed(Media media, MaterialIndex material, bool entering) {
+        return entering ? entered(media, material) : left(media, material);
+    }
+
+    /// What a ray is inside of that meets a surface of this material. One that leaves a body which
+    /// it never entered has been inside from its start.
+    MaterialIndex before(Media media, MaterialIndex material, bool transmits, bool entering) const {
+        return media == in_the_open && !entering && transmits ? material : top(media);
+    }
+
+  private:
+    static constexpr Media none = std::numeric_limits<Media>::max();
+
+    struct Stack {
+        MaterialIndex material;
+        Media below;
+        Media above; ///< the last that has come on top of this one
+        Media next;  ///< another on top of the same
+    };
+
+    std::vector<Stack> stacks_;
+    std::vector<MaterialIndex> above_; // what is taken out
+};
+
+} // namespace raylane::core

@@ -1,0 +1,36 @@
+#include "core/scene/big_array.hpp"
+
+#if __has_include(<sys/mman.h>)
+#include <sys/mman.h>
+#endif
+
+namespace raylane::core {
+
+namespace {
+
+constexpr std::size_t huge_page = std::size_t{2} << 20;
+constexpr std::size_t cache_line = 64;
+
+/// A smaller table would waste much of its last page.
+constexpr std::size_t least_in_huge_pages = 4 * huge_page;
+
+std::align_val_t alignment_of(std::size_t bytes) {
+    return std::align_val_t(bytes >= least_in_huge_pages ? huge_page : cache_line);
+}
+
+} // namespace
+
+void* allocate_big(std::size_t bytes) {
+    void* const memory = ::operator new(bytes, alignment_of(bytes));
+#ifdef MADV_HUGEPAGE
+    // A wish: where it is refused, small pages do.
+    if (bytes >= least_in_huge_pages) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
+#endif
+    return memory;
+}
+
+void free_big(void* memory, std::size_t bytes) noexcept {
+    ::operator delete(memory, alignment_of(bytes));
+}
+
+} // namespace raylane::core

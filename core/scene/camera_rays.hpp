@@ -1,0 +1,107 @@
+#pragma once
+
+#include "core/numbers/elementary.hpp"
+#include "core/scene/surroundings.hpp"
+#include "core/shapes/ray.hpp"
+
+#include <cstdint>
+
+namespace raylane::core {
+
+/// Where in its cell of the grid a sample lies, in [0, 1)^2.
+struct SamplePoint {
+    float x;
+    float y;
+};
+
+/// The same for each pixel and sample, whatever is rendered around it.
+inline SamplePoint sample_point(SamplePattern pattern, std::uint32_t x, std::uint32_t y,
+                                std::uint32_t sample) {
+    if (pattern == SamplePattern::regular) return {0.5F, 0.5F};
+    // SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014),
+    // keyed by all three.
+    std::uint64_t z = (static_cast<std::uint64_t>(y) << 32 | x) * 0x9E3779B97F4A7C15ULL + sample;
+    for (int round = 0; round < 2; ++round) {
+        z += 0x9E3779B97F4A7C15ULL;
+        z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9ULL;
+        z = (z ^ z >> 27) * 0x94D049BB133111EBULL;
+        z ^= z >> 31;
+    }
+    return {static_cast<float>(z >> 40) * 0x1p-24F, static_cast<float>(z & 0xFFFFFF) * 0x1p-24F};
+}
+
+/// Makes the rays of a picture: unit directions, from the camera's position or, orthographic, its
+/// plane.
+template <class Real>
+class CameraRays {
+  public:
+    CameraRays(const Camera& camera, const Settings& settings)
+        : grid_(settings.grid), pattern_(settings.samples),
+          orthographic_(camera.projection == Projection::orthographic), width_(settings.width),
+          height_(settings.height) {
+        const Vec3d from = convert<double>(camera.from);
+        const Vec3d forward = normalized(convert<double>(camera.at) - from);
+        const Vec3d right = normalized(cross(forward, convert<double>(camera.up)));
+        const Vec3d up = cross(right, forward);
+        // Half of the picture's height, in the plane at distance 1 or, orthographic, anywhere.
+        constexpr double degree = 3.14159265358979323846 / 180.0;
+        const double half_view = 0.5 * degree * static_cast<double>(camera.field_of_view);
+        const double half = orthographic_ ? 0.5 * static_cast<double>(camera.height)
+                                          : core::sin(half_view) / core::cos(half_view);
+        const double per_half_pixel = half / settings.height;
+        from_ = convert<Real>(from);
+        forward_ = convert<Real>(forward);
+        right_ = convert<Real>(right * per_half_pixel);
+        up_ = convert<Real>(up * per_half_pixel);
+    }
+
+    /// Where a sample lies in its pixel, from its upper left corner, in [0, 1)^2.
+    struct InPixel {
+        Real column;
+        Real row;
+    };
+    /// Sample 0 <= sample < grid^2 of pixel (x, y); y counts from the top. The same for all pixels
+    /// if the samples are regular.
+    InPixel in_pixel(int x, int y, int sample) const {
+        const SamplePoint point =
+            sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                         static_cast<std::uint32_t>(sample));
+        return {(Real(sample % grid_) + Real(point.x)) / Real(grid_),
+                (Real(sample / grid_) + Real(point.y)) / Real(grid_)};
+    }
+
+    /// Where that is in the picture, from its middle to the right and upwards, in halves of a
+    /// pixel.
+    struct Place {
+        Real across;
+        Real upward;
+    };
+    Place place(int x, int y, const InPixel& in_pixel) const {
+        return {Real(2) * (Real(x) + in_pixel.column) - Real(width_),
+                Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
+    }
+
+    Ray<Real> ray(int x, int y, int sample) const {
+        const Place at = place(x, y, in_pixel(x, y, sample));
+        const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
+        if (orthographic_) return {from_ + offset, forward_};
+        return {from_, normalized(Vec3<Real>(forward_ + offset))};
+    }
+
+    bool regular() const { return pattern_ == SamplePattern::regular; }
+    bool orthographic() const { return orthographic_; }
+    const Vec3<Real>& from() const { return from_; }
+    const Vec3<Real>& forward() const { return forward_; }
+    const Vec3<Real>& right() const { return right_; } ///< half a pixel long
+    const Vec3<Real>& up() const { return up_; }       ///< half a pixel long
+
+  private:
+    int grid_;
+    SamplePattern pattern_;
+    bool orthographic_;
+    int width_;
+    int height_;
+    Vec3<Real> from_, forward_, right_, up_; // right and up are half a pixel long
+};
+
+} // namespace raylane::core

@@ -1,0 +1,53 @@
+#include "core/scene/features.hpp"
+
+#include <algorithm>
+
+namespace raylane::core {
+
+std::array<std::pair<std::string_view, bool>, 13> Features::named() const {
+    return {{{"hierarchy", bounded_shapes},
+             {"planes", planes},
+             {"smooth normals", smooth_normals},
+             {"patterns", patterns},
+             {"light and shadow rays", shading},
+             {"highlights", highlights},
+             {"reflected rays", reflection},
+             {"Fresnel weights", fresnel},
+             {"refracted rays", refraction},
+             {"absorption", absorption},
+             {"fog", fog},
+             {"one-sided surfaces", one_sided},
+             {"supersampling", supersampling}}};
+}
+
+Features features_of(const Scene& scene, const Settings& settings) {
+    Features features;
+    for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
+        if (table.size() == 0) return;
+        (kind_of<Shape> == Kind::plane ? features.planes : features.bounded_shapes) = true;
+        if (kind_of<Shape> == Kind::smooth_triangle) features.smooth_normals = true;
+    });
+
+    std::vector<bool> used(scene.materials().size());
+    for (ShapeId id = 0; id < scene.shape_count(); ++id)
+        used[scene.material_index_of(id)] = true;
+    const bool traces_further = settings.max_depth > 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (!used[i]) continue;
+        const Material& material = scene.materials()[i];
+        const bool highlights = material.specular > 0.0F;
+        features.patterns |= material.pattern.kind != PatternKind::solid;
+        features.highlights |= highlights;
+        features.shading |= highlights || material.diffuse > 0.0F;
+        features.reflection |= traces_further && (material.reflects() || material.transmits());
+        features.fresnel |= material.reflection != Reflection::constant;
+        features.refraction |= material.transmits();
+        features.absorption |= material.transmits() && material.absorption != Vec3f(0.0F);
+        features.one_sided |= material.visible != Visible::both;
+    }
+    features.fog = scene.fog().kind != FogKind::none;
+    features.supersampling = settings.grid > 1;
+    return features;
+}
+
+} // namespace raylane::core

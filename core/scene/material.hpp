@@ -1,0 +1,72 @@
+#pragma once
+
+#include "core/numbers/vector.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace raylane::core {
+
+/// Linear RGB. 1 is the film's white.
+using Color = Vec3f;
+
+enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_plane };
+
+/// Colour as a function of the point in space, in world coordinates.
+struct Pattern {
+    PatternKind kind = PatternKind::solid;
+    /// solid: the first. checker, stripes: alternating, the first in the cell that begins at the
+    /// origin. gradient: at `from` and at `to`. back_plane: not used.
+    std::array<Color, 2> colors = {Color(1.0F), Color(1.0F)};
+    /// checker: the cells' edge; stripes: their width. > 0
+    float size = 1.0F;
+    /// checker: which axes count, as bits (1 = x, 2 = y, 4 = z). A floor wants x and z: the
+    /// coordinate that is constant on it would decide by rounding alone.
+    std::uint8_t axes = 1 | 4;
+    /// stripes: across the bands, any length but zero.
+    Vec3f direction{1.0F, 0.0F, 0.0F};
+    /// gradient: runs from one point to the other, constant beyond them.
+    Vec3f from{0.0F};
+    Vec3f to{0.0F, 1.0F, 0.0F};
+};
+
+enum class Reflection : std::uint8_t {
+    constant,   ///< `reflectivity`, whatever the angle
+    schlick,    ///< Schlick's approximation, from `index`
+    dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
+};
+
+/// From which side a surface can be seen. Rays pass the other side as if nothing were there. A
+/// shadow ray looks from a surface to the light.
+enum class Visible : std::uint8_t { both, outside, inside };
+
+/// The colour seen along a ray that hits this material, with light l of colour L_l, unit vectors n
+/// (normal), l (to the light) and h (halfway between l and the viewer), S what of the light the
+/// shadow lets through, C the pattern's colour and R the reflected fraction:
+///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
+///   + R (colour reflected) + (1 - R) transmission (colour transmitted)
+struct Material {
+    Pattern pattern;
+    float ambient = 0.1F;   ///< >= 0
+    float diffuse = 0.8F;   ///< >= 0
+    float specular = 0.0F;  ///< >= 0, Blinn's highlight, in the light's colour
+    float exponent = 32.0F; ///< >= 0
+    Reflection reflection = Reflection::constant;
+    float reflectivity = 0.0F; ///< [0, 1]
+    float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
+    float index = 1.5F;        ///< index of refraction, > 0; what surrounds the scene has 1
+    Vec3f absorption{
+        0.0F}; ///< per unit of length inside, >= 0 (Beer-Lambert: exp(-absorption * length))
+    Visible visible = Visible::both;
+
+    bool transmits() const { return transmission > 0.0F; }
+    bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
+    /// By a ray that enters there, or leaves.
+    bool is_seen(bool entering) const {
+        return visible == Visible::both || (visible == Visible::outside) == entering;
+    }
+};
+
+using MaterialIndex = std::uint32_t;
+
+} // namespace raylane::core

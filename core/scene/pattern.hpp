@@ -1,0 +1,68 @@
+#pragma once
+
+#include "core/numbers/elementary.hpp"
+#include "core/scene/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::core {
+
+namespace detail {
+
+/// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ...
+template <class Real>
+int parity(Real value) {
+    const Real cell = std::floor(value);
+    return cell == Real(2) * std::floor(cell / Real(2)) ? 0 : 1;
+}
+
+/// A sun over water: an orange disc, brighter above the horizon y = 0, before coloured bands.
+template <class Real>
+Vec3<Real> back_plane(Real x, Real y) {
+    if (x * x + y * y < Real(150)) {
+        if (y > Real(0)) return {Real(1), Real(0.2), Real(0)};
+        if (y < Real(0)) return {Real(0.7), Real(0.2), Real(0)};
+    }
+    if (y >= Real(0)) {
+        const Real root = std::sqrt(y);
+        return {std::abs(core::cos(x)), std::abs(core::sin(root)), std::abs(core::cos(root))};
+    }
+    return {Real(0), Real(0), std::abs(core::cos(y))};
+}
+
+} // namespace detail
+
+/// The pattern's colour at a point in world coordinates.
+template <class Real>
+Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point) {
+    const Vec3<Real> first = convert<Real>(pattern.colors[0]),
+                     second = convert<Real>(pattern.colors[1]);
+    switch (pattern.kind) {
+    case PatternKind::solid:
+        break;
+    case PatternKind::checker: {
+        int sum = 0;
+        for (int axis = 0; axis < 3; ++axis)
+            if ((pattern.axes >> axis & 1) != 0)
+                sum += detail::parity(point[axis] / Real(pattern.size));
+        return sum % 2 == 0 ? first : second;
+    }
+    case PatternKind::stripes: {
+        const Vec3<Real> direction = convert<Real>(pattern.direction);
+        const Real distance = dot(point, direction) / length(direction);
+        return detail::parity(distance / Real(pattern.size)) == 0 ? first : second;
+    }
+    case PatternKind::gradient: {
+        const Vec3<Real> run = convert<Real>(pattern.to) - convert<Real>(pattern.from);
+        const Vec3<Real> offset = point - convert<Real>(pattern.from);
+        const Real s = std::clamp(dot(offset, run) / squared_length(run), Real(0), Real(1));
+        return mul_add(s, Vec3<Real>(second - first), first);
+    }
+    case PatternKind::back_plane:
+        return detail::back_plane(point.x, point.y);
+    }
+    return first;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,150 @@
+#include "core/scene/scene.hpp"
+
+#include "core/scene/surface.hpp"
+#include "core/scene/validate.hpp"
+
+#include <algorithm>
+
+namespace raylane::core {
+
+namespace {
+
+template <class Value>
+void validate_in(const std::string& place, const Value& value) {
+    try {
+        validate(value);
+    } catch (const InvalidValue& invalid) {
+        throw InvalidValue(place + "/" + invalid.field, invalid.expectation);
+    }
+}
+
+} // namespace
+
+std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id) {
+    std::size_t rank = id;
+    for (const IdRange& group : groups) {
+        if (id < group.first) break;
+        rank -= std::min(id, group.last) - group.first;
+    }
+    return rank;
+}
+
+IdRange Scene::coplanar_with(ShapeId id) const {
+    const IdRange* polygon = range_with(polygons_, id);
+    return polygon != nullptr ? *polygon : IdRange{id, id};
+}
+
+std::size_t Scene::bytes() const {
+    std::size_t bytes = hierarchy_.bytes() + material_of_.capacity() * sizeof(MaterialIndex) +
+                        polygons_.capacity() * sizeof(IdRange) +
+                        materials_.capacity() * sizeof(Material);
+    for_each_table(shapes_, [&](const auto& table) { bytes += table.bytes(); });
+    return bytes;
+}
+
+void SceneBuilder::require_material(MaterialIndex material) const {
+    if (material >= scene_.materials_.size())
+        throw InvalidValue("material",
+                           "must be the index of a material, got " + std::to_string(material));
+}
+
+void SceneBuilder::require_room(std::size_t count) const {
+    if (count > no_shape - shape_count())
+        throw InvalidValue("", "must be one of at most 4294967295 shapes");
+}
+
+MaterialIndex SceneBuilder::add_material(const Material& material) {
+    validate(material);
+    scene_.materials_.push_back(material);
+    return static_cast<MaterialIndex>(scene_.materials_.size() - 1);
+}
+
+void SceneBuilder::add_light(const Light& light) {
+    validate(light);
+    scene_.lights_.push_back(light);
+}
+
+template <class Shape>
+ShapeId SceneBuilder::append(const Shape& shape, MaterialIndex material) {
+    const auto id = static_cast<ShapeId>(shape_count());
+    std::get<ShapeList<Shape>>(lists_).add(shape, id);
+    scene_.material_of_.push_back(material);
+    constexpr std::size_t now_and_then = std::size_t{1} << 16;
+    if (shape_count() % now_and_then == 0 && workers != nullptr) workers->added(shape_count());
+    return id;
+}
+
+template <class Shape>
+ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {
+    validate(shape);
+    require_material(material);
+    require_room(1);
+    return append(shape, material);
+}
+
+template <class AnyTriangle>
+ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material) {
+    if (triangles.empty()) throw InvalidValue("", "must have at least one triangle, got none");
+    for (const AnyTriangle& triangle : triangles)
+        validate(triangle);
+    require_material(material);
+    require_room(triangles.size());
+    const ShapeId first = append(triangles.front(), material);
+    for (const AnyTriangle& triangle : triangles.subspan(1))
+        append(triangle, material);
+    const auto last = static_cast<ShapeId>(shape_count() - 1);
+    if (last != first) scene_.polygons_.push_back({first, last});
+    return first;
+}
+
+void SceneBuilder::reserve(std::size_t count) {
+    scene_.material_of_.reserve(shape_count() + count);
+}
+
+Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
+    validate_in("settings", settings);
+    validate_in("camera", camera);
+    validate_in("fog", fog);
+    validate_color("background", background);
+    if (wants_light && scene_.lights_.empty() && shape_count() > 0)
+        throw InvalidValue("lights",
+                           "must have at least one light where there are objects, got none");
+
+    Workers alone;
+    scene_.hierarchy_ = build_hierarchy(lists_, {lists_, scene_.material_of_, scene_.polygons_},
+                                        workers != nullptr ? *workers : alone, scene_.shapes_);
+    lists_ = {};
+    for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
+        const Light& light = scene_.lights_[i];
+        if (light.kind != LightKind::point) continue;
+        const ShapeId id = surface_through(scene_, light.position);
+        if (id == no_shape) continue;
+        std::string name = name_of_shape ? name_of_shape(id) : "";
+        if (name.empty()) name = "shape " + std::to_string(id);
+        throw InvalidValue("lights/" + std::to_string(i) + "/position",
+                           "must not be on a surface, got a point of " + name);
+    }
+    scene_.camera_ = camera;
+    scene_.background_ = background;
+    scene_.fog_ = fog;
+    scene_.settings_ = settings;
+    return std::move(scene_);
+}
+
+#define RAYLANE_INSTANTIATE(Shape) template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);
+RAYLANE_INSTANTIATE(Sphere)
+RAYLANE_INSTANTIATE(Plane)
+RAYLANE_INSTANTIATE(Disc)
+RAYLANE_INSTANTIATE(Triangle)
+RAYLANE_INSTANTIATE(SmoothTriangle)
+RAYLANE_INSTANTIATE(Box)
+RAYLANE_INSTANTIATE(OpenCylinder)
+RAYLANE_INSTANTIATE(CappedCylinder)
+RAYLANE_INSTANTIATE(OpenCone)
+RAYLANE_INSTANTIATE(CappedCone)
+RAYLANE_INSTANTIATE(Quadric)
+#undef RAYLANE_INSTANTIATE
+template ShapeId SceneBuilder::add_polygon(std::span<const Triangle>, MaterialIndex);
+template ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle>, MaterialIndex);
+
+} // namespace raylane::core

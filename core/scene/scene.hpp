@@ -1,0 +1,110 @@
+#pragma once
+
+#include "core/hierarchy/hierarchy.hpp"
+#include "core/scene/invalid_value.hpp"
+#include "core/scene/material.hpp"
+#include "core/scene/shape_table.hpp"
+#include "core/scene/surroundings.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace raylane::core {
+
+/// If `groups`, ascending, were one shape each, as which one would shape `id` be counted?
+std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id);
+
+/// What a message calls a shape; empty where that is unknown.
+using NameOfShape = std::function<std::string(ShapeId)>;
+
+/// A validated scene that no longer changes. Copying it is expensive, moving it is not.
+class Scene {
+  public:
+    /// Of shapes that are the same, of one material, the first alone.
+    const Tables& shapes() const { return shapes_; }
+    std::size_t shape_count() const { return material_of_.size(); }
+    const Hierarchy& hierarchy() const { return hierarchy_; }
+    const std::vector<Material>& materials() const { return materials_; }
+    const Material& material_of(ShapeId id) const { return materials_[material_of_[id]]; }
+    MaterialIndex material_index_of(ShapeId id) const { return material_of_[id]; }
+    const std::vector<Light>& lights() const { return lights_; }
+    const Fog& fog() const { return fog_; }
+    const Camera& camera() const { return camera_; }
+    const Color& background() const { return background_; }
+    const Settings& settings() const { return settings_; }
+
+    /// The shapes that lie in one flat polygon with `id`: itself alone unless added by add_polygon.
+    IdRange coplanar_with(ShapeId id) const;
+
+    /// Bytes of shapes, materials and hierarchy.
+    std::size_t bytes() const;
+
+  private:
+    friend class SceneBuilder;
+    Scene() = default;
+
+    Tables shapes_;
+    std::vector<MaterialIndex> material_of_; // by shape id
+    std::vector<IdRange> polygons_;          // of more than one triangle, ascending
+    Hierarchy hierarchy_;
+    std::vector<Material> materials_;
+    std::vector<Light> lights_;
+    Fog fog_;
+    Camera camera_;
+    Color background_{0.0F};
+    Settings settings_;
+};
+
+/// Collects a scene, in any order, and checks each value as it comes. All functions throw
+/// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was.
+class SceneBuilder {
+  public:
+    Camera camera;              ///< checked by build(), field "camera/..."
+    Color background{0.0F};     ///< checked by build(), field "background"
+    Fog fog;                    ///< checked by build(), field "fog/..."
+    Settings settings;          ///< checked by build(), field "settings/..."
+    bool wants_light = true;    ///< whether build() refuses shapes without a light
+    Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
+
+    /// The index by which shapes refer to it.
+    MaterialIndex add_material(const Material& material);
+    void add_light(const Light& light);
+
+    /// The id of the new shape: 0, 1, 2, ... `material` must be an index that add_material
+    /// returned.
+    template <class Shape>
+    ShapeId add(const Shape& shape, MaterialIndex material);
+
+    /// Triangles that tile one flat polygon. A ray that leaves one of them can hit none of the
+    /// others, however close to a common edge it starts. Returns the first id; the others follow.
+    template <class AnyTriangle>
+    ShapeId add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material);
+
+    /// Makes room for `count` more shapes, so that adding them copies nothing.
+    void reserve(std::size_t count);
+
+    std::size_t shape_count() const { return scene_.material_of_.size(); }
+    /// The polygons of more than one triangle, ascending.
+    std::span<const IdRange> polygons() const { return scene_.polygons_; }
+
+    /// Checks what concerns the scene as a whole, builds the hierarchy, and hands the scene over.
+    /// Fields are those above, and "lights", "lights/0/position", ... Shapes are named by number
+    /// unless `name_of_shape` knows better.
+    Scene build(const NameOfShape& name_of_shape = nullptr) &&;
+
+  private:
+    void require_material(MaterialIndex material) const;
+    void require_room(std::size_t count) const;
+    /// What add does with a shape that is valid.
+    template <class Shape>
+    ShapeId append(const Shape& shape, MaterialIndex material);
+
+    Scene scene_;
+    ShapeLists lists_;
+};
+
+} // namespace raylane::core

@@ -1,0 +1,144 @@
+#pragma once
+
+#include "core/scene/big_array.hpp"
+#include "core/scene/shape_list.hpp"
+#include "core/shapes/shapes.hpp"
+
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace raylane::core {
+
+/// Shapes to a block: as many as the widest packet has lanes.
+inline constexpr int block_size = 16;
+
+/// 16 shapes of one kind, structure of arrays: value k of lane i is values[k][i]. An empty lane
+/// holds NaN and no_shape.
+template <class Shape>
+struct alignas(64) Block {
+    float values[float_count<Shape>][block_size];
+    ShapeId ids[block_size];
+
+    Block() {
+        for (auto& row : values)
+            for (float& value : row)
+                value = std::numeric_limits<float>::quiet_NaN();
+        for (ShapeId& id : ids)
+            id = no_shape;
+    }
+
+    Shape get(int lane) const {
+        Floats<Shape> floats;
+        for (int k = 0; k < float_count<Shape>; ++k)
+            floats[k] = values[k][lane];
+        return shape_of<Shape>(floats);
+    }
+
+    void set(int lane, const Shape& shape, ShapeId id) {
+        const Floats<Shape> floats = floats_of(shape);
+        for (int k = 0; k < float_count<Shape>; ++k)
+            values[k][lane] = floats[k];
+        ids[lane] = id;
+    }
+};
+
+/// Where a shape is in the table of its kind.
+struct Slot {
+    std::uint32_t block;
+    std::uint8_t lane;
+};
+
+/// All shapes of one kind, in a finished scene. Each block of a bounded kind is a leaf of the
+/// hierarchy, so blocks may be partly empty.
+template <class Shape>
+class Table {
+  public:
+    Table() = default;
+    /// `size` shapes in all, with duplicates.
+    Table(BigArray<Block<Shape>> blocks, std::size_t size)
+        : blocks_(std::move(blocks)), size_(size) {}
+    /// In the list's order.
+    explicit Table(const ShapeList<Shape>& list) : Table(list, list.size()) {}
+    Table(const ShapeList<Shape>& list, std::size_t size)
+        : blocks_((list.size() + block_size - 1) / block_size), size_(size) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            Block<Shape>& block = blocks_[i / block_size];
+            if (i % block_size == 0) block = Block<Shape>();
+            block.set(static_cast<int>(i % block_size), list[i].shape, list[i].id);
+        }
+    }
+
+    /// With duplicates, of which the blocks have one each.
+    std::size_t size() const { return size_; }
+    const BigArray<Block<Shape>>& blocks() const { return blocks_; }
+    Shape get(Slot slot) const { return blocks_[slot.block].get(slot.lane); }
+    ShapeId id(Slot slot) const { return blocks_[slot.block].ids[slot.lane]; }
+    std::size_t bytes() const { return blocks_.bytes(); }
+
+  private:
+    BigArray<Block<Shape>> blocks_;
+    std::size_t size_ = 0;
+};
+
+/// One table per kind, in the order of `Kind`.
+using Tables =
+    std::tuple<Table<Sphere>, Table<Plane>, Table<Disc>, Table<Triangle>, Table<SmoothTriangle>,
+               Table<Box>, Table<OpenCylinder>, Table<CappedCylinder>, Table<OpenCone>,
+               Table<CappedCone>, Table<Quadric>>;
+static_assert(std::tuple_size_v<Tables> == kind_count);
+
+/// Calls `visit(std::type_identity<Shape>())` with the type of shape that `kind` is.
+template <class Visit>
+decltype(auto) with_shape_type(Kind kind, Visit&& visit) {
+    switch (kind) {
+    case Kind::sphere:
+        return visit(std::type_identity<Sphere>());
+    case Kind::plane:
+        return visit(std::type_identity<Plane>());
+    case Kind::disc:
+        return visit(std::type_identity<Disc>());
+    case Kind::triangle:
+        return visit(std::type_identity<Triangle>());
+    case Kind::smooth_triangle:
+        return visit(std::type_identity<SmoothTriangle>());
+    case Kind::box:
+        return visit(std::type_identity<Box>());
+    case Kind::open_cylinder:
+        return visit(std::type_identity<OpenCylinder>());
+    case Kind::capped_cylinder:
+        return visit(std::type_identity<CappedCylinder>());
+    case Kind::open_cone:
+        return visit(std::type_identity<OpenCone>());
+    case Kind::capped_cone:
+        return visit(std::type_identity<CappedCone>());
+    case Kind::quadric:
+        break;
+    }
+    return visit(std::type_identity<Quadric>());
+}
+
+/// Calls `visit(table)` with the table of `kind`.
+template <class TablesRef, class Visit>
+decltype(auto) with_table(TablesRef&& tables, Kind kind, Visit&& visit) {
+    return with_shape_type(kind, [&]<class Shape>(std::type_identity<Shape>) -> decltype(auto) {
+        return visit(std::get<Table<Shape>>(tables));
+    });
+}
+
+/// Calls `visit(shape, id)` for every shape of a table.
+template <class Shape, class Visit>
+void for_each_shape(const Table<Shape>& table, const Visit& visit) {
+    for (const Block<Shape>& block : table.blocks())
+        for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane)
+            visit(block.get(lane), block.ids[lane]);
+}
+
+/// Calls `visit(table)` for every kind in order; so it does with lists.
+template <class TablesRef, class Visit>
+void for_each_table(TablesRef&& tables, Visit&& visit) {
+    std::apply([&](auto&... table) { (visit(table), ...); }, tables);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "core/scene/material.hpp"
+
+#include <cstdint>
+
+/// What is in a scene besides its shapes: lights, fog, the camera, and the settings of the picture.
+namespace raylane::core {
+
+enum class LightKind : std::uint8_t { point, directional };
+
+/// A light has no size and does not fade with distance. It casts shadows.
+struct Light {
+    LightKind kind = LightKind::point;
+    Vec3f position{0.0F}; ///< point: where it is
+    Vec3f direction{0.0F, -1.0F,
+                    0.0F}; ///< directional: where the light travels to, any length but zero
+    Color color{1.0F};     ///< >= 0
+};
+
+enum class FogKind : std::uint8_t {
+    none,
+    linear_z,    ///< by world z: none at z = start, all at z = end
+    linear,      ///< by the distance along the ray: none at `start`, all at `end`
+    exponential, ///< 1 - exp(-density * distance)
+};
+
+/// With f the fraction of fog in [0, 1], a segment shows (1 - f) * colour + f * fog colour. It acts
+/// on every segment outside of a transmissive object, secondary rays included. A ray that hits
+/// nothing is infinitely long.
+struct Fog {
+    FogKind kind = FogKind::none;
+    Color color{1.0F};
+    float start = 0.0F;   ///< in units of length
+    float end = 1.0F;     ///< differs from start; for linear, 0 <= start < end
+    float density = 0.0F; ///< per unit of length, > 0
+};
+
+enum class Projection : std::uint8_t { perspective, orthographic };
+
+struct Camera {
+    Projection projection = Projection::perspective;
+    Vec3f from{0.0F, 0.0F, 5.0F};
+    Vec3f at{0.0F};             ///< differs from `from`
+    Vec3f up{0.0F, 1.0F, 0.0F}; ///< not along the line of sight
+    float field_of_view =
+        45.0F; ///< perspective: degrees from the picture's lower to its upper edge, in (0, 180)
+    float height = 2.0F; ///< orthographic: of the picture, > 0, in units of length
+};
+
+enum class Transfer : std::uint8_t { srgb, linear };
+
+enum class SamplePattern : std::uint8_t {
+    regular,    ///< the centres of the cells
+    stratified, ///< a point in each cell, by a hash of pixel and sample
+};
+
+/// What a scene wants its picture to be; every value can be overridden when it is rendered.
+struct Settings {
+    int width = 512;  ///< pixels
+    int height = 512; ///< pixels
+    int grid = 1;     ///< samples per pixel: grid x grid
+    SamplePattern samples = SamplePattern::regular;
+    Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
+    int max_depth = 8;         ///< reflections and refractions on one path; 0: primary rays alone
+    float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
+
+    static constexpr int max_size = 65535;                ///< pixels a side
+    static constexpr std::int64_t max_pixels = 1LL << 28; ///< 3 GiB of film
+    static constexpr int max_grid = 256;
+    static constexpr int depth_limit = 1000;
+};
+
+} // namespace raylane::core

@@ -1,0 +1,34 @@
+#include "core/scene/transfer.hpp"
+
+#include "core/numbers/elementary.hpp"
+
+#include <limits>
+
+namespace raylane::core {
+
+std::uint8_t encode(float linear, Transfer transfer) {
+    if (!(linear > 0.0F)) return 0;
+    if (linear >= 1.0F) return 255;
+    auto value = static_cast<double>(linear);
+    if (transfer == Transfer::srgb)
+        value = value <= 0.0031308 ? 12.92 * value : 1.055 * core::pow(value, 1.0 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(255.0 * value + 0.5);
+}
+
+Encoder::Encoder(Transfer transfer) {
+    starts_[0] = 0.0F;
+    starts_[256] = std::numeric_limits<float>::infinity();
+    for (int code = 1; code < 256; ++code) {
+        auto below = std::bit_cast<std::uint32_t>(starts_[code - 1]);
+        auto start = std::bit_cast<std::uint32_t>(1.0F);
+        while (start - below > 1) {
+            const std::uint32_t middle = below + (start - below) / 2;
+            (encode(std::bit_cast<float>(middle), transfer) < code ? below : start) = middle;
+        }
+        starts_[code] = std::bit_cast<float>(start);
+    }
+    for (std::uint32_t stretch = first; stretch < last; ++stretch)
+        codes_[stretch - first] = encode(std::bit_cast<float>(stretch << shift), transfer);
+}
+
+} // namespace raylane::core

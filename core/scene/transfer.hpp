@@ -1,0 +1,41 @@
+#pragma once
+
+#include "core/scene/surroundings.hpp"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace raylane::core {
+
+/// The 8-bit code of a linear component, which is clamped to [0, 1] first; NaN gives 0.
+/// srgb: the curve of IEC 61966-2-1. Rounded to the nearest code.
+std::uint8_t encode(float linear, Transfer transfer);
+
+/// encode() for many components: looked up, the same codes.
+class Encoder {
+  public:
+    explicit Encoder(Transfer transfer);
+
+    std::uint8_t operator()(float linear) const {
+        if (!(linear > lowest)) return 0;
+        if (linear >= 1.0F) return 255;
+        const std::uint8_t code = codes_[stretch_of(linear)];
+        return static_cast<std::uint8_t>(code + (linear >= starts_[code + 1] ? 1 : 0));
+    }
+
+  private:
+    /// Between neighbouring stretches, 2^-7 of a power of two wide, the code rises by 1 at most.
+    static constexpr int shift = 16;
+    static constexpr float lowest = 0x1p-13F; // half of the first code is more
+    static constexpr std::uint32_t first = std::bit_cast<std::uint32_t>(lowest) >> shift;
+    static constexpr std::uint32_t last = std::bit_cast<std::uint32_t>(1.0F) >> shift;
+    static std::uint32_t stretch_of(float linear) {
+        return (std::bit_cast<std::uint32_t>(linear) >> shift) - first;
+    }
+
+    std::array<float, 257> starts_;                ///< by code: the lowest component that has it
+    std::array<std::uint8_t, last - first> codes_; ///< by stretch: at its start
+};
+
+} // namespace raylane::core

@@ -1,0 +1,106 @@
+#pragma once
+
+#include "core/shapes/form.hpp"
+#include "core/shapes/judge.hpp"
+#include "core/shapes/ray.hpp"
+
+namespace raylane::core {
+
+/// A ray taken apart along and across the axis of a cylinder or cone: with f = origin - base,
+///   height(t) = (f + t direction) . axis, in [0, axis . axis] between the ends,
+///   across(t) = across_origin + t across_direction, the offset from the axis.
+/// The rounding of the quotient errs along the axis, which `across` sees only at second order, so
+/// axis / |axis|^2 is not rounded first.
+template <class Real>
+struct AxialRay {
+    Real axis_squared;
+    Real height_origin;
+    Real height_direction;
+    Vec3<Real> across_origin;
+    Vec3<Real> across_direction;
+
+    AxialRay(const Vec3f& base, const Vec3f& axis, const Ray<Real>& ray) {
+        const Vec3<Real> a = convert<Real>(axis);
+        const Vec3<Real> from_base = ray.origin - convert<Real>(base);
+        axis_squared = squared_length(a);
+        height_origin = dot(from_base, a);
+        height_direction = dot(ray.direction, a);
+        across_origin = mul_add(Real(-(height_origin / axis_squared)), a, from_base);
+        across_direction = mul_add(Real(-(height_direction / axis_squared)), a, ray.direction);
+    }
+
+    /// Whether the crossing lies between the ends, the rims included.
+    bool between_ends(const Real& t, Judge<Real>& judge) const {
+        const Real height = mul_add(t, height_direction, height_origin);
+        return !judge.negative(height) && !judge.less(axis_squared, height);
+    }
+};
+
+/// Clips against the caps of a solid, or, for a start on its surface going inward, against those
+/// caps that the ray can leave through: not the one it starts on.
+template <class Real, class AnySpan>
+void clip_caps(AnySpan& span, const AxialRay<Real>& axial, const Start& start, Judge<Real>& judge) {
+    if (!start.on_surface) {
+        span.clip_slab(axial.height_origin, axial.height_direction, axial.axis_squared, base_cap,
+                       top_cap);
+        return;
+    }
+    const int direction = judge.sign(axial.height_direction);
+    if (direction > 0 && start.face != top_cap)
+        span.clip_back((axial.axis_squared - axial.height_origin) / axial.height_direction,
+                       top_cap);
+    if (direction < 0 && start.face != base_cap)
+        span.clip_back(-axial.height_origin / axial.height_direction, base_cap);
+}
+
+/// The crossings of an open surface that lie between its ends.
+template <class Real>
+Crossings<Real> keep_between_ends(const Crossings<Real>& crossings, const AxialRay<Real>& axial,
+                                  Judge<Real>& judge) {
+    Crossings<Real> kept;
+    for (const Crossing<Real>& crossing : crossings)
+        if (axial.between_ends(crossing.t, judge)) kept.add(crossing);
+    return kept;
+}
+
+/// From the axis to a point, at right angles to the axis.
+template <class Real>
+Vec3<Real> offset_from_axis(const Vec3f& base, const Vec3f& axis, const Vec3<Real>& point) {
+    const Vec3<Real> a = convert<Real>(axis);
+    const Vec3<Real> from_base = point - convert<Real>(base);
+    return mul_add(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
+}
+
+/// An AxialRay without fractions: across is scaled by |axis|^2.
+template <class Real>
+struct ScaledAxialRay {
+    Vec3<Real> axis, from_base, direction;
+    Real axis_squared, height_origin, height_direction;
+
+    ScaledAxialRay(const Vec3f& base, const Vec3f& axis_, const Ray<Real>& ray)
+        : axis(convert<Real>(axis_)), from_base(ray.origin - convert<Real>(base)),
+          direction(ray.direction), axis_squared(squared_length(axis)),
+          height_origin(dot(from_base, axis)), height_direction(dot(direction, axis)) {}
+
+    /// |across|^2 - width^2, scaled by |axis|^2: the width is as far from the axis as it is wide.
+    ExactQuadratic pipe(const Real& radius) const {
+        return {
+            axis_squared * squared_length(direction) - height_direction * height_direction,
+            axis_squared * dot(from_base, direction) - height_origin * height_direction,
+            axis_squared * (squared_length(from_base) - radius * radius) -
+                height_origin * height_origin,
+        };
+    }
+    NormalAlong<Real> across() const {
+        return {axis_squared * from_base - height_origin * axis,
+                axis_squared * direction - height_direction * axis};
+    }
+
+    ExactQuadratic cap(Face face) const {
+        if (face == base_cap) return {0.0, -0.5 * height_direction, -height_origin};
+        return {0.0, 0.5 * height_direction, height_origin - axis_squared};
+    }
+    NormalAlong<Real> cap_normal(Face face) const { return {face == base_cap ? -axis : axis}; }
+};
+
+} // namespace raylane::core

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "core/shapes/convex.hpp"
+#include "core/shapes/form.hpp"
+
+#include <array>
+
+namespace raylane::core {
+
+/// The outward normal of the faces opposite to the corner, of length volume / height: u x v, v x w,
+/// w x u, turned outwards if the edges are left-handed.
+template <class Real>
+std::array<Vec3<Real>, 3> box_normals(const Box& box) {
+    const Vec3<Real> u = convert<Real>(box.edge_u);
+    const Vec3<Real> v = convert<Real>(box.edge_v);
+    const Vec3<Real> w = convert<Real>(box.edge_w);
+    return {cross(v, w), cross(w, u), cross(u, v)};
+}
+
+/// The edge coordinate u of a point p is ((v x w) . p) / ((v x w) . u), likewise v and w: three
+/// slabs [0, 1].
+template <class Real>
+Crossings<Real> crossings(const Box& box, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    if (start.on_surface && !start.inward) return {};
+
+    const Vec3<Real> from_corner = ray.origin - convert<Real>(box.corner);
+    const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
+    const Real volume =
+        dot(normals[0], convert<Real>(box.edge_u)); // its sign: that of the edges' handedness
+    const bool left_handed = static_cast<double>(volume) < 0.0;
+    const auto turned = [&](const Real& a) { return left_handed ? Real(-a) : a; };
+
+    Span<Real> span(judge);
+    for (int i = 0; i < 3; ++i) {
+        const Real position = turned(dot(normals[i], from_corner));
+        const Real slope = turned(dot(normals[i], ray.direction));
+        const Face low = static_cast<Face>(2 * i), high = static_cast<Face>(2 * i + 1);
+        if (!start.on_surface) {
+            span.clip_slab(position, slope, turned(volume), low, high);
+            continue;
+        }
+        // From a face inward: only the ways out count, and not the face itself.
+        const int direction = judge.sign(slope);
+        if (direction > 0 && start.face != high)
+            span.clip_back((turned(volume) - position) / slope, high);
+        if (direction < 0 && start.face != low) span.clip_back(-position / slope, low);
+    }
+    return start.on_surface ? span.exit() : span.crossings();
+}
+
+template <class Real>
+Vec3<Real> outward_direction(const Box& box, const Vec3<Real>&, Face face) {
+    const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
+    const bool left_handed = static_cast<double>(dot(normals[0], convert<Real>(box.edge_u))) < 0.0;
+    const bool through_corner = face % 2 == 0;
+    const Vec3<Real>& normal = normals[face / 2];
+    return left_handed == through_corner ? normal : -normal;
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Box& box, const Ray<Real>&, Face face) {
+    const bool left_handed =
+        dot(box_normals<Dyadic>(box)[0], convert<Dyadic>(box.edge_u)).sign() < 0;
+    const bool through_corner = face % 2 == 0;
+    const Vec3<Real> normal = box_normals<Real>(box)[face / 2];
+    return {left_handed == through_corner ? normal : -normal};
+}
+
+inline ExactQuadratic form_along(const Box& box, const ExactRay& ray, Face face) {
+    Vec3<Dyadic> point = ray.origin - convert<Dyadic>(box.corner);
+    const Vec3f edges[] = {box.edge_u, box.edge_v, box.edge_w};
+    if (face % 2 == 1) point = point - convert<Dyadic>(edges[face / 2]);
+    return plane_along(normal_along(box, ray, face).v, point, ray.direction);
+}
+
+} // namespace raylane::core

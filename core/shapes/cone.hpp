@@ -1,0 +1,128 @@
+#pragma once
+
+#include "core/shapes/axial.hpp"
+#include "core/shapes/convex.hpp"
+#include "core/shapes/quadratic.hpp"
+
+namespace raylane::core {
+
+/// |across(t)|^2 = width(t)^2, where the width runs from base_radius to top_radius along the axis:
+///   F(t) = |across|^2 - width^2 = A t^2 + 2 B t + C,  width(t) = W + t M.
+/// The equation also describes the mirror nappe beyond the apex, where width < 0. Between the ends
+/// width >= 0, so what is clipped to them needs a test of its own in the apex alone: a ray through
+/// it, from the inside of one nappe to that of the other, crosses both there.
+template <class Real, Ends ends>
+Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    if (start.on_surface && !start.inward) return {};
+
+    const AxialRay<Real> axial(cone.base, cone.axis, ray);
+    const Real base_radius = Real(cone.base_radius);
+    const Real slope = (Real(cone.top_radius) - base_radius) / axial.axis_squared;
+    const Real W = mul_add(slope, axial.height_origin, base_radius);
+    const Real M = slope * axial.height_direction;
+    const Real across_squared = squared_length(axial.across_direction);
+    const Real A = mul_add(Real(-M), M, across_squared);
+    const Real B = mul_add(Real(-M), W, dot(axial.across_origin, axial.across_direction));
+
+    // The infinite double cone.
+    Crossings<Real> roots;
+    const int curvature = judge.sign(A);
+    if (start.on_surface && start.face == body) {
+        // t = 0 is one root, -2 B / A the other. Going inward F falls at 0, so it rises again only
+        // if A > 0.
+        if (curvature > 0) roots.add({not_behind(Real(-(B + B) / A)), body, false});
+    } else {
+        const Real C = mul_add(Real(-W), W, squared_length(axial.across_origin));
+        roots =
+            solve_quadratic(A, B, C, mul_add(M, M, across_squared), judge, [&](const Real& tau) {
+                const Real width = mul_add(tau, M, W);
+                return mul_add(
+                    Real(-width), width,
+                    squared_length(mul_add(tau, axial.across_direction, axial.across_origin)));
+            });
+        // Beside the cone, or on the axis side of it for good: then only the caps can be met.
+        const bool no_roots = roots.begin() == roots.end();
+        if (no_roots && (curvature > 0 || judge.positive(C))) {
+            if (!start.on_surface) return {};
+            // From a cap, by its rim: the ray leaves, whatever rounding says.
+            const Real vertex = curvature > 0 ? Real(-B / A) : Real(0.0);
+            roots.add({not_behind(vertex), body, false});
+        }
+    }
+    // One crossing on each nappe, inside before the first and behind the second. The width grows
+    // with t if M > 0, so the nappe with width >= 0 is then the second.
+    if (curvature < 0) {
+        const bool enters = judge.sign(M) > 0;
+        Crossings<Real> on_nappe;
+        for (const Crossing<Real>& root : roots)
+            if (root.entering == enters) on_nappe.add(root);
+        roots = on_nappe;
+    }
+    if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, judge);
+
+    // The solid is convex: clip to the nappe that lies between the ends.
+    Span<Real> span(judge);
+    for (const Crossing<Real>& root : roots) {
+        if (root.entering && !start.on_surface) span.clip_front(root.t, root.face);
+        if (!root.entering) span.clip_back(root.t, root.face);
+    }
+    clip_caps(span, axial, start, judge);
+    return start.on_surface ? span.exit() : span.crossings();
+}
+
+/// Half the gradient of F: across - width slope axis. It vanishes at the apex.
+template <class Real, Ends ends>
+Vec3<Real> outward_direction(const Cone<ends>& cone, const Vec3<Real>& point, Face face) {
+    const Vec3<Real> axis = convert<Real>(cone.axis);
+    if (face == base_cap) return -axis;
+    if (face == top_cap) return axis;
+    const Vec3<Real> across = offset_from_axis(cone.base, cone.axis, point);
+    const Real narrowing = Real(cone.base_radius) - Real(cone.top_radius);
+    // On the surface width = |across|: with it the direction is right even where the point is a
+    // little off.
+    const Real width = length(across);
+    return mul_add(Real(width * narrowing / squared_length(axis)), axis, across);
+}
+
+/// The axis, outwards.
+template <class Real, Ends ends>
+Vec3<Real> apex_direction(const Cone<ends>& cone) {
+    const Vec3<Real> axis = convert<Real>(cone.axis);
+    return cone.top_radius < cone.base_radius ? axis : -axis;
+}
+
+/// The cone's width, scaled by |axis|^2: origin + t direction.
+template <class Real>
+struct ScaledWidth {
+    Real widening, origin, direction;
+
+    ScaledWidth(float base_radius, float top_radius, const ScaledAxialRay<Real>& axial)
+        : widening(Real(top_radius) - Real(base_radius)),
+          origin(Real(base_radius) * axial.axis_squared + widening * axial.height_origin),
+          direction(widening * axial.height_direction) {}
+};
+
+template <Ends ends>
+ExactQuadratic form_along(const Cone<ends>& cone, const ExactRay& ray, Face face) {
+    const ScaledAxialRay<Dyadic> axial(cone.base, cone.axis, ray);
+    if (face != body) return axial.cap(face);
+    const ScaledWidth<Dyadic> width(cone.base_radius, cone.top_radius, axial);
+    const auto [A, B, C] = axial.pipe(0.0);
+    return {axial.axis_squared * A - width.direction * width.direction,
+            axial.axis_squared * B - width.origin * width.direction,
+            axial.axis_squared * C - width.origin * width.origin};
+}
+
+template <class Real, Ends ends>
+NormalAlong<Real> normal_along(const Cone<ends>& cone, const Ray<Real>& ray, Face face) {
+    const ScaledAxialRay<Real> axial(cone.base, cone.axis, ray);
+    if (face != body) return axial.cap_normal(face);
+    const ScaledWidth<Real> width(cone.base_radius, cone.top_radius, axial);
+    const NormalAlong<Real> across = axial.across();
+    const Real at_origin = width.widening * width.origin, along = width.widening * width.direction;
+    return {axial.axis_squared * across.v - at_origin * axial.axis,
+            axial.axis_squared * across.slope - along * axial.axis, apex_direction<Real>(cone)};
+}
+
+} // namespace raylane::core

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "core/shapes/judge.hpp"
+#include "core/shapes/ray.hpp"
+
+namespace raylane::core {
+
+/// The part of a line inside a convex solid, found by clipping the line against one constraint
+/// after the other. What is left is where the line enters and where it leaves: always both or
+/// neither, so each ray that enters a solid leaves it.
+template <class Real>
+class Span {
+  public:
+    explicit Span(Judge<Real>& judge) : judge_(judge) {}
+
+    /// The line is inside only for t >= `t`.
+    void clip_front(const Real& t, Face face) {
+        if (!has_front_ || judge_.less(front_.t, t)) front_ = {t, face, true};
+        has_front_ = true;
+    }
+
+    /// The line is inside only for t <= `t`.
+    void clip_back(const Real& t, Face face) {
+        if (!has_back_ || judge_.less(t, back_.t)) back_ = {t, face, false};
+        has_back_ = true;
+    }
+
+    void clip_all() { empty_ = true; }
+
+    /// Clips against 0 <= start + t slope <= end, the faces at 0 and at `end` being `low` and
+    /// `high`.
+    void clip_slab(const Real& start, const Real& slope, const Real& end, Face low, Face high) {
+        const int direction = judge_.sign(slope);
+        if (direction == 0) {
+            if (judge_.negative(start) || judge_.less(end, start)) clip_all();
+            return;
+        }
+        const Real at_low = -start / slope;
+        const Real at_high = (end - start) / slope;
+        clip_front(direction > 0 ? at_low : at_high, direction > 0 ? low : high);
+        clip_back(direction > 0 ? at_high : at_low, direction > 0 ? high : low);
+    }
+
+    /// Both ends, if anything is left. A solid is bounded, so whatever is left has two.
+    Crossings<Real> crossings() const {
+        if (empty_ || !has_front_ || !has_back_ || judge_.less(back_.t, front_.t)) return {};
+        return {front_, back_};
+    }
+
+    /// The far end alone, for a ray that starts on the surface and goes inward: it leaves, whatever
+    /// rounding says.
+    Crossings<Real> exit() const {
+        return has_back_ ? Crossings<Real>({not_behind(back_.t), back_.face, false})
+                         : Crossings<Real>();
+    }
+
+  private:
+    Judge<Real>& judge_;
+    Crossing<Real> front_{};
+    Crossing<Real> back_{};
+    bool has_front_ = false;
+    bool has_back_ = false;
+    bool empty_ = false;
+};
+
+} // namespace raylane::core

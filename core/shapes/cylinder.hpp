@@ -1,0 +1,79 @@
+#pragma once
+
+#include "core/shapes/axial.hpp"
+#include "core/shapes/convex.hpp"
+#include "core/shapes/quadratic.hpp"
+
+namespace raylane::core {
+
+/// |across(t)| = radius, solved like a sphere at the foot of the perpendicular from the axis.
+template <class Real, Ends ends>
+Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    using std::sqrt;
+    if (start.on_surface && !start.inward) return {};
+
+    const AxialRay<Real> axial(cylinder.base, cylinder.axis, ray);
+    const Real radius = Real(cylinder.radius);
+    const Real speed_squared = squared_length(axial.across_direction);
+    const bool parallel = judge.sign(speed_squared) == 0;
+    const Real tau = parallel
+                         ? Real(0.0)
+                         : Real(-dot(axial.across_origin, axial.across_direction) / speed_squared);
+
+    Span<Real> span(judge);
+    const bool from_body = start.on_surface && start.face == body;
+    if (from_body && !parallel) span.clip_back(not_behind(Real(tau + tau)), body);
+    if (judge.textbook() && !start.on_surface) {
+        const Real C = squared_length(axial.across_origin) - radius * radius;
+        if (parallel) {
+            if (static_cast<double>(C) > 0.0) return {};
+        } else {
+            const Crossings<Real> roots = solve_textbook(
+                speed_squared, Real(dot(axial.across_origin, axial.across_direction)), C);
+            if (roots.begin() == roots.end()) return {};
+            for (const Crossing<Real>& root : roots)
+                root.entering ? span.clip_front(root.t, body) : span.clip_back(root.t, body);
+        }
+    } else if (!from_body) {
+        const Vec3<Real> foot = mul_add(tau, axial.across_direction, axial.across_origin);
+        Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
+        if (judge.negative(discriminant)) {
+            if (!start.on_surface) return {};
+            // From a cap, by its rim: the ray leaves, whatever rounding says.
+            discriminant = Real(0.0);
+        }
+        if (!parallel) {
+            const Real half_chord = sqrt(discriminant / speed_squared);
+            if (!start.on_surface) span.clip_front(tau - half_chord, body);
+            span.clip_back(tau + half_chord, body);
+        }
+    }
+
+    if constexpr (ends == Ends::open)
+        return keep_between_ends(start.on_surface ? span.exit() : span.crossings(), axial, judge);
+    clip_caps(span, axial, start, judge);
+    return start.on_surface ? span.exit() : span.crossings();
+}
+
+template <class Real, Ends ends>
+Vec3<Real> outward_direction(const Cylinder<ends>& cylinder, const Vec3<Real>& point, Face face) {
+    const Vec3<Real> axis = convert<Real>(cylinder.axis);
+    if (face == base_cap) return -axis;
+    if (face == top_cap) return axis;
+    return offset_from_axis(cylinder.base, cylinder.axis, point);
+}
+
+template <Ends ends>
+ExactQuadratic form_along(const Cylinder<ends>& cylinder, const ExactRay& ray, Face face) {
+    const ScaledAxialRay<Dyadic> axial(cylinder.base, cylinder.axis, ray);
+    return face == body ? axial.pipe(cylinder.radius) : axial.cap(face);
+}
+
+template <class Real, Ends ends>
+NormalAlong<Real> normal_along(const Cylinder<ends>& cylinder, const Ray<Real>& ray, Face face) {
+    const ScaledAxialRay<Real> axial(cylinder.base, cylinder.axis, ray);
+    return face == body ? axial.across() : axial.cap_normal(face);
+}
+
+} // namespace raylane::core

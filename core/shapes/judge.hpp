@@ -1,0 +1,72 @@
+#pragma once
+
+#include "core/numbers/bounded.hpp"
+#include "core/numbers/exact.hpp"
+#include "core/shapes/precision.hpp"
+#include "core/shapes/ray.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace raylane::core {
+
+/// Answers the yes-or-no questions that a solver asks of its numbers. For a plain real type the
+/// answer is the number's own. For numbers with bounds it remembers whether any answer was within
+/// the error.
+template <class Real>
+class Judge {
+  public:
+    Judge() = default;
+    explicit Judge(Precision precision) : textbook_(precision == Precision::fast) {}
+
+    /// Whether to use the textbooks' formulas.
+    bool textbook() const { return textbook_; }
+
+    int sign(const Real& a) {
+        if constexpr (std::is_same_v<Real, Exact>)
+            return a.sign();
+        else
+            return a > Real(0.0) ? 1 : a < Real(0.0) ? -1 : 0;
+    }
+    bool negative(const Real& a) { return a < Real(0.0); }
+    bool positive(const Real& a) { return a > Real(0.0); }
+    bool less(const Real& a, const Real& b) { return a < b; }
+    bool doubt() const { return false; }
+
+  private:
+    bool textbook_ = false;
+};
+
+/// The relative accuracy that a t must have: an eighth of half an ulp of float, so that it rounds
+/// to the right float or to a neighbour.
+inline constexpr double needed_accuracy = 0x1p-27;
+
+/// With bounds: an answer within the error, or a t that is not accurate enough, is a doubt, and the
+/// question has to be asked again in a wider type.
+template <class T>
+class Judge<Bounded<T>> {
+  public:
+    using Real = Bounded<T>;
+
+    static constexpr bool textbook() { return false; }
+
+    int sign(const Real& a) {
+        const auto value = static_cast<double>(a);
+        if (!(std::abs(value) > a.error)) doubt_ |= a.error != 0.0 || std::isnan(value);
+        return value > 0.0 ? 1 : value < 0.0 ? -1 : 0;
+    }
+    bool negative(const Real& a) { return sign(a) < 0; }
+    bool positive(const Real& a) { return sign(a) > 0; }
+    bool less(const Real& a, const Real& b) { return negative(a - b); }
+    /// To be called of every t that is a result.
+    void result(const Bounded<double>& t) {
+        doubt_ |= !(t.error <= needed_accuracy * t.magnitude());
+    }
+    bool doubt() const { return doubt_; }
+
+  private:
+    bool doubt_ = false;
+};
+
+} // namespace raylane::core

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/shapes/ray.hpp"
+
+/// Each shape has
+///   Vec3<Real> outward_direction(shape, point, face)
+/// the normal outside (in front) at a point of its surface, of any length; and where that may
+/// vanish, at an apex,
+///   Vec3<Real> apex_direction<Real>(shape)
+/// which stands in for it.
+namespace raylane::core {
+
+/// Of length 1.
+template <class Real, class Shape>
+Vec3<Real> outward_normal(const Shape& shape, const Vec3<Real>& point, Face face) {
+    const Vec3<Real> direction = outward_direction(shape, point, face);
+    if constexpr (requires { apex_direction<Real>(shape); })
+        if (face == body && !(squared_length(direction) > Real(0.0)))
+            return normalized(apex_direction<Real>(shape));
+    return normalized(direction);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "core/shapes/judge.hpp"
+#include "core/shapes/ray.hpp"
+
+namespace raylane::core {
+
+/// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside, by the textbooks'
+/// formula. It cancels; solve_quadratic is what to use. Where a line touches the surface, it enters
+/// before it leaves, from whichever side it does.
+template <class Real>
+Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
+    using std::sqrt;
+    const auto a = static_cast<double>(A), b = static_cast<double>(B);
+    if (a == 0.0) {
+        if (b == 0.0) return {};
+        return Crossing<Real>{-C / (B + B), body, b < 0.0};
+    }
+    const Real discriminant = B * B - A * C;
+    if (static_cast<double>(discriminant) < 0.0) return {};
+    const Real root = sqrt(discriminant);
+    const Crossing<Real> in{(-B - root) / A, body, true}, out{(root - B) / A, body, false};
+    const bool in_first = a > 0.0 || static_cast<double>(discriminant) == 0.0;
+    return in_first ? Crossings<Real>(in, out) : Crossings<Real>(out, in);
+}
+
+/// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside.
+///
+/// `at_vertex(tau)` evaluates F at the parabola's vertex tau = -B / A from the geometry (Haines,
+/// Guenther and Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing
+/// Gems, ch. 7): B^2 - A C cancels where the origin is far away, F(tau) does not. Where the leading
+/// term (nearly) vanishes, it is the other way round. `scale` is what A would be without
+/// cancellation.
+template <class Real, class AtVertex>
+Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, const Real& scale,
+                                Judge<Real>& judge, const AtVertex& at_vertex) {
+    using std::sqrt;
+    if (judge.textbook()) return solve_textbook(A, B, C);
+    const auto crossing = [](const Real& t, bool entering) {
+        return Crossing<Real>{t, body, entering};
+    };
+
+    // The leading term vanishes: a straight line, which has one root.
+    const int curvature = judge.sign(A);
+    if (curvature == 0) {
+        const int slope = judge.sign(B);
+        if (slope == 0) return {};
+        return crossing(-C / (B + B), slope < 0);
+    }
+
+    // The discriminant B^2 - A C.
+    const bool near_linear = std::abs(static_cast<double>(A)) < 0x1p-4 * static_cast<double>(scale);
+    const Real discriminant =
+        near_linear ? mul_add(B, B, Real(-(A * C))) : Real(-(A * at_vertex(Real(-B / A))));
+    if (judge.negative(discriminant)) return {};
+    const Real root = sqrt(discriminant);
+
+    // q does not cancel; the second root comes from the product of both, C / A.
+    const bool falling = static_cast<double>(B) < 0.0;
+    const Real q = falling ? Real(root - B) : Real(-root - B);
+    if (static_cast<double>(q) == 0.0)
+        return {crossing(Real(0.0), true), crossing(Real(0.0), false)};
+    // F' at q / A has the sign of `root` if falling; at C / q the opposite.
+    const Crossing<Real> by_A = crossing(q / A, !falling);
+    const Crossing<Real> by_C = crossing(C / q, falling);
+    // In order: for A > 0 the ray enters first, for A < 0 it leaves first, unless it touches.
+    const bool in_first = curvature > 0 || static_cast<double>(discriminant) == 0.0;
+    return by_A.entering == in_first ? Crossings<Real>(by_A, by_C) : Crossings<Real>(by_C, by_A);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,261 @@
+#pragma once
+
+#include "simd/kernel/certify/slots.hpp"
+#include "simd/kernel/finishers/axial.hpp"
+#include "simd/kernel/finishers/box.hpp"
+#include "simd/kernel/finishers/flat.hpp"
+#include "simd/kernel/finishers/quadric.hpp"
+#include "simd/kernel/finishers/sphere.hpp"
+#include "simd/kernels.hpp"
+
+namespace raylane::simd {
+
+/// Calls visit.operator()<the kind's finisher>(). The order is core::Kind's.
+template <class Arch, class Visit>
+void with_finisher(int kind, const Visit& visit) {
+    using D = Double<Arch>;
+    switch (kind) {
+    case 0:
+        return visit.template operator()<SphereFinisher<D>>();
+    case 1:
+        return visit.template operator()<PlaneFinisher<D>>();
+    case 2:
+        return visit.template operator()<DiscFinisher<D>>();
+    case 3:
+        return visit.template operator()<TriangleFinisher<D>>();
+    case 4:
+        return visit.template operator()<SmoothTriangleFinisher<D>>();
+    case 5:
+        return visit.template operator()<BoxFinisher<D>>();
+    case 6:
+        return visit.template operator()<OpenFinisher<D, CylinderProfile<D, false>>>();
+    case 7:
+        return visit.template operator()<CappedFinisher<D, CylinderProfile<D, true>>>();
+    case 8:
+        return visit.template operator()<OpenFinisher<D, ConeProfile<D, false>>>();
+    case 9:
+        return visit.template operator()<CappedFinisher<D, ConeProfile<D, true>>>();
+    default:
+        return visit.template operator()<QuadricFinisher<D>>();
+    }
+}
+
+/// Reads the floats of one shape for all lanes.
+template <class Arch>
+class OneShapeReader {
+  public:
+    explicit OneShapeReader(const float* first) : next_(first) {}
+    Floats<Double<Arch>> next() {
+        const float value = *next_;
+        next_ += 16;
+        return Floats<Double<Arch>>(static_cast<double>(value));
+    }
+
+  private:
+    const float* next_;
+};
+
+/// Reads the floats of a shape per lane.
+template <class Arch>
+class GatherReader {
+  public:
+    explicit GatherReader(const Spots<Arch>& spots) : spots_(spots) {}
+    Floats<Double<Arch>> next() {
+        const Floats<Double<Arch>> values = Lanes<Double<Arch>>::gather(spots_, row_);
+        row_ += 16;
+        return values;
+    }
+
+  private:
+    const Spots<Arch>& spots_;
+    int row_ = 0;
+};
+
+/// MethodKernels::finish, or finish_all.
+template <class Arch, Wanted wanted>
+class Finish {
+  public:
+    Finish(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
+
+    void all_rays() const {
+        for (std::size_t i = 0; i < found_.count;) {
+            std::uint32_t left = in_use(i) & ~in_range(found_.slot + i, no_slot, no_slot);
+            std::size_t next = i + width;
+            while (left != 0) {
+                const int kind = S::kind_of(scene_, found_.slot[i + first_of(left)]);
+                const TableView& table = scene_.tables[kind];
+                const std::uint32_t alike = left & in_table(table, i);
+                with_finisher<Arch>(
+                    kind, [&]<class Finisher>() { next = finish_run<Finisher>(table, i, alike); });
+                left &= ~alike;
+            }
+            i = next;
+        }
+    }
+
+  private:
+    using D = Double<Arch>;
+    using S = Slots<Arch>;
+    using F = Floats<D>;
+    using M = Mask<D>;
+    static constexpr std::size_t width = F::size;
+    static constexpr std::uint32_t all_lanes = (1U << width) - 1;
+
+    static unsigned first_of(std::uint32_t lanes) {
+        return static_cast<unsigned>(__builtin_ctz(lanes));
+    }
+
+    static std::uint32_t in_range(const std::uint32_t* values, std::uint32_t first,
+                                  std::uint32_t last) {
+        return Lanes<D>::bits(Lanes<D>::in_range(values, first, last));
+    }
+
+    std::uint32_t in_use(std::size_t i) const {
+        const std::size_t rest = found_.count - i;
+        return rest < width ? (1U << rest) - 1 : all_lanes;
+    }
+
+    std::uint32_t in_table(const TableView& table, std::size_t i) const {
+        return in_range(found_.slot + i, table.first_slot,
+                        table.first_slot + 16 * table.block_count - 1);
+    }
+
+    /// The lanes `active` of packet i, which all found shapes of one table; and where these are all
+    /// lanes, the packets behind it for which that is so, too. Where the rest starts.
+    template <class Finisher>
+    std::size_t finish_run(const TableView& table, std::size_t i, std::uint32_t active) const {
+        Spots<Arch> spots;
+        spots.base = table.blocks;
+        while (true) {
+            const std::uint32_t slot = found_.slot[i + first_of(active)];
+            if (is_in(active, i, slot)) {
+                // What depends on the shape alone is done once for all that are of the same.
+                for (long long& offset : spots.offsets)
+                    offset = S::offset(table, slot);
+                const Finisher finisher(OneShapeReader<Arch>(table.blocks + spots.offsets[0]));
+                do {
+                    finish_packet(finisher, table, spots, i, active);
+                    i += width;
+                } while (active == all_lanes && i + width <= found_.count &&
+                         is_in(active, i, slot));
+            } else {
+                for (unsigned lane = 0; lane < width; ++lane)
+                    spots.offsets[lane] =
+                        S::offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
+                const Finisher finisher{GatherReader<Arch>(spots)};
+                finish_packet(finisher, table, spots, i, active);
+                i += width;
+            }
+            if (active != all_lanes || i + width > found_.count || in_table(table, i) != all_lanes)
+                return i;
+        }
+    }
+
+    /// Whether all of some lanes of packet i found one shape.
+    bool is_in(std::uint32_t active, std::size_t i, std::uint32_t slot) const {
+        return (active & ~in_range(found_.slot + i, slot, slot)) == 0;
+    }
+
+    /// One packet of finish_run.
+    template <class Finisher>
+    [[gnu::always_inline]] void finish_packet(const Finisher& finisher, const TableView& table,
+                                              const Spots<Arch>& spots, std::size_t i,
+                                              std::uint32_t active) const {
+        const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
+        Finished<D> finished = finisher.template finish<wanted>(
+            rays, leaves_any(i, active) ? starts(table, spots, i) : starts_nowhere<D>());
+        if (found_.holds_points)
+            finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
+        store(finished, i, active);
+        if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
+            if (found_.shading_normal[0] != nullptr)
+                store(finisher.shading_normal(mul_add<D>(finished.t, rays.direction, rays.origin),
+                                              finished.normal),
+                      found_.shading_normal, i, active);
+        } else if (found_.shading_normal[0] != nullptr) {
+            store(finished.normal, found_.shading_normal, i, active);
+        }
+    }
+
+    bool leaves_any(std::size_t i, std::uint32_t active) const {
+        const std::uint32_t no_shape = ~0U;
+        return (active & ~in_range(found_.departed_first + i, no_shape, no_shape)) != 0;
+    }
+
+    Starts<D> starts(const TableView& table, const Spots<Arch>& spots, std::size_t i) const {
+        const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
+        Starts<D> starts;
+        std::uint32_t id[width];
+        for (unsigned lane = 0; lane < width; ++lane)
+            id[lane] = __builtin_bit_cast(std::uint32_t, ids[spots.offsets[lane]]);
+        starts.on_surface =
+            Lanes<D>::in_range(id, found_.departed_first + i, found_.departed_last + i);
+        starts.inward = Lanes<D>::from_numbers(found_.departure + i, departure_inward) > zero<D>();
+        starts.face = Lanes<D>::from_numbers(found_.departure + i, departure_face);
+        return starts;
+    }
+
+    [[gnu::always_inline]] static F load(const double* from) { return F::load_unaligned(from); }
+
+    [[gnu::always_inline]] static Vectors<D> load_vector(const double* const from[3],
+                                                         std::size_t i) {
+        return {load(from[0] + i), load(from[1] + i), load(from[2] + i)};
+    }
+
+    [[gnu::always_inline]] void store(const Finished<D>& finished, std::size_t i,
+                                      std::uint32_t active) const {
+        store(finished.t, found_.t + i, active);
+        store(finished.error, found_.error + i, active);
+        store(finished.normal, found_.normal, i, active);
+        F of_certain =
+            finished.face + select(finished.entering, F(double{hit_entering}), zero<D>());
+        if constexpr (wanted == Wanted::all)
+            of_certain = of_certain +
+                         select(is_rounded(finished), zero<D>(), F(double{hit_normal_doubtful}));
+        const F bits =
+            select(finished.certain, of_certain,
+                   select(finished.misses, F(double{hit_none}), F(double{hit_doubtful})));
+        if (active == all_lanes) {
+            Lanes<D>::to_numbers(found_.hit + i, bits);
+            return;
+        }
+        std::uint32_t numbers[width];
+        Lanes<D>::to_numbers(numbers, bits);
+        for (unsigned lane = 0; lane < width; ++lane)
+            if ((active >> lane & 1) != 0) found_.hit[i + lane] = numbers[lane];
+    }
+
+    /// Whether each component of the normal is one float, wherever it is.
+    static M is_rounded(const Finished<D>& finished) {
+        const auto alike = [](const F& value, const F& error) {
+            return Lanes<D>::round_alike(value - error, value + error);
+        };
+        return alike(finished.normal.x, finished.normal_error.x) &
+               alike(finished.normal.y, finished.normal_error.y) &
+               alike(finished.normal.z, finished.normal_error.z);
+    }
+
+    [[gnu::always_inline]] static void store(const Vectors<D>& values, double* const out[3],
+                                             std::size_t i, std::uint32_t active) {
+        store(values.x, out[0] + i, active);
+        store(values.y, out[1] + i, active);
+        store(values.z, out[2] + i, active);
+    }
+
+    [[gnu::always_inline]] static void store(const F& values, double* out, std::uint32_t active) {
+        if (active == all_lanes)
+            values.store_unaligned(out);
+        else
+            select(Lanes<D>::from_bits(active), values, load(out)).store_unaligned(out);
+    }
+
+    const SceneView& scene_;
+    const Found& found_;
+};
+
+template <class Arch, Wanted wanted>
+void finish(const SceneView& scene, const Found& found) {
+    Finish<Arch, wanted>(scene, found).all_rays();
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,262 @@
+#pragma once
+
+#include "simd/kernel/certify/slots.hpp"
+#include "simd/kernel/finishers/finisher.hpp"
+#include "simd/kernel/lanes/bounded.hpp"
+#include "simd/kernel/solvers/solvers.hpp"
+#include "simd/kernels.hpp"
+
+#include <type_traits>
+
+namespace raylane::simd {
+
+/// What the finishers have left in doubt: most of it rays that just miss a shape, that start beside
+/// its surface or touch it. Here the solvers' formulas themselves are asked, in numbers with
+/// bounds, which takes several times as long: in double, and then with twice as many digits.
+///
+/// Rays are what their doubles say, or those that they stand for. (The finishers' bounds grant
+/// directions the error of bringing them to unit length.)
+template <class Arch>
+class FinishAgain {
+  public:
+    FinishAgain(const SceneView& scene, const Found& found) : scene_(scene), found_(found) {}
+
+    void doubtful_rays() {
+        for (std::size_t i = 0; i < found_.count; ++i)
+            if (is_doubtful(i)) add<D>(in_double_[S::kind_of(scene_, found_.slot[i])], i);
+        for (Packet& packet : in_double_)
+            finish<D>(packet);
+        for (Packet& packet : wide_)
+            finish<Wide<D>>(packet);
+    }
+
+    /// RefineKernels::widen
+    void widen(const std::size_t* places, std::size_t count, const WideNumbers& t) {
+        for (std::size_t k = 0; k < count; ++k) {
+            t.error[k] = __builtin_inf();
+            if (starts_on_shape(places[k])) continue;
+            const int kind = S::kind_of(scene_, found_.slot[places[k]]);
+            Packet& packet = wide_[kind];
+            packet.of[packet.count] = k;
+            packet.rays[packet.count++] = places[k];
+            if (packet.count == width) widen(packet, t);
+        }
+        for (Packet& packet : wide_)
+            widen(packet, t);
+    }
+
+  private:
+    using D = Double<Arch>;
+    using S = Slots<Arch>;
+    using F = Floats<D>;
+    using M = Mask<D>;
+    static constexpr std::size_t width = F::size;
+
+    /// Rays that found shapes of one kind.
+    struct Packet {
+        std::size_t rays[width];
+        std::size_t of[width]; ///< what they are to whoever asks
+        std::size_t count = 0;
+    };
+
+    bool is_doubtful(std::size_t i) const {
+        return found_.slot[i] != no_slot && (found_.hit[i] & hit_doubtful) != 0 &&
+               !starts_on_shape(i);
+    }
+    bool starts_on_shape(std::size_t i) const {
+        const std::uint32_t slot = found_.slot[i];
+        const TableView& table = scene_.tables[S::kind_of(scene_, slot)];
+        const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
+        const auto id = __builtin_bit_cast(std::uint32_t, ids[S::offset(table, slot)]);
+        const std::uint32_t first = found_.departed_first[i];
+        return id - first <= found_.departed_last[i] - first;
+    }
+
+    template <class Number>
+    void add(Packet& packet, std::size_t ray) {
+        packet.rays[packet.count++] = ray;
+        if (packet.count == width) finish<Number>(packet);
+    }
+
+    /// Reads the floats of a shape per lane.
+    struct Reader {
+        const float* from[width];
+        std::size_t row = 0;
+
+        F next() {
+            double values[width];
+            for (std::size_t lane = 0; lane < width; ++lane)
+                values[lane] = static_cast<double>(from[lane][row]);
+            row += 16;
+            return F::load_unaligned(values);
+        }
+    };
+
+    template <class Number>
+    struct ExactReader {
+        Reader reader;
+        Floats<Certified<Number>> next() { return Floats<Certified<Number>>(reader.next()); }
+    };
+
+    /// A packet's rays, as they are meant, and shapes.
+    struct Loaded {
+        Reader reader;
+        Rays<D> rays;
+        F length;
+    };
+
+    Loaded load(const Packet& packet, KindNumber kind) const {
+        const TableView& table = scene_.tables[kind];
+        Loaded loaded;
+        const bool stand_for_others = found_.meant_length != nullptr;
+        const double* const* const directions =
+            stand_for_others ? found_.meant_direction : found_.direction;
+        double numbers[7][width];
+        for (std::size_t lane = 0; lane < width; ++lane) {
+            // Those that are not in use do what the first one does.
+            const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
+            loaded.reader.from[lane] = table.blocks + S::offset(table, found_.slot[ray]);
+            for (int axis = 0; axis < 3; ++axis) {
+                numbers[axis][lane] = found_.origin[axis][ray];
+                numbers[3 + axis][lane] = directions[axis][ray];
+            }
+            numbers[6][lane] = stand_for_others ? found_.meant_length[ray] : 1.0;
+        }
+        const auto vectors = [&](double(*from)[width]) {
+            return Vectors<D>{F::load_unaligned(from[0]), F::load_unaligned(from[1]),
+                              F::load_unaligned(from[2])};
+        };
+        loaded.rays = {vectors(numbers), vectors(numbers + 3)};
+        loaded.length = F::load_unaligned(numbers[6]);
+        return loaded;
+    }
+
+    KindNumber kind_of(const Packet& packet) const {
+        return static_cast<KindNumber>(S::kind_of(scene_, found_.slot[packet.rays[0]]));
+    }
+
+    template <class Number>
+    void finish(Packet& packet) {
+        if (packet.count == 0) return;
+        const KindNumber kind = kind_of(packet);
+        const Loaded loaded = load(packet, kind);
+        std::uint32_t certain = 0, misses = 0;
+        with_lanes<Certified<Number>>(kind, [&]<class Solver>() {
+            const Finished<D> finished = first_crossing<Solver, Number>(
+                loaded.reader, loaded.rays, loaded.length, found_.holds_points);
+            certain = Lanes<D>::bits(finished.certain);
+            misses = Lanes<D>::bits(finished.misses);
+            if (certain != 0) store(finished, packet, certain);
+        });
+        for (std::size_t lane = 0; lane < packet.count; ++lane) {
+            if ((misses >> lane & 1) != 0)
+                found_.hit[packet.rays[lane]] = hit_none;
+            else if ((certain >> lane & 1) == 0 && std::is_same_v<Number, D>)
+                add<Wide<D>>(wide_[kind], packet.rays[lane]);
+        }
+        packet.count = 0;
+    }
+
+    template <class Solver, class Number>
+    static Crossing<Certified<Number>> crossing_of(const Reader& reader, const Rays<D>& rays) {
+        using C = Certified<Number>;
+        const auto exact = [](const Vectors<D>& v) {
+            return Vectors<C>{Floats<C>(v.x), Floats<C>(v.y), Floats<C>(v.z)};
+        };
+        const Solver solver(ExactReader<Number>{reader});
+        return first_ahead<C>(
+            solver.crossings({exact(rays.origin), exact(rays.direction)}, starts_nowhere<C>()),
+            none<C>());
+    }
+
+    void widen(Packet& packet, const WideNumbers& t) {
+        if (packet.count == 0) return;
+        const KindNumber kind = kind_of(packet);
+        const Loaded loaded = load(packet, kind);
+        with_lanes<Certified<Wide<D>>>(kind,
+                                       [&]<class Solver>() { store<Solver>(loaded, packet, t); });
+        packet.count = 0;
+    }
+
+    /// If it is the crossing that was found.
+    template <class Solver>
+    [[gnu::noinline]] void store(const Loaded& loaded, const Packet& packet,
+                                 const WideNumbers& t) const {
+        const Crossing<Certified<Wide<D>>> first =
+            crossing_of<Solver, Wide<D>>(loaded.reader, loaded.rays);
+        const std::uint32_t known = Lanes<D>::bits(
+            first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known);
+        const std::uint32_t entering = Lanes<D>::bits(first.entering.answer);
+        double face[width], high[width], low[width], error[width];
+        first.face.in_double().store_unaligned(face);
+        first.t.value.high.store_unaligned(high);
+        first.t.value.low.store_unaligned(low);
+        first.t.error.store_unaligned(error);
+        for (std::size_t lane = 0; lane < packet.count; ++lane) {
+            const std::uint32_t hit = found_.hit[packet.rays[lane]];
+            const bool is_it = (known >> lane & 1) != 0 &&
+                               static_cast<std::uint32_t>(face[lane]) == (hit & hit_face) &&
+                               (entering >> lane & 1) == ((hit & hit_entering) != 0 ? 1U : 0U);
+            if (!is_it) continue;
+            const std::size_t k = packet.of[lane];
+            t.high[k] = high[lane];
+            t.low[k] = low[lane];
+            t.error[k] = error[lane];
+        }
+    }
+
+    /// Where rays that do not start on it first cross a shape. The normal is not known.
+    template <class Solver, class Number>
+    [[gnu::noinline]] static Finished<D> first_crossing(const Reader& reader, const Rays<D>& rays,
+                                                        const F& length, bool holds_points) {
+        const Crossing<Certified<Number>> first = crossing_of<Solver, Number>(reader, rays);
+        using Its = Digits<Number>;
+        const F t = first.t.in_double();
+        const F error = (first.t.error + Its::lost_in_double(first.t.value)) * F(1.0 + 0x1p-50);
+        M certain = first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known &
+                    is_result<D>(t, error);
+        if (holds_points) certain = certain & holds_point(rays, t, error);
+        // Of rays that stand for others the length is off by a few ulps, and so is the product.
+        const F unit_t = t * length, rounding = select(length == F(1.0), zero<D>(), F(0x1p-50));
+        return {certain,
+                unit_t,
+                error * length + rounding * unit_t,
+                first.face.in_double(),
+                first.entering.answer,
+                {},
+                first.exists.surely_not()};
+    }
+
+    void store(const Finished<D>& finished, const Packet& packet, std::uint32_t certain) const {
+        double t[width], error[width], face[width];
+        finished.t.store_unaligned(t);
+        finished.error.store_unaligned(error);
+        finished.face.store_unaligned(face);
+        const std::uint32_t entering = Lanes<D>::bits(finished.entering);
+        for (std::size_t lane = 0; lane < packet.count; ++lane) {
+            if ((certain >> lane & 1) == 0) continue;
+            const std::size_t ray = packet.rays[lane];
+            found_.t[ray] = t[lane];
+            found_.error[ray] = error[lane];
+            found_.hit[ray] = static_cast<std::uint32_t>(face[lane]) | hit_normal_unknown |
+                              ((entering >> lane & 1) != 0 ? hit_entering : 0);
+        }
+    }
+
+    const SceneView& scene_;
+    const Found& found_;
+    Packet in_double_[kinds], wide_[kinds];
+};
+
+template <class Arch>
+void finish_again(const SceneView& scene, const Found& found) {
+    FinishAgain<Arch>(scene, found).doubtful_rays();
+}
+
+template <class Arch>
+void widen(const SceneView& scene, const Found& found, const std::size_t* places, std::size_t count,
+           const WideNumbers& t) {
+    FinishAgain<Arch>(scene, found).widen(places, count, t);
+}
+
+} // namespace raylane::simd

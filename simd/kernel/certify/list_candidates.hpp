@@ -1,0 +1,119 @@
+#pragma once
+
+#include "simd/kernel/certify/finish.hpp"
+#include "simd/kernel/traverse/leaf.hpp"
+#include "simd/kernel/traverse/queue.hpp"
+
+namespace raylane::simd {
+
+/// All that one ray may cross first: RefineKernels::list_candidates.
+template <class Arch, class Method>
+struct ListCandidates : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    static bool list(const SceneView& scene, std::uint32_t kind_bits, const RoundedRays& rays,
+                     std::size_t i, const Pending& pending, CandidateList& list,
+                     TraceCounters& counters) {
+        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
+            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
+            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
+                if (!visit(scene, kind, block, rays, i, list, counters)) return false;
+        }
+        if (pending.key == nullptr) return true;
+
+        BoxRays<Arch> box_rays;
+        box_rays.load(scene, rays, i / 16 * 16);
+        const BoxRay ray = box_rays.get(static_cast<int>(i % 16));
+        const BoxRay::Rows ray_rows = ray.template rows<Arch>();
+        Queue<Arch> queue;
+        queue.place(pending, 0, scene.tree_depth);
+        queue.start(0);
+        for (std::uint32_t child; (child = queue.pop(list.limit)) != no_child;) {
+            if ((child & child_is_block) == 0) {
+                ++counters.nodes;
+                queue.enter(scene.nodes[child], ray, ray_rows, list.limit);
+            } else if (!visit(scene, S::kind_of(child), child & child_index, rays, i, list,
+                              counters)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+  private:
+    /// Candidates that are not worth the sifting.
+    static constexpr std::size_t few = 16;
+
+    static bool visit(const SceneView& scene, KindNumber kind, std::uint32_t block,
+                      const RoundedRays& rays, std::size_t i, CandidateList& list,
+                      TraceCounters& counters) {
+        bool has_room = true;
+        counters.shapes += 16;
+        Method::with_filter(kind, [&]<class Filter>() {
+            has_room = add<Filter>(scene.tables[kind], kind, block, rays, i, list);
+        });
+        return has_room;
+    }
+
+    template <class Filter>
+    [[gnu::noinline]] static bool add(const TableView& table, KindNumber kind, std::uint32_t number,
+                                      const RoundedRays& rays, std::size_t i, CandidateList& list) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        const typename Method::Rays ray = Method::broadcast(rays, i);
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const Bounds<Arch> bounds = filter.bounds(ray);
+            const M possible = bounds.possible & Leaf<Arch, Method>::elsewhere(ids + from, rays, i);
+            const M counts = possible & (bounds.lower < F(list.limit));
+            std::uint32_t bits = Lanes<Arch>::bits(counts);
+            if (bits == 0) continue;
+            const float last =
+                Lanes<Arch>::least(select(counts & bounds.certain, bounds.upper, S::infinity()));
+            const float limit = last * candidate_grace;
+            list.limit = limit < list.limit ? limit : list.limit;
+            if (list.sifts && list.count >= few) {
+                with_finisher<Arch>(kind, [&]<class Finisher>() {
+                    bits = sifted<Finisher>(S::rows_of(block), from, rays, i, bits);
+                });
+            }
+            float lower[F::size];
+            bounds.lower.store_unaligned(lower);
+            for (; bits != 0; bits &= bits - 1) {
+                if (list.count == list.room) return false;
+                const int lane = __builtin_ctz(bits);
+                list.slot[list.count] =
+                    table.first_slot + 16 * number + static_cast<std::uint32_t>(from + lane);
+                list.lower[list.count++] = lower[lane];
+            }
+        }
+        return true;
+    }
+
+    /// The lanes of a block from one on, as bits, but those that the ray surely misses.
+    template <class Finisher>
+    [[gnu::noinline]] static std::uint32_t sifted(const float (*rows)[16], int from,
+                                                  const RoundedRays& rays, std::size_t i,
+                                                  std::uint32_t bits) {
+        using D = Double<Arch>;
+        const auto in_all = [&](const double* const(&of)[3]) {
+            return Vectors<D>{Floats<D>(of[0][i]), Floats<D>(of[1][i]), Floats<D>(of[2][i])};
+        };
+        const Rays<D> ray = {in_all(rays.meant_origin), in_all(rays.meant_direction)};
+        constexpr int width = static_cast<int>(Floats<D>::size);
+        for (int half = 0; half < 2; ++half) {
+            const std::uint32_t lanes = ((1U << width) - 1) << (half * width);
+            if ((bits & lanes) == 0) continue;
+            const Finisher finisher{
+                HalfReader<Arch, BlockReader<Arch>>(BlockReader<Arch>(rows, from), half)};
+            const Finished<D> finished =
+                finisher.template finish<Wanted::all>(ray, starts_nowhere<D>());
+            bits &= ~(Lanes<D>::bits(finished.misses & ~finished.certain) << (half * width));
+        }
+        return bits;
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "simd/kernel/certify/plain_finish.hpp"
+#include "simd/kernel/filters/filter.hpp"
+
+namespace raylane::simd {
+
+/// A solver's first crossing as if it were certain.
+template <class Arch, class Solver>
+struct PlainFilter {
+    Solver solver;
+
+    template <class Reader>
+    explicit PlainFilter(Reader reader) : solver(reader) {}
+
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        const Crossing<Arch> first = first_ahead<Arch>(
+            solver.crossings({rays.origin, rays.direction}, starts_nowhere<Arch>()), none<Arch>());
+        return {first.exists, first.t, first.exists, first.t};
+    }
+};
+
+/// core::Precision::robust and, by the textbooks, fast.
+template <class Arch, bool textbook>
+struct PlainMethod : RaysInFloat<Arch> {
+    static constexpr bool certifies = false;
+    template <class Visit>
+    static void with_filter(KindNumber kind, const Visit& visit) {
+        with_lanes<Arch, textbook>(
+            kind, [&]<class Solver>() { visit.template operator()<PlainFilter<Arch, Solver>>(); });
+    }
+    static void finish(const SceneView& scene, const Found& found) {
+        PlainFinish<Arch, textbook>(scene, found).all_rays();
+    }
+    static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
+    static constexpr RefineKernels refine() { return {}; }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,389 @@
+#pragma once
+
+// xsimd 8.1's AVX-512 header calls an intrinsic that no compiler has.
+#if defined(__AVX512F__) && !defined(_mm512_rsqrt23_ps)
+#define _mm512_rsqrt23_ps _mm512_rsqrt14_ps
+#endif
+#include "simd/kernel/lanes/portable.hpp"
+
+#include <xsimd/xsimd.hpp>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
+/// What raylane needs of vector registers and xsimd does not give, or not in all of its versions.
+/// Everything in kernel/ is a template over the instruction set, so that no two kernel units share
+/// an inline function: the linker could keep the one that an older processor cannot run.
+namespace raylane::simd {
+
+using Sse42 = xsimd::sse4_2;
+using Avx2 = xsimd::fma3<xsimd::avx2>;
+using Avx512 = xsimd::avx512f;
+
+/// Stands for Arch, but with numbers that are double. Its Lanes are in doubles.hpp.
+template <class Arch>
+struct Double {};
+
+template <class Arch>
+struct Registers {
+    using Floats = xsimd::batch<float, Arch>;
+    using Mask = xsimd::batch_bool<float, Arch>;
+};
+template <class Arch>
+struct Registers<Double<Arch>> {
+    using Floats = xsimd::batch<double, Arch>;
+    using Mask = xsimd::batch_bool<double, Arch>;
+};
+template <>
+struct Registers<Portable> {
+    using Floats = PortableBatch<float>;
+    using Mask = PortableMask<float>;
+};
+template <>
+struct Registers<Double<Portable>> {
+    using Floats = PortableBatch<double>;
+    using Mask = PortableMask<double>;
+};
+
+template <class Arch>
+using Floats = typename Registers<Arch>::Floats;
+template <class Arch>
+using Mask = typename Registers<Arch>::Mask;
+
+/// The same bits as lanes of another type of the same size.
+template <class To, class From, class Arch>
+xsimd::batch<To, Arch> bits_as(const xsimd::batch<From, Arch>& from) {
+#if XSIMD_VERSION_MAJOR < 11
+    return xsimd::bitwise_cast<xsimd::batch<To, Arch>>(from);
+#else
+    return xsimd::bitwise_cast<To>(from);
+#endif
+}
+
+#if XSIMD_VERSION_MAJOR >= 14
+/// SSE's, as in xsimd's older versions: b where one is not a number, and of two zeros.
+template <class Number, class Arch>
+requires std::is_floating_point_v<Number> xsimd::batch<Number, Arch>
+min(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
+    return xsimd::min(b, a);
+}
+template <class Number, class Arch>
+requires std::is_floating_point_v<Number> xsimd::batch<Number, Arch>
+max(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
+    return xsimd::max(b, a);
+}
+#endif
+
+/// By loops over memory: what the native forms below are tested against, and some of what any
+/// processor uses.
+namespace generic {
+
+template <class Arch>
+std::uint32_t bits(const Mask<Arch>& mask) {
+    bool lanes[Mask<Arch>::size];
+    mask.store_unaligned(lanes);
+    std::uint32_t result = 0;
+    for (std::size_t i = 0; i < Mask<Arch>::size; ++i)
+        result |= static_cast<std::uint32_t>(lanes[i]) << i;
+    return result;
+}
+
+template <class Arch>
+void compress_store(float* out, const Floats<Arch>& values, std::uint32_t wanted) {
+    float lanes[Floats<Arch>::size];
+    values.store_unaligned(lanes);
+    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
+        if ((wanted >> i & 1) != 0) *out++ = lanes[i];
+}
+
+template <class Arch>
+Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<Arch>& c) {
+    float x[Floats<Arch>::size], y[Floats<Arch>::size], z[Floats<Arch>::size];
+    a.store_unaligned(x);
+    b.store_unaligned(y);
+    c.store_unaligned(z);
+    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
+        x[i] = __builtin_fmaf(x[i], y[i], z[i]);
+    return Floats<Arch>::load_unaligned(x);
+}
+
+template <class Arch>
+float least(const Floats<Arch>& values) {
+    float lanes[Floats<Arch>::size];
+    values.store_unaligned(lanes);
+    float result = lanes[0];
+    for (const float lane : lanes)
+        result = lane < result ? lane : result;
+    return result;
+}
+
+template <class Arch>
+float greatest(const Floats<Arch>& values) {
+    float lanes[Floats<Arch>::size];
+    values.store_unaligned(lanes);
+    float result = lanes[0];
+    for (const float lane : lanes)
+        result = lane > result ? lane : result;
+    return result;
+}
+
+template <class Arch>
+Floats<Arch> narrow(const double* from) {
+    float lanes[Floats<Arch>::size];
+    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
+        lanes[i] = static_cast<float>(from[i]);
+    return Floats<Arch>::load_unaligned(lanes);
+}
+
+template <class Arch>
+Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Floats<Arch>& last) {
+    float i[Floats<Arch>::size], f[Floats<Arch>::size], l[Floats<Arch>::size];
+    bool result[Floats<Arch>::size];
+    id.store_unaligned(i);
+    first.store_unaligned(f);
+    last.store_unaligned(l);
+    for (std::size_t k = 0; k < Floats<Arch>::size; ++k) {
+        const auto from = __builtin_bit_cast(std::uint32_t, f[k]);
+        result[k] = __builtin_bit_cast(std::uint32_t, i[k]) - from <=
+                    __builtin_bit_cast(std::uint32_t, l[k]) - from;
+    }
+    return Mask<Arch>::load_unaligned(result);
+}
+
+} // namespace generic
+
+/// bits: lane i of a mask as bit i.
+/// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
+/// has_mul_add: whether the next is one instruction.
+/// mul_add: a * b + c, rounded once.
+/// least, greatest: of all lanes.
+/// narrow: doubles from memory, rounded to float.
+/// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
+template <class Arch>
+struct Lanes;
+
+/// a + b in double, rounded to odd: rounding that to float rounds as if once (Boldo and Melquiond,
+/// "Emulation of FMA and correctly rounded sums: proved algorithms using rounding to odd", 2008).
+template <class Number>
+Number sum_to_odd(const Number& a, const Number& b) {
+    const Number sum = a + b;
+    const Number part = sum - a;
+    const Number error = (a - (sum - part)) + (b - part);
+    const Number zero(0.0);
+    using Bits = decltype(bits_as<std::uint64_t>(sum));
+    const Bits bits = bits_as<std::uint64_t>(sum), one(std::uint64_t{1});
+    // One step of the last bit towards the error, where the sum is even.
+    const Bits shrinks = (bits_as<std::uint64_t>(error) ^ bits) >> 63;
+    const Bits from_even = shrinks ^ (shrinks & bits);
+    const Bits odd = (bits | one) - (from_even << 1);
+    // NaN compares unequal to itself alone, and infinite sums have NaN errors.
+    const auto inexact = (error < zero) | (error > zero);
+    return select(inexact, bits_as<double>(odd), sum);
+}
+
+/// On any processor.
+template <>
+struct Lanes<Portable> {
+    using F = Floats<Portable>;
+    using M = Mask<Portable>;
+    static constexpr bool has_mul_add = false;
+    static std::uint32_t bits(const M& mask) { return mask.bits(); }
+    static void compress_store(float* out, const F& values, std::uint32_t wanted) {
+        for (std::size_t i = 0; i < F::size; ++i) {
+            *out = values.lanes()[i];
+            out += wanted >> i & 1;
+        }
+    }
+    static F mul_add(const F& a, const F& b, const F& c) {
+        double sums[F::size];
+        for (int half = 0; half < 2; ++half) {
+            const auto product = widened(a, half) * widened(b, half);
+            sum_to_odd(product, widened(c, half)).store_unaligned(sums + 2 * half);
+        }
+        return narrow(sums);
+    }
+    static float least(const F& values) { return generic::least<Portable>(values); }
+    static float greatest(const F& values) { return generic::greatest<Portable>(values); }
+    static F narrow(const double* from) { return generic::narrow<Portable>(from); }
+    static M in_range(const F& id, const F& first, const F& last) {
+        const auto from = bits_as<std::uint32_t>(first);
+        return M(
+            (bits_as<std::uint32_t>(id) - from <= bits_as<std::uint32_t>(last) - from).lanes());
+    }
+};
+
+#ifdef __SSE4_2__
+template <>
+struct Lanes<Sse42> {
+    static constexpr bool has_mul_add = false;
+    static std::uint32_t bits(const Mask<Sse42>& mask) {
+        return static_cast<std::uint32_t>(_mm_movemask_ps(mask));
+    }
+
+    static void compress_store(float* out, const Floats<Sse42>& values, std::uint32_t wanted) {
+        const __m128i order = _mm_load_si128(reinterpret_cast<const __m128i*>(&orders[wanted]));
+        const __m128i bytes = _mm_castps_si128(values);
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(out), _mm_shuffle_epi8(bytes, order));
+    }
+
+    /// The solvers need it to have the scalar reference's bits, and so are as slow as that here;
+    /// the engine's filters and its double arithmetic do without fused operations and have the same
+    /// bits in pictures, at half of AVX2's speed.
+    ///
+    /// By way of double: the product is exact there.
+    static Floats<Sse42> mul_add(const Floats<Sse42>& a, const Floats<Sse42>& b,
+                                 const Floats<Sse42>& c) {
+        const __m128 low = by_double(a, b, c);
+        const __m128 high =
+            by_double(_mm_movehl_ps(a, a), _mm_movehl_ps(b, b), _mm_movehl_ps(c, c));
+        return _mm_movelh_ps(low, high);
+    }
+
+    static float least(const Floats<Sse42>& values) {
+        const __m128 two = _mm_min_ps(values, _mm_movehl_ps(values, values));
+        return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+    static float greatest(const Floats<Sse42>& values) {
+        const __m128 two = _mm_max_ps(values, _mm_movehl_ps(values, values));
+        return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+
+    static Floats<Sse42> narrow(const double* from) {
+        return _mm_movelh_ps(_mm_cvtpd_ps(_mm_loadu_pd(from)),
+                             _mm_cvtpd_ps(_mm_loadu_pd(from + 2)));
+    }
+
+    static Mask<Sse42> in_range(const Floats<Sse42>& id, const Floats<Sse42>& first,
+                                const Floats<Sse42>& last) {
+        const __m128i from = _mm_castps_si128(first);
+        const __m128i offset = _mm_sub_epi32(_mm_castps_si128(id), from);
+        const __m128i most = _mm_sub_epi32(_mm_castps_si128(last), from);
+        return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_min_epu32(offset, most), offset));
+    }
+
+  private:
+    static __m128 by_double(__m128 a, __m128 b, __m128 c) {
+        using Number = Floats<Double<Sse42>>;
+        const Number product = Number(_mm_cvtps_pd(a)) * Number(_mm_cvtps_pd(b));
+        return _mm_cvtpd_ps(sum_to_odd(product, Number(_mm_cvtps_pd(c))));
+    }
+
+    struct alignas(16) Order {
+        std::uint8_t bytes[16];
+    };
+    static constexpr std::array<Order, 16> orders = [] {
+        std::array<Order, 16> all{};
+        for (unsigned wanted = 0; wanted < 16; ++wanted) {
+            unsigned to = 0;
+            for (unsigned lane = 0; lane < 4; ++lane) {
+                if ((wanted >> lane & 1) == 0) continue;
+                for (unsigned byte = 0; byte < 4; ++byte)
+                    all[wanted].bytes[4 * to + byte] = static_cast<std::uint8_t>(4 * lane + byte);
+                ++to;
+            }
+        }
+        return all;
+    }();
+};
+#endif
+
+#if defined(__AVX2__) && defined(__FMA__)
+template <>
+struct Lanes<Avx2> {
+    static constexpr bool has_mul_add = true;
+    static std::uint32_t bits(const Mask<Avx2>& mask) {
+        return static_cast<std::uint32_t>(_mm256_movemask_ps(mask));
+    }
+
+    static void compress_store(float* out, const Floats<Avx2>& values, std::uint32_t wanted) {
+        const __m128i packed = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&orders[wanted]));
+        _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(values, _mm256_cvtepu8_epi32(packed)));
+    }
+
+    static Floats<Avx2> mul_add(const Floats<Avx2>& a, const Floats<Avx2>& b,
+                                const Floats<Avx2>& c) {
+        return _mm256_fmadd_ps(a, b, c);
+    }
+
+    static float least(const Floats<Avx2>& values) {
+        const __m128 four =
+            _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+        const __m128 two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+        return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+    static float greatest(const Floats<Avx2>& values) {
+        const __m128 four =
+            _mm_max_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+        const __m128 two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+        return _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps(two, two, 1)));
+    }
+
+    static Floats<Avx2> narrow(const double* from) {
+        return _mm256_set_m128(_mm256_cvtpd_ps(_mm256_loadu_pd(from + 4)),
+                               _mm256_cvtpd_ps(_mm256_loadu_pd(from)));
+    }
+
+    static Mask<Avx2> in_range(const Floats<Avx2>& id, const Floats<Avx2>& first,
+                               const Floats<Avx2>& last) {
+        const __m256i from = _mm256_castps_si256(first);
+        const __m256i offset = _mm256_sub_epi32(_mm256_castps_si256(id), from);
+        const __m256i most = _mm256_sub_epi32(_mm256_castps_si256(last), from);
+        return _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_min_epu32(offset, most), offset));
+    }
+
+  private:
+    static constexpr std::array<std::array<std::uint8_t, 8>, 256> orders = [] {
+        std::array<std::array<std::uint8_t, 8>, 256> all{};
+        for (unsigned wanted = 0; wanted < 256; ++wanted) {
+            unsigned to = 0;
+            for (unsigned lane = 0; lane < 8; ++lane)
+                if ((wanted >> lane & 1) != 0) all[wanted][to++] = static_cast<std::uint8_t>(lane);
+        }
+        return all;
+    }();
+};
+#endif
+
+#ifdef __AVX512F__
+template <>
+struct Lanes<Avx512> {
+    static constexpr bool has_mul_add = true;
+    static std::uint32_t bits(const Mask<Avx512>& mask) {
+        return static_cast<std::uint32_t>(static_cast<__mmask16>(mask));
+    }
+
+    static void compress_store(float* out, const Floats<Avx512>& values, std::uint32_t wanted) {
+        // To memory directly it takes several times as long.
+        _mm512_storeu_ps(out, _mm512_maskz_compress_ps(static_cast<__mmask16>(wanted), values));
+    }
+
+    static Floats<Avx512> mul_add(const Floats<Avx512>& a, const Floats<Avx512>& b,
+                                  const Floats<Avx512>& c) {
+        return _mm512_fmadd_ps(a, b, c);
+    }
+
+    static float least(const Floats<Avx512>& values) { return _mm512_reduce_min_ps(values); }
+    static float greatest(const Floats<Avx512>& values) { return _mm512_reduce_max_ps(values); }
+
+    static Floats<Avx512> narrow(const double* from) {
+        const __m256 low = _mm512_cvtpd_ps(_mm512_loadu_pd(from));
+        const __m256 high = _mm512_cvtpd_ps(_mm512_loadu_pd(from + 8));
+        return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+    }
+
+    static Mask<Avx512> in_range(const Floats<Avx512>& id, const Floats<Avx512>& first,
+                                 const Floats<Avx512>& last) {
+        const __m512i from = _mm512_castps_si512(first);
+        const __m512i offset = _mm512_sub_epi32(_mm512_castps_si512(id), from);
+        const __m512i most = _mm512_sub_epi32(_mm512_castps_si512(last), from);
+        return _mm512_cmple_epu32_mask(offset, most);
+    }
+};
+#endif
+
+} // namespace raylane::simd

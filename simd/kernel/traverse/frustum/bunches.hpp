@@ -1,0 +1,181 @@
+#pragma once
+
+#include "simd/kernel/lanes/short_lanes.hpp"
+#include "simd/kernel/traverse/packet.hpp"
+
+namespace raylane::simd {
+
+/// Sixteen rays of a group, side by side: in streams, each value has an address to be looked up.
+template <class Arch, class Method>
+struct alignas(64) Bunch : Streams<Arch> {
+    using S = Streams<Arch>;
+    static constexpr std::size_t size = 16;
+
+    float origin[3][size], direction[3][size], slack[size];
+    std::uint32_t departed_first[size], departed_last[size];
+
+    void gather(const RoundedRays& rays, std::size_t i) {
+        for (std::size_t k = 0; k < size; k += S::lanes, i += S::lanes) {
+            for (int axis = 0; axis < 3; ++axis) {
+                S::load(rays.origin[axis] + i).store_unaligned(origin[axis] + k);
+                S::load(rays.direction[axis] + i).store_unaligned(direction[axis] + k);
+            }
+            S::load(rays.slack + i).store_unaligned(slack + k);
+            S::store_bits(S::load_bits(rays.departed_first + i), departed_first + k);
+            S::store_bits(S::load_bits(rays.departed_last + i), departed_last + k);
+        }
+    }
+
+    /// Those from one on, one per lane.
+    [[gnu::always_inline]] Packet<Arch, Method> packet(std::size_t k) const {
+        const auto load = [&](const float(&rows)[3][size]) {
+            return Vectors<Arch>{S::load(rows[0] + k), S::load(rows[1] + k), S::load(rows[2] + k)};
+        };
+        return {{load(origin), load(direction), S::load(slack + k)},
+                S::load_bits(departed_first + k),
+                S::load_bits(departed_last + k)};
+    }
+};
+
+/// For methods that ask for more than this, where they are in the stream.
+template <class Arch, class Method>
+requires(!Method::rounded_alone) struct alignas(64) Bunch<Arch, Method> {
+    static constexpr std::size_t size = 16;
+
+    const RoundedRays* stream;
+    std::size_t begin;
+
+    void gather(const RoundedRays& rays, std::size_t i) {
+        stream = &rays;
+        begin = i;
+    }
+    Packet<Arch, Method> packet(std::size_t k) const { return {*stream, begin + k}; }
+};
+
+/// What a group looks for: the nearest hits. As GroupWalk asks for.
+template <class Arch, class Method>
+class GroupCandidates : Streams<Arch> {
+    using S = Streams<Arch>;
+
+    struct Rays : Bunch<Arch, Method> {
+        float first[16], second[16];
+        std::uint32_t slot[16];
+
+        Candidates found() { return {first, second, slot}; }
+    };
+    Rays bunches_[16];
+
+  public:
+    GroupCandidates(const RoundedRays& rays, const Candidates& candidates, std::size_t begin,
+                    std::size_t end) {
+        for (std::size_t i = begin; i < end; i += 16) {
+            Rays& bunch = bunches_[(i - begin) / 16];
+            bunch.gather(rays, i);
+            for (std::size_t k = 0; k < 16; k += S::lanes) {
+                PacketCandidates<Arch> found(candidates, i + k);
+                // Rays that are not there have hit at 0.
+                const std::size_t here = i + k < end ? end - i - k : 0;
+                found.first = select(S::first_lanes(here), found.first, zero<Arch>());
+                found.store(bunch.found(), k);
+            }
+        }
+    }
+
+    /// One shape against one bunch.
+    template <class Filter>
+    [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
+                                     std::size_t which) {
+        Rays& bunch = bunches_[which];
+        for (std::size_t k = 0; k < 16; k += S::lanes) {
+            PacketCandidates<Arch> found(bunch.found(), k);
+            found.test(filter, id, slot, bunch.packet(k));
+            found.store(bunch.found(), k);
+        }
+    }
+
+    /// The t from which on nothing matters to a bunch.
+    float limit_of(std::size_t which) const {
+        return S::greatest_of_16(bunches_[which].first) * culling_slack;
+    }
+
+    void hand_back(const Candidates& candidates, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; i += S::lanes) {
+            Rays& bunch = bunches_[(i - begin) / 16];
+            PacketCandidates<Arch>(bunch.found(), (i - begin) % 16).store(candidates, i);
+        }
+    }
+};
+
+/// What a group looks for: whether something is in the way. As GroupWalk asks for.
+template <class Arch, class Method>
+class GroupOcclusions : Streams<Arch> {
+    using S = Streams<Arch>;
+
+    struct Rays : Bunch<Arch, Method> {
+        float t_most[16];
+    };
+    const SceneView& scene_;
+    Rays bunches_[16];
+    /// By bunch, of rays as bits.
+    std::uint32_t blocked_[16], doubtful_[16] = {};
+
+  public:
+    GroupOcclusions(const SceneView& scene, const RoundedRays& rays, const Occlusions& occlusions,
+                    std::size_t begin, std::size_t end)
+        : scene_(scene) {
+        for (std::size_t which = 0; which < 16; ++which) {
+            const std::size_t i = begin + 16 * which;
+            blocked_[which] = 0xFFFF; // what is not there
+            if (i >= end) continue;
+            bunches_[which].gather(rays, i);
+            for (std::size_t k = 0; k < 16; k += S::lanes)
+                S::load(occlusions.t_most + i + k).store_unaligned(bunches_[which].t_most + k);
+            with_states(occlusions.state + i, end - i, [&](const std::uint8_t* states) {
+                blocked_[which] = ShortLanes<Arch>::equal_16(states, blocked);
+            });
+        }
+    }
+
+    /// One shape against one bunch.
+    template <class Filter>
+    [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
+                                     std::size_t which) {
+        if (blocked_[which] == 0xFFFF) return;
+        const bool plain = S::is_plain(scene_, slot);
+        const Rays& bunch = bunches_[which];
+        for (std::size_t k = 0; k < 16; k += S::lanes) {
+            PacketOcclusions<Arch> found({bunch.t_most, nullptr}, k);
+            found.test(filter, id, plain, bunch.packet(k), ~blocked_[which] >> k);
+            blocked_[which] |= found.sure << k;
+            doubtful_[which] |= found.some << k;
+        }
+    }
+
+    /// To a bunch of which all rays are blocked nothing matters.
+    float limit_of(std::size_t which) const {
+        return blocked_[which] == 0xFFFF ? -1.0F : __builtin_inff();
+    }
+
+    void hand_back(const Occlusions& occlusions, std::size_t begin, std::size_t end) const {
+        for (std::size_t i = begin, which = 0; i < end; i += 16, ++which)
+            with_states(occlusions.state + i, end - i, [&](std::uint8_t* states) {
+                ShortLanes<Arch>::raise_16(states, doubtful_[which], doubtful);
+                ShortLanes<Arch>::raise_16(states, blocked_[which], blocked);
+            });
+    }
+
+  private:
+    /// Calls visit(states) for 16, of which `count` are there at most; the others are blocked.
+    template <class Visit>
+    static void with_states(std::uint8_t* state, std::size_t count, const Visit& visit) {
+        if (count >= 16) return visit(state);
+        std::uint8_t some[16];
+        for (std::size_t k = 0; k < 16; ++k)
+            some[k] = k < count ? state[k] : std::uint8_t{blocked};
+        visit(some);
+        for (std::size_t k = 0; k < count; ++k)
+            state[k] = some[k];
+    }
+};
+
+} // namespace raylane::simd

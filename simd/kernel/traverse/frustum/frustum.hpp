@@ -1,0 +1,342 @@
+#pragma once
+
+#include "simd/kernel/shapes/enclosing.hpp"
+#include "simd/kernel/traverse/rays.hpp"
+
+namespace raylane::simd {
+
+/// Up to 256 rays through one point, or in one direction, and what surely misses all of them.
+///
+/// One coordinate k counts along the rays. With w = p - apex, a point on a ray has w_a - u w_k =
+/// offset, for each other coordinate a, with slopes u and offsets of the ray's: through a point,
+/// the offsets are 0, in one direction, the slopes are the same. The group is what lies between the
+/// least and the greatest of these; so is each of its sixteen bunches of 16 consecutive rays, which
+/// are lanes here.
+///
+/// Roundings are a few u of |w_a| + |u w_k| + |offset|; `grace` grants 16 u of the sizes of w, and
+/// as slopes are at most 4, twice that of the rest.
+template <class Arch>
+struct Group : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    static constexpr std::size_t most_rays = 256;
+    static constexpr float steepest = 4.0F;
+
+    /// Of the rays on one side: w_a - slope w_k > offset is outside, or < for the other side.
+    struct Side {
+        float slope, offset, norm;
+        alignas(64) float slopes[16], offsets[16], norms[16]; // of the bunches
+    };
+
+    float apex[3];
+    float slack;
+    int along;          ///< k
+    int across[2];      ///< the other coordinates
+    float sense;        ///< of the rays along k: 1 or -1
+    float least_w;      ///< of sense * w_k: what comes before is behind all rays
+    float greatest_w;   ///< and what comes after this is beyond them
+    float fastest;      ///< the largest |d_k|
+    float t_per_w;      ///< less than its inverse
+    float latest_start; ///< sense * w_k of the last origin
+    Side above[2], below[2];
+    std::size_t bunches;
+
+    /// For rays from or to `apex`; of rays in one direction it is any point near them. Returns
+    /// whether the rays are coherent enough.
+    bool enclose(const RoundedRays& rays, std::size_t begin, std::size_t end, Bundle bundle,
+                 const float* t_most) {
+        bunches = (end - begin + 15) / 16;
+        for (int axis = 0; axis < 3; ++axis)
+            apex[axis] = bundle.parallel ? rays.origin[axis][begin] : bundle.apex[axis];
+        slack = half_ulp * (size(apex[0]) + size(apex[1]) + size(apex[2]));
+        choose_axes(rays, begin, end, bundle.towards);
+
+        least_w = bundle.towards ? 0.0F : __builtin_inff();
+        greatest_w = bundle.towards && t_most != nullptr ? 0.0F : __builtin_inff();
+        // Towards the apex, what is far from it is near.
+        const bool anywhere = bundle.parallel || bundle.beyond; // they start
+        latest_start = anywhere ? -__builtin_inff() : bundle.towards ? __builtin_inff() : 0.0F;
+        if (!bundle.towards && !anywhere) least_w = 0.0F;
+        pad(rays, end);
+        F speeds_low = S::infinity(), speeds_high = zero<Arch>(), ends_high = zero<Arch>();
+        F starts_low = S::infinity(), starts_high = negated(S::infinity());
+        F most_slack = zero<Arch>();
+        for (std::size_t bunch = 0; bunch < bunches; ++bunch) {
+            const std::size_t from = begin + 16 * bunch;
+            F low_slope[2] = {S::infinity(), S::infinity()}, high_slope[2];
+            F low_offset[2] = {S::infinity(), S::infinity()}, high_offset[2];
+            for (int side = 0; side < 2; ++side)
+                high_slope[side] = high_offset[side] = negated(S::infinity());
+            for (std::size_t i = from; i < from + 16; i += F::size) {
+                most_slack = max(most_slack, S::load(rays.slack + i));
+                const F direction = S::load(rays.direction[along] + i);
+                const F d = F(bundle.towards ? -sense : sense) * direction;
+                speeds_low = min(speeds_low, d);
+                speeds_high = max(speeds_high, d);
+                const F w = S::load(rays.origin[along] + i) - F(apex[along]);
+                if (anywhere) {
+                    starts_low = min(starts_low, F(sense) * w);
+                    starts_high = max(starts_high, F(sense) * w);
+                }
+                if (t_most != nullptr && bundle.towards && i < end)
+                    ends_high = max(ends_high, select(S::first_lanes(end - i),
+                                                      d * S::load(t_most + i), zero<Arch>()));
+                for (int side = 0; side < 2; ++side) {
+                    const int a = across[side];
+                    const F slope = S::load(rays.direction[a] + i) / direction;
+                    low_slope[side] = min(low_slope[side], slope);
+                    high_slope[side] = max(high_slope[side], slope);
+                    if (!bundle.parallel) continue;
+                    const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) - slope * w;
+                    low_offset[side] = min(low_offset[side], offset);
+                    high_offset[side] = max(high_offset[side], offset);
+                }
+            }
+            for (int side = 0; side < 2; ++side) {
+                const float low = Lanes<Arch>::least(low_slope[side]);
+                const float high = Lanes<Arch>::greatest(high_slope[side]);
+                // Seen against the coordinate's sense the greater slope bounds from below.
+                set(above[side], bunch, sense > 0.0F ? high : low,
+                    bundle.parallel ? Lanes<Arch>::greatest(high_offset[side]) : 0.0F);
+                set(below[side], bunch, sense > 0.0F ? low : high,
+                    bundle.parallel ? Lanes<Arch>::least(low_offset[side]) : 0.0F);
+            }
+        }
+        for (std::size_t bunch = bunches; bunch < 16; ++bunch)
+            for (int side = 0; side < 2; ++side) { // outside, unless it is infinite
+                set(above[side], bunch, above[side].slopes[0], -__builtin_inff());
+                set(below[side], bunch, below[side].slopes[0], __builtin_inff());
+            }
+        fastest = Lanes<Arch>::greatest(speeds_high);
+        t_per_w = (1 - 8 * half_ulp) / fastest;
+        if (anywhere) {
+            least_w = least(least_w, Lanes<Arch>::least(starts_low));
+            latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
+        }
+        if (bundle.towards && t_most != nullptr)
+            greatest_w = greatest(greatest_w, Lanes<Arch>::greatest(ends_high));
+        slack += Lanes<Arch>::greatest(most_slack);
+        for (int side = 0; side < 2; ++side)
+            enclose_bunches(side);
+        bool coherent = Lanes<Arch>::least(speeds_low) > 0.0F;
+        for (int side = 0; side < 2; ++side)
+            coherent = coherent && size(above[side].slope) < steepest &&
+                       size(below[side].slope) < steepest;
+        return coherent;
+    }
+
+    /// The last packet's lanes that are no ray's become like the last ray.
+    static void pad(const RoundedRays& rays, std::size_t end) {
+        for (std::size_t i = end; i % 16 != 0; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                rays.origin[axis][i] = rays.origin[axis][end - 1];
+                rays.direction[axis][i] = rays.direction[axis][end - 1];
+            }
+            rays.slack[i] = rays.slack[end - 1];
+        }
+    }
+
+    static std::size_t lesser(std::size_t a, std::size_t b) { return a < b ? a : b; }
+    static float least(float a, float b) { return a < b ? a : b; }
+    static float greatest(float a, float b) { return a > b ? a : b; }
+    static float size(float a) { return __builtin_fabsf(a); }
+
+    /// The largest component of the first direction that all rays share.
+    void choose_axes(const RoundedRays& rays, std::size_t begin, std::size_t end, bool towards) {
+        const std::size_t middle = begin + (end - begin) / 2;
+        along = 0;
+        for (int axis = 1; axis < 3; ++axis)
+            if (size(rays.direction[axis][middle]) > size(rays.direction[along][middle]))
+                along = axis;
+        across[0] = (along + 1) % 3;
+        across[1] = (along + 2) % 3;
+        sense = (rays.direction[along][middle] > 0.0F) != towards ? 1.0F : -1.0F;
+    }
+
+    static void set(Side& side, std::size_t bunch, float slope, float offset) {
+        side.slopes[bunch] = slope;
+        side.offsets[bunch] = offset;
+        side.norms[bunch] = norm_above(slope);
+    }
+
+    /// At least sqrt(1 + slope^2).
+    static float norm_above(float slope) { return 1.0F + 0.5F * slope * slope; }
+
+    void enclose_bunches(int side) {
+        Side &high = above[side], &low = below[side];
+        const bool forwards = sense > 0.0F;
+        high.slope = forwards ? S::greatest_of_16(high.slopes) : S::least_of_16(high.slopes);
+        low.slope = forwards ? S::least_of_16(low.slopes) : S::greatest_of_16(low.slopes);
+        high.offset = S::greatest_of_16(high.offsets);
+        low.offset = S::least_of_16(low.offsets);
+        high.norm = norm_above(high.slope);
+        low.norm = norm_above(low.slope);
+    }
+
+    /// What roundings may add up to at a distance of w along and across.
+    F grace(const F& w_along, const F& w_across) const {
+        return F(grace_factor) * (abs(w_along) + abs(w_across)) + F(8 * steepest * slack);
+    }
+
+    /// The boxes of a node that the group may meet, and the least t at which.
+    std::uint32_t enter(const NodeView& node, int from, const F& t_most, F& near) const {
+        const F apex_along(apex[along]);
+        const F lower_k = S::load(node.lower[along] + from) - apex_along;
+        const F upper_k = S::load(node.upper[along] + from) - apex_along;
+        const F reach_k = max(abs(lower_k), abs(upper_k));
+        const F first_w = sense > 0.0F ? lower_k : negated(upper_k);
+        const F last_w = sense > 0.0F ? upper_k : negated(lower_k);
+        const F grace_k = grace(reach_k, zero<Arch>());
+        M meets = (last_w + grace_k >= F(least_w)) & (first_w - grace_k <= F(greatest_w));
+        for (int side = 0; side < 2; ++side) {
+            const int a = across[side];
+            const F apex_across(apex[a]);
+            const F lower = S::load(node.lower[a] + from) - apex_across;
+            const F upper = S::load(node.upper[a] + from) - apex_across;
+            const F room = grace(reach_k, max(abs(lower), abs(upper)));
+            const Side &high = above[side], &low = below[side];
+            const F least_above = lower - F(high.slope) * (high.slope > 0.0F ? upper_k : lower_k);
+            const F most_below = upper - F(low.slope) * (low.slope > 0.0F ? lower_k : upper_k);
+            meets = meets & (least_above - room <= F(high.offset)) &
+                    (most_below + room >= F(low.offset));
+        }
+        near = near_t(first_w - grace_k);
+        return Lanes<Arch>::bits(meets & (near <= t_most)) & S::filled(node, from);
+    }
+
+    /// From how far along to a lower bound of t.
+    F near_t(const F& w) const { return max((w - F(latest_start)) * F(t_per_w), zero<Arch>()); }
+
+    /// One side's plane, or as many as there are bunches.
+    struct Plane {
+        F slope, norm, offset;
+
+        explicit Plane(const Side& of_all)
+            : slope(of_all.slope), norm(of_all.norm), offset(of_all.offset) {}
+        Plane(const Side& of_bunches, std::size_t from)
+            : slope(S::load(of_bunches.slopes + from)), norm(S::load(of_bunches.norms + from)),
+              offset(S::load(of_bunches.offsets + from)) {}
+
+        /// w_across - slope w_along + radius norm
+        F outmost(const F& w_along, const F& w_across, const F& radius) const {
+            return fast_mul_add<Arch>(radius, norm,
+                                      fast_mul_add<Arch>(negated(w_along), slope, w_across));
+        }
+    };
+
+    /// Of what is between two spheres a part may be on each side of a plane where one of them has
+    /// some there. Here: in front of the ends, and inside of the four sides.
+    struct Reach {
+        M along[2], inside_high[2], inside_low[2];
+
+        Reach& operator|=(const Reach& other) {
+            for (int i = 0; i < 2; ++i) {
+                along[i] = along[i] | other.along[i];
+                inside_high[i] = inside_high[i] | other.inside_high[i];
+                inside_low[i] = inside_low[i] | other.inside_low[i];
+            }
+            return *this;
+        }
+        std::uint32_t all() const {
+            return Lanes<Arch>::bits(along[0] & along[1] & inside_high[0] & inside_high[1] &
+                                     inside_low[0] & inside_low[1]);
+        }
+    };
+
+    /// A block's spheres, or those around one end of its shapes, as the group sees them.
+    struct alignas(64) Seen {
+        float near[16];                ///< the least t
+        float along[16];               ///< w_k
+        float low[2][16], high[2][16]; ///< w_a, with grace
+        float radius[16];
+    };
+    struct SeenBlock {
+        Seen end[2];
+        int ends;
+    };
+
+    /// What is inside of the sides: of spheres and all rays, or of one and the rays of bunches.
+    template <class Load, class PlaneOf>
+    [[gnu::always_inline]] void reach_sides(const Seen& seen, const Load& load,
+                                            const PlaneOf& plane_of, Reach& reach) const {
+        for (int side = 0; side < 2; ++side) {
+            const Plane high = plane_of(above[side]), low = plane_of(below[side]);
+            const F w_along = load(seen.along), radius = load(seen.radius);
+            reach.inside_high[side] =
+                high.outmost(w_along, load(seen.low[side]), negated(radius)) <= high.offset;
+            reach.inside_low[side] =
+                low.outmost(w_along, load(seen.high[side]), radius) >= low.offset;
+        }
+    }
+
+    /// What has a part everywhere, as bits, by the Reach of each end.
+    template <class ReachOf>
+    [[gnu::always_inline]] static std::uint32_t reached(int ends, const ReachOf& reach_of) {
+        Reach reach = reach_of(0);
+        if (ends == 1) [[likely]]
+            return reach.all();
+        reach |= reach_of(1);
+        return reach.all();
+    }
+
+    /// How far along a ray can be at t_most: near_t's inverse.
+    float furthest_w(float t_most) const {
+        const float way = t_most * fastest;
+        const float w = latest_start + way + 16 * half_ulp * (size(latest_start) + way);
+        return least(greatest_w, w == w ? w : __builtin_inff());
+    }
+
+    /// Fills `seen` from one on. Returns the shapes that the group may meet, as bits, of which none
+    /// is further along than `furthest`.
+    [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from,
+                                              float furthest, SeenBlock& seen) const {
+        const F grace_apart(8 * steepest * slack), factor(grace_factor);
+        seen.ends = spheres.ends;
+        const auto reach_of = [&](int end) {
+            Seen& to = seen.end[end];
+            const auto& center = spheres.center[end];
+            const F radius = S::load(spheres.radius[end] + from);
+            const F w_along = S::load(center[along] + from) - F(apex[along]);
+            const F w = F(sense) * w_along;
+            const F grace_along = fast_mul_add<Arch>(factor, abs(w_along), grace_apart);
+            const F room = grace_along + radius;
+            Reach reach;
+            reach.along[0] = w + room >= F(least_w);
+            reach.along[1] = w - room <= F(furthest);
+            near_t(w - room).store_unaligned(to.near + from);
+            w_along.store_unaligned(to.along + from);
+            radius.store_unaligned(to.radius + from);
+            for (int side = 0; side < 2; ++side) {
+                const F w_across = S::load(center[across[side]] + from) - F(apex[across[side]]);
+                const F room_across = fast_mul_add<Arch>(factor, abs(w_across), grace_along);
+                (w_across - room_across).store_unaligned(to.low[side] + from);
+                (w_across + room_across).store_unaligned(to.high[side] + from);
+            }
+            reach_sides(
+                to, [&](const float* of) { return S::load(of + from); },
+                [](const Side& side) { return Plane(side); }, reach);
+            return reach;
+        };
+        return reached(spheres.ends, reach_of);
+    }
+
+    /// The bunches, from one on, that one shape may meet before t_most, as bits.
+    [[gnu::always_inline]] std::uint32_t
+    bunches_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_most) const {
+        const auto reach_of = [&](int end) {
+            Reach reach;
+            reach.along[0] = reach.along[1] = F(seen.end[end].near[lane]) <= t_most;
+            reach_sides(
+                seen.end[end], [&](const float* of) { return F(of[lane]); },
+                [&](const Side& side) { return Plane(side, from); }, reach);
+            return reach;
+        };
+        return reached(seen.ends, reach_of);
+    }
+
+    static constexpr float grace_factor = 2 * steepest * 16 * half_ulp;
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,193 @@
+#pragma once
+
+#include "simd/kernel/traverse/frustum/frustum.hpp"
+
+namespace raylane::simd {
+
+/// Rays that end at one point, in an order in which those of a bunch come there from nearly the
+/// same direction, however far apart they start, as far as that is worth the work. Bunches of which
+/// that is so already may stay what they are; the rays of the others come behind them, in the order
+/// of their directions along a Morton curve.
+template <class Arch>
+struct SortedTowards : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    RoundedRays rays;
+    Occlusions occlusions;
+
+    static constexpr std::size_t columns = 13;
+    static constexpr std::size_t column_of(std::size_t count) { return (count + 31) / 16 * 16; }
+    /// Fewer are not worth the work.
+    static constexpr std::size_t least_count = 64;
+    static bool has_room(std::size_t count, const Workspace& workspace) {
+        return count >= least_count && count <= workspace.capacity &&
+               column_of(count) * (columns * sizeof(float) + 1) <=
+                   workspace.capacity * stream_record_bytes;
+    }
+
+    SortedTowards(const RoundedRays& from, const Occlusions& asked, std::size_t count,
+                  const Workspace& workspace)
+        : rays(from), occlusions(asked), keys_(workspace.lists), others_(keys_ + column_of(count)) {
+        const std::size_t room = column_of(count);
+        auto* const column = reinterpret_cast<float*>(workspace.records);
+        const auto ids = [&](std::size_t k) {
+            return reinterpret_cast<std::uint32_t*>(column + k * room);
+        };
+        number_ = ids(10);
+        u_ = column + 11 * room;
+        v_ = column + 12 * room;
+        find_slopes(from, count);
+        kept_ = keep_narrow(count);
+        if (kept_ == count) return;
+        sort_others(count);
+
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            rays.origin[axis] = column + axis * room;
+            rays.direction[axis] = column + (3 + axis) * room;
+        }
+        rays.slack = column + 6 * room;
+        std::uint32_t *const first = ids(7), *const last = ids(8);
+        rays.departed_first = first;
+        rays.departed_last = last;
+        float* const t_most = column + 9 * room;
+        occlusions = {t_most, reinterpret_cast<std::uint8_t*>(column + columns * room)};
+        for (int axis = 0; axis < 3; ++axis) {
+            gather(from.origin[axis], count, rays.origin[axis]);
+            gather(from.direction[axis], count, rays.direction[axis]);
+        }
+        gather(from.slack, count, rays.slack);
+        gather(from.departed_first, count, first);
+        gather(from.departed_last, count, last);
+        gather(asked.t_most, count, t_most);
+        gather(asked.state, count, occlusions.state);
+    }
+
+    /// What has been found, for who asked.
+    void hand_back(const Occlusions& asked, std::size_t count) const {
+        if (kept_ == count) return;
+        for (std::size_t k = 0; k < kept_; k += 16)
+            __builtin_memcpy(asked.state + number_[k], occlusions.state + k, 16);
+        for (std::size_t k = kept_; k < count; ++k)
+            asked.state[number_[k]] = occlusions.state[k];
+    }
+
+  private:
+    /// A column in the new order.
+    template <class Value>
+    void gather(const Value* from, std::size_t count, Value* __restrict to) const {
+        const std::uint32_t* const number = number_;
+        for (std::size_t k = 0; k < kept_; k += 16)
+            __builtin_memcpy(to + k, from + number[k], 16 * sizeof(Value));
+        for (std::size_t k = kept_; k < count; ++k)
+            to[k] = from[number[k]];
+    }
+
+    static constexpr unsigned cells = 32; ///< a side
+    /// Steeper rays are no part of a group.
+    static constexpr float steepest = Group<Arch>::steepest;
+
+    /// Bits of x with one between each.
+    static unsigned spread(unsigned x) {
+        x = (x | x << 4) & 0x10F;
+        x = (x | x << 2) & 0x133;
+        return (x | x << 1) & 0x155;
+    }
+
+    void find_slopes(const RoundedRays& from, std::size_t count) {
+        int along = 0;
+        for (int axis = 1; axis < 3; ++axis)
+            if (__builtin_fabsf(from.direction[axis][count / 2]) >
+                __builtin_fabsf(from.direction[along][count / 2]))
+                along = axis;
+        F low[2] = {F(steepest), F(steepest)}, high[2] = {F(-steepest), F(-steepest)};
+        for (std::size_t i = 0; i < count; i += F::size) {
+            const M here = S::first_lanes(count - i);
+            const F w = S::load(from.direction[along] + i);
+            for (int side = 0; side < 2; ++side) {
+                const F any = S::load(from.direction[(along + 1 + side) % 3] + i) / w;
+                // What is not a number ends up at one end.
+                const F slope = max(min(any, F(steepest)), F(-steepest));
+                slope.store_unaligned((side == 0 ? u_ : v_) + i);
+                low[side] = min(low[side], select(here, slope, low[side]));
+                high[side] = max(high[side], select(here, slope, high[side]));
+            }
+        }
+        for (int side = 0; side < 2; ++side) {
+            least_[side] = Lanes<Arch>::least(low[side]);
+            extent_[side] = Lanes<Arch>::greatest(high[side]) - least_[side];
+        }
+    }
+
+    /// Whether some ray of a bunch is so far from the first.
+    bool is_wide(std::size_t bunch, float most) const {
+        const F u(u_[bunch]), v(v_[bunch]);
+        std::uint32_t apart = 0;
+        for (std::size_t i = bunch; i < bunch + 16; i += F::size)
+            apart |=
+                Lanes<Arch>::bits(abs(S::load(u_ + i) - u) + abs(S::load(v_ + i) - v) > F(most));
+        return apart != 0;
+    }
+
+    /// Numbers the rays of whole bunches that are no wider than `wide` times what they would be if
+    /// all together filled a rectangle without overlapping, and lists the others. Returns how many
+    /// rays these are: all if nearly all are, and none if too few are.
+    std::size_t keep_narrow(std::size_t count) {
+        const float bunches = static_cast<float>((count + 15) / 16);
+        const float most = wide * (extent_[0] + extent_[1]) / __builtin_sqrtf(bunches);
+        std::size_t kept = 0;
+        others_count_ = 0;
+        for (std::size_t bunch = 0; bunch < count; bunch += 16) {
+            for (std::size_t lane = 0; lane < 16; ++lane)
+                number_[kept + lane] = static_cast<std::uint32_t>(bunch + lane);
+            others_[others_count_] = static_cast<std::uint16_t>(bunch);
+            const bool keeps = bunch + 16 <= count && !is_wide(bunch, most);
+            kept += keeps ? 16 : 0;
+            others_count_ += keeps ? 0 : 1;
+        }
+        if (static_cast<float>(kept) > nearly_all * static_cast<float>(count)) return count;
+        if (static_cast<float>(kept) > enough * static_cast<float>(count)) return kept;
+        for (others_count_ = 0; 16 * others_count_ < count; ++others_count_)
+            others_[others_count_] = static_cast<std::uint16_t>(16 * others_count_);
+        return 0;
+    }
+
+    /// Numbers the other rays by their cells in the plane of slopes.
+    void sort_others(std::size_t count) {
+        const float extent = extent_[0] > extent_[1] ? extent_[0] : extent_[1];
+        const float scale = (static_cast<float>(cells) - 0.01F) / (extent + 0x1p-60F);
+        std::uint16_t* const __restrict keys = keys_;
+        const float *const u = u_, *const v = v_, left = least_[0], lower = least_[1];
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto x = static_cast<unsigned>(static_cast<int>((u[i] - left) * scale));
+            const auto y = static_cast<unsigned>(static_cast<int>((v[i] - lower) * scale));
+            keys[i] =
+                static_cast<std::uint16_t>(spread(x & (cells - 1)) | spread(y & (cells - 1)) << 1);
+        }
+        std::uint32_t ends[cells * cells + 1] = {};
+        for (std::size_t k = 0; k < others_count_; ++k)
+            for (std::size_t i = others_[k], end = end_of(i, count); i < end; ++i)
+                ++ends[keys[i] + 1];
+        ends[0] = static_cast<std::uint32_t>(kept_);
+        for (unsigned key = 0; key < cells * cells; ++key)
+            ends[key + 1] += ends[key];
+        for (std::size_t k = 0; k < others_count_; ++k)
+            for (std::size_t i = others_[k], end = end_of(i, count); i < end; ++i)
+                number_[ends[keys[i]]++] = static_cast<std::uint32_t>(i);
+    }
+
+    static std::size_t end_of(std::size_t bunch, std::size_t count) {
+        return bunch + 16 < count ? bunch + 16 : count;
+    }
+
+    static constexpr float wide = 1.5F, nearly_all = 0.85F, enough = 0.75F;
+
+    std::uint16_t *keys_, *others_;
+    std::uint32_t* number_;
+    float *u_, *v_;
+    float least_[2], extent_[2];
+    std::size_t kept_, others_count_ = 0;
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,184 @@
+#pragma once
+
+#include "simd/kernel/traverse/frustum/frustum.hpp"
+#include "simd/kernel/traverse/prefetch.hpp"
+#include "simd/kernel/traverse/queue.hpp"
+
+namespace raylane::simd {
+
+/// A group's way through the scene: a node or a block is visited once for all of its rays, and a
+/// shape is tested against those bunches of 16 that may meet it. Nodes are visited in the order of
+/// their distance; or, where that is of no use, what is below one before its neighbours.
+template <class Arch, class Method, bool nearest_first>
+struct GroupWalk : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using Rays = Group<Arch>;
+
+    const SceneView& scene;
+    const Rays& group;
+    const Workspace& workspace;
+    TraceCounters& counters;
+    /// Shapes that are still worth a look. Where the group is so wide that there are more, its rays
+    /// are better off one by one.
+    const int most_shapes;
+    alignas(64) float limits[16]; ///< by bunch: the t from which on nothing matters to it
+    float largest_limit;
+
+    GroupWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
+              TraceCounters& trace_counters, int shapes)
+        : scene(scene_view), group(rays), workspace(space), counters(trace_counters),
+          most_shapes(shapes) {}
+
+    /// Of each shape that bunches may meet, calls
+    ///   found.test(filter, id, slot, which)  for each of the bunches, by number, and now and then
+    ///   found.limit_of(which)                the t from which on nothing matters to it
+    /// The shapes come in the order of their nodes' distances, as far as that is known. Returns
+    /// whether the budget was enough.
+    template <class Found>
+    bool go(std::uint32_t kind_bits, Found& found) {
+        for (float& limit : limits)
+            limit = -1.0F; // of what is not there
+        update_limits((1U << group.bunches) - 1, found);
+        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
+            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
+            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block) {
+                const std::uint32_t child = child_is_block | std::uint32_t{kind} << 27 | block;
+                at_blocks(&child, 1, found);
+            }
+        }
+        if (workspace.key == nullptr) return true;
+        int budget = most_shapes; // what is listed has to be tested whatever the way
+        const Places<Arch> places(scene);
+        Queue<Arch> queue;
+        queue.place(workspace, 0, scene.tree_depth);
+        queue.start(0);
+        std::uint32_t blocks[batch];
+        for (bool more = true; more && largest_limit >= 0;) {
+            if (budget < 0) return false;
+            int count = 0;
+            while (count < batch) {
+                const std::uint32_t child =
+                    nearest_first ? queue.pop_before(largest_limit) : queue.pop_last();
+                more = child != no_child;
+                if (!more) break;
+                if ((child & child_is_block) != 0)
+                    blocks[count++] = child;
+                else
+                    at_node(scene.nodes[child], queue, places);
+            }
+            budget -= at_blocks(blocks, count, found);
+        }
+        return true;
+    }
+
+  private:
+    void at_node(const NodeView& node, Queue<Arch>& queue, const Places<Arch>& places) {
+        ++counters.nodes;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            F near = zero<Arch>();
+            const std::uint32_t bits = group.enter(node, from, F(largest_limit), near);
+            const int before = queue.size;
+            queue.add(near, node.children + from, bits);
+            if (!scene.large) continue;
+            for (int k = before; k < queue.size; ++k)
+                places.fetch(queue.child[k]);
+        }
+    }
+
+    /// All shapes that the group may meet are listed before it is seen which of its bunches do, and
+    /// all these pairs before any is tested: what waits for the last result, and what branches, is
+    /// done once for several blocks. Returns how many shapes these are.
+    template <class Found>
+    int at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
+        BlockSpheres<Arch> spheres;
+        typename Rays::SeenBlock seen[batch];
+        std::uint32_t shapes[16 * batch + F::size];
+        int shape_count = 0;
+        const float furthest = group.furthest_w(largest_limit);
+        for (int b = 0; b < block_count; ++b) {
+            const KindNumber kind = S::kind_of(blocks[b]);
+            spheres.enclose(kind, rows_of(blocks[b]));
+            for (int from = 0; from < 16; from += static_cast<int>(F::size))
+                shape_count +=
+                    list(numbers + from, static_cast<std::uint32_t>(b) << 4,
+                         group.meet(spheres, from, furthest, seen[b]), shapes + shape_count);
+        }
+
+        std::uint32_t pairs[16 * 16 * batch + F::size], meeting = 0;
+        int count = 0;
+        for (int k = 0; k < shape_count; ++k) {
+            const int lane = static_cast<int>(shapes[k] & 15);
+            for (std::size_t from = 0; from < 16; from += F::size) {
+                const std::uint32_t bunches = group.bunches_that_meet(seen[shapes[k] >> 4], lane,
+                                                                      from, S::load(limits + from));
+                count += list(numbers + from, shapes[k] << 4, bunches, pairs + count);
+                meeting |= bunches << from;
+            }
+        }
+        for (int tested = 0; tested < count;)
+            tested = test_run(blocks, pairs, tested, count, found);
+        counters.shapes += 16 * static_cast<std::uint64_t>(count);
+        update_limits(meeting, found);
+        return shape_count;
+    }
+
+    template <class Found>
+    void update_limits(std::uint32_t of_bunches, const Found& found) {
+        for (; of_bunches != 0; of_bunches &= of_bunches - 1) {
+            const int which = __builtin_ctz(of_bunches);
+            limits[which] = found.limit_of(static_cast<std::size_t>(which));
+        }
+        largest_limit = S::greatest_of_16(limits);
+    }
+
+    /// Tests pairs from one on, as far as they are with shapes of one kind. Returns where these
+    /// end.
+    template <class Found>
+    int test_run(const std::uint32_t* blocks, const std::uint32_t* pairs, int begin, int count,
+                 Found& found) {
+        const KindNumber kind = S::kind_of(blocks[pairs[begin] >> 8]);
+        int end = begin;
+        Method::with_filter(kind, [&]<class Filter>() {
+            while (end < count) {
+                const std::uint32_t shape = pairs[end] >> 4, child = blocks[shape >> 4];
+                if (S::kind_of(child) != kind) break;
+                const TableView& table = scene.tables[kind];
+                const std::uint32_t number = child & child_index, lane = shape & 15;
+                const float* block = S::block_of(table, number);
+                const Filter filter(
+                    BroadcastReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
+                do
+                    found.test(filter, S::ids_of(table, block)[lane],
+                               table.first_slot + 16 * number + lane, pairs[end++] & 15);
+                while (!is_cheap<Filter> && end < count && pairs[end] >> 4 == shape);
+            }
+        });
+        return end;
+    }
+
+    /// Whether to make a filter again is faster than to ask whether it would be the same.
+    template <class Filter>
+    static constexpr bool is_cheap =
+        Method::certifies&& Method::rounded_alone && !sifts_packets<Filter, typename Method::Rays>;
+
+    typename S::Rows rows_of(std::uint32_t block) const {
+        return S::rows_of(S::block_of(scene.tables[S::kind_of(block)], block & child_index));
+    }
+
+    /// Writes the wanted ones of a register's worth of numbers, with others above them. Returns how
+    /// many.
+    static int list(const std::uint32_t* of, std::uint32_t above, std::uint32_t wanted,
+                    std::uint32_t* to) {
+        Lanes<Arch>::compress_store(reinterpret_cast<float*>(to),
+                                    S::load_bits(of) | S::broadcast_bits(above), wanted);
+        return __builtin_popcount(wanted);
+    }
+
+    /// Blocks that are looked at together.
+    static constexpr int batch = 4;
+    static constexpr std::uint32_t numbers[] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                8, 9, 10, 11, 12, 13, 14, 15};
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "simd/kernel/traverse/in_flight/in_flight.hpp"
+
+namespace raylane::simd {
+
+/// Whether anything is in the way of many rays in flight at a time. One that is blocked is done.
+template <class Arch, class Method>
+class TraceShadows : InFlight<Arch, Method> {
+    using S = Streams<Arch>;
+    using Base = InFlight<Arch, Method>;
+    using typename S::F;
+
+    struct Shadow : Base::Traveller {
+        float t_most;
+        std::uint8_t state;
+        std::uint32_t* bottom; ///< no_child
+        std::uint32_t* top;    ///< behind the last of the children that are still to be visited
+    };
+
+    const SceneView& scene_;
+    const RoundedRays& rays_;
+    const Occlusions& occlusions_;
+    const std::size_t count_;
+    Shadow shadows_[in_flight];
+    std::size_t next_ = 0, loaded_ = ~std::size_t{0};
+    BoxRays<Arch> box_rays_{};
+
+    TraceShadows(const SceneView& scene, std::size_t count, const RoundedRays& rays,
+                 const Occlusions& occlusions, const Pending& pending)
+        : scene_(scene), rays_(rays), occlusions_(occlusions), count_(count) {
+        for (std::size_t which = 0; which < in_flight; ++which) {
+            shadows_[which].bottom = pending.child + pending_entries(scene.tree_depth) * which;
+            *shadows_[which].bottom = no_child;
+        }
+    }
+
+  public:
+    static void occluded(const SceneView& scene, std::size_t count, const RoundedRays& rays,
+                         const Occlusions& occlusions, const Pending& pending,
+                         TraceCounters& counters) {
+        TraceShadows all(scene, count, rays, occlusions, pending);
+        Base::go(scene, all.shadows_, all, counters);
+    }
+
+    /// Those that are blocked already are passed over.
+    bool start(Shadow& shadow) {
+        while (next_ < count_ && occlusions_.state[next_] == blocked)
+            ++next_;
+        if (next_ >= count_) return false;
+        if (loaded_ != next_ / 16) {
+            loaded_ = next_ / 16;
+            box_rays_.load(scene_, rays_, 16 * loaded_);
+        }
+        shadow.set_out(box_rays_, next_);
+        shadow.t_most = occlusions_.t_most[next_];
+        shadow.state = occlusions_.state[next_];
+        shadow.top = shadow.bottom + 1;
+        ++next_;
+        return true;
+    }
+
+    static std::uint32_t next(Shadow& shadow) {
+        const std::uint32_t child = shadow.top[-1];
+        --shadow.top;
+        return child;
+    }
+
+    static void at_node(Shadow& shadow, const NodeView& node) {
+        const F t_most(shadow.t_most);
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            F near = zero<Arch>();
+            const std::uint32_t bits =
+                shadow.box.template enter<Arch>(node, shadow.rows, from, t_most, near);
+            Lanes<Arch>::compress_store(reinterpret_cast<float*>(shadow.top),
+                                        S::load_bits(node.children + from), bits);
+            shadow.top += __builtin_popcount(bits);
+        }
+    }
+
+    void at_blocks(const int* which, int count) {
+        Base::for_each_at_block(scene_, rays_, which, count, shadows_, *this);
+    }
+
+    /// Looks for what is in the way in the block that a ray is at.
+    template <class Filter>
+    [[gnu::always_inline]] void all(Shadow& shadow, const TableView& table) const {
+        take(shadow, Leaf<Arch, Method>::template occluded<Filter>(scene_, table,
+                                                                   shadow.child & child_index,
+                                                                   rays_, shadow.i, shadow.t_most));
+    }
+    /// The same of some pairs.
+    template <class Filter>
+    [[gnu::always_inline]] void some(const Pairs<Arch, Method>& pairs) {
+        const PairBounds bounds = pairs.template bound<Filter>();
+        for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
+            const int k = __builtin_ctz(bits);
+            Shadow& shadow = shadows_[pairs.whose[k]];
+            if (!(bounds.lower[k] < shadow.t_most * perhaps_within)) continue;
+            const bool certain =
+                (bounds.certain >> k & 1) != 0 && bounds.upper[k] < shadow.t_most * surely_within;
+            take(shadow, certain && S::is_plain(scene_, pairs.slot[k]) ? blocked : doubtful);
+        }
+    }
+
+    static void take(Shadow& shadow, std::uint8_t state) {
+        shadow.state = state > shadow.state ? state : shadow.state;
+        shadow.top = state == blocked ? shadow.bottom + 1 : shadow.top;
+    }
+
+    void land(const Shadow& shadow) const { occlusions_.state[shadow.i] = shadow.state; }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,130 @@
+#pragma once
+
+#include "simd/kernel/traverse/box_ray.hpp"
+#include "simd/kernel/traverse/rays.hpp"
+
+namespace raylane::simd {
+
+/// What may be the nearest crossing of one ray.
+struct Best {
+    float first, second;
+    std::uint32_t slot;
+};
+
+/// What a list of rays in the hierarchy says of one of them.
+struct alignas(64) StreamRecord {
+    BoxRay box;
+    Best best;
+};
+static_assert(sizeof(StreamRecord) == stream_record_bytes);
+
+/// Which of a block's shapes may be crossed, and from where on.
+struct LeafHits {
+    std::uint32_t lanes;
+    alignas(64) float t[16]; ///< in these lanes
+};
+
+/// One ray against the shapes of a block.
+template <class Arch, class Method>
+struct Leaf : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    static Best best_of(const Candidates& candidates, std::size_t i) {
+        return {candidates.first[i], candidates.second[i], candidates.slot[i]};
+    }
+    static void store(const Best& best, const Candidates& candidates, std::size_t i) {
+        candidates.first[i] = best.first;
+        candidates.second[i] = best.second;
+        candidates.slot[i] = best.slot;
+    }
+
+    /// The shapes that the ray does not leave.
+    static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {
+        return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.departed_first[i]),
+                                      S::broadcast_bits(rays.departed_last[i]));
+    }
+
+    /// The shapes that may be met, as bits, as far as that can be told for less than their bounds
+    /// cost.
+    template <class Filter>
+    [[gnu::always_inline]] static std::uint32_t
+    may_meet(const TableView& table, std::uint32_t number, const RoundedRays& rays, std::size_t i) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        std::uint32_t some = 0;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            M lanes = elsewhere(ids + from, rays, i);
+            if constexpr (has_may_meet<Filter, typename Method::Rays>)
+                lanes = lanes & Filter(BlockReader<Arch>(S::rows_of(block), from))
+                                    .may_meet(Method::broadcast(rays, i));
+            else
+                lanes = lanes & S::filled(ids + from);
+            some |= Lanes<Arch>::bits(lanes) << from;
+        }
+        return some;
+    }
+
+    /// What may be crossed before `second`.
+    template <class Filter>
+    [[gnu::always_inline]] static void find(const TableView& table, std::uint32_t number,
+                                            const RoundedRays& rays, std::size_t i, float second,
+                                            LeafHits& hits) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        const typename Method::Rays ray = Method::broadcast(rays, i);
+        hits.lanes = 0;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const Bounds<Arch> bounds = filter.bounds(ray);
+            const M counts =
+                bounds.possible & elsewhere(ids + from, rays, i) & (bounds.lower < F(second));
+            hits.lanes |= Lanes<Arch>::bits(counts) << from;
+            bounds.lower.store_unaligned(hits.t + from);
+        }
+    }
+
+    /// Takes account of what was found, which is something.
+    [[gnu::always_inline]] static void take(const LeafHits& hits, std::uint32_t first_slot,
+                                            Best& best) {
+        for (std::uint32_t lanes = hits.lanes; lanes != 0; lanes &= lanes - 1) {
+            const int lane = __builtin_ctz(lanes);
+            take(hits.t[lane], first_slot + static_cast<std::uint32_t>(lane), best);
+        }
+    }
+
+    /// The same of one crossing.
+    [[gnu::always_inline]] static void take(float t, std::uint32_t slot, Best& best) {
+        const bool nearer = t < best.first;
+        const float behind = t < best.second ? t : best.second;
+        best.second = nearer ? best.first : behind;
+        best.slot = nearer ? slot : best.slot;
+        best.first = nearer ? t : best.first;
+    }
+
+    template <class Filter>
+    [[gnu::always_inline]] static std::uint8_t
+    occluded(const SceneView& scene, const TableView& table, std::uint32_t number,
+             const RoundedRays& rays, std::size_t i, float t_most) {
+        const float* block = S::block_of(table, number);
+        const std::uint32_t* ids = S::ids_of(table, block);
+        const typename Method::Rays ray = Method::broadcast(rays, i);
+        const std::uint32_t plain = S::plain_lanes(scene, table.first_slot + 16 * number);
+        std::uint8_t state = open;
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const std::uint32_t asked = Lanes<Arch>::bits(elsewhere(ids + from, rays, i));
+            const Obstacle<Arch> obstacle = obstacle_of<Arch>(
+                filter, ray, asked, F(t_most * perhaps_within), F(t_most * surely_within));
+            if ((Lanes<Arch>::bits(obstacle.possible) & asked) == 0) continue;
+            if ((Lanes<Arch>::bits(obstacle.possible & obstacle.certain) & asked & plain >> from) !=
+                0)
+                return blocked;
+            state = doubtful;
+        }
+        return state;
+    }
+};
+
+} // namespace raylane::simd

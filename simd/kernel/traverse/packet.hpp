@@ -1,0 +1,103 @@
+#pragma once
+
+#include "simd/kernel/traverse/rays.hpp"
+
+namespace raylane::simd {
+
+/// Rays of a stream, one per lane.
+template <class Arch, class Method>
+struct Packet {
+    using S = Streams<Arch>;
+    using F = Floats<Arch>;
+
+    typename Method::Rays rays;
+    F departed_first, departed_last;
+
+    Packet(const typename Method::Rays& rays_there, const F& first, const F& last)
+        : rays(rays_there), departed_first(first), departed_last(last) {}
+    Packet(const RoundedRays& stream, std::size_t i)
+        : rays(Method::packet(stream, i)), departed_first(S::load_bits(stream.departed_first + i)),
+          departed_last(S::load_bits(stream.departed_last + i)) {}
+
+    /// Those that do not leave the shape.
+    Mask<Arch> elsewhere(std::uint32_t id) const {
+        return ~Lanes<Arch>::in_range(S::broadcast_bits(id), departed_first, departed_last);
+    }
+};
+
+/// Candidates of a packet's rays.
+template <class Arch>
+struct PacketCandidates {
+    using S = Streams<Arch>;
+    using F = Floats<Arch>;
+
+    F first, second, slot;
+
+    PacketCandidates(const Candidates& candidates, std::size_t i)
+        : first(S::load(candidates.first + i)), second(S::load(candidates.second + i)),
+          slot(S::load_bits(candidates.slot + i)) {}
+
+    void store(const Candidates& candidates, std::size_t i) const {
+        first.store_unaligned(candidates.first + i);
+        second.store_unaligned(candidates.second + i);
+        S::store_bits(slot, candidates.slot + i);
+    }
+
+    /// Takes account of one shape.
+    template <class Filter, class Method>
+    [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id,
+                                     std::uint32_t this_slot, const Packet<Arch, Method>& packet) {
+        if constexpr (sifts_packets<Filter, typename Method::Rays>)
+            if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
+        const Bounds<Arch> bounds = filter.bounds(packet.rays);
+        const F t = select(bounds.possible & packet.elsewhere(id), bounds.lower, S::infinity());
+        slot = select(t < first, S::broadcast_bits(this_slot), slot);
+        second = min(second, max(t, first));
+        first = min(first, t);
+    }
+};
+
+/// Occlusions of a packet's rays.
+template <class Arch>
+struct PacketOcclusions {
+    using S = Streams<Arch>;
+    using F = Floats<Arch>;
+
+    F t_most, perhaps_before, surely_before;
+    std::uint32_t some = 0; ///< rays that something may be in the way of, as bits
+    std::uint32_t sure = 0; ///< and those that are blocked
+
+    PacketOcclusions(const Occlusions& occlusions, std::size_t i)
+        : t_most(S::load(occlusions.t_most + i)), perhaps_before(t_most * F(perhaps_within)),
+          surely_before(t_most * F(surely_within)) {}
+
+    /// Takes account of one shape, for those of the rays that are `asked` about.
+    template <class Filter, class Method>
+    [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
+                                     const Packet<Arch, Method>& packet,
+                                     std::uint32_t asked = ~0U) {
+        asked &= Lanes<Arch>::bits(packet.elsewhere(id));
+        if (asked == 0) return;
+        if constexpr (sifts_packets<Filter, typename Method::Rays>)
+            if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
+        const Obstacle<Arch> obstacle =
+            obstacle_of<Arch>(filter, packet.rays, asked, perhaps_before, surely_before);
+        some |= Lanes<Arch>::bits(obstacle.possible) & asked;
+        if (plain) sure |= Lanes<Arch>::bits(obstacle.possible & obstacle.certain) & asked;
+    }
+
+    /// Stores the first `count` lanes at most. Returns whether all of these are blocked.
+    bool store(std::uint8_t* state, std::size_t count) const {
+        bool all_blocked = true;
+        for (std::size_t lane = 0; lane < count && lane < F::size; ++lane) {
+            if ((sure >> lane & 1) != 0)
+                state[lane] = blocked;
+            else if ((some >> lane & 1) != 0 && state[lane] == open)
+                state[lane] = doubtful;
+            all_blocked = all_blocked && state[lane] == blocked;
+        }
+        return all_blocked;
+    }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "simd/kernel/traverse/leaf.hpp"
+
+namespace raylane::simd {
+
+/// Whether a filter tells which rays of a packet are worth the cost of its bounds.
+template <class Filter, class Method>
+inline constexpr bool packs_pairs =
+    Method::rounded_alone&& sifts_packets<Filter, typename Method::Rays>;
+
+/// Bounds of pairs, with the masks as bits. Only what is there is possible, and none of what rays
+/// leave.
+struct PairBounds {
+    float lower[16], upper[16];
+    std::uint32_t possible, certain;
+};
+
+/// Pairs of a ray and a shape that it may meet, one per lane: of the shapes in a block, a ray may
+/// meet one or two.
+template <class Arch, class Method>
+class Pairs : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+  public:
+    std::uint32_t slot[16];
+    int whose[16]; ///< the caller's number of the ray
+
+    /// Adds those of a ray and what it may meet in a block. Whenever there are 16, calls take() and
+    /// goes on without them.
+    template <class Filter, class Take>
+    [[gnu::always_inline]] void gather(const TableView& table, std::uint32_t number,
+                                       const RoundedRays& rays, std::size_t i, int owner,
+                                       const Take& take) {
+        std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(table, number, rays, i);
+        for (; bits != 0; bits &= bits - 1) {
+            add(table, number, __builtin_ctz(bits), rays, i, owner);
+            if (count_ == 16) finish(take);
+        }
+    }
+    /// Calls take() for what is left.
+    template <class Take>
+    [[gnu::always_inline]] void finish(const Take& take) {
+        if (count_ != 0) take();
+        count_ = 0;
+    }
+
+    bool empty() const { return count_ == 0; }
+
+    /// A function to itself: it is the same for all who ask.
+    template <class Filter>
+    [[gnu::noinline]] PairBounds bound() const {
+        static_assert(Filter::values <= most_values);
+        PairBounds result{};
+        for (int from = 0; from < count_; from += static_cast<int>(F::size)) {
+            const auto load = [&](const float(&rows)[3][16]) {
+                return Vectors<Arch>{S::load(rows[0] + from), S::load(rows[1] + from),
+                                     S::load(rows[2] + from)};
+            };
+            const Bounds<Arch> bounds =
+                Filter(BlockReader<Arch>(values_, from))
+                    .bounds({load(origin_), load(direction_), S::load(slack_ + from)});
+            const M possible =
+                bounds.possible & S::first_lanes(static_cast<std::size_t>(count_ - from));
+            result.possible |= Lanes<Arch>::bits(possible) << from;
+            result.certain |= Lanes<Arch>::bits(possible & bounds.certain) << from;
+            bounds.lower.store_unaligned(result.lower + from);
+            bounds.upper.store_unaligned(result.upper + from);
+        }
+        return result;
+    }
+
+  private:
+    void add(const TableView& table, std::uint32_t number, int lane, const RoundedRays& rays,
+             std::size_t i, int owner) {
+        const float* const block = S::block_of(table, number);
+        const auto rows = S::rows_of(block);
+        for (std::uint32_t value = 0; value < table.values; ++value)
+            values_[value][count_] = rows[value][lane];
+        for (int axis = 0; axis < 3; ++axis) {
+            origin_[axis][count_] = rays.origin[axis][i];
+            direction_[axis][count_] = rays.direction[axis][i];
+        }
+        slack_[count_] = rays.slack[i];
+        slot[count_] = table.first_slot + 16 * number + static_cast<std::uint32_t>(lane);
+        whose[count_++] = owner;
+    }
+
+    static constexpr int most_values = 8;
+
+    float values_[most_values][16];
+    float origin_[3][16], direction_[3][16], slack_[16];
+    int count_ = 0;
+};
+
+/// Of each kind. They wait for each other across blocks.
+template <class Arch, class Method>
+class PairsByKind {
+  public:
+    Pairs<Arch, Method>& of(KindNumber kind) { return pairs_[kind]; }
+
+    /// Calls take.template operator()<Filter>(pairs) for those that are left of each kind.
+    template <class Take>
+    [[gnu::always_inline]] void finish(const Take& take) {
+        for (KindNumber kind = 0; kind < kinds; ++kind)
+            if (!of(kind).empty())
+                Method::with_filter(kind, [&]<class Filter>() {
+                    if constexpr (packs_pairs<Filter, Method>)
+                        of(kind).finish([&] { take.template operator()<Filter>(of(kind)); });
+                });
+    }
+
+  private:
+    Pairs<Arch, Method> pairs_[kinds];
+};
+
+} // namespace raylane::simd

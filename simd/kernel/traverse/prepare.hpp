@@ -1,0 +1,100 @@
+#pragma once
+
+#include "simd/kernel/filters/filter.hpp"
+#include "simd/kernel/lanes/short_lanes.hpp"
+#include "simd/kernel/traverse/rays.hpp"
+#include "simd/kernels.hpp"
+
+namespace raylane::simd {
+
+/// RayKernels
+template <class Arch>
+struct Prepare : Streams<Arch> {
+    using S = Streams<Arch>;
+    using typename S::F;
+    using typename S::M;
+
+    /// core::CameraRays, in double.
+    static void camera_rays(const CameraView& camera, std::size_t count, const double* across,
+                            const double* upward, double* const origin[3],
+                            double* const direction[3]) {
+        using D = Double<Arch>;
+        using Number = Floats<D>;
+        const auto broadcast = [](const double(&v)[3]) {
+            return Vectors<D>{Number(v[0]), Number(v[1]), Number(v[2])};
+        };
+        const Vectors<D> from = broadcast(camera.from), forward = broadcast(camera.forward);
+        const Vectors<D> right = broadcast(camera.right), up = broadcast(camera.up);
+        for (std::size_t i = 0; i < count; i += Number::size) {
+            const Number x = Number::load_unaligned(across + i);
+            const Number y = Number::load_unaligned(upward + i);
+            const Vectors<D> offset{x * right.x + y * up.x, x * right.y + y * up.y,
+                                    x * right.z + y * up.z};
+            const Vectors<D> o = camera.orthographic ? from + offset : from;
+            const Vectors<D> d = camera.orthographic ? forward : normalized<D>(forward + offset);
+            const Number* const values[] = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
+            double* const columns[] = {origin[0],    origin[1],    origin[2],
+                                       direction[0], direction[1], direction[2]};
+            for (int k = 0; k < 6; ++k)
+                values[k]->store_unaligned(columns[k] + i);
+        }
+    }
+
+    static void round_rays(std::size_t count, const RoundedRays& rays) {
+        using D = Double<Arch>;
+        using Number = Floats<D>;
+        for (std::size_t i = 0; i < count; i += F::size) {
+            double moved[F::size] = {}; // by rounding, all coordinates together
+            for (int axis = 0; axis < 3; ++axis) {
+                const double* const meant = rays.meant_origin[axis] + i;
+                const F o = Lanes<Arch>::narrow(meant);
+                o.store_unaligned(rays.origin[axis] + i);
+                for (int half = 0; half < 2; ++half) {
+                    double* const sum = moved + half * Number::size;
+                    const Number rounded = Lanes<D>::widen(o, half);
+                    const Number off =
+                        rounded - Number::load_unaligned(meant + half * Number::size);
+                    (Number::load_unaligned(sum) + abs(off)).store_unaligned(sum);
+                }
+                Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
+                    .store_unaligned(rays.direction[axis] + i);
+            }
+            // As FilterRays asks for.
+            (Lanes<Arch>::narrow(moved) * F(1 + 0x1p-15F) + F(slack_floor))
+                .store_unaligned(rays.slack + i);
+        }
+    }
+
+    static std::size_t list_uncertain(std::size_t count, const Candidates& candidates,
+                                      const double* t, const double* error,
+                                      const std::uint32_t* hit, const std::uint8_t* doubtful,
+                                      std::uint32_t* lanes) {
+        const F none = S::broadcast_bits(no_slot);
+        const F unsolved = S::broadcast_bits(hit_doubtful | hit_none), nothing = zero<Arch>();
+        std::size_t listed = 0;
+        std::uint32_t asked = 0; // of 16
+        for (std::size_t i = 0; i < count; i += F::size) {
+            // Rounded to float, each is off by half an ulp, and so are their sum and the product.
+            const F last =
+                (Lanes<Arch>::narrow(t + i) + Lanes<Arch>::narrow(error + i)) * F(1 + 0x1p-21F);
+            const F most = min(S::load(candidates.second + i),
+                               S::load(candidates.first + i) * F(culling_slack));
+            const M solved =
+                Lanes<Arch>::in_range(S::load_bits(hit + i) & unsolved, nothing, nothing);
+            const M missed = Lanes<Arch>::in_range(S::load_bits(candidates.slot + i), none, none);
+            std::uint32_t uncertain = Lanes<Arch>::bits(~(missed | (solved & (last <= most))));
+            if (i % 16 == 0) asked = ~ShortLanes<Arch>::equal_16(doubtful + i, 0) & 0xFFFF;
+            uncertain |= asked >> i % 16 & ((1U << F::size) - 1);
+            if (uncertain == 0) continue;
+            if (count - i < F::size) uncertain &= (1U << (count - i)) - 1;
+            for (; uncertain != 0; uncertain &= uncertain - 1)
+                lanes[listed++] =
+                    static_cast<std::uint32_t>(i) + static_cast<unsigned>(__builtin_ctz(uncertain));
+        }
+        return listed;
+    }
+
+    static constexpr RayKernels table() { return {camera_rays, round_rays, list_uncertain}; }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "simd/kernel/lanes/short_lanes.hpp"
+#include "simd/kernel/traverse/box_ray.hpp"
+
+namespace raylane::simd {
+
+/// What a ray is still to visit: children, and where it enters them. The next is the one of the
+/// last 16 that it enters first. Where it enters is held in 16 bits, which is as much as order
+/// needs: of two that it enters within 1/256 of each other, any may be the next.
+template <class Arch>
+struct Queue {
+    using S = Streams<Arch>;
+    using F = Floats<Arch>;
+    static constexpr int window = 16;
+
+    std::uint16_t* key; ///< behind 16 that are no child's
+    std::uint32_t* child;
+    int size;
+
+    /// In the room of one ray.
+    void place(const Pending& pending, int ray, std::uint32_t levels) {
+        const std::size_t room = pending_entries(levels) * static_cast<std::size_t>(ray);
+        key = pending.key + room + window;
+        child = pending.child + room + window;
+        for (int i = -window; i < 0; ++i)
+            key[i] = 0xFFFF;
+    }
+
+    /// Starts with a child that any ray enters.
+    void start(std::uint32_t only) {
+        key[0] = 0;
+        child[0] = only;
+        size = 1;
+    }
+
+    /// Adds the children of a node that are entered before `first`, the t of the nearest crossing
+    /// so far.
+    [[gnu::always_inline]] void enter(const NodeView& node, const BoxRay& ray,
+                                      const BoxRay::Rows& rows, float first) {
+        const F t_most(first * culling_slack);
+        for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
+            F near = zero<Arch>();
+            const std::uint32_t bits = ray.template enter<Arch>(node, rows, from, t_most, near);
+            add(near, node.children + from, bits);
+        }
+    }
+
+    /// Adds some of a register's worth of children, entered at `near` >= 0.
+    [[gnu::always_inline]] void add(const F& near, const std::uint32_t* children,
+                                    std::uint32_t wanted) {
+        ShortLanes<Arch>::compress_keys(key + size, near, wanted);
+        Lanes<Arch>::compress_store(reinterpret_cast<float*>(child + size), S::load_bits(children),
+                                    wanted);
+        size += __builtin_popcount(wanted);
+    }
+
+    /// The next child, unless all are entered too far behind the first crossing.
+    [[gnu::always_inline]] std::uint32_t pop(float first) {
+        return pop_before(first * culling_slack * BoxRay::allowance);
+    }
+
+    /// The one that was added last, unless there is none.
+    std::uint32_t pop_last() { return size == 0 ? no_child : child[--size]; }
+
+    /// The next child, unless all are entered behind a limit. Nothing in it branches for what
+    /// depends on the ray, but for what is beyond the last 16.
+    [[gnu::always_inline]] std::uint32_t pop_before(float limit) {
+        const float positive = limit > 0 ? limit : 0;
+        const std::uint32_t last = __builtin_bit_cast(std::uint32_t, positive) >> 15;
+        for (;;) {
+            const std::uint32_t nearest = ShortLanes<Arch>::least_of_16(key + size - window);
+            const std::uint32_t behind = static_cast<std::uint32_t>((nearest >> 16) <= last) - 1;
+            const int at = size - window + static_cast<int>(nearest & 0xFFFF);
+            const std::uint32_t result = child[at] | behind;
+            key[at] = key[size - 1];
+            child[at] = child[size - 1];
+            size -= static_cast<int>(behind & (window - 1)) + 1;
+            if (result != no_child) [[likely]]
+                return result;
+            if (size <= 0) return result;
+        }
+    }
+};
+
+} // namespace raylane::simd
