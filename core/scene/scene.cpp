@@ -131,18 +131,9 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     return std::move(scene_);
 }
 
-#define RAYLANE_INSTANTIATE(Shape) template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);
-RAYLANE_INSTANTIATE(Sphere)
-RAYLANE_INSTANTIATE(Plane)
-RAYLANE_INSTANTIATE(Disc)
-RAYLANE_INSTANTIATE(Triangle)
-RAYLANE_INSTANTIATE(SmoothTriangle)
-RAYLANE_INSTANTIATE(Box)
-RAYLANE_INSTANTIATE(OpenCylinder)
-RAYLANE_INSTANTIATE(CappedCylinder)
-RAYLANE_INSTANTIATE(OpenCone)
-RAYLANE_INSTANTIATE(CappedCone)
-RAYLANE_INSTANTIATE(Quadric)
+#define RAYLANE_INSTANTIATE(Shape, name, text)                                                     \
+    template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);
+RAYLANE_SHAPES(RAYLANE_INSTANTIATE)
 #undef RAYLANE_INSTANTIATE
 template ShapeId SceneBuilder::add_polygon(std::span<const Triangle>, MaterialIndex);
 template ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle>, MaterialIndex);

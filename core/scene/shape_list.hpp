@@ -54,10 +54,6 @@ class ShapeList {
 };
 
 /// One list per kind, in the order of `Kind`.
-using ShapeLists = std::tuple<ShapeList<Sphere>, ShapeList<Plane>, ShapeList<Disc>,
-                              ShapeList<Triangle>, ShapeList<SmoothTriangle>, ShapeList<Box>,
-                              ShapeList<OpenCylinder>, ShapeList<CappedCylinder>,
-                              ShapeList<OpenCone>, ShapeList<CappedCone>, ShapeList<Quadric>>;
-static_assert(std::tuple_size_v<ShapeLists> == kind_count);
+using ShapeLists = OfEachShape<ShapeList>;
 
 } // namespace raylane::core

@@ -83,41 +83,7 @@ class Table {
 };
 
 /// One table per kind, in the order of `Kind`.
-using Tables =
-    std::tuple<Table<Sphere>, Table<Plane>, Table<Disc>, Table<Triangle>, Table<SmoothTriangle>,
-               Table<Box>, Table<OpenCylinder>, Table<CappedCylinder>, Table<OpenCone>,
-               Table<CappedCone>, Table<Quadric>>;
-static_assert(std::tuple_size_v<Tables> == kind_count);
-
-/// Calls `visit(std::type_identity<Shape>())` with the type of shape that `kind` is.
-template <class Visit>
-decltype(auto) with_shape_type(Kind kind, Visit&& visit) {
-    switch (kind) {
-    case Kind::sphere:
-        return visit(std::type_identity<Sphere>());
-    case Kind::plane:
-        return visit(std::type_identity<Plane>());
-    case Kind::disc:
-        return visit(std::type_identity<Disc>());
-    case Kind::triangle:
-        return visit(std::type_identity<Triangle>());
-    case Kind::smooth_triangle:
-        return visit(std::type_identity<SmoothTriangle>());
-    case Kind::box:
-        return visit(std::type_identity<Box>());
-    case Kind::open_cylinder:
-        return visit(std::type_identity<OpenCylinder>());
-    case Kind::capped_cylinder:
-        return visit(std::type_identity<CappedCylinder>());
-    case Kind::open_cone:
-        return visit(std::type_identity<OpenCone>());
-    case Kind::capped_cone:
-        return visit(std::type_identity<CappedCone>());
-    case Kind::quadric:
-        break;
-    }
-    return visit(std::type_identity<Quadric>());
-}
+using Tables = OfEachShape<Table>;
 
 /// Calls `visit(table)` with the table of `kind`.
 template <class TablesRef, class Visit>

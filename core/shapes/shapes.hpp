@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/kinds.hpp"
 #include "core/numbers/vector.hpp"
 
 #include <algorithm>
@@ -9,7 +10,6 @@
 #include <iterator>
 #include <limits>
 #include <span>
-#include <string_view>
 
 /// The shapes. Each *is* its floats: the surface meant is the one that real arithmetic gives for
 /// exactly these values. Nothing is normalised, transformed or rounded on the way in.
@@ -56,8 +56,6 @@ struct Box {
     Vec3f edge_u, edge_v, edge_w;
 };
 
-enum class Ends : std::uint8_t { open, capped };
-
 /// Points at distance `radius` from the line base + s axis, with s in [0, 1]. Capped: solid.
 template <Ends ends>
 struct Cylinder {
@@ -65,8 +63,6 @@ struct Cylinder {
     Vec3f axis;
     float radius; ///< > 0
 };
-using OpenCylinder = Cylinder<Ends::open>;
-using CappedCylinder = Cylinder<Ends::capped>;
 
 /// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1].
 /// Capped: solid.
@@ -77,8 +73,6 @@ struct Cone {
     float base_radius; ///< >= 0
     float top_radius;  ///< >= 0, not both 0
 };
-using OpenCone = Cone<Ends::open>;
-using CappedCone = Cone<Ends::capped>;
 
 /// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper, where
 ///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z
@@ -89,22 +83,6 @@ struct Quadric {
     float xx, yy, zz, xy, xz, yz, x, y, z, one;
     Vec3f lower, upper;
 };
-
-/// Every kind of shape, in the order of the tables.
-enum class Kind : std::uint8_t {
-    sphere,
-    plane,
-    disc,
-    triangle,
-    smooth_triangle,
-    box,
-    open_cylinder,
-    capped_cylinder,
-    open_cone,
-    capped_cone,
-    quadric,
-};
-inline constexpr int kind_count = 11;
 
 /// How many floats a shape is.
 template <class Shape>
@@ -121,33 +99,6 @@ Floats<Shape> floats_of(const Shape& shape) {
 template <class Shape>
 Shape shape_of(const Floats<Shape>& floats) {
     return std::bit_cast<Shape>(floats);
-}
-
-/// What the kind of a shape type is, and what people call it.
-template <class Shape>
-struct KindOf;
-// clang-format off
-template <> struct KindOf<Sphere> { static constexpr Kind value = Kind::sphere; };
-template <> struct KindOf<Plane> { static constexpr Kind value = Kind::plane; };
-template <> struct KindOf<Disc> { static constexpr Kind value = Kind::disc; };
-template <> struct KindOf<Triangle> { static constexpr Kind value = Kind::triangle; };
-template <> struct KindOf<SmoothTriangle> { static constexpr Kind value = Kind::smooth_triangle; };
-template <> struct KindOf<Box> { static constexpr Kind value = Kind::box; };
-template <> struct KindOf<OpenCylinder> { static constexpr Kind value = Kind::open_cylinder; };
-template <> struct KindOf<CappedCylinder> { static constexpr Kind value = Kind::capped_cylinder; };
-template <> struct KindOf<OpenCone> { static constexpr Kind value = Kind::open_cone; };
-template <> struct KindOf<CappedCone> { static constexpr Kind value = Kind::capped_cone; };
-template <> struct KindOf<Quadric> { static constexpr Kind value = Kind::quadric; };
-// clang-format on
-template <class Shape>
-inline constexpr Kind kind_of = KindOf<Shape>::value;
-
-inline constexpr std::array<std::string_view, kind_count> kind_names = {
-    "sphere",        "plane",           "disc",      "triangle",    "smooth triangle", "box",
-    "open cylinder", "capped cylinder", "open cone", "capped cone", "quadric"};
-
-inline constexpr std::string_view name_of(Kind kind) {
-    return kind_names[static_cast<std::size_t>(kind)];
 }
 
 /// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added.
