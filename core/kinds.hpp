@@ -104,7 +104,7 @@ constexpr std::string_view type_name_of(Kind kind) {
 
 /// Calls visit(std::type_identity<Shape>()) with the type of shape that `kind` is.
 template <class Visit>
-decltype(auto) with_shape_type(Kind kind, Visit&& visit) {
+constexpr decltype(auto) with_shape_type(Kind kind, Visit&& visit) {
     switch (kind) {
 #define RAYLANE_CASE(Shape, name, text)                                                            \
     case Kind::name:                                                                               \

@@ -50,22 +50,6 @@ std::size_t Duplicates::drop_from(std::span<Item> items, std::vector<std::uint32
     return left;
 }
 
-ShapeList<Plane> Duplicates::without_duplicates(const ShapeList<Plane>& planes) const {
-    std::vector<Item> items;
-    items.reserve(planes.size());
-    for (std::size_t i = 0; i < planes.size(); ++i)
-        items.emplace_back(Bounds{planes[i].shape.point, planes[i].shape.normal}, Kind::plane,
-                           static_cast<std::uint32_t>(i));
-    std::vector<std::uint32_t> room;
-    items.resize(drop_from(items, room, true));
-    std::sort(items.begin(), items.end(),
-              [](const Item& a, const Item& b) { return a.position() < b.position(); });
-    ShapeList<Plane> left;
-    for (const Item& item : items)
-        left.add(planes[item.position()].shape, planes[item.position()].id);
-    return left;
-}
-
 bool Duplicates::are_duplicates(const Item& a, const Item& b) const {
     if (a.kind() != b.kind() || !have_same_bounds(a, b)) return false;
     return with_shape_type(a.kind(), [&]<class Shape>(std::type_identity<Shape>) {

@@ -4,6 +4,7 @@
 #include "core/scene/material.hpp"
 #include "core/scene/shape_list.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,7 +28,21 @@ class Duplicates {
     std::size_t drop_from(std::span<Item> items, std::vector<std::uint32_t>& room, bool deep) const;
 
     /// Of unbounded shapes.
-    ShapeList<Plane> without_duplicates(const ShapeList<Plane>& planes) const;
+    template <class Shape>
+    ShapeList<Shape> without_duplicates(const ShapeList<Shape>& list) const {
+        std::vector<Item> items;
+        items.reserve(list.size());
+        for (std::size_t i = 0; i < list.size(); ++i)
+            items.emplace_back(Bounds{}, kind_of<Shape>, static_cast<std::uint32_t>(i));
+        std::vector<std::uint32_t> room;
+        items.resize(drop_from(items, room, true));
+        std::sort(items.begin(), items.end(),
+                  [](const Item& a, const Item& b) { return a.position() < b.position(); });
+        ShapeList<Shape> left;
+        for (const Item& item : items)
+            left.add(list[item.position()].shape, list[item.position()].id);
+        return left;
+    }
 
   private:
     bool are_duplicates(const Item& a, const Item& b) const;

@@ -203,7 +203,7 @@ void emit(BinaryTree& tree, const ShapeLists& lists, Workers& workers, Hierarchy
     hierarchy.nodes = emitter.take_nodes();
     hierarchy.bounds = padded(root.node().bounds);
     for_each_table(tables, [&]<class Shape>(Table<Shape>& table) {
-        if constexpr (kind_of<Shape> != Kind::plane) table = emitter.take_table<Shape>();
+        if constexpr (is_bounded<Shape>) table = emitter.take_table<Shape>();
     });
 }
 

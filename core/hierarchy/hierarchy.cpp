@@ -46,16 +46,12 @@ void add_items(const ShapeList<Shape>& list, Item* to, Workers& workers) {
 
 BigArray<Item> bounded_items(const ShapeLists& lists, Workers& workers) {
     std::size_t count = 0;
-    for_each_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
-        if constexpr (kind_of<Shape> != Kind::plane) count += list.size();
-    });
+    for_each_bounded_table(lists, [&](const auto& list) { count += list.size(); });
     BigArray<Item> items(count);
     Item* next = items.data();
-    for_each_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
-        if constexpr (kind_of<Shape> != Kind::plane) {
-            add_items(list, next, workers);
-            next += list.size();
-        }
+    for_each_bounded_table(lists, [&](const auto& list) {
+        add_items(list, next, workers);
+        next += list.size();
     });
     return items;
 }
@@ -64,9 +60,10 @@ BigArray<Item> bounded_items(const ShapeLists& lists, Workers& workers) {
 
 Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates, Workers& workers,
                           Tables& tables) {
-    const auto& planes = std::get<ShapeList<Plane>>(lists);
-    std::get<Table<Plane>>(tables) =
-        Table<Plane>(duplicates.without_duplicates(planes), planes.size());
+    for_each_unbounded_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
+        std::get<Table<Shape>>(tables) =
+            Table<Shape>(duplicates.without_duplicates(list), list.size());
+    });
     Hierarchy hierarchy;
     BigArray<Item> items = bounded_items(lists, workers);
     if (items.empty()) return hierarchy;

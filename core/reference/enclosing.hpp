@@ -10,14 +10,14 @@
 namespace raylane::core {
 
 /// The transmissive materials that a ray leaves without having entered them, those left first in
-/// front. Planes, which have an inside without end, do not count.
+/// front. What is unbounded, and has an inside without end, does not count.
 template <class Real>
 std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& searcher,
                                       const Ray<Real>& ray) {
     std::vector<Hit<Real>> hits;
     searcher.each(ray, Departure<Real>{}, std::numeric_limits<Real>::infinity(),
                   [&](const Hit<Real>& hit) {
-                      if (hit.kind != Kind::plane && scene.material_of(hit.shape).transmits())
+                      if (traits_of(hit.kind).bounded && scene.material_of(hit.shape).transmits())
                           hits.push_back(hit);
                       return true;
                   });
@@ -46,14 +46,14 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks&
     const auto transmits = [](const Material& material) { return material.transmits(); };
     if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits)) return media;
 
-    for (const Block<Plane>& block : std::get<Table<Plane>>(scene.shapes()).blocks())
-        for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
-            const Plane plane = block.get(lane);
+    for_each_unbounded_table(scene.shapes(), [&](const auto& table) {
+        for_each_shape(table, [&](const Plane& plane, ShapeId id) {
             const Vec3<Real> to_plane = convert<Real>(plane.point) - point;
-            if (scene.material_of(block.ids[lane]).transmits() &&
+            if (scene.material_of(id).transmits() &&
                 dot(to_plane, convert<Real>(plane.normal)) > Real(0))
-                media = stacks.entered(media, scene.material_index_of(block.ids[lane]));
-        }
+                media = stacks.entered(media, scene.material_index_of(id));
+        });
+    });
 
     // Any direction does; a round one would run along faces and edges.
     const Vec3<Real> direction = normalized(Vec3<Real>(Real(0.41), Real(0.57), Real(0.71)));

@@ -17,7 +17,7 @@ struct Hit {
     ShapeId shape = no_shape;
     Face face = body;
     bool entering = false;
-    Kind kind = Kind::sphere;
+    Kind kind{};
     Slot slot{};
     bool joins = false; ///< of several in order: at the same t as the one before
 

@@ -222,7 +222,7 @@ class Searcher {
             for_each_table(scene_.shapes(), visit_all);
             return;
         }
-        visit_all(std::get<Table<Plane>>(scene_.shapes()));
+        for_each_unbounded_table(scene_.shapes(), visit_all);
         if (more && !scene_.hierarchy().nodes.empty()) walk(ray, t_most, visit);
     }
 

@@ -108,12 +108,10 @@ typename ReferenceTracer<Real>::Surface
 ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encounter) const {
     const Hit<Real>& hit = encounter.hit;
     auto [point, flat] = searcher_.surface_at(path.ray, path.departure, hit);
-    Vector normal = flat;
-    if (hit.kind == Kind::smooth_triangle) {
-        const auto& table = std::get<Table<SmoothTriangle>>(scene_.shapes());
-        normal = shading_normal(table.get(hit.slot), point);
-        if (dot(normal, flat) < Real(0)) normal = -normal;
-    }
+    Vector normal = with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
+        return shading_normal_at(table.get(hit.slot), point, flat);
+    });
+    if (dot(normal, flat) < Real(0)) normal = -normal;
     if (!hit.entering) {
         flat = -flat;
         normal = -normal;

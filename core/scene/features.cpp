@@ -24,8 +24,8 @@ Features features_of(const Scene& scene, const Settings& settings) {
     Features features;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
         if (table.size() == 0) return;
-        (kind_of<Shape> == Kind::plane ? features.planes : features.bounded_shapes) = true;
-        if (kind_of<Shape> == Kind::smooth_triangle) features.smooth_normals = true;
+        (is_bounded<Shape> ? features.bounded_shapes : features.planes) = true;
+        features.smooth_normals |= has_shading_normals<Shape>;
     });
 
     std::vector<bool> used(scene.materials().size());

@@ -17,22 +17,6 @@ constexpr double good_enough = 0.1; ///< pixels
 /// All pairs of shapes are compared.
 constexpr std::size_t most_shapes = 1000;
 
-/// Time for a ray at twelve shapes of a kind by each precision, relative to exact's: the geometric
-/// mean of AVX2's and AVX-512's medians, as bench/chart.sh measures them.
-constexpr double costs[kind_count][std::size(all_precisions)] = {
-    {2.29, 1.70, 1.0, 3.37}, // sphere
-    {1.43, 1.56, 1.0, 2.78}, // plane
-    {1.07, 1.18, 1.0, 2.15}, // disc
-    {1.19, 1.18, 1.0, 2.35}, // triangle
-    {1.03, 0.98, 1.0, 2.32}, // smooth triangle
-    {1.34, 1.31, 1.0, 2.41}, // box
-    {1.10, 1.08, 1.0, 1.72}, // open cylinder
-    {1.40, 1.31, 1.0, 2.31}, // capped cylinder
-    {0.92, 1.05, 1.0, 1.72}, // open cone
-    {1.45, 1.52, 1.0, 2.86}, // capped cone
-    {0.87, 1.01, 1.0, 1.77}, // quadric
-};
-
 /// From the box's nearest and to its farthest point.
 struct Distances {
     double nearest, farthest;
@@ -117,10 +101,9 @@ class FloatMethod {
 
     template <class Visit>
     void for_each_bounded(const Visit& visit) const {
-        for_each_table(scene_.shapes(), [&]<class Shape>(const Table<Shape>& table) {
-            if constexpr (kind_of<Shape> != Kind::plane)
-                for_each_shape(
-                    table, [&](const Shape& shape, ShapeId) { visit(shape, bounds_of(shape)); });
+        for_each_bounded_table(scene_.shapes(), [&]<class Shape>(const Table<Shape>& table) {
+            for_each_shape(table,
+                           [&](const Shape& shape, ShapeId) { visit(shape, bounds_of(shape)); });
         });
     }
 
@@ -193,7 +176,7 @@ double mean_cost(const Scene& scene, Precision precision) {
     double sum = 0.0;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
         sum += static_cast<double>(table.size()) *
-               costs[static_cast<std::size_t>(kind_of<Shape>)][static_cast<std::size_t>(precision)];
+               Shape::traits.costs[static_cast<std::size_t>(precision)];
     });
     return scene.shape_count() == 0 ? 1.0 : sum / static_cast<double>(scene.shape_count());
 }

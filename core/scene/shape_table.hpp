@@ -107,4 +107,18 @@ void for_each_table(TablesRef&& tables, Visit&& visit) {
     std::apply([&](auto&... table) { (visit(table), ...); }, tables);
 }
 
+/// The same for the kinds that have bounds, and so are in the hierarchy; and for the others.
+template <class TablesRef, class Visit>
+void for_each_bounded_table(TablesRef&& tables, Visit&& visit) {
+    for_each_table(tables, [&]<template <class> class Of, class Shape>(const Of<Shape>& table) {
+        if constexpr (is_bounded<Shape>) visit(table);
+    });
+}
+template <class TablesRef, class Visit>
+void for_each_unbounded_table(TablesRef&& tables, Visit&& visit) {
+    for_each_table(tables, [&]<template <class> class Of, class Shape>(const Of<Shape>& table) {
+        if constexpr (!is_bounded<Shape>) visit(table);
+    });
+}
+
 } // namespace raylane::core

@@ -32,8 +32,10 @@ ShapeId lowest_in_block(const Block<Shape>& block, const Vec3f& point) {
 
 ShapeId surface_through(const Scene& scene, const Vec3f& point) {
     ShapeId lowest = no_shape;
-    for (const Block<Plane>& block : std::get<Table<Plane>>(scene.shapes()).blocks())
-        lowest = std::min(lowest, lowest_in_block(block, point));
+    for_each_unbounded_table(scene.shapes(), [&](const auto& table) {
+        for (const auto& block : table.blocks())
+            lowest = std::min(lowest, lowest_in_block(block, point));
+    });
 
     const BigArray<WideNode>& nodes = scene.hierarchy().nodes;
     std::vector<Child> pending;

@@ -1,10 +1,14 @@
 #pragma once
 
+#include "core/shapes/bounds.hpp"
 #include "core/shapes/form.hpp"
 #include "core/shapes/judge.hpp"
-#include "core/shapes/ray.hpp"
 
+/// What cylinders and cones have in common.
 namespace raylane::core {
+
+/// What is between two discs at right angles to the axis.
+Bounds frustum_bounds(const Vec3f& base, const Vec3f& axis, double base_radius, double top_radius);
 
 /// A ray taken apart along and across the axis of a cylinder or cone: with f = origin - base,
 ///   height(t) = (f + t direction) . axis, in [0, axis . axis] between the ends,

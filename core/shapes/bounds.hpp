@@ -1,8 +1,9 @@
 #pragma once
 
-#include "core/shapes/shapes.hpp"
+#include "core/numbers/vector.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace raylane::core {
 
@@ -31,16 +32,15 @@ struct Bounds {
     }
 };
 
-/// The smallest box about the shape, or a little more: rounded outwards, never inwards.
-Bounds bounds_of(const Sphere& sphere);
-Bounds bounds_of(const Disc& disc);
-Bounds bounds_of(const Triangle& triangle);
-Bounds bounds_of(const SmoothTriangle& triangle);
-Bounds bounds_of(const Box& box);
-Bounds bounds_of(const OpenCylinder& cylinder);
-Bounds bounds_of(const CappedCylinder& cylinder);
-Bounds bounds_of(const OpenCone& cone);
-Bounds bounds_of(const CappedCone& cone);
-Bounds bounds_of(const Quadric& quadric);
+/// [center - extent, center + extent], given both up to a handful of roundings in double of what is
+/// no larger than `magnitude`; rounded outwards. So are all shapes' bounds: never inwards.
+Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magnitude);
+
+inline Vec3d absolute(const Vec3d& v) {
+    return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
+}
+
+/// Of the disc about base + at * axis, at right angles to the axis.
+Bounds disc_bounds(const Vec3f& base, const Vec3f& axis, double at, double radius);
 
 } // namespace raylane::core

@@ -1,11 +1,43 @@
 #pragma once
 
+#include "core/shapes/checks.hpp"
 #include "core/shapes/convex.hpp"
 #include "core/shapes/form.hpp"
+#include "core/shapes/shape.hpp"
 
 #include <array>
 
 namespace raylane::core {
+
+/// Any parallelepiped, solid: corner + u edge_u + v edge_v + w edge_w for u, v, w in [0, 1].
+struct Box {
+    Vec3f corner;
+    Vec3f edge_u, edge_v, edge_w;
+
+    static constexpr ShapeTraits traits{
+        .flat_faces = true, .meets_again = MeetsAgain::inward, .costs = {1.34, 1.31, 1.0, 2.41}};
+};
+
+inline void validate(const Box& box) {
+    checks::require_point("corner", box.corner);
+    checks::require_direction("edges/0", box.edge_u);
+    checks::require_direction("edges/1", box.edge_v);
+    checks::require_direction("edges/2", box.edge_w);
+    if (checks::vanishes(dot(cross(checks::wide(box.edge_u), checks::wide(box.edge_v)),
+                             checks::wide(box.edge_w))))
+        throw InvalidValue("edges", "must span a volume, got " + checks::text_of(box.edge_u) +
+                                        ", " + checks::text_of(box.edge_v) + ", " +
+                                        checks::text_of(box.edge_w));
+}
+
+inline Bounds bounds_of(const Box& box) {
+    const Vec3d half_u = 0.5 * convert<double>(box.edge_u);
+    const Vec3d half_v = 0.5 * convert<double>(box.edge_v);
+    const Vec3d half_w = 0.5 * convert<double>(box.edge_w);
+    const Vec3d corner = convert<double>(box.corner);
+    const Vec3d extent = absolute(half_u) + absolute(half_v) + absolute(half_w);
+    return bounds_around(corner + half_u + half_v + half_w, extent, absolute(corner) + extent);
+}
 
 /// The outward normal of the faces opposite to the corner, of length volume / height: u x v, v x w,
 /// w x u, turned outwards if the edges are left-handed.

@@ -1,10 +1,43 @@
 #pragma once
 
 #include "core/shapes/axial.hpp"
+#include "core/shapes/checks.hpp"
 #include "core/shapes/convex.hpp"
 #include "core/shapes/quadratic.hpp"
+#include "core/shapes/shape.hpp"
 
 namespace raylane::core {
+
+/// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1].
+/// Capped: solid.
+template <Ends ends>
+struct Cone {
+    Vec3f base;
+    Vec3f axis;
+    float base_radius; ///< >= 0
+    float top_radius;  ///< >= 0, not both 0
+
+    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::inward,
+                                        .costs = ends == Ends::open
+                                                     ? MethodCosts{0.92, 1.05, 1.0, 1.72}
+                                                     : MethodCosts{1.45, 1.52, 1.0, 2.86}};
+};
+
+template <Ends ends>
+void validate(const Cone<ends>& cone) {
+    checks::require_point("base", cone.base);
+    checks::require_direction("axis", cone.axis);
+    checks::require_not_negative("base_radius", cone.base_radius);
+    checks::require_not_negative("top_radius", cone.top_radius);
+    if (cone.base_radius == 0.0F && cone.top_radius == 0.0F)
+        throw InvalidValue("base_radius", "must be positive where top_radius is 0, got 0");
+}
+
+template <Ends ends>
+Bounds bounds_of(const Cone<ends>& cone) {
+    return frustum_bounds(cone.base, cone.axis, static_cast<double>(cone.base_radius),
+                          static_cast<double>(cone.top_radius));
+}
 
 /// |across(t)|^2 = width(t)^2, where the width runs from base_radius to top_radius along the axis:
 ///   F(t) = |across|^2 - width^2 = A t^2 + 2 B t + C,  width(t) = W + t M.

@@ -1,10 +1,38 @@
 #pragma once
 
 #include "core/shapes/axial.hpp"
+#include "core/shapes/checks.hpp"
 #include "core/shapes/convex.hpp"
 #include "core/shapes/quadratic.hpp"
+#include "core/shapes/shape.hpp"
 
 namespace raylane::core {
+
+/// Points at distance `radius` from the line base + s axis, with s in [0, 1]. Capped: solid.
+template <Ends ends>
+struct Cylinder {
+    Vec3f base;
+    Vec3f axis;
+    float radius; ///< > 0
+
+    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::inward,
+                                        .costs = ends == Ends::open
+                                                     ? MethodCosts{1.10, 1.08, 1.0, 1.72}
+                                                     : MethodCosts{1.40, 1.31, 1.0, 2.31}};
+};
+
+template <Ends ends>
+void validate(const Cylinder<ends>& cylinder) {
+    checks::require_point("base", cylinder.base);
+    checks::require_direction("axis", cylinder.axis);
+    checks::require_positive("radius", cylinder.radius);
+}
+
+template <Ends ends>
+Bounds bounds_of(const Cylinder<ends>& cylinder) {
+    const auto radius = static_cast<double>(cylinder.radius);
+    return frustum_bounds(cylinder.base, cylinder.axis, radius, radius);
+}
 
 /// |across(t)| = radius, solved like a sphere at the foot of the perpendicular from the axis.
 template <class Real, Ends ends>

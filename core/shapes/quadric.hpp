@@ -1,12 +1,56 @@
 #pragma once
 
+#include "core/shapes/checks.hpp"
 #include "core/shapes/form.hpp"
 #include "core/shapes/quadratic.hpp"
+#include "core/shapes/shape.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace raylane::core {
+
+/// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper, where
+///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z
+///   pz) + one,
+/// that is (p, 1) M (p, 1)^T for the symmetric 4x4 matrix M. Its outside is where Q > 0.
+struct Quadric {
+    Vec3f center;
+    float xx, yy, zz, xy, xz, yz, x, y, z, one;
+    Vec3f lower, upper;
+
+    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::always,
+                                        .costs = {0.87, 1.01, 1.0, 1.77}};
+};
+
+inline void validate(const Quadric& q) {
+    checks::require_point("center", q.center);
+    const float rows[4][4] = {{q.xx, q.xy, q.xz, q.x},
+                              {q.xy, q.yy, q.yz, q.y},
+                              {q.xz, q.yz, q.zz, q.z},
+                              {q.x, q.y, q.z, q.one}};
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            checks::require_coordinate(checks::Field("matrix").at(row).at(column),
+                                       rows[row][column]);
+    const bool constant = q.xx == 0 && q.yy == 0 && q.zz == 0 && q.xy == 0 && q.xz == 0 &&
+                          q.yz == 0 && q.x == 0 && q.y == 0 && q.z == 0;
+    if (constant) throw InvalidValue("matrix", "must not be constant, got no entry but the last");
+    checks::require_point("lower", q.lower);
+    checks::require_point("upper", q.upper);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(q.lower[axis] < q.upper[axis]))
+            checks::refuse(checks::Field("upper").at(axis),
+                           "must be more than lower's " + checks::text_of(q.lower[axis]),
+                           q.upper[axis]);
+}
+
+inline Bounds bounds_of(const Quadric& quadric) {
+    const Vec3d lower = convert<double>(quadric.lower), upper = convert<double>(quadric.upper);
+    const Vec3d center = convert<double>(quadric.center);
+    return bounds_around(center + 0.5 * (lower + upper), 0.5 * (upper - lower),
+                         absolute(center) + absolute(lower) + absolute(upper));
+}
 
 /// M p for the upper left 3x3 part of the form's matrix.
 template <class Real>

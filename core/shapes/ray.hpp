@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
-#include "core/shapes/shapes.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,14 +1,9 @@
 #pragma once
 
-#include "core/shapes/box.hpp"
-#include "core/shapes/cone.hpp"
-#include "core/shapes/cylinder.hpp"
-#include "core/shapes/flat.hpp"
 #include "core/shapes/judge.hpp"
 #include "core/shapes/normal.hpp"
-#include "core/shapes/quadric.hpp"
 #include "core/shapes/ray.hpp"
-#include "core/shapes/sphere.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

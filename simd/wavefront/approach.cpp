@@ -73,23 +73,22 @@ double Approach::before_of(const core::Ray<double>& ray) const {
     double before = core::dot(to_center, ray.direction) - 2.0 * radius_ -
                     0x1p-49 * (core::length(ray.origin) + core::length(to_center));
     if (!(before > far_away * radius_)) return 0.0;
-    for (const core::Block<core::Plane>& block :
-         std::get<core::Table<core::Plane>>(scene_.scene().shapes()).blocks())
-        for (int i = 0; i < core::block_size && block.ids[i] != core::no_shape; ++i) {
-            const core::Plane plane = block.get(i);
-            const core::Vec3d normal = core::convert<double>(plane.normal);
-            const core::Vec3d to_plane = core::convert<double>(plane.point) - ray.origin;
-            if (is_parallel(normal, ray.direction)) continue;
-            const double size = core::length(normal);
-            const double approach = core::dot(normal, ray.direction);
-            const double t = core::dot(normal, to_plane) / approach;
-            // Each product is off by less than a few ulps of its vectors' lengths.
-            const double error =
-                0x1p-49 * size * (core::length(to_plane) + std::abs(t)) / std::abs(approach);
-            if (t + error < 0.0 || t - error > before + radius_) continue;
-            if (!(error < radius_)) return 0.0;
-            before = std::min(before, t - 2.0 * radius_);
-        }
+    const auto stop_before = [&](const core::Plane& plane, core::ShapeId) {
+        const core::Vec3d normal = core::convert<double>(plane.normal);
+        const core::Vec3d to_plane = core::convert<double>(plane.point) - ray.origin;
+        if (is_parallel(normal, ray.direction)) return;
+        const double size = core::length(normal);
+        const double approach = core::dot(normal, ray.direction);
+        const double t = core::dot(normal, to_plane) / approach;
+        // Each product is off by less than a few ulps of its vectors' lengths.
+        const double error =
+            0x1p-49 * size * (core::length(to_plane) + std::abs(t)) / std::abs(approach);
+        if (t + error < 0.0 || t - error > before + radius_) return;
+        before = error < radius_ ? std::min(before, t - 2.0 * radius_) : 0.0;
+    };
+    core::for_each_unbounded_table(scene_.scene().shapes(), [&](const auto& table) {
+        core::for_each_shape(table, stop_before);
+    });
     return std::max(before, 0.0);
 }
 

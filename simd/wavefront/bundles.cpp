@@ -32,8 +32,7 @@ Bundle bundle_off_mirror(const CameraView& camera, const SceneData& scene, const
     };
     const auto first = static_cast<std::size_t>(reflected.parent[0]);
     const core::Kind kind = scene.occupant_of(slots[order[first]]).kind;
-    if (kind > core::Kind::box || kind == core::Kind::sphere || kind == core::Kind::smooth_triangle)
-        return neighbours;
+    if (!core::traits_of(kind).flat_faces) return neighbours;
     const core::Vec3d from(camera.from[0], camera.from[1], camera.from[2]);
     const core::Vec3d normal = vector_at(surfaces.normal, first);
     const double height = core::dot(vector_at(surfaces.point, first) - from, normal);

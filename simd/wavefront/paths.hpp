@@ -13,12 +13,6 @@ namespace raylane::simd {
 /// Beside the kernels' departure bits: the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t departure_may_return = 0x10000;
 
-/// Whether a ray that leaves a shape may cross it again.
-inline bool may_return(core::Kind kind, bool inward) {
-    if (kind == core::Kind::quadric) return true;
-    return inward && (kind == core::Kind::sphere || kind >= core::Kind::box);
-}
-
 /// Rays underway, structure of arrays: what core::ReferenceTracer::Path holds, but the depth, which
 /// a whole wave shares.
 struct Paths {
@@ -81,7 +75,7 @@ struct Paths {
         departed_last[lane] = shape.coplanar.last;
         departed_slot[lane] = slot;
         departure[lane] = (hit & hit_face) | (inward ? departure_inward : 0) |
-                          (may_return(shape.kind, inward) ? departure_may_return : 0);
+                          (core::may_meet_again(shape.kind, inward) ? departure_may_return : 0);
     }
 
     /// Lanes `begin` to `end` start in the open.

@@ -278,12 +278,11 @@ void Refinery::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t 
         const auto [point, normal] = core::surface_point(scene_.scene(), {ray, departure}, hit);
         if (point != core::mul_add(hit.t, ray.direction, ray.origin))
             points_.push_back({lane, point});
-        core::Vec3d shading = normal;
-        if (hit.kind == core::Kind::smooth_triangle)
-            shading = core::shading_normal(
-                std::get<core::Table<core::SmoothTriangle>>(scene_.scene().shapes()).get(hit.slot),
-                point);
-        hits_.set_normals(candidate, normal, shading);
+        hits_.set_normals(
+            candidate, normal,
+            core::with_table(scene_.scene().shapes(), hit.kind, [&](const auto& table) {
+                return core::shading_normal_at(table.get(hit.slot), point, normal);
+            }));
     }
     // Of points, floats are none of their concern.
     if (for_points_) hits_.hit[candidate] &= ~(hit_normal_unknown | hit_normal_doubtful);

@@ -64,7 +64,8 @@ void ShadowTracer::look_at(const Wave& wave) {
         leave_last_[position] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
         const bool in_medium = wave.paths.media_at(lane) != core::in_the_open;
-        leave_state_[position] = in_medium || may_return(shape.kind, inward) ? doubtful : open;
+        leave_state_[position] =
+            in_medium || core::may_meet_again(shape.kind, inward) ? doubtful : open;
     }
 }
 

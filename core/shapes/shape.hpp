@@ -1,0 +1,79 @@
+#pragma once
+
+#include "core/kinds.hpp"
+#include "core/shapes/bounds.hpp"
+#include "core/shapes/precision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
+
+/// What each shape's file says of it, in this order: its numbers and traits, validate(),
+/// bounds_of() if it is bounded, crossings(), outward_direction() (see normal.hpp), and
+/// form_along() and normal_along() (see form.hpp).
+namespace raylane::core {
+
+/// Which rays that leave a shape may meet it again.
+enum class MeetsAgain : std::uint8_t {
+    never,  ///< it is flat
+    inward, ///< those that go to the inside of a convex surface
+    always,
+};
+
+/// Time for a ray at twelve shapes of a kind by each precision, relative to exact's: the geometric
+/// mean of AVX2's and AVX-512's medians, as bench/chart.sh measures them.
+using MethodCosts = std::array<double, std::size(all_precisions)>;
+
+/// What the engine asks of a kind of shape.
+struct ShapeTraits {
+    bool bounded = true; ///< it has bounds, and a place in the hierarchy
+    bool flat_faces =
+        false; ///< its normals, those for shading included, are the same all over a face
+    MeetsAgain meets_again = MeetsAgain::never;
+    MethodCosts costs;
+};
+
+/// How many floats a shape is.
+template <class Shape>
+inline constexpr int float_count = sizeof(Shape) / sizeof(float);
+
+template <class Shape>
+using Floats = std::array<float, float_count<Shape>>;
+
+template <class Shape>
+Floats<Shape> floats_of(const Shape& shape) {
+    return std::bit_cast<Floats<Shape>>(shape);
+}
+
+template <class Shape>
+Shape shape_of(const Floats<Shape>& floats) {
+    return std::bit_cast<Shape>(floats);
+}
+
+/// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added.
+using ShapeId = std::uint32_t;
+inline constexpr ShapeId no_shape = std::numeric_limits<ShapeId>::max();
+
+/// A range of shape ids, first to last.
+struct IdRange {
+    ShapeId first;
+    ShapeId last;
+
+    /// Wraps below `first`, so that one comparison does.
+    bool contains(ShapeId id) const { return id - first <= last - first; }
+};
+
+/// The one of some ranges, ascending, that has an id; null if none has.
+inline const IdRange* range_with(std::span<const IdRange> ranges, ShapeId id) {
+    const auto after =
+        std::upper_bound(ranges.begin(), ranges.end(), id,
+                         [](ShapeId value, const IdRange& range) { return value < range.first; });
+    if (after == ranges.begin() || !std::prev(after)->contains(id)) return nullptr;
+    return &*std::prev(after);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "core/shapes/checks.hpp"
+#include "core/shapes/flat.hpp"
+#include "core/shapes/shape.hpp"
+
+#include <type_traits>
+#include <utility>
+
+namespace raylane::core {
+
+/// Front: the side from which a, b, c run counter-clockwise.
+struct Triangle {
+    Vec3f a, b, c;
+
+    static constexpr ShapeTraits traits{.flat_faces = true, .costs = {1.19, 1.18, 1.0, 2.35}};
+};
+
+/// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat
+/// triangle's.
+struct SmoothTriangle {
+    Vec3f a, b, c;
+    Vec3f normal_a, normal_b, normal_c;
+
+    static constexpr ShapeTraits traits{.costs = {1.03, 0.98, 1.0, 2.32}};
+};
+
+template <class Shape>
+concept AnyTriangle = std::is_same_v<Shape, Triangle> || std::is_same_v<Shape, SmoothTriangle>;
+
+void validate(const AnyTriangle auto& t) {
+    for (const auto& [name, corner] : {std::pair("a", t.a), {"b", t.b}, {"c", t.c}})
+        checks::require_point(name, corner);
+    if (checks::parallel(checks::wide(t.b) - checks::wide(t.a),
+                         checks::wide(t.c) - checks::wide(t.a)))
+        throw InvalidValue("", "must have three corners that are not in one line, got " +
+                                   checks::text_of(t.a) + ", " + checks::text_of(t.b) + ", " +
+                                   checks::text_of(t.c));
+    if constexpr (requires { t.normal_a; }) {
+        checks::require_direction("normals/0", t.normal_a);
+        checks::require_direction("normals/1", t.normal_b);
+        checks::require_direction("normals/2", t.normal_c);
+    }
+}
+
+Bounds bounds_of(const AnyTriangle auto& t) {
+    Bounds bounds{t.a, t.a};
+    bounds.include({t.b, t.b});
+    bounds.include({t.c, t.c});
+    return bounds;
+}
+
+/// Twice the signed areas of the triangles (p, b, c), (p, c, a), (p, a, b) as seen along the ray
+/// through p: triple products of the direction and the corners relative to the origin (Woop,
+/// Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013). They come out opposite, to the
+/// bit, for the same edge run backwards.
+template <class Real>
+Vec3<Real> edge_functions(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Real>& c,
+                          const Vec3<Real>& direction) {
+    return {dot(direction, cross(c, b)), dot(direction, cross(a, c)), dot(direction, cross(b, a))};
+}
+
+template <class Real, AnyTriangle Shape>
+Crossings<Real> crossings(const Shape& triangle, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    if (start.on_surface) return {};
+    const Vec3<Real> a = convert<Real>(triangle.a) - ray.origin;
+    const Vec3<Real> b = convert<Real>(triangle.b) - ray.origin;
+    const Vec3<Real> c = convert<Real>(triangle.c) - ray.origin;
+
+    // Inside if the ray passes all three edges on the same side, or through an edge.
+    const Vec3<Real> areas = edge_functions(a, b, c, ray.direction);
+    const int u = judge.sign(areas.x), v = judge.sign(areas.y), w = judge.sign(areas.z);
+    const bool some_negative = u < 0 || v < 0 || w < 0;
+    const bool some_positive = u > 0 || v > 0 || w > 0;
+    if (some_negative == some_positive) return {}; // both: outside; neither: in the plane
+
+    const Vec3<Real> normal = cross(Vec3<Real>(b - a), Vec3<Real>(c - a));
+    const auto crossing = cross_plane(a, normal, ray.direction, judge);
+    return crossing ? Crossings<Real>(*crossing) : Crossings<Real>();
+}
+
+template <class Real, AnyTriangle Shape>
+Vec3<Real> triangle_normal(const Shape& triangle) {
+    const Vec3<Real> a = convert<Real>(triangle.a);
+    return cross(Vec3<Real>(convert<Real>(triangle.b) - a),
+                 Vec3<Real>(convert<Real>(triangle.c) - a));
+}
+
+template <class Real, AnyTriangle Shape>
+Vec3<Real> outward_direction(const Shape& triangle, const Vec3<Real>&, Face) {
+    return triangle_normal<Real>(triangle);
+}
+
+/// The corners' normals, weighted by the barycentric coordinates of `point`; the flat normal where
+/// they cancel.
+template <class Real>
+Vec3<Real> shading_normal(const SmoothTriangle& triangle, const Vec3<Real>& point) {
+    const Vec3<Real> flat = triangle_normal<Real>(triangle);
+    const Vec3<Real> a = convert<Real>(triangle.a) - point;
+    const Vec3<Real> b = convert<Real>(triangle.b) - point;
+    const Vec3<Real> c = convert<Real>(triangle.c) - point;
+    const Vec3<Real> sum = dot(flat, cross(b, c)) * normalized(convert<Real>(triangle.normal_a)) +
+                           dot(flat, cross(c, a)) * normalized(convert<Real>(triangle.normal_b)) +
+                           dot(flat, cross(a, b)) * normalized(convert<Real>(triangle.normal_c));
+    return squared_length(sum) > Real(0.0) ? normalized(sum) : normalized(flat);
+}
+
+ExactQuadratic form_along(const AnyTriangle auto& triangle, const ExactRay& ray, Face) {
+    return plane_along(triangle_normal<Dyadic>(triangle), ray.origin - convert<Dyadic>(triangle.a),
+                       ray.direction);
+}
+
+template <class Real, AnyTriangle Shape>
+NormalAlong<Real> normal_along(const Shape& triangle, const Ray<Real>&, Face) {
+    return {triangle_normal<Real>(triangle)};
+}
+
+} // namespace raylane::core
