@@ -1,6 +1,7 @@
 #!/bin/sh
-# How near the AVX-512 solvers come to what the processor could do with their code: the inner loops
-# of intersect_rays, by llvm-mca's model of a processor, against raylane-bench on this one.
+# How near the AVX-512 filters come to what the processor could do with their code: one shape's bounds
+# for packet after packet of rays, as all traversals ask for them, by llvm-mca's model of a
+# processor, against raylane-bench on this one.
 #
 #   bench/mca.sh [BUILD]   BUILD: a Release build with raylane-bench; default build/release
 #
@@ -11,8 +12,8 @@ set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}
 repetitions=${REPETITIONS:-9}
-kinds="sphere,plane,disc,triangle,smooth triangle,box,open cylinder,capped cylinder,open cone"
-kinds="$kinds,capped cone,quadric" # core::Kind's order
+kinds=$(sed -n 's/^ *SHAPE([^"]*"\([^"]*\)").*/\1/p' core/kinds.hpp | paste -sd, -)
+count=$(echo "$kinds" | awk -F, '{ print NF }')
 
 fail() {
     echo "mca.sh: $*" >&2
@@ -56,11 +57,23 @@ fi
 {
     echo '#include "simd/kernel/kernels.hpp"'
     echo 'using namespace raylane::simd;'
-    for kind in 0 1 2 3 4 5 6 7 8 9 10; do
-        echo "extern \"C\" [[gnu::flatten]] void loop_$kind("
-        echo '    const ShapeBlock& block, int lane, PacketStream& rays) {'
-        echo "    KernelsOf<Avx512>::intersect_rays($kind, block, lane, rays);"
-        echo '}'
+    echo 'using Method = ExactMethod<Avx512>;'
+    for kind in $(seq 0 $((count - 1))); do
+        cat <<END
+extern "C" [[gnu::flatten]] void loop_$kind(const float (*rows)[16], int lane,
+                                            const RoundedRays& rays, const Candidates& candidates,
+                                            std::size_t count) {
+    Method::with_filter(raylane::core::Kind($kind), [&]<class Filter>() {
+        const Filter filter(BroadcastReader<Avx512>(rows, lane));
+        for (std::size_t i = 0; i < count; i += 16) {
+            const Packet<Avx512, Method> packet(rays, i);
+            PacketCandidates<Avx512> found(candidates, i);
+            found.take(filter.bounds(packet.rays), packet.elsewhere(0), 0);
+            found.store(candidates, i);
+        }
+    });
+}
+END
     done
 } >"$work/loops.cpp"
 compile=$(sed -n 's/^ *"command": "\(.*\) -o .*\/simd\/kernels_avx512\.cpp",*$/\1/p' \
@@ -90,7 +103,7 @@ loop_of() {
 }
 
 : >"$work/cycles"
-for kind in 0 1 2 3 4 5 6 7 8 9 10; do
+for kind in $(seq 0 $((count - 1))); do
     {
         echo '# LLVM-MCA-BEGIN'
         loop_of $kind
@@ -126,7 +139,7 @@ END
 ${CXX:-c++} -std=c++17 -O2 -o "$work/frequency" "$work/frequency.cpp"
 frequency=$("$work/frequency")
 
-"$build/bin/raylane-bench" --benchmark_filter='/(scalar|one_shape/avx512)$' \
+"$build/bin/raylane-bench" --benchmark_filter='/(scalar|bounds/avx512)$' \
     --benchmark_repetitions="$repetitions" --benchmark_min_time=0.05 \
     --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=true \
     --benchmark_format=csv >"$work/measured.csv" 2>"$work/errors" ||
@@ -153,7 +166,7 @@ awk -F, -v kinds="$kinds" -v frequency="$frequency" -v again="$again" '
             "measured", "of units", "of waits", "scalar", "times"
         n = split(kinds, kind, ",")
         for (k = 1; k <= n; ++k) {
-            measured = rate[kind[k] "/one_shape/avx512"]
+            measured = rate[kind[k] "/bounds/avx512"]
             scalar = rate[kind[k] "/scalar"]
             rays = 16 * frequency
             printf "%-16s %7.1f %7.1f %8.2f %8.2f %7.0f%% %7.0f%% %8.3f %8.1f\n", kind[k],

@@ -1,15 +1,13 @@
 #pragma once
 
+#include "core/kinds.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
 /// A scene as the kernel units see it: plain data, so that nothing inline is shared with the units
 /// that are built for newer processors.
 namespace raylane::simd {
-
-/// core::Kind by number.
-using KindNumber = std::uint8_t;
-inline constexpr int kinds = 11;
 
 /// All shapes of one kind: an array of core::Block, which is `values` rows of 16 floats and a row
 /// of 16 ids. Shapes are numbered across the kinds by slots: that of lane l in block b is
@@ -30,8 +28,8 @@ struct NodeView {
 };
 
 struct SceneView {
-    TableView tables[kinds];
-    const NodeView* nodes; ///< the root first
+    TableView tables[core::kind_count]; ///< by core::Kind
+    const NodeView* nodes;              ///< the root first
     /// By 8 times the node and the octant of a ray's direction (bit a: component a is negative):
     /// the node's slots in the order of their distance, 4 bits each, the nearest lowest.
     const std::uint64_t* orders;

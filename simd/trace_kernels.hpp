@@ -12,7 +12,7 @@ namespace raylane::simd {
 
 struct Found;
 
-/// Rays rounded to float (FilterRays in kernel/filters/filter.hpp), with the shapes that they
+/// Rays rounded to float (FilterRays in kernel/shapes/filter.hpp), with the shapes that they
 /// leave, which no filter sees: ids first to last, no_shape twice if none.
 struct RoundedRays {
     float* origin[3];

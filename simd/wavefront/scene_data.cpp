@@ -130,67 +130,80 @@ float largest_coordinate(const core::Bounds& bounds) {
 } // namespace
 
 SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(scene.fog())) {
-    static_assert(sizeof(NodeView) == sizeof(core::WideNode));
-    static_assert(no_slot == core::no_shape);
-    for (const core::Material& material : scene.materials())
-        materials_.push_back(view_of(material));
+    view_surroundings();
+    view_tables();
+    fill_occupants();
+    view_hierarchy();
+    find_plain_lanes();
+}
+
+void SceneData::view_surroundings() {
     media_.push_back({0.0, 1.0, {0.0, 0.0, 0.0}});
-    for (const core::Material& material : scene.materials())
+    for (const core::Material& material : scene_.materials()) {
+        materials_.push_back(view_of(material));
         media_.push_back({1.0,
                           static_cast<double>(material.index),
                           {static_cast<double>(material.absorption[0]),
                            static_cast<double>(material.absorption[1]),
                            static_cast<double>(material.absorption[2])}});
-    for (const core::Light& light : scene.lights())
+    }
+    for (const core::Light& light : scene_.lights())
         lights_.push_back(view_of(light));
+}
 
-    std::uint32_t slots = 0, present = 0;
-    core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+void SceneData::view_tables() {
+    core::for_each_table(scene_.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         const auto kind = static_cast<int>(core::kind_of<Shape>);
-        view_.tables[kind] = {reinterpret_cast<const float*>(table.blocks().data()),
-                              static_cast<std::uint32_t>(table.blocks().size()),
+        const auto blocks = static_cast<std::uint32_t>(table.blocks().size());
+        view_.tables[kind] = {reinterpret_cast<const float*>(table.blocks().data()), blocks,
                               sizeof(core::Block<Shape>) / sizeof(float), core::float_count<Shape>,
-                              slots};
-        slots += static_cast<std::uint32_t>(table.blocks().size()) * core::block_size;
-        if (table.size() != 0) present |= 1U << kind;
+                              slots_};
+        slots_ += blocks * core::block_size;
+        if (table.size() == 0) return;
+        (core::is_bounded<Shape> ? bounded_kinds_ : unbounded_kinds_) |= 1U << kind;
+        smooth_ |= core::has_shading_normals<Shape>;
     });
-    if (slots <= table_slots) {
-        std::vector<Occupant> occupants;
-        for (std::uint32_t slot = 0; slot < slots; ++slot)
-            occupants.push_back(find_occupant(slot));
-        occupants_ = std::move(occupants);
-    }
-    const std::uint32_t planes = 1U << static_cast<int>(core::Kind::plane);
-    const core::BigArray<core::WideNode>& nodes = scene.hierarchy().nodes;
-    if (scene.shape_count() > few_shapes && !nodes.empty())
-        view_.tree_depth = depth_below(nodes, 0);
-    listed_kinds_ = has_tree() ? present & planes : present;
-    if (has_tree()) {
-        orders_ = orders_of(nodes);
-        view_.orders = orders_.data();
-        view_.reach = largest_coordinate(scene.hierarchy().bounds);
-    }
+}
+
+void SceneData::fill_occupants() {
+    if (slots_ > table_slots) return;
+    std::vector<Occupant> occupants;
+    for (std::uint32_t slot = 0; slot < slots_; ++slot)
+        occupants.push_back(find_occupant(slot));
+    occupants_ = std::move(occupants);
+}
+
+void SceneData::view_hierarchy() {
+    static_assert(sizeof(NodeView) == sizeof(core::WideNode));
+    const core::BigArray<core::WideNode>& nodes = scene_.hierarchy().nodes;
     view_.nodes = reinterpret_cast<const NodeView*>(nodes.data());
-    std::size_t bytes = scene.hierarchy().bytes();
-    core::for_each_table(scene.shapes(), [&](const auto& table) { bytes += table.bytes(); });
+    std::size_t bytes = scene_.hierarchy().bytes();
+    core::for_each_table(scene_.shapes(), [&](const auto& table) { bytes += table.bytes(); });
     view_.large = bytes > core_cache_bytes();
     view_.small = bytes <= core_cache_bytes() / 16;
-    smooth_ = (present >> static_cast<int>(core::Kind::smooth_triangle) & 1) != 0;
+    if (scene_.shape_count() <= few_shapes || nodes.empty()) return;
+    view_.tree_depth = depth_below(nodes, 0);
+    orders_ = orders_of(nodes);
+    view_.orders = orders_.data();
+    view_.reach = largest_coordinate(scene_.hierarchy().bounds);
+}
 
+void SceneData::find_plain_lanes() {
     const auto is_plain = [](const core::Material& material) {
         return !material.transmits() && material.visible == core::Visible::both;
     };
-    if (std::all_of(scene.materials().begin(), scene.materials().end(), is_plain)) return;
-    one_sided_ =
-        std::any_of(scene.materials().begin(), scene.materials().end(),
-                    [](const core::Material& m) { return m.visible != core::Visible::both; });
-    plain_lanes_.reserve(slots / core::block_size);
-    core::for_each_table(scene.shapes(), [&](const auto& table) {
+    const std::vector<core::Material>& materials = scene_.materials();
+    if (std::all_of(materials.begin(), materials.end(), is_plain)) return;
+    one_sided_ = std::any_of(materials.begin(), materials.end(), [](const core::Material& m) {
+        return m.visible != core::Visible::both;
+    });
+    plain_lanes_.reserve(slots_ / core::block_size);
+    core::for_each_table(scene_.shapes(), [&](const auto& table) {
         for (const auto& block : table.blocks()) {
             unsigned plain = 0;
             for (int lane = 0; lane < core::block_size; ++lane)
                 if (block.ids[lane] != core::no_shape &&
-                    is_plain(scene.material_of(block.ids[lane])))
+                    is_plain(scene_.material_of(block.ids[lane])))
                     plain |= 1U << lane;
             plain_lanes_.push_back(static_cast<std::uint16_t>(plain));
         }
@@ -199,7 +212,8 @@ SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(sce
 }
 
 SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
-    int kind = kinds - 1;
+    static_assert(no_slot == core::no_shape);
+    int kind = core::kind_count - 1;
     while (slot < view_.tables[kind].first_slot)
         --kind;
     const TableView& table = view_.tables[kind];

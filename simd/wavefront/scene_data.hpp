@@ -20,8 +20,10 @@ class SceneData {
     const std::vector<LightView>& lights() const { return lights_; }
     const FogView& fog() const { return fog_; }
 
-    /// The kinds that are tested one by one: all in a scene of a few shapes, else the planes.
-    std::uint32_t listed_kinds() const { return listed_kinds_; }
+    /// The kinds that are tested one by one: all in a scene of a few shapes, else the unbounded.
+    std::uint32_t listed_kinds() const {
+        return unbounded_kinds_ | (has_tree() ? 0 : bounded_kinds_);
+    }
     /// Whether the others are found by way of the hierarchy.
     bool has_tree() const { return view_.tree_depth != 0; }
     /// How many rays that have nothing in common are best asked at a time what is nearest to them,
@@ -60,6 +62,11 @@ class SceneData {
     std::uint32_t slot_of(core::Kind kind, core::Slot place) const;
 
   private:
+    void view_surroundings();
+    void view_tables();
+    void fill_occupants();
+    void view_hierarchy();
+    void find_plain_lanes();
     Occupant find_occupant(std::uint32_t slot) const;
 
     const core::Scene& scene_;
@@ -71,7 +78,8 @@ class SceneData {
     std::vector<Medium> media_; // empty space, then what each material is inside
     std::vector<LightView> lights_;
     FogView fog_{};
-    std::uint32_t listed_kinds_ = 0;
+    std::uint32_t slots_ = 0;
+    std::uint32_t bounded_kinds_ = 0, unbounded_kinds_ = 0; // that there are, as bits
     bool one_sided_ = false;
     bool smooth_ = false;
 };

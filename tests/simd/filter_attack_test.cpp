@@ -53,8 +53,7 @@ class Trial {
     /// Whether the filter is wrong when it allows for this part of the rounding.
     bool is_lie(double part) {
         *filters_.half_ulp = static_cast<float>(part * 0x1p-24);
-        filters_.checks.bound_rays(static_cast<KindNumber>(kind_of<Shape>), view_of(block_), 0,
-                                   view_);
+        filters_.checks.bound_rays(kind_of<Shape>, view_of(block_), 0, view_);
         return lie(stream_.answer(0), truth_) != nullptr;
     }
 

@@ -8,6 +8,13 @@
 /// for newer processors.
 namespace raylane::simd {
 
+/// 16 shapes of one kind, structure of arrays: value k of lane i at values[k][i]; ids in the bits
+/// of floats.
+struct ShapeBlock {
+    const float (*values)[16];
+    const float* ids;
+};
+
 /// Structure of arrays, readable and writable up to whole packets of 16.
 struct FilterStream {
     std::size_t count;
@@ -21,10 +28,10 @@ struct FilterStream {
 
 struct FilterChecks {
     /// One shape of a block against all rays.
-    void (*bound_rays)(KindNumber kind, const ShapeBlock& block, int lane,
+    void (*bound_rays)(core::Kind kind, const ShapeBlock& block, int lane,
                        const FilterStream& stream);
     /// One ray against all 16 shapes of a block, into the stream's first 16 places.
-    void (*bound_block)(KindNumber kind, const ShapeBlock& block, const FilterStream& stream,
+    void (*bound_block)(core::Kind kind, const ShapeBlock& block, const FilterStream& stream,
                         std::size_t ray);
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/filters/filters.hpp"
+#include "simd/kernel/shapes/shapes.hpp"
 #include "tests/simd/filter_check.hpp"
 
 #include <limits>
@@ -56,7 +56,7 @@ struct FilterChecksOf {
         return false;
     }
 
-    static void bound_rays(KindNumber kind, const ShapeBlock& block, int lane,
+    static void bound_rays(core::Kind kind, const ShapeBlock& block, int lane,
                            const FilterStream& stream) {
         with_filter<Arch>(kind, [&]<class Filter>() {
             const Filter filter(BroadcastReader<Arch>(block.values, lane));
@@ -71,7 +71,7 @@ struct FilterChecksOf {
         });
     }
 
-    static void bound_block(KindNumber kind, const ShapeBlock& block, const FilterStream& stream,
+    static void bound_block(core::Kind kind, const ShapeBlock& block, const FilterStream& stream,
                             std::size_t ray) {
         with_filter<Arch>(kind, [&]<class Filter>() {
             const auto broadcast = [&](const float* const from[3]) {

@@ -68,7 +68,7 @@ void check_answer(const Answer& answer, const Round<Shape>& round, int lane, std
 
 template <class Shape>
 void check_round(const FilterChecks& checks, const Round<Shape>& round) {
-    const auto kind = static_cast<KindNumber>(kind_of<Shape>);
+    const auto kind = kind_of<Shape>;
     Stream stream;
     for (const Doubled& ray : round.rays)
         stream.add(ray);
@@ -115,7 +115,7 @@ TEST_CASE("a plane may be met beyond the largest float") {
         Stream stream;
         stream.add(Doubled(ray));
         const FilterStream view = stream.view();
-        checks_of(isa).bound_rays(static_cast<KindNumber>(Kind::plane), view_of(block), 0, view);
+        checks_of(isa).bound_rays(Kind::plane, view_of(block), 0, view);
         CHECK(stream.answer(0).possible);
         CHECK(stream.answer(0).lower < infinity);
     }
@@ -136,8 +136,7 @@ TEST_CASE("a sphere that rays leave straight out is in doubt by each way alike")
         }
         for (const Isa isa : all_isas) {
             if (!is_available(isa)) continue;
-            checks_of(isa).bound_rays(static_cast<KindNumber>(Kind::sphere), view_of(block), 0,
-                                      stream.view());
+            checks_of(isa).bound_rays(Kind::sphere, view_of(block), 0, stream.view());
             for (std::size_t i = 0; i < 16; ++i) {
                 possible += stream.answer(i).possible ? 1 : 0;
                 if (stream.answer(i).contradicts) FAIL("what is in the way is not what bounds say");
@@ -208,8 +207,7 @@ Tightness tightness(Set set) {
             stream.add(rays.back());
         }
         const FilterStream view = stream.view();
-        checks_of(best_isa())
-            .bound_rays(static_cast<KindNumber>(kind_of<Shape>), view_of(block), 0, view);
+        checks_of(best_isa()).bound_rays(kind_of<Shape>, view_of(block), 0, view);
         for (std::size_t i = 0; i < rays.size(); ++i)
             result.add(stream.answer(i), first_crossing(shape, rays[i].ray),
                        length(Vec3d(rays[i].ray.origin - T::center(shape))));

@@ -45,12 +45,12 @@ void check() {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("the engine in float is the scalar formulas in float", "", RAYLANE_ALL_SHAPES) {
+TEMPLATE_TEST_CASE("every lane is the scalar formulas in float", "", RAYLANE_ALL_SHAPES) {
     check<Precision::fast, TestType>();
     check<Precision::robust, TestType>();
 }
 
-TEMPLATE_TEST_CASE("the engine in double is the scalar formulas in double, not fused", "",
+TEMPLATE_TEST_CASE("every lane in double is the scalar formulas in double, not fused", "",
                    RAYLANE_ALL_SHAPES) {
     check<Precision::plain_double, TestType>();
 }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simd/kernel/lanes/doubles.hpp"
 #include "simd/kernel/shapes/crossings.hpp"
-#include "simd/kernel/solvers/shapes.hpp"
 #include "simd/scene_view.hpp"
 #include "tests/simd/scaled_filters.hpp"
 
@@ -15,7 +15,7 @@ using namespace raylane::simd;
 #define half_ulp                                                                                   \
     true_half_ulp = 0x1p-24F;                                                                      \
     static float half_ulp
-#include "simd/kernel/filters/filter.hpp"
+#include "simd/kernel/shapes/filter.hpp"
 #undef half_ulp
 
 #include "tests/simd/filter_kernels.hpp"

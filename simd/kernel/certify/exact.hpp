@@ -3,7 +3,7 @@
 #include "simd/kernel/certify/finish.hpp"
 #include "simd/kernel/certify/finish_again.hpp"
 #include "simd/kernel/certify/list_candidates.hpp"
-#include "simd/kernel/filters/filters.hpp"
+#include "simd/kernel/shapes/shapes.hpp"
 
 namespace raylane::simd {
 
@@ -22,7 +22,7 @@ template <class Arch>
 struct ExactMethod : RaysInFloat<Arch> {
     static constexpr bool certifies = true;
     template <class Visit>
-    static void with_filter(KindNumber kind, const Visit& visit) {
+    static void with_filter(core::Kind kind, const Visit& visit) {
         simd::with_filter<Arch>(kind, visit);
     }
     static void finish(const SceneView& scene, const Found& found) {

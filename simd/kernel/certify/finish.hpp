@@ -1,44 +1,10 @@
 #pragma once
 
 #include "simd/kernel/certify/slots.hpp"
-#include "simd/kernel/finishers/axial.hpp"
-#include "simd/kernel/finishers/box.hpp"
-#include "simd/kernel/finishers/flat.hpp"
-#include "simd/kernel/finishers/quadric.hpp"
-#include "simd/kernel/finishers/sphere.hpp"
+#include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernels.hpp"
 
 namespace raylane::simd {
-
-/// Calls visit.operator()<the kind's finisher>(). The order is core::Kind's.
-template <class Arch, class Visit>
-void with_finisher(int kind, const Visit& visit) {
-    using D = Double<Arch>;
-    switch (kind) {
-    case 0:
-        return visit.template operator()<SphereFinisher<D>>();
-    case 1:
-        return visit.template operator()<PlaneFinisher<D>>();
-    case 2:
-        return visit.template operator()<DiscFinisher<D>>();
-    case 3:
-        return visit.template operator()<TriangleFinisher<D>>();
-    case 4:
-        return visit.template operator()<SmoothTriangleFinisher<D>>();
-    case 5:
-        return visit.template operator()<BoxFinisher<D>>();
-    case 6:
-        return visit.template operator()<OpenFinisher<D, CylinderProfile<D, false>>>();
-    case 7:
-        return visit.template operator()<CappedFinisher<D, CylinderProfile<D, true>>>();
-    case 8:
-        return visit.template operator()<OpenFinisher<D, ConeProfile<D, false>>>();
-    case 9:
-        return visit.template operator()<CappedFinisher<D, ConeProfile<D, true>>>();
-    default:
-        return visit.template operator()<QuadricFinisher<D>>();
-    }
-}
 
 /// Reads the floats of one shape for all lanes.
 template <class Arch>
@@ -82,10 +48,10 @@ class Finish {
             std::uint32_t left = in_use(i) & ~in_range(found_.slot + i, no_slot, no_slot);
             std::size_t next = i + width;
             while (left != 0) {
-                const int kind = S::kind_of(scene_, found_.slot[i + first_of(left)]);
-                const TableView& table = scene_.tables[kind];
+                const core::Kind kind = S::kind_of(scene_, found_.slot[i + first_of(left)]);
+                const TableView& table = S::table_of(scene_, kind);
                 const std::uint32_t alike = left & in_table(table, i);
-                with_finisher<Arch>(
+                with_finisher<Double<Arch>>(
                     kind, [&]<class Finisher>() { next = finish_run<Finisher>(table, i, alike); });
                 left &= ~alike;
             }

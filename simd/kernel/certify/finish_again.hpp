@@ -1,9 +1,9 @@
 #pragma once
 
 #include "simd/kernel/certify/slots.hpp"
-#include "simd/kernel/finishers/finisher.hpp"
 #include "simd/kernel/lanes/bounded.hpp"
-#include "simd/kernel/solvers/solvers.hpp"
+#include "simd/kernel/shapes/finisher.hpp"
+#include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernels.hpp"
 
 #include <type_traits>
@@ -23,7 +23,7 @@ class FinishAgain {
 
     void doubtful_rays() {
         for (std::size_t i = 0; i < found_.count; ++i)
-            if (is_doubtful(i)) add<D>(in_double_[S::kind_of(scene_, found_.slot[i])], i);
+            if (is_doubtful(i)) add<D>(in_double_[index_of(i)], i);
         for (Packet& packet : in_double_)
             finish<D>(packet);
         for (Packet& packet : wide_)
@@ -35,8 +35,7 @@ class FinishAgain {
         for (std::size_t k = 0; k < count; ++k) {
             t.error[k] = __builtin_inf();
             if (starts_on_shape(places[k])) continue;
-            const int kind = S::kind_of(scene_, found_.slot[places[k]]);
-            Packet& packet = wide_[kind];
+            Packet& packet = wide_[index_of(places[k])];
             packet.of[packet.count] = k;
             packet.rays[packet.count++] = places[k];
             if (packet.count == width) widen(packet, t);
@@ -65,11 +64,15 @@ class FinishAgain {
     }
     bool starts_on_shape(std::size_t i) const {
         const std::uint32_t slot = found_.slot[i];
-        const TableView& table = scene_.tables[S::kind_of(scene_, slot)];
+        const TableView& table = S::table_of(scene_, S::kind_of(scene_, slot));
         const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
         const auto id = __builtin_bit_cast(std::uint32_t, ids[S::offset(table, slot)]);
         const std::uint32_t first = found_.departed_first[i];
         return id - first <= found_.departed_last[i] - first;
+    }
+
+    int index_of(std::size_t ray) const {
+        return static_cast<int>(S::kind_of(scene_, found_.slot[ray]));
     }
 
     template <class Number>
@@ -105,8 +108,8 @@ class FinishAgain {
         F length;
     };
 
-    Loaded load(const Packet& packet, KindNumber kind) const {
-        const TableView& table = scene_.tables[kind];
+    Loaded load(const Packet& packet, core::Kind kind) const {
+        const TableView& table = S::table_of(scene_, kind);
         Loaded loaded;
         const bool stand_for_others = found_.meant_length != nullptr;
         const double* const* const directions =
@@ -131,17 +134,17 @@ class FinishAgain {
         return loaded;
     }
 
-    KindNumber kind_of(const Packet& packet) const {
-        return static_cast<KindNumber>(S::kind_of(scene_, found_.slot[packet.rays[0]]));
+    core::Kind kind_of(const Packet& packet) const {
+        return S::kind_of(scene_, found_.slot[packet.rays[0]]);
     }
 
     template <class Number>
     void finish(Packet& packet) {
         if (packet.count == 0) return;
-        const KindNumber kind = kind_of(packet);
+        const core::Kind kind = kind_of(packet);
         const Loaded loaded = load(packet, kind);
         std::uint32_t certain = 0, misses = 0;
-        with_lanes<Certified<Number>>(kind, [&]<class Solver>() {
+        with_solver<Certified<Number>>(kind, [&]<class Solver>() {
             const Finished<D> finished = first_crossing<Solver, Number>(
                 loaded.reader, loaded.rays, loaded.length, found_.holds_points);
             certain = Lanes<D>::bits(finished.certain);
@@ -152,7 +155,7 @@ class FinishAgain {
             if ((misses >> lane & 1) != 0)
                 found_.hit[packet.rays[lane]] = hit_none;
             else if ((certain >> lane & 1) == 0 && std::is_same_v<Number, D>)
-                add<Wide<D>>(wide_[kind], packet.rays[lane]);
+                add<Wide<D>>(wide_[static_cast<int>(kind)], packet.rays[lane]);
         }
         packet.count = 0;
     }
@@ -171,10 +174,10 @@ class FinishAgain {
 
     void widen(Packet& packet, const WideNumbers& t) {
         if (packet.count == 0) return;
-        const KindNumber kind = kind_of(packet);
+        const core::Kind kind = kind_of(packet);
         const Loaded loaded = load(packet, kind);
-        with_lanes<Certified<Wide<D>>>(kind,
-                                       [&]<class Solver>() { store<Solver>(loaded, packet, t); });
+        with_solver<Certified<Wide<D>>>(kind,
+                                        [&]<class Solver>() { store<Solver>(loaded, packet, t); });
         packet.count = 0;
     }
 
@@ -245,7 +248,7 @@ class FinishAgain {
 
     const SceneView& scene_;
     const Found& found_;
-    Packet in_double_[kinds], wide_[kinds];
+    Packet in_double_[core::kind_count], wide_[core::kind_count];
 };
 
 template <class Arch>

@@ -62,8 +62,8 @@ struct DoubleMethod {
         return {RaysInFloat<Arch>::broadcast(rays, i), {ray, ray}};
     }
     template <class Visit>
-    static void with_filter(KindNumber kind, const Visit& visit) {
-        with_lanes<D>(
+    static void with_filter(core::Kind kind, const Visit& visit) {
+        with_solver<D>(
             kind, [&]<class Solver>() { visit.template operator()<DoubleFilter<Arch, Solver>>(); });
     }
     static void finish(const SceneView& scene, const Found& found) {

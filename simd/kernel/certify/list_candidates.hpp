@@ -16,12 +16,13 @@ struct ListCandidates : Streams<Arch> {
     static bool list(const SceneView& scene, std::uint32_t kind_bits, const RoundedRays& rays,
                      std::size_t i, const Pending& pending, CandidateList& list,
                      TraceCounters& counters) {
-        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
-            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
-            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block)
-                if (!visit(scene, kind, block, rays, i, list, counters)) return false;
-        }
-        if (pending.key == nullptr) return true;
+        bool has_room = true;
+        S::for_each_kind(kind_bits, [&](core::Kind kind) {
+            const std::uint32_t blocks = S::table_of(scene, kind).block_count;
+            for (std::uint32_t block = 0; has_room && block < blocks; ++block)
+                has_room = visit(scene, kind, block, rays, i, list, counters);
+        });
+        if (!has_room || pending.key == nullptr) return has_room;
 
         BoxRays<Arch> box_rays;
         box_rays.load(scene, rays, i / 16 * 16);
@@ -46,19 +47,19 @@ struct ListCandidates : Streams<Arch> {
     /// Candidates that are not worth the sifting.
     static constexpr std::size_t few = 16;
 
-    static bool visit(const SceneView& scene, KindNumber kind, std::uint32_t block,
+    static bool visit(const SceneView& scene, core::Kind kind, std::uint32_t block,
                       const RoundedRays& rays, std::size_t i, CandidateList& list,
                       TraceCounters& counters) {
         bool has_room = true;
         counters.shapes += 16;
         Method::with_filter(kind, [&]<class Filter>() {
-            has_room = add<Filter>(scene.tables[kind], kind, block, rays, i, list);
+            has_room = add<Filter>(S::table_of(scene, kind), kind, block, rays, i, list);
         });
         return has_room;
     }
 
     template <class Filter>
-    [[gnu::noinline]] static bool add(const TableView& table, KindNumber kind, std::uint32_t number,
+    [[gnu::noinline]] static bool add(const TableView& table, core::Kind kind, std::uint32_t number,
                                       const RoundedRays& rays, std::size_t i, CandidateList& list) {
         const float* block = S::block_of(table, number);
         const std::uint32_t* ids = S::ids_of(table, block);
@@ -75,7 +76,7 @@ struct ListCandidates : Streams<Arch> {
             const float limit = last * candidate_grace;
             list.limit = limit < list.limit ? limit : list.limit;
             if (list.sifts && list.count >= few) {
-                with_finisher<Arch>(kind, [&]<class Finisher>() {
+                with_finisher<Double<Arch>>(kind, [&]<class Finisher>() {
                     bits = sifted<Finisher>(S::rows_of(block), from, rays, i, bits);
                 });
             }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/certify/plain_finish.hpp"
-#include "simd/kernel/filters/filter.hpp"
+#include "simd/kernel/shapes/filter.hpp"
 
 namespace raylane::simd {
 
@@ -25,8 +25,8 @@ template <class Arch, bool textbook>
 struct PlainMethod : RaysInFloat<Arch> {
     static constexpr bool certifies = false;
     template <class Visit>
-    static void with_filter(KindNumber kind, const Visit& visit) {
-        with_lanes<Arch, textbook>(
+    static void with_filter(core::Kind kind, const Visit& visit) {
+        with_solver<Arch, textbook>(
             kind, [&]<class Solver>() { visit.template operator()<PlainFilter<Arch, Solver>>(); });
     }
     static void finish(const SceneView& scene, const Found& found) {

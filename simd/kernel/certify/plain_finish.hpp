@@ -2,7 +2,7 @@
 
 #include "simd/kernel/certify/slots.hpp"
 #include "simd/kernel/lanes/doubles.hpp"
-#include "simd/kernel/solvers/solvers.hpp"
+#include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernel/traverse/rays.hpp"
 #include "simd/kernels.hpp"
 
@@ -31,15 +31,14 @@ class PlainFinish {
             for (int lane = 0; lane < here; ++lane)
                 left |= std::uint32_t{found_.slot[i + lane] != no_slot} << lane;
             while (left != 0) {
-                const int kind = S::kind_of(scene_, found_.slot[i + __builtin_ctz(left)]);
-                const TableView& table = scene_.tables[kind];
+                const core::Kind kind = S::kind_of(scene_, found_.slot[i + __builtin_ctz(left)]);
+                const TableView& table = S::table_of(scene_, kind);
                 std::uint32_t alike = 0;
                 for (int lane = 0; lane < here; ++lane)
                     alike |= std::uint32_t{S::holds(table, found_.slot[i + lane])} << lane;
                 alike &= left;
-                with_lanes<Number, textbook>(static_cast<KindNumber>(kind), [&]<class Solver>() {
-                    finish_packet<Solver>(table, i, alike);
-                });
+                with_solver<Number, textbook>(
+                    kind, [&]<class Solver>() { finish_packet<Solver>(table, i, alike); });
                 left &= ~alike;
             }
         }

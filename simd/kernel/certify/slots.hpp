@@ -14,11 +14,15 @@ struct Slots {
     }
 
     /// Of a slot that some table holds.
-    static int kind_of(const SceneView& scene, std::uint32_t slot) {
+    static core::Kind kind_of(const SceneView& scene, std::uint32_t slot) {
         int kind = 0;
         while (!holds(scene.tables[kind], slot))
             ++kind;
-        return kind;
+        return static_cast<core::Kind>(kind);
+    }
+
+    static const TableView& table_of(const SceneView& scene, core::Kind kind) {
+        return scene.tables[static_cast<int>(kind)];
     }
 
     /// From the table's first float to the slot's first one.

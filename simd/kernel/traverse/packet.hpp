@@ -49,8 +49,13 @@ struct PacketCandidates {
                                      std::uint32_t this_slot, const Packet<Arch, Method>& packet) {
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
-        const Bounds<Arch> bounds = filter.bounds(packet.rays);
-        const F t = select(bounds.possible & packet.elsewhere(id), bounds.lower, S::infinity());
+        take(filter.bounds(packet.rays), packet.elsewhere(id), this_slot);
+    }
+
+    /// What bounds say of one shape, where it counts.
+    [[gnu::always_inline]] void take(const Bounds<Arch>& bounds, const Mask<Arch>& counts,
+                                     std::uint32_t this_slot) {
+        const F t = select(bounds.possible & counts, bounds.lower, S::infinity());
         slot = select(t < first, S::broadcast_bits(this_slot), slot);
         second = min(second, max(t, first));
         first = min(first, t);

@@ -99,21 +99,22 @@ class Pairs : Streams<Arch> {
 template <class Arch, class Method>
 class PairsByKind {
   public:
-    Pairs<Arch, Method>& of(KindNumber kind) { return pairs_[kind]; }
+    Pairs<Arch, Method>& of(core::Kind kind) { return pairs_[static_cast<int>(kind)]; }
 
     /// Calls take.template operator()<Filter>(pairs) for those that are left of each kind.
     template <class Take>
     [[gnu::always_inline]] void finish(const Take& take) {
-        for (KindNumber kind = 0; kind < kinds; ++kind)
+        Streams<Arch>::for_each_kind((1U << core::kind_count) - 1, [&](core::Kind kind) {
             if (!of(kind).empty())
                 Method::with_filter(kind, [&]<class Filter>() {
                     if constexpr (packs_pairs<Filter, Method>)
                         of(kind).finish([&] { take.template operator()<Filter>(of(kind)); });
                 });
+        });
     }
 
   private:
-    Pairs<Arch, Method> pairs_[kinds];
+    Pairs<Arch, Method> pairs_[core::kind_count];
 };
 
 } // namespace raylane::simd

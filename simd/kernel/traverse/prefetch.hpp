@@ -19,7 +19,7 @@ struct Places {
     explicit Places(const SceneView& scene) {
         for (Place& place : of)
             set(place, scene.nodes, sizeof(NodeView));
-        for (int kind = 0; kind < kinds; ++kind) {
+        for (int kind = 0; kind < core::kind_count; ++kind) {
             const TableView& table = scene.tables[kind];
             set(of[16 + kind], table.blocks, table.block_floats * sizeof(float));
         }

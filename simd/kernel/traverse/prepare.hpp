@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/kernel/filters/filter.hpp"
 #include "simd/kernel/lanes/short_lanes.hpp"
+#include "simd/kernel/shapes/filter.hpp"
 #include "simd/kernel/traverse/rays.hpp"
 #include "simd/kernels.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/filters/filters.hpp"
+#include "simd/kernel/shapes/shapes.hpp"
 #include "simd/trace_kernels.hpp"
 
 namespace raylane::simd {
@@ -65,8 +65,17 @@ struct Streams {
         return (plain_lanes(scene, slot) >> slot % 16 & 1) != 0;
     }
 
-    static KindNumber kind_of(std::uint32_t child) {
-        return static_cast<KindNumber>(child >> 27 & 0xF);
+    static core::Kind kind_of(std::uint32_t child) {
+        return static_cast<core::Kind>(child >> 27 & 0xF);
+    }
+    static const TableView& table_of(const SceneView& scene, core::Kind kind) {
+        return scene.tables[static_cast<int>(kind)];
+    }
+    /// Calls visit(kind) for the kinds whose bits are set.
+    template <class Visit>
+    [[gnu::always_inline]] static void for_each_kind(std::uint32_t kind_bits, const Visit& visit) {
+        for (; kind_bits != 0; kind_bits &= kind_bits - 1)
+            visit(static_cast<core::Kind>(__builtin_ctz(kind_bits)));
     }
     static const float* block_of(const TableView& table, std::uint32_t block) {
         return table.blocks + static_cast<std::size_t>(block) * table.block_floats;

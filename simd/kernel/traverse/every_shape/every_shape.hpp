@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/shapes/enclosing.hpp"
+#include "simd/kernel/traverse/block_spheres.hpp"
 #include "simd/kernel/traverse/packet.hpp"
 
 namespace raylane::simd {
@@ -21,12 +21,15 @@ struct TraceAll : Streams<Arch> {
         int blocks = 0;
 
         Spheres(const SceneView& scene, std::uint32_t kind_bits) {
-            for (kind_bits &= costly_kinds; kind_bits != 0; kind_bits &= kind_bits - 1) {
-                const int kind = __builtin_ctz(kind_bits);
-                const TableView& table = scene.tables[kind];
-                for (std::uint32_t b = 0; b < table.block_count && blocks < most_blocks; ++b)
-                    around[blocks++].enclose(kind, S::rows_of(S::block_of(table, b)));
-            }
+            S::for_each_kind(kind_bits, [&](core::Kind kind) {
+                const TableView& table = S::table_of(scene, kind);
+                Method::with_filter(kind, [&]<class Filter>() {
+                    if constexpr (is_slow<Filter>)
+                        for (std::uint32_t b = 0; b < table.block_count && blocks < most_blocks;
+                             ++b)
+                            around[blocks++].enclose(kind, S::rows_of(S::block_of(table, b)));
+                });
+            });
         }
 
         /// Whether a ray may meet the sphere before t_most. The roundings are some 20 u of the
@@ -47,10 +50,14 @@ struct TraceAll : Streams<Arch> {
                 beside | (tau + radius < o) | (tau - radius > t_most * F(culling_slack));
             return Lanes<Arch>::bits(~misses) != 0;
         }
-
-        /// Boxes and quadrics; cylinders and cones have a filter's may_meet.
-        static constexpr std::uint32_t costly_kinds = 1U << 5 | 1U << 10;
     };
+
+    /// Whether a filter is costly, and cannot tell for less that there is nothing to meet.
+    template <class Filter>
+    static constexpr bool is_slow = requires {
+        Filter::is_costly;
+    }
+    &&!has_may_meet<Filter, typename Method::Rays>;
 
     /// Calls visit(filter, id, slot) for each shape of the kinds that some of the rays may meet.
     /// `t_most` may change underway.
@@ -59,11 +66,10 @@ struct TraceAll : Streams<Arch> {
                                const Spheres& spheres, const FilterRays<Arch>& rays,
                                const F& t_most, const Visit& visit) {
         int sphere_block = 0;
-        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
-            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
-            const TableView& table = scene.tables[kind];
-            const bool costly = (Spheres::costly_kinds >> kind & 1) != 0;
+        S::for_each_kind(kind_bits, [&](core::Kind kind) {
+            const TableView& table = S::table_of(scene, kind);
             Method::with_filter(kind, [&]<class Filter>() {
+                constexpr bool costly = is_slow<Filter>;
                 for (std::uint32_t b = 0; b < table.block_count; ++b) {
                     const float* block = S::block_of(table, b);
                     const std::uint32_t* ids = S::ids_of(table, block);
@@ -75,7 +81,7 @@ struct TraceAll : Streams<Arch> {
                     if (costly) ++sphere_block;
                 }
             });
-        }
+        });
     }
 
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/shapes/enclosing.hpp"
+#include "simd/kernel/traverse/block_spheres.hpp"
 #include "simd/kernel/traverse/rays.hpp"
 
 namespace raylane::simd {

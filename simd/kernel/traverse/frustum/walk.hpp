@@ -40,13 +40,13 @@ struct GroupWalk : Streams<Arch> {
         for (float& limit : limits)
             limit = -1.0F; // of what is not there
         update_limits((1U << group.bunches) - 1, found);
-        for (; kind_bits != 0; kind_bits &= kind_bits - 1) {
-            const auto kind = static_cast<KindNumber>(__builtin_ctz(kind_bits));
-            for (std::uint32_t block = 0; block < scene.tables[kind].block_count; ++block) {
-                const std::uint32_t child = child_is_block | std::uint32_t{kind} << 27 | block;
+        S::for_each_kind(kind_bits, [&](core::Kind kind) {
+            for (std::uint32_t block = 0; block < S::table_of(scene, kind).block_count; ++block) {
+                const std::uint32_t child =
+                    child_is_block | static_cast<std::uint32_t>(kind) << 27 | block;
                 at_blocks(&child, 1, found);
             }
-        }
+        });
         if (workspace.key == nullptr) return true;
         int budget = most_shapes; // what is listed has to be tested whatever the way
         const Places<Arch> places(scene);
@@ -97,7 +97,7 @@ struct GroupWalk : Streams<Arch> {
         int shape_count = 0;
         const float furthest = group.furthest_w(largest_limit);
         for (int b = 0; b < block_count; ++b) {
-            const KindNumber kind = S::kind_of(blocks[b]);
+            const core::Kind kind = S::kind_of(blocks[b]);
             spheres.enclose(kind, rows_of(blocks[b]));
             for (int from = 0; from < 16; from += static_cast<int>(F::size))
                 shape_count +=
@@ -137,13 +137,13 @@ struct GroupWalk : Streams<Arch> {
     template <class Found>
     int test_run(const std::uint32_t* blocks, const std::uint32_t* pairs, int begin, int count,
                  Found& found) {
-        const KindNumber kind = S::kind_of(blocks[pairs[begin] >> 8]);
+        const core::Kind kind = S::kind_of(blocks[pairs[begin] >> 8]);
         int end = begin;
         Method::with_filter(kind, [&]<class Filter>() {
             while (end < count) {
                 const std::uint32_t shape = pairs[end] >> 4, child = blocks[shape >> 4];
                 if (S::kind_of(child) != kind) break;
-                const TableView& table = scene.tables[kind];
+                const TableView& table = S::table_of(scene, kind);
                 const std::uint32_t number = child & child_index, lane = shape & 15;
                 const float* block = S::block_of(table, number);
                 const Filter filter(
@@ -163,7 +163,7 @@ struct GroupWalk : Streams<Arch> {
         Method::certifies&& Method::rounded_alone && !sifts_packets<Filter, typename Method::Rays>;
 
     typename S::Rows rows_of(std::uint32_t block) const {
-        return S::rows_of(S::block_of(scene.tables[S::kind_of(block)], block & child_index));
+        return S::rows_of(S::block_of(S::table_of(scene, S::kind_of(block)), block & child_index));
     }
 
     /// Writes the wanted ones of a register's worth of numbers, with others above them. Returns how

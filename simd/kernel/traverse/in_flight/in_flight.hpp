@@ -90,7 +90,7 @@ struct InFlight : Streams<Arch> {
         for (int k = 0; k < count; ++k)
             rest[k] = which[k];
         while (count != 0) {
-            const KindNumber kind = S::kind_of(rays[rest[0]].child);
+            const core::Kind kind = S::kind_of(rays[rest[0]].child);
             int same_count = 0, others = 0;
             for (int k = 0; k < count; ++k) {
                 const int ray = rest[k];
@@ -101,7 +101,8 @@ struct InFlight : Streams<Arch> {
             }
             count = others;
             Method::with_filter(kind, [&]<class Filter>() {
-                for_each_of_kind<Filter>(stream, scene.tables[kind], same, same_count, rays, visit);
+                for_each_of_kind<Filter>(stream, S::table_of(scene, kind), same, same_count, rays,
+                                         visit);
             });
         }
     }

@@ -67,7 +67,7 @@ class TraceTree : InFlight<Arch, Method> {
         }
         for (int k = 0; k < hit_count; ++k) {
             Flight& flight = flights_[hit[k]];
-            const TableView& table = scene_.tables[S::kind_of(flight.child)];
+            const TableView& table = S::table_of(scene_, S::kind_of(flight.child));
             Leaf<Arch, Method>::take(
                 flight.hits, table.first_slot + 16 * (flight.child & child_index), flight.best);
         }

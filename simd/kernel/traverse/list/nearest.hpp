@@ -149,7 +149,7 @@ class TraceStream : Streams<Arch> {
     }
 
     void at_block(std::uint32_t child, const Number* list, int count) {
-        const KindNumber kind = S::kind_of(child);
+        const core::Kind kind = S::kind_of(child);
         counters_.shapes += 16 * static_cast<std::uint64_t>(count);
         Method::with_filter(
             kind, [&]<class Filter>() { test<Filter>(kind, child & child_index, list, count); });
@@ -162,9 +162,9 @@ class TraceStream : Streams<Arch> {
 
     /// A function to itself: in one for all kinds, compilers run out of patience for inlining.
     template <class Filter>
-    [[gnu::noinline, gnu::flatten]] void test(KindNumber kind, std::uint32_t number,
+    [[gnu::noinline, gnu::flatten]] void test(core::Kind kind, std::uint32_t number,
                                               const Number* list, int count) {
-        const TableView& table = scene_.tables[kind];
+        const TableView& table = S::table_of(scene_, kind);
         if constexpr (packs_pairs<Filter, Method>) {
             Pairs<Arch, Method>& pairs = pairs_.of(kind);
             const auto take_them = [&] { take<Filter>(pairs); };

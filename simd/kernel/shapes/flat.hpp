@@ -1,7 +1,9 @@
 #pragma once
 
-#include "simd/kernel/filters/filter.hpp"
+#include "simd/kernel/shapes/filter.hpp"
+#include "simd/kernel/shapes/finisher.hpp"
 
+/// What flat shapes have in common.
 namespace raylane::simd {
 
 /// t = height / approach for height = n . (p - origin) and approach = n . d, given what these two
@@ -60,22 +62,39 @@ template <class Arch>
 }
 
 template <class Arch>
-struct PlaneFilter {
-    Vectors<Arch> point, normal;
+Crossing<Arch> cross_plane(const Vectors<Arch>& to_point, const Vectors<Arch>& normal,
+                           const Vectors<Arch>& direction) {
+    const Floats<Arch> approach = dot(normal, direction);
+    const Mask<Arch> falls = approach < zero<Arch>();
+    return {falls | (approach > zero<Arch>()), dot(normal, to_point) / approach, zero<Arch>(),
+            falls};
+}
 
-    template <class Reader>
-    explicit PlaneFilter(Reader reader)
-        : point(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)) {}
+template <class Arch>
+Crossings<Arch> only(const Crossing<Arch>& crossing) {
+    return {{crossing.exists, crossing.t, crossing.face, crossing.entering},
+            {none<Arch>(), zero<Arch>(), zero<Arch>(), none<Arch>()}};
+}
 
-    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
-        using F = Floats<Arch>;
-        const Vectors<Arch> to_point = point - rays.origin;
-        const FlatCrossing<Arch> crossing = cross_plane(to_point, normal, rays);
-        // Alone of all shapes, it may be met beyond the largest float.
-        const F lower = min(positive_part<Arch>(crossing.lower), F(0x1.fffffep+127F));
-        return {is_number<Arch>(to_point.x) & ~crossing.behind, lower, crossing.ahead,
-                crossing.upper};
+/// A flat shape is not met again by a ray that starts on it. `passed`: the line surely does not
+/// cross it, for one as it is parallel to it; `clear`: where t is known, so that it may be behind
+/// the ray.
+template <Wanted wanted, class Arch>
+Finished<Arch> finish_flat(const Mask<Arch>& clear, const Mask<Arch>& inside,
+                           const Mask<Arch>& passed, const Floats<Arch>& t,
+                           const Floats<Arch>& error, const Floats<Arch>& approach,
+                           const Vectors<Arch>& unit_normal, const Starts<Arch>& starts) {
+    Finished<Arch> result = {clear & inside & ~starts.on_surface & is_result<Arch>(t, error),
+                             t,
+                             error,
+                             zero<Arch>(),
+                             approach < zero<Arch>(),
+                             unit_normal};
+    if constexpr (wanted == Wanted::all) {
+        result.misses = (clear & (t < negated(error))) | passed;
+        result.normal_error = error_of_unit<Arch>(unit_normal);
     }
-};
+    return result;
+}
 
 } // namespace raylane::simd

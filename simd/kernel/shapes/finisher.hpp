@@ -2,13 +2,14 @@
 
 #include "simd/kernel/lanes/doubles.hpp"
 #include "simd/kernel/shapes/crossings.hpp"
+#include "simd/kernel/shapes/shape.hpp"
 
 /// Finishers: where a ray first crosses a shape, in double, with a bound on the error of t; and
 /// whether that is certain. What is not is rare, and a scalar solver that knows how to ask again in
 /// a wider type decides it. So there is no search for what happens in hard cases here, only for
 /// proofs that a case is not hard: a lane is certain if some sufficient condition holds.
 ///
-/// Each finisher stands for one kind of shape, is loaded like its solver (solvers/shapes.hpp), in
+/// Each finisher stands for one kind of shape, is made of a reader of
 /// doubles, and has
 ///   Finished<Arch> finish<wanted>(const Rays<Arch>&, const Starts<Arch>&) const
 /// Arch is a Double<...> throughout.

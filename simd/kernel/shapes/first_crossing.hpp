@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/filters/slab.hpp"
+#include "simd/kernel/shapes/slab.hpp"
 
 namespace raylane::simd {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/filters/filter.hpp"
+#include "simd/kernel/shapes/filter.hpp"
 
 namespace raylane::simd {
 

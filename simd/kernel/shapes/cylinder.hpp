@@ -1,20 +1,65 @@
 #pragma once
 
-#include "simd/kernel/solvers/axial.hpp"
-#include "simd/kernel/solvers/quadratic.hpp"
+#include "simd/kernel/shapes/axial.hpp"
+#include "simd/kernel/shapes/axial_filter.hpp"
+#include "simd/kernel/shapes/axial_finisher.hpp"
+#include "simd/kernel/shapes/quadratic.hpp"
 
 namespace raylane::simd {
 
-/// core/shapes/cylinder.hpp
-template <class Arch, bool capped, bool textbook = false>
-struct CylinderLanes {
+template <class Arch>
+struct CylinderNumbers {
     Vectors<Arch> base, axis;
     Floats<Arch> radius;
 
     template <class Reader>
-    explicit CylinderLanes(Reader reader)
+    explicit CylinderNumbers(Reader reader)
         : base(next_vector<Arch>(reader)), axis(next_vector<Arch>(reader)), radius(reader.next()) {}
 
+    static constexpr int ends = 2;
+    /// Around one end of the body, which is between both.
+    SphereAround<Arch> enclosing(int end) const {
+        return end == 0 ? rounded_up<Arch>(base, radius) : rounded_up<Arch>(base + axis, radius);
+    }
+
+    Floats<Arch> base_width() const { return radius; }
+    Floats<Arch> top_width() const { return radius; }
+};
+
+template <class Arch, bool capped>
+struct CylinderFilter {
+    static constexpr bool is_costly = true;
+    static constexpr int values = 7;
+    AxialFilter<Arch, false> axial;
+
+    template <class Reader>
+    explicit CylinderFilter(Reader reader) : axial(read(reader)) {}
+
+    [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
+        return axial.may_meet(rays);
+    }
+
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        if constexpr (capped)
+            return axial.capped_bounds(rays);
+        else
+            return axial.open_bounds(rays);
+    }
+
+  private:
+    template <class Reader>
+    static AxialFilter<Arch, false> read(Reader& reader) {
+        const Vectors<Arch> base = next_vector<Arch>(reader), axis = next_vector<Arch>(reader);
+        const Floats<Arch> radius = reader.next();
+        return {base, axis, radius, radius};
+    }
+};
+
+/// core/shapes/cylinder.hpp
+template <class Arch, bool capped, bool textbook>
+struct CylinderSolver : CylinderNumbers<Arch> {
+    using Numbers = CylinderNumbers<Arch>;
+    using Numbers::Numbers, Numbers::base, Numbers::axis, Numbers::radius;
     Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         const AxialRays<Arch> axial(base, axis, rays);
         const Floats<Arch> speed_squared = squared_length(axial.across_direction);
@@ -66,6 +111,36 @@ struct CylinderLanes {
         return select(face == constant<Arch>(base_cap_code), -unit_axis,
                       select(face == constant<Arch>(top_cap_code), unit_axis, from_axis));
     }
+};
+
+template <class Arch>
+struct CylinderProfile : CylinderNumbers<Arch> {
+    static constexpr bool tapers = false;
+    using CylinderNumbers<Arch>::CylinderNumbers;
+};
+
+template <>
+struct ShapeKernels<core::OpenCylinder> {
+    template <class Arch>
+    using Numbers = CylinderNumbers<Arch>;
+    template <class Arch, bool textbook>
+    using Solver = CylinderSolver<Arch, false, textbook>;
+    template <class Arch>
+    using Filter = CylinderFilter<Arch, false>;
+    template <class D>
+    using Finisher = OpenFinisher<D, CylinderProfile<D>>;
+};
+
+template <>
+struct ShapeKernels<core::CappedCylinder> {
+    template <class Arch>
+    using Numbers = CylinderNumbers<Arch>;
+    template <class Arch, bool textbook>
+    using Solver = CylinderSolver<Arch, true, textbook>;
+    template <class Arch>
+    using Filter = CylinderFilter<Arch, true>;
+    template <class D>
+    using Finisher = CappedFinisher<D, CylinderProfile<D>>;
 };
 
 } // namespace raylane::simd

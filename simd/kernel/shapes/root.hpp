@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/finishers/finisher.hpp"
+#include "simd/kernel/shapes/finisher.hpp"
 
 /// Roots of F(s) = A s^2 + 2 B s + C, found with no thought of errors and then certified.
 namespace raylane::simd {

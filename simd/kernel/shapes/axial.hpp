@@ -1,8 +1,9 @@
 #pragma once
 
-#include "simd/kernel/solvers/shapes.hpp"
+#include "simd/kernel/shapes/crossings.hpp"
+#include "simd/kernel/shapes/enclosing.hpp"
 
-/// core/shapes/axial.hpp
+/// What the solvers of cylinders and cones have in common: core/shapes/axial.hpp
 namespace raylane::simd {
 
 template <class Arch>

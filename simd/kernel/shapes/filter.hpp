@@ -1,12 +1,12 @@
 #pragma once
 
 #include "simd/kernel/shapes/crossings.hpp"
-#include "simd/kernel/solvers/shapes.hpp"
+#include "simd/kernel/shapes/shape.hpp"
 
 /// Filters: float arithmetic that cannot be wrong, because it does not say where a ray crosses a
 /// shape, but between which bounds. What survives them is solved in double.
 ///
-/// Each filter stands for one kind of shape, is loaded like its solver (solvers/shapes.hpp), and
+/// Each filter stands for one kind of shape, is made of a reader (shape.hpp), and
 /// has
 ///   Bounds<Arch> bounds(const FilterRays<Arch>&) const
 /// and may have

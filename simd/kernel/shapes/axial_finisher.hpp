@@ -1,32 +1,12 @@
 #pragma once
 
-#include "simd/kernel/finishers/root.hpp"
-#include "simd/kernel/solvers/cone.hpp"
-#include "simd/kernel/solvers/cylinder.hpp"
+#include "simd/kernel/shapes/root.hpp"
 
+/// The finishers of cylinders and cones. A Profile is what they differ in: base, axis,
+/// base_width(), top_width(), and whether it `tapers`.
 namespace raylane::simd {
 
-template <class Arch, bool capped>
-struct CylinderProfile : CylinderLanes<Arch, capped> {
-    static constexpr bool tapers = false;
-    static constexpr bool has_caps = capped;
-    using CylinderLanes<Arch, capped>::CylinderLanes;
-
-    Floats<Arch> base_width() const { return this->radius; }
-    Floats<Arch> top_width() const { return this->radius; }
-};
-
-template <class Arch, bool capped>
-struct ConeProfile : ConeLanes<Arch, capped> {
-    static constexpr bool tapers = true;
-    static constexpr bool has_caps = capped;
-    using ConeLanes<Arch, capped>::ConeLanes;
-
-    Floats<Arch> base_width() const { return this->base_radius; }
-    Floats<Arch> top_width() const { return this->top_radius; }
-};
-
-/// A ray along and across the axis, as in solvers/axial.hpp: F(s) = |across|^2 - width^2 is 0 on
+/// A ray along and across the axis, as in axial.hpp: F(s) = |across|^2 - width^2 is 0 on
 /// the body, with width = W + s M.
 ///
 /// Errors: let P be that of the position at s, and L = |start| + |s|. Taking the axis out of it

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/filters/surface.hpp"
+#include "simd/kernel/shapes/first_crossing.hpp"
 
 /// Cylinders and cones. Each ray is first moved to t = `start`, where it enters the slab between
 /// the ends or a sphere about the shape, if it is not inside: so magnitudes are the shape's, the

@@ -1,0 +1,264 @@
+#pragma once
+
+#include "simd/kernel/shapes/enclosing.hpp"
+#include "simd/kernel/shapes/finisher.hpp"
+#include "simd/kernel/shapes/slab.hpp"
+
+namespace raylane::simd {
+
+template <class Arch>
+struct BoxNumbers {
+    Vectors<Arch> corner, edge_u, edge_v, edge_w;
+
+    template <class Reader>
+    explicit BoxNumbers(Reader reader)
+        : corner(next_vector<Arch>(reader)), edge_u(next_vector<Arch>(reader)),
+          edge_v(next_vector<Arch>(reader)), edge_w(next_vector<Arch>(reader)) {}
+
+    SphereAround<Arch> enclosing() const {
+        const Vectors<Arch> u = half<Arch>(edge_u), v = half<Arch>(edge_v), w = half<Arch>(edge_w);
+        const Floats<Arch> longest = max(max(length<Arch>(u + v + w), length<Arch>(u + v - w)),
+                                         max(length<Arch>(u - v + w), length<Arch>(u - v - w)));
+        return rounded_up<Arch>(corner + u + v + w, longest);
+    }
+};
+
+/// Three slabs |n . f - volume / 2| <= |volume| / 2 for f = origin - corner, the normals n = v x w,
+/// w x u, u x v and volume = n . u.
+///
+/// A normal is off by 2 u of absolute_cross(), n . f by 6 u of the sum of the absolute products,
+/// half the volume by 5 u of its own, twice: in the position and in the width. What cross_slab()
+/// wants paid for and the sum's rounding add 3 u of n . f and 5 u of half the volume. n . d is off
+/// by 6 u. Sums are doubled, or taken eightfold, to overflow in time.
+template <class Arch>
+struct BoxFilter {
+    static constexpr bool is_costly = true;
+    Vectors<Arch> corner;
+    Vectors<Arch> normals[3], normal_sizes[3];
+    Floats<Arch> middle, middle_error;
+
+    template <class Reader>
+    explicit BoxFilter(Reader reader) : corner(next_vector<Arch>(reader)) {
+        const Floats<Arch> tiny(underflow);
+        const Vectors<Arch> u = next_vector<Arch>(reader), v = next_vector<Arch>(reader),
+                            w = next_vector<Arch>(reader);
+        normals[0] = fast_cross(v, w);
+        normals[1] = fast_cross(w, u);
+        normals[2] = fast_cross(u, v);
+        normal_sizes[0] = absolute_cross(v, w, tiny);
+        normal_sizes[1] = absolute_cross(w, u, tiny);
+        normal_sizes[2] = absolute_cross(u, v, tiny);
+        middle = Floats<Arch>(0.5F) * fast_dot(normals[0], u);
+        const Floats<Arch> size = fast_dot(normal_sizes[0], absolute(u));
+        middle_error =
+            fast_mul_add<Arch>(Floats<Arch>(0.75F * half_ulp), Floats<Arch>(8.0F) * size, tiny);
+    }
+
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const F o = zero<Arch>();
+        const Vectors<Arch> from_corner = rays.origin - corner;
+        const Vectors<Arch> doubled = absolute(from_corner + from_corner),
+                            d = absolute(rays.direction);
+        const F middle_size = abs(middle);
+        const auto stay_between = [&](int i) __attribute__((always_inline)) {
+            const Vectors<Arch>& size = normal_sizes[i];
+            const F error = fast_mul_add<Arch>(
+                F(5 * half_ulp), fast_dot(size, doubled, middle_size),
+                fast_mul_add<Arch>(size.x + size.y + size.z, rays.slack, middle_error));
+            const F slope_error =
+                fast_mul_add<Arch>(F(7 * half_ulp), fast_dot(size, d), F(underflow));
+            return cross_slab<Arch>(fast_dot(normals[i], from_corner) - middle, middle_size, error,
+                                    fast_dot(normals[i], rays.direction), slope_error);
+        };
+        const Stay<Arch> stay = stay_between(0) & stay_between(1) & stay_between(2);
+        const F lower = positive_part<Arch>(stay.in_low);
+        const Mask<Arch> outside = stay.in_low > o;
+        return {is_number<Arch>(from_corner.x) & ~(stay.out_high < lower),
+                select(stay.inside, positive_part<Arch>(stay.out_low), lower),
+                stay.definite & (stay.in_high <= stay.out_low) & (stay.out_low > o),
+                select(outside, stay.in_high, stay.out_high)};
+    }
+};
+
+/// core/shapes/box.hpp
+template <class Arch>
+struct BoxSolver : BoxNumbers<Arch> {
+    using Numbers = BoxNumbers<Arch>;
+    using Numbers::Numbers, Numbers::corner, Numbers::edge_u, Numbers::edge_v, Numbers::edge_w;
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Vectors<Arch> from_corner = rays.origin - corner;
+        const Vectors<Arch> normals[3] = {cross(edge_v, edge_w), cross(edge_w, edge_u),
+                                          cross(edge_u, edge_v)};
+        const Floats<Arch> volume = dot(normals[0], edge_u);
+        const Mask<Arch> left_handed = volume < zero<Arch>();
+        const auto turned = [&](const Floats<Arch>& a) {
+            return select(left_handed, negated(a), a);
+        };
+
+        Span<Arch> span;
+        for (int i = 0; i < 3; ++i) {
+            const Floats<Arch> position = turned(dot(normals[i], from_corner));
+            const Floats<Arch> slope = turned(dot(normals[i], rays.direction));
+            const float low = static_cast<float>(2 * i), high = static_cast<float>(2 * i + 1);
+            span.clip_slab(~starts.on_surface, position, slope, turned(volume), low, high);
+            const Mask<Arch> rises =
+                starts.on_surface & (slope > zero<Arch>()) & (starts.face != constant<Arch>(high));
+            const Mask<Arch> falls =
+                starts.on_surface & (slope < zero<Arch>()) & (starts.face != constant<Arch>(low));
+            span.clip_back(rises, (turned(volume) - position) / slope, constant<Arch>(high));
+            span.clip_back(falls, negated(position) / slope, constant<Arch>(low));
+        }
+        return inward_only(span.crossings(starts.on_surface), starts);
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>&, const Floats<Arch>& face) const {
+        const Vectors<Arch> normals[3] = {cross(edge_v, edge_w), cross(edge_w, edge_u),
+                                          cross(edge_u, edge_v)};
+        const Mask<Arch> left_handed = dot(normals[0], edge_u) < zero<Arch>();
+        const auto is = [&](float f) { return face == constant<Arch>(f); };
+        const Vectors<Arch> normal =
+            select(is(0) | is(1), normals[0], select(is(2) | is(3), normals[1], normals[2]));
+        const Mask<Arch> through_corner = is(0) | is(2) | is(4);
+        const Mask<Arch> same = (left_handed & through_corner) | (~left_handed & ~through_corner);
+        const Vectors<Arch> unit = normalized(normal);
+        return select(same, unit, -unit);
+    }
+};
+
+/// Three slabs 0 <= normal . p <= volume. The ray crosses the boundary of a convex solid just once
+/// in each direction; so where it crosses the plane of a face in one direction, certainly within
+/// the other two slabs, that is where it enters, or leaves.
+///
+/// With N = |v|_1 |w|_1 >= |v x w|, normal . at(s) errs by N times the error of the position and 10
+/// u
+/// (|start| + |s|), normal . direction by 8 u N, the volume by 12 u |u|_1 |v|_1 |w|_1.
+template <class Arch>
+struct BoxFinisher {
+    BoxNumbers<Arch> box;
+
+    template <class Reader>
+    explicit BoxFinisher(Reader reader) : box(reader) {}
+
+    template <Wanted wanted>
+    Finished<Arch> finish(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Slabs slabs(box, rays);
+        Finished<Arch> result = slabs.pass(starts.on_surface, starts);
+        const Mask<Arch> behind =
+            result.certain & ~starts.on_surface & (result.t < negated(result.error));
+        if (any<Arch>(behind))
+            result = select(behind, slabs.pass(starts.on_surface | behind, starts), result);
+        result.certain = result.certain & (~starts.on_surface | starts.inward) &
+                         is_result<Arch>(result.t, result.error);
+        if constexpr (wanted == Wanted::all) {
+            // Edges are floats, so their products are exact and the normal is rounded once.
+            result.normal_error = error_of_unit<Arch>(result.normal);
+            const Mask<Arch> uncertain = ~result.certain & ~starts.on_surface;
+            if (any<Arch>(uncertain)) result.misses = uncertain & slabs.passed(starts);
+        }
+        return result;
+    }
+
+  private:
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+
+    struct Slabs {
+        LocalRays<Arch> local;
+        Vectors<Arch> normals[3]; ///< outward at the far faces
+        F sizes[3];               ///< N
+        F position[3], slope[3];
+        F volume, volume_error;
+        M left_handed;
+
+        Slabs(const BoxNumbers<Arch>& box, const Rays<Arch>& rays) : local(rays, box.corner) {
+            const F U = sum_of_sizes(box.edge_u), V = sum_of_sizes(box.edge_v),
+                    W = sum_of_sizes(box.edge_w);
+            normals[0] = cross(box.edge_v, box.edge_w);
+            normals[1] = cross(box.edge_w, box.edge_u);
+            normals[2] = cross(box.edge_u, box.edge_v);
+            sizes[0] = V * W;
+            sizes[1] = W * U;
+            sizes[2] = U * V;
+            const F signed_volume = dot(normals[0], box.edge_u);
+            volume = abs(signed_volume);
+            volume_error = F(0x1p-49) * (U * sizes[0]);
+            left_handed = signed_volume < zero<Arch>();
+            for (int i = 0; i < 3; ++i) {
+                normals[i] = negated_where<Arch>(left_handed, normals[i]);
+                position[i] = dot(normals[i], local.start);
+                slope[i] = dot(normals[i], local.direction);
+            }
+        }
+
+        /// Whether the line surely leaves one slab before it enters another, or all of them before
+        /// it starts.
+        M passed(const Starts<Arch>& starts) const {
+            M in_known, out_known;
+            const Finished<Arch> in = pass(none<Arch>(), starts, &in_known),
+                                 out = pass(all<Arch>(), starts, &out_known);
+            return (in_known & out_known & (in.t - in.error > out.t + out.error)) |
+                   (out_known & (out.t < negated(out.error)));
+        }
+
+        /// Where the ray leaves, or else enters. `known`: where its t is that of the slab which is
+        /// the last to be entered, or the first to be left, whether or not it is inside of the
+        /// others.
+        Finished<Arch> pass(const M& leaves, const Starts<Arch>& starts, M* known = nullptr) const {
+            // The last plane to be entered, or the first to be left.
+            F s(0.0), face(0.0);
+            F best_slope(0.0), best_size(0.0);
+            Vectors<Arch> normal = normals[0];
+            M any_yet = none<Arch>();
+            M chosen[3];
+            for (int i = 0; i < 3; ++i) {
+                const M rises = slope[i] > zero<Arch>(), falls = slope[i] < zero<Arch>();
+                const M is_far = (rises & leaves) | (falls & ~leaves);
+                const F plane = select(is_far, volume, zero<Arch>());
+                const F at = (plane - position[i]) / slope[i];
+                const F at_face = select(is_far, F(2.0 * i + 1.0), F(2.0 * i));
+                const M departed = starts.on_surface & (at_face == starts.face);
+                const M sooner = (leaves & (at < s)) | (~leaves & (at > s));
+                chosen[i] = (rises | falls) & ~departed & (sooner | ~any_yet);
+                any_yet = any_yet | chosen[i];
+                s = select(chosen[i], at, s);
+                face = select(chosen[i], at_face, face);
+                best_slope = select(chosen[i], slope[i], best_slope);
+                best_size = select(chosen[i], sizes[i], best_size);
+                normal = select<Arch>(chosen[i], negated_where<Arch>(~is_far, normals[i]), normal);
+            }
+            chosen[1] = chosen[1] & ~chosen[2];
+            chosen[0] = chosen[0] & ~chosen[1] & ~chosen[2];
+
+            const F position_error = local.error_at(s, 16.0);
+            const F error_s =
+                F(1.25) * (best_size * position_error + volume_error) / abs(best_slope);
+            M within = any_yet;
+            for (int i = 0; i < 3; ++i) {
+                const F at = mul_add<Arch>(s, slope[i], position[i]);
+                const F margin = sizes[i] * (position_error + error_s) + volume_error;
+                within = within & (chosen[i] | ((at > margin) & (volume - at > margin)));
+            }
+            const F t = local.shift + s;
+            const M clear =
+                (volume > F(4.0) * volume_error) & (abs(best_slope) > F(0x1p-44) * best_size);
+            if (known != nullptr) *known = any_yet & clear;
+            return {within & clear, t,       local.error_of_t(t, s, error_s),
+                    face,           ~leaves, unit<Arch>(normal)};
+        }
+    };
+};
+
+template <>
+struct ShapeKernels<core::Box> {
+    template <class Arch>
+    using Numbers = BoxNumbers<Arch>;
+    template <class Arch, bool textbook>
+    using Solver = BoxSolver<Arch>;
+    template <class Arch>
+    using Filter = BoxFilter<Arch>;
+    template <class D>
+    using Finisher = BoxFinisher<D>;
+};
+
+} // namespace raylane::simd

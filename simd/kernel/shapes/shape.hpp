@@ -1,0 +1,61 @@
+#pragma once
+
+#include "core/kinds.hpp"
+#include "simd/kernel/lanes/vectors.hpp"
+
+/// The shapes of core/shapes, one per lane. Each can be loaded from one shape's floats for all
+/// lanes, or from a block of shapes, structure of arrays.
+namespace raylane::simd {
+
+/// What the kernels have for a kind of shape: from its own file, where it is specialised.
+///   Numbers<Arch>           its floats; and, for what no ray of a group meets, spheres around it:
+///       enclosing() is one, or enclosing(end) one around each of its `ends`, which it is between;
+///       or it `encloses_itself`
+///   Solver<Arch, textbook>  has crossings(rays, starts) and outward_normal(point, face): core's
+///       formulas, one shape per lane, in lanes of any numbers; by the textbooks' where there are
+///       better ones
+///   Filter<Arch>            float bounds on where rays cross it (filter.hpp)
+///   Finisher<D>             its certified crossing in double (finisher.hpp)
+/// Each is made of a reader, which gives the shape's floats one after the other. The solver in
+/// numbers with bounds is what widens, and what comes behind it is core's.
+template <class Shape>
+struct ShapeKernels;
+
+/// Reads the floats of one shape after the other from a block: row k, from `lane` on.
+template <class Arch>
+class BlockReader {
+  public:
+    BlockReader(const float (*rows)[16], int lane) : rows_(rows), lane_(lane) {}
+    Floats<Arch> next() { return Floats<Arch>::load_unaligned(*rows_++ + lane_); }
+
+  private:
+    const float (*rows_)[16];
+    int lane_;
+};
+
+/// The same for lane `lane` alone, to all lanes.
+template <class Arch>
+class BroadcastReader {
+  public:
+    BroadcastReader(const float (*rows)[16], int lane) : rows_(rows), lane_(lane) {}
+    Floats<Arch> next() { return Floats<Arch>((*rows_++)[lane_]); }
+
+  private:
+    const float (*rows_)[16];
+    int lane_;
+};
+
+template <class Arch, class Reader>
+[[gnu::always_inline]] inline Vectors<Arch> next_vector(Reader& reader) {
+    const Floats<Arch> x = reader.next(), y = reader.next(), z = reader.next();
+    return {x, y, z};
+}
+
+/// Reads on behalf of another reader.
+template <class Arch, class Reader>
+struct PassOn {
+    Reader& reader;
+    Floats<Arch> next() { return reader.next(); }
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,256 @@
+#pragma once
+
+#include "simd/kernel/shapes/enclosing.hpp"
+#include "simd/kernel/shapes/filter.hpp"
+#include "simd/kernel/shapes/finisher.hpp"
+#include "simd/kernel/shapes/quadratic.hpp"
+
+namespace raylane::simd {
+
+template <class Arch>
+struct SphereNumbers {
+    Vectors<Arch> center;
+    Floats<Arch> radius;
+
+    template <class Reader>
+    explicit SphereNumbers(Reader reader)
+        : center(next_vector<Arch>(reader)), radius(reader.next()) {}
+
+    /// What encloses it are the numbers themselves.
+    static constexpr bool encloses_itself = true;
+};
+
+/// With f = origin - center, tau = -f . d and q = f + tau d (the foot of the perpendicular), a ray
+/// with unit d crosses at tau -+ sqrt(r^2 - q^2).
+///
+/// The point that the floats mean at t is within e = slack + u |f| + u t of the true one: at a
+/// crossing, |f + t d| = r -+ e. As a polynomial in t - tau this is Q + 2 b (t - tau) +
+/// |d|^2 (t - tau)^2, where sqrt(Q) is within u (|tau| + |q|) of |q|, |b| <= 3 u |f| + 2 u |tau|
+/// for the rounding of tau and for |d|^2 = 1 -+ 2 u. Here |f| <= |tau| + |q|, t <= |tau| + r and,
+/// where it matters, |q| <= r. So, with room for the rounding of the squares,
+///   (r -+ e)^2 - Q + b^2 is within (r -+ E)^2 - q^2 for E = slack + u (6 |tau| + 7 r),
+/// and tau -+ sqrt() is then off by |b| + u (2 |tau| + 4 r) < u (7 |tau| + 8 r).
+template <class Arch>
+struct SphereFilter : SphereNumbers<Arch> {
+    using Numbers = SphereNumbers<Arch>;
+    using Numbers::Numbers, Numbers::center, Numbers::radius;
+    /// Whether a ray may meet the sphere, for less than its bounds.
+    [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const Vectors<Arch> from_center = rays.origin - center;
+        const F behind = fast_dot(from_center, rays.direction); // the ray's origin, of the foot
+        const Vectors<Arch> foot = fast_mul_add<Arch>(negated(behind), rays.direction, from_center);
+        const F outer = radius * F(1 + 12 * half_ulp) +
+                        fast_mul_add<Arch>(F(12 * half_ulp), abs(behind), rays.slack);
+        // A ray that has its foot behind it starts inside, if it meets the sphere at all: its
+        // distance from the centre, and so `behind`, is r + slack at most, and 6 u r for rounding.
+        // What overflows proves nothing.
+        const Mask<Arch> missed = (outer * outer < fast_dot(foot, foot)) | (outer < behind);
+        return is_number<Arch>(from_center.x) & ~missed;
+    }
+
+    /// Without a root, unless what is left in doubt is asked about: a ray that starts more than a
+    /// radius before its foot enters behind its start and before the foot, if it meets the sphere.
+    [[gnu::always_inline]] Obstacle<Arch> obstacle(const FilterRays<Arch>& rays,
+                                                   std::uint32_t asked,
+                                                   const Floats<Arch>& perhaps_before,
+                                                   const Floats<Arch>& surely_before) const {
+        using F = Floats<Arch>;
+        const F o = zero<Arch>();
+        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
+        const F first = tau - outer - rounding;
+        const Mask<Arch> missed = (outer * outer < foot_squared) | (tau + outer + rounding < o) |
+                                  (first >= perhaps_before);
+        const Mask<Arch> possible = there & ~missed;
+        const Mask<Arch> certain = (inner > o) & (inner * inner > foot_squared) & (first > o) &
+                                   (tau + rounding < surely_before);
+        if ((Lanes<Arch>::bits(possible & ~certain) & asked) == 0) return {possible, certain};
+        const Bounds<Arch> all = bounds(rays);
+        return {all.possible & (all.lower < perhaps_before),
+                all.certain & (all.upper < surely_before)};
+    }
+
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const F o = zero<Arch>();
+        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
+        const F outer_chord = outer * outer - foot_squared; // not fused: both overflow, or none
+        const F outer_half = sqrt(outer_chord);
+        const F entry = tau - outer_half - rounding;
+        const F exit = tau + outer_half + rounding;
+        const Mask<Arch> missed = (outer_chord < o) | (exit < o);
+
+        const F inner_chord = inner * inner - foot_squared;
+        const F inner_half = sqrt(inner_chord);
+        const Mask<Arch> meets = (inner > o) & (inner_chord > o), ahead = entry > o;
+        Bounds<Arch> result{there & ~missed, positive_part<Arch>(entry), meets & ahead,
+                            tau - inner_half + rounding};
+
+        // Surely inside, it is the exit that counts.
+        const Mask<Arch> inside =
+            (inner > o) & (fast_mul_add<Arch>(tau, tau, foot_squared) < inner * inner);
+        if (Lanes<Arch>::bits(inside) != 0) [[unlikely]] {
+            const F least = tau + inner_half - rounding;
+            // The chord of a huge sphere overflows.
+            const Mask<Arch> known = (least > o) & (least < F(__builtin_inff()));
+            result.lower = select(inside, select(known, least, o), result.lower);
+            result.certain = result.certain | inside;
+            result.upper = select(inside, exit, result.upper);
+        }
+        return result;
+    }
+
+  private:
+    /// A ray next to the centre.
+    struct Near {
+        Mask<Arch> there;               ///< the sphere is
+        Floats<Arch> tau, foot_squared; ///< t of the foot, and q^2
+        Floats<Arch> rounding;          ///< of t
+        Floats<Arch> outer, inner;      ///< the radius and E more, or less
+    };
+
+    [[gnu::always_inline]] Near near(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const Vectors<Arch> from_center = rays.origin - center;
+        const F tau = negated(fast_dot(from_center, rays.direction));
+        const Vectors<Arch> foot = fast_mul_add<Arch>(tau, rays.direction, from_center);
+        const F foot_squared = fast_dot(foot, foot);
+        const F rounding = F(10 * half_ulp) * (abs(tau) + radius);
+        const F error = rounding + rays.slack;
+        const F outer = radius + error, inner = radius - error;
+        return {is_number<Arch>(from_center.x), tau, foot_squared, rounding, outer, inner};
+    }
+};
+
+/// core/shapes/sphere.hpp
+template <class Arch, bool textbook = false>
+struct SphereSolver : SphereNumbers<Arch> {
+    using Numbers = SphereNumbers<Arch>;
+    using Numbers::Numbers, Numbers::center, Numbers::radius;
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Vectors<Arch> from_center = rays.origin - center;
+        const Floats<Arch> dd = squared_length(rays.direction);
+        const Floats<Arch> tau = negated(dot(from_center, rays.direction)) / dd;
+        const Mask<Arch> leaves = starts.on_surface & starts.inward;
+        if constexpr (textbook) {
+            Crossings<Arch> roots =
+                solve_textbook<Arch>(dd, dot(from_center, rays.direction),
+                                     squared_length(from_center) - radius * radius);
+            roots.first.exists = roots.first.exists & ~starts.on_surface;
+            roots.second.exists = (roots.second.exists & ~starts.on_surface) | leaves;
+            roots.second.t = select(leaves, not_behind<Arch>(tau + tau), roots.second.t);
+            return roots;
+        }
+        const Vectors<Arch> foot = mul_add<Arch>(tau, rays.direction, from_center);
+        const Floats<Arch> discriminant =
+            mul_add<Arch>(radius, radius, negated(squared_length(foot)));
+        const Floats<Arch> half_chord = sqrt(discriminant / dd);
+
+        const Mask<Arch> meets = ~(discriminant < zero<Arch>()) & ~starts.on_surface;
+        return {{meets, tau - half_chord, zero<Arch>(), all<Arch>()},
+                {meets | leaves, select(leaves, not_behind<Arch>(tau + tau), tau + half_chord),
+                 zero<Arch>(), none<Arch>()}};
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>&) const {
+        return normalized(point - center);
+    }
+};
+
+/// The solver's formula, with one division and, as directions are unit vectors, none by
+/// |direction|^2.
+///
+/// The foot of the perpendicular from the centre, start + 0 direction, is off by `local.error`
+/// across the ray. Along the ray it is off by 2^-46 |f|, f = origin - center: 2^-47 |f| as
+/// |direction|^2 is not 1, and 5 u |f| for the dot product. With |foot| <= r and H = |shift| + 2 r
+/// >= |f| + |foot|, the discriminant r^2 - |foot|^2 errs by
+///   2 r (4.1 u |f| + u r) + (5 u |f|)^2   from across,
+///   2^-91 |f|^2                           from along, where |foot|^2 is at its least,
+///   6 u r^2                               from its own roundings,
+/// so by less than H (16 u r + 2^-90 H). Its root errs by that, divided by it; and t further by
+/// 2^-46 |f| and 2^-47 |root|, so by 2^-45 H. A start on the surface has t = 2 shift, which errs by
+/// 10 u |f| and, as |direction|^2 is not 1, by 2^-47 of itself.
+///
+/// The offset from the centre errs by 4 u |f| and 8 u |t| |direction| by component, and with t.
+template <class Arch>
+struct SphereFinisher {
+    SphereNumbers<Arch> sphere;
+
+    template <class Reader>
+    explicit SphereFinisher(Reader reader) : sphere(reader) {}
+
+    template <Wanted wanted>
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
+        const F radius = sphere.radius;
+        const Vectors<Arch> from_center = rays.origin - sphere.center;
+        const F shift = negated(dot(from_center, rays.direction));
+        const Vectors<Arch> foot = mul_add<Arch>(shift, rays.direction, from_center);
+        const F discriminant = radius * radius - squared_length(foot);
+        const F H = abs(shift) + (radius + radius);
+        const F discriminant_error = H * (F(0x1p-49) * radius + F(0x1p-90) * H);
+        const F root = sqrt(discriminant);
+
+        const F inverse = F(1.0) / (radius * root);
+        const F crossing_error = F(0x1p-45) * H + discriminant_error * (inverse * radius);
+        const F entry = shift - root;
+        const Mask<Arch> entering = (entry > zero<Arch>()) & ~starts.on_surface;
+        const F from_foot = select(starts.on_surface, shift, select(entering, negated(root), root));
+        const F t = shift + from_foot;
+        const F error = select(starts.on_surface, F(0x1p-49) * H + F(0x1p-46) * t, crossing_error);
+        const Mask<Arch> ahead = (starts.on_surface & starts.inward &
+                                  (squared_length(foot) < F(2.0) * (radius * radius))) |
+                                 (~starts.on_surface & (discriminant > discriminant_error) &
+                                  (abs(entry) > crossing_error));
+        const F inverse_radius = inverse * root;
+        Finished<Arch> result = {
+            ahead & is_result<Arch>(t, error) & (error < F(0x1p-14) * radius),
+            t,
+            error,
+            zero<Arch>(),
+            entering,
+            scaled<Arch>(inverse_radius, mul_add<Arch>(from_foot, rays.direction, foot))};
+        if constexpr (wanted == Wanted::all) {
+            const F along = error + F(0x1p-48) * H;
+            const auto off = [&](const F& from, const F& way) {
+                return F(0x1p-50) * abs(from) + along * abs(way);
+            };
+            result.normal_error = error_of_unit<Arch>(result.normal,
+                                                      {off(from_center.x, rays.direction.x),
+                                                       off(from_center.y, rays.direction.y),
+                                                       off(from_center.z, rays.direction.z)},
+                                                      inverse_radius);
+            const Mask<Arch> uncertain = ~result.certain & ~starts.on_surface;
+            if (any<Arch>(uncertain))
+                result.misses =
+                    uncertain & (passes(shift, foot) | ((discriminant > discriminant_error) &
+                                                        (shift + root < negated(crossing_error))));
+        }
+        return result;
+    }
+
+  private:
+    using F = Floats<Arch>;
+
+    /// Whether the line surely does not come near enough: as above, with |foot| in place of the
+    /// radius, which is less.
+    Mask<Arch> passes(const F& shift, const Vectors<Arch>& foot) const {
+        const F size = sum_of_sizes(foot), H = abs(shift) + (size + size);
+        const F error = H * (F(0x1p-49) * size + F(0x1p-90) * H);
+        return squared_length(foot) - sphere.radius * sphere.radius > error;
+    }
+};
+
+template <>
+struct ShapeKernels<core::Sphere> {
+    template <class Arch>
+    using Numbers = SphereNumbers<Arch>;
+    template <class Arch, bool textbook>
+    using Solver = SphereSolver<Arch, textbook>;
+    template <class Arch>
+    using Filter = SphereFilter<Arch>;
+    template <class D>
+    using Finisher = SphereFinisher<D>;
+};
+
+} // namespace raylane::simd

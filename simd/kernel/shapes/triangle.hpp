@@ -1,0 +1,283 @@
+#pragma once
+
+#include "simd/kernel/shapes/enclosing.hpp"
+#include "simd/kernel/shapes/flat.hpp"
+
+namespace raylane::simd {
+
+template <class Arch>
+struct TriangleNumbers {
+    Vectors<Arch> a, b, c;
+
+    template <class Reader>
+    explicit TriangleNumbers(Reader reader)
+        : a(next_vector<Arch>(reader)), b(next_vector<Arch>(reader)), c(next_vector<Arch>(reader)) {
+    }
+
+    SphereAround<Arch> enclosing() const {
+        const Vectors<Arch> center = half<Arch>(a + half<Arch>(b + c));
+        return rounded_up<Arch>(center, max(max(length<Arch>(a - center), length<Arch>(b - center)),
+                                            length<Arch>(c - center)));
+    }
+};
+
+/// Of a smooth triangle.
+template <class Arch>
+struct CornerNormals {
+    Vectors<Arch> a, b, c;
+
+    template <class Reader>
+    explicit CornerNormals(Reader& reader)
+        : a(next_vector<Arch>(reader)), b(next_vector<Arch>(reader)), c(next_vector<Arch>(reader)) {
+    }
+
+    /// core::shading_normal
+    Vectors<Arch> interpolated(const TriangleNumbers<Arch>& triangle, const Vectors<Arch>& point,
+                               const Vectors<Arch>& unit_flat) const {
+        const Vectors<Arch> to_a = triangle.a - point, to_b = triangle.b - point,
+                            to_c = triangle.c - point;
+        const auto share = [&](const Vectors<Arch>& p, const Vectors<Arch>& q,
+                               const Vectors<Arch>& normal) {
+            return scaled(dot(unit_flat, cross(p, q)), unit(normal));
+        };
+        const Vectors<Arch> sum =
+            share(to_b, to_c, a) + share(to_c, to_a, b) + share(to_a, to_b, c);
+        const Floats<Arch> square = squared_length(sum);
+        return select<Arch>(square > zero<Arch>(), sum / sqrt(square), unit_flat);
+    }
+};
+
+/// With edges e = b - a, g = c - a, normal n = e x g and s = a - origin, the point a + v e + w g is
+/// met at t if t d = s + v e + w g, so that (Moeller and Trumbore, "Fast, Minimum Storage
+/// Ray/Triangle Intersection", 1997)
+///   t (n . d) = n . s,  v (n . d) = g . (s x d),  w (n . d) = -e . (s x d).
+///
+/// n is off by 4 u of absolute_cross(e, g), so n . s and n . d by 8 u of the sum of the absolute
+/// products. s x d is off by 4 u of absolute_cross(s, d), its products with edges by 8 u; moving
+/// the origin by slack moves them by slack |edge| or less. 11 u instead of 8 u pay for the sum that
+/// 1 - v - w is, too.
+template <class Arch>
+struct TriangleFilter {
+    Vectors<Arch> a, edge_e, edge_g, normal, normal_size;
+
+    template <class Reader>
+    explicit TriangleFilter(Reader reader) : a(next_vector<Arch>(reader)) {
+        edge_e = next_vector<Arch>(reader) - a;
+        edge_g = next_vector<Arch>(reader) - a;
+        normal = fast_cross(edge_e, edge_g);
+        normal_size = absolute_cross(edge_e, edge_g, Floats<Arch>(underflow));
+    }
+
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const F tiny(underflow);
+        const Vectors<Arch> to_a = a - rays.origin;
+        const F relative(11 * half_ulp);
+        const F height = fast_dot(normal, to_a);
+        const F height_error = fast_mul_add<Arch>(
+            relative, fast_dot(normal_size, absolute(to_a)),
+            fast_mul_add<Arch>(normal_size.x + normal_size.y + normal_size.z, rays.slack, tiny));
+        const F approach = fast_dot(normal, rays.direction);
+        const F approach_error =
+            fast_mul_add<Arch>(relative, fast_dot(normal_size, absolute(rays.direction)), tiny);
+        const FlatCrossing<Arch> crossing(height, height_error, approach, approach_error);
+
+        // v, w and 1 - v - w, times |approach|.
+        const Vectors<Arch> moment = fast_cross(to_a, rays.direction);
+        const Vectors<Arch> moment_size = absolute_cross(to_a, rays.direction, zero<Arch>());
+        const auto error_along = [&](const Vectors<Arch>& edge) __attribute__((always_inline)) {
+            const Vectors<Arch> e = absolute(edge);
+            return fast_mul_add<Arch>(relative, fast_dot(e, moment_size),
+                                      fast_mul_add<Arch>(e.x + e.y + e.z, rays.slack, tiny));
+        };
+        const F flip = sign_bit<Arch>(approach);
+        const F v = fast_dot(edge_g, moment) ^ flip;
+        const F w = negated(fast_dot(edge_e, moment)) ^ flip;
+        const F v_error = error_along(edge_g);
+        const F w_error = error_along(edge_e);
+        const F steepness = abs(approach);
+        const F beyond = (v + w) - steepness;
+        const F beyond_error = v_error + w_error + approach_error;
+
+        const Mask<Arch> faces = steepness > approach_error;
+        const Mask<Arch> outside =
+            faces & ((v < negated(v_error)) | (w < negated(w_error)) | (beyond > beyond_error));
+        const Mask<Arch> inside = (v > v_error) & (w > w_error) & (beyond < negated(beyond_error));
+        return {is_number<Arch>(to_a.x) & ~crossing.behind & ~outside,
+                positive_part<Arch>(crossing.lower), crossing.ahead & inside, crossing.upper};
+    }
+};
+
+template <class Arch>
+struct TriangleSolver : TriangleNumbers<Arch> {
+    using Numbers = TriangleNumbers<Arch>;
+    using Numbers::Numbers, Numbers::a, Numbers::b, Numbers::c;
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        const Vectors<Arch> to_a = a - rays.origin, to_b = b - rays.origin, to_c = c - rays.origin;
+        const Floats<Arch> u = dot(rays.direction, cross(to_c, to_b));
+        const Floats<Arch> v = dot(rays.direction, cross(to_a, to_c));
+        const Floats<Arch> w = dot(rays.direction, cross(to_b, to_a));
+        const Floats<Arch> o = zero<Arch>();
+        const Mask<Arch> some_negative = (u < o) | (v < o) | (w < o);
+        const Mask<Arch> some_positive = (u > o) | (v > o) | (w > o);
+        const Mask<Arch> inside =
+            (some_negative & ~some_positive) | (some_positive & ~some_negative);
+        Crossing<Arch> crossing =
+            cross_plane(to_a, cross(to_b - to_a, to_c - to_a), rays.direction);
+        crossing.exists = crossing.exists & inside & ~starts.on_surface;
+        return only(crossing);
+    }
+
+    Vectors<Arch> outward_normal(const Vectors<Arch>&, const Floats<Arch>&) const {
+        return normalized(cross(b - a, c - a));
+    }
+};
+
+template <class Arch>
+struct SmoothTriangleSolver : TriangleSolver<Arch> {
+    CornerNormals<Arch> normals;
+
+    template <class Reader>
+    explicit SmoothTriangleSolver(Reader reader)
+        : TriangleSolver<Arch>(PassOn<Arch, Reader>{reader}), normals(reader) {}
+
+    Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
+        return normals.interpolated(*this, point, unit_flat);
+    }
+};
+
+/// Barycentric coordinates, times normal . direction, from one cross product of start and
+/// direction (Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997).
+/// With U >= |b - a|, V >= |c - a|: the normal errs by 5 u U V, its products with vectors by 10 u U
+/// V times their lengths; the coordinates by U or V times that of the start and 10 u |start|, with
+/// room for 1.74^2, as the components of a cross product have each their own error.
+template <class Arch>
+struct TriangleFinisher {
+    TriangleNumbers<Arch> triangle;
+
+    template <class Reader>
+    explicit TriangleFinisher(Reader reader) : triangle(reader) {}
+
+    template <Wanted wanted>
+    [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
+                                                 const Starts<Arch>& starts) const {
+        const LocalRays<Arch> local(rays, triangle.a);
+        const Vectors<Arch> to_b = triangle.b - triangle.a, to_c = triangle.c - triangle.a;
+        const F U = sum_of_sizes(to_b), V = sum_of_sizes(to_c);
+        const Vectors<Arch> normal = cross(to_b, to_c);
+        const F determinant = dot(normal, local.direction);
+        const F inverse = F(1.0) / determinant;
+        const F s = negated(dot(normal, local.start)) * inverse;
+        const F error_s = F(1.25) * (U * V) * local.error_at(s, 12.0) * abs(inverse);
+
+        // The coordinates, times the determinant: of one sign within the triangle.
+        const Vectors<Arch> moment = cross(local.start, local.direction);
+        const F at_c = dot(moment, to_b), at_b = negated(dot(moment, to_c));
+        const F at_a = determinant - at_b - at_c;
+        const F moment_error = F(2.0) * local.error_at(zero<Arch>(), 12.0);
+        const F b_error = V * moment_error, c_error = U * moment_error;
+        const F a_error = b_error + c_error + F(0x1p-48) * (U * V);
+        const Mask<Arch> positive[] = {at_a > a_error, at_b > b_error, at_c > c_error};
+        const Mask<Arch> negative[] = {at_a < negated(a_error), at_b < negated(b_error),
+                                       at_c < negated(c_error)};
+        const Mask<Arch> inside =
+            (positive[0] & positive[1] & positive[2]) | (negative[0] & negative[1] & negative[2]);
+        const Mask<Arch> outside =
+            (positive[0] | positive[1] | positive[2]) & (negative[0] | negative[1] | negative[2]);
+        const Mask<Arch> clear = abs(determinant) > F(0x1p-44) * (U * V);
+        const F t = local.shift + s;
+        Finished<Arch> result =
+            finish_flat<wanted, Arch>(clear, inside, outside, t, local.error_of_t(t, s, error_s),
+                                      determinant, unit<Arch>(normal), starts);
+        if constexpr (wanted == Wanted::all) {
+            result.misses = result.misses | is_parallel(local.direction, to_b, to_c);
+            result.normal_error =
+                error_of_unit<Arch>(result.normal, normal_error(to_b, to_c, normal),
+                                    F(1.0) / sqrt(squared_length(normal)));
+        }
+        return result;
+    }
+
+  private:
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+
+    /// Where that shows: of direction . (to_b x to_c), each term has a factor 0. Differences of
+    /// floats are 0 only where they are so truly.
+    static M is_parallel(const Vectors<Arch>& direction, const Vectors<Arch>& to_b,
+                         const Vectors<Arch>& to_c) {
+        const F o = zero<Arch>();
+        const auto vanishes = [&](const F& along, const F& b, const F& c, const F& d, const F& e) {
+            return (along == o) | (((b == o) | (c == o)) & ((d == o) | (e == o)));
+        };
+        return vanishes(direction.x, to_b.y, to_c.z, to_b.z, to_c.y) &
+               vanishes(direction.y, to_b.z, to_c.x, to_b.x, to_c.z) &
+               vanishes(direction.z, to_b.x, to_c.y, to_b.y, to_c.x);
+    }
+
+    /// Of to_b x to_c: what was lost of the products, and of the edges where these were rounded.
+    /// Corners are floats, so as a rule nothing was.
+    Vectors<Arch> normal_error(const Vectors<Arch>& to_b, const Vectors<Arch>& to_c,
+                               const Vectors<Arch>& normal) const {
+        // What a difference of floats loses in double is more than the less of them could.
+        const auto is_exact = [](const F& difference, const F& from, const F& to) {
+            const F back = difference + from;
+            return (back == to) & (back - difference == from);
+        };
+        const auto all_exact = [&](const Vectors<Arch>& edge, const Vectors<Arch>& to) {
+            return is_exact(edge.x, triangle.a.x, to.x) & is_exact(edge.y, triangle.a.y, to.y) &
+                   is_exact(edge.z, triangle.a.z, to.z);
+        };
+        const F rounded = select(all_exact(to_b, triangle.b) & all_exact(to_c, triangle.c),
+                                 zero<Arch>(), F(0x1p-51));
+        const auto lost = [](const F& a, const F& b) {
+            return abs(Lanes<Arch>::product_error(a, b, a * b));
+        };
+        const auto component = [&](const F& a, const F& b, const F& c, const F& d, const F& of) {
+            return F(1.0 + 0x1p-50) * (lost(a, b) + lost(c, d)) + F(0x1p-53) * abs(of) +
+                   rounded * (abs(a * b) + abs(c * d));
+        };
+        return {component(to_b.y, to_c.z, to_b.z, to_c.y, normal.x),
+                component(to_b.z, to_c.x, to_b.x, to_c.z, normal.y),
+                component(to_b.x, to_c.y, to_b.y, to_c.x, normal.z)};
+    }
+};
+
+template <class Arch>
+struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
+    CornerNormals<Arch> normals;
+
+    template <class Reader>
+    explicit SmoothTriangleFinisher(Reader reader)
+        : TriangleFinisher<Arch>(PassOn<Arch, Reader>{reader}), normals(reader) {}
+
+    Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
+        return normals.interpolated(this->triangle, point, unit_flat);
+    }
+};
+
+template <>
+struct ShapeKernels<core::Triangle> {
+    template <class Arch>
+    using Numbers = TriangleNumbers<Arch>;
+    template <class Arch, bool textbook>
+    using Solver = TriangleSolver<Arch>;
+    template <class Arch>
+    using Filter = TriangleFilter<Arch>;
+    template <class D>
+    using Finisher = TriangleFinisher<D>;
+};
+
+template <>
+struct ShapeKernels<core::SmoothTriangle> {
+    template <class Arch>
+    using Numbers = TriangleNumbers<Arch>;
+    template <class Arch, bool textbook>
+    using Solver = SmoothTriangleSolver<Arch>;
+    template <class Arch>
+    using Filter = TriangleFilter<Arch>;
+    template <class D>
+    using Finisher = SmoothTriangleFinisher<D>;
+};
+
+} // namespace raylane::simd
