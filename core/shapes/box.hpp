@@ -20,14 +20,7 @@ struct Box {
 
 inline void validate(const Box& box) {
     checks::require_point("corner", box.corner);
-    checks::require_direction("edges/0", box.edge_u);
-    checks::require_direction("edges/1", box.edge_v);
-    checks::require_direction("edges/2", box.edge_w);
-    if (checks::vanishes(dot(cross(checks::wide(box.edge_u), checks::wide(box.edge_v)),
-                             checks::wide(box.edge_w))))
-        throw InvalidValue("edges", "must span a volume, got " + checks::text_of(box.edge_u) +
-                                        ", " + checks::text_of(box.edge_v) + ", " +
-                                        checks::text_of(box.edge_w));
+    checks::require_spanning("edges", box.edge_u, box.edge_v, box.edge_w);
 }
 
 inline Bounds bounds_of(const Box& box) {

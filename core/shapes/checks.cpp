@@ -11,7 +11,9 @@ std::string text_of(float value) {
 }
 
 std::string text_of(const Vec3f& v) {
-    return "[" + text_of(v.x) + ", " + text_of(v.y) + ", " + text_of(v.z) + "]";
+    std::string text = "[";
+    text.append(text_of(v.x)).append(", ").append(text_of(v.y)).append(", ");
+    return text.append(text_of(v.z)).append("]");
 }
 
 void refuse(const Field& field, const std::string& must, float got) {
@@ -65,6 +67,16 @@ bool vanishes(const Wide& a) {
 Vec3<Wide> wide(const Vec3f& v) {
     return {Wide(static_cast<double>(v.x)), Wide(static_cast<double>(v.y)),
             Wide(static_cast<double>(v.z))};
+}
+
+void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Vec3f& w) {
+    const Field field(name);
+    require_direction(field.at(0), u);
+    require_direction(field.at(1), v);
+    require_direction(field.at(2), w);
+    if (vanishes(dot(cross(wide(u), wide(v)), wide(w))))
+        throw InvalidValue(name, "must span a volume, got " + text_of(u) + ", " + text_of(v) +
+                                     ", " + text_of(w));
 }
 
 bool parallel(const Vec3<Wide>& a, const Vec3<Wide>& b) {

@@ -49,6 +49,9 @@ void require_not_negative(const Field& field, float value);
 void require_fraction(const Field& field, float value);
 void require_count(const char* field, int value, int least, int most);
 
+/// Of three vectors, fields name/0 to name/2.
+void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Vec3f& w);
+
 using Wide = Bounded<DoubleDouble>;
 
 /// Whether an exact product of float coordinates is 0, or cannot be told from it in 106 bits.

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "core/shapes/ball.hpp"
 #include "core/shapes/checks.hpp"
-#include "core/shapes/form.hpp"
-#include "core/shapes/quadratic.hpp"
 #include "core/shapes/shape.hpp"
 
 namespace raylane::core {
@@ -33,28 +32,11 @@ inline Bounds bounds_of(const Sphere& sphere) {
     return bounds;
 }
 
-/// |origin + t direction - center|^2 = radius^2, solved at the foot of the perpendicular from the
-/// centre. Source: Haines, Guenther and Akenine-Moeller, Ray Tracing Gems, ch. 7.
 template <class Real>
 Crossings<Real> crossings(const Sphere& sphere, const Ray<Real>& ray, const Start& start,
                           Judge<Real>& judge) {
-    using std::sqrt;
-    if (start.on_surface && !start.inward) return {};
-
-    const Vec3<Real> from_center = ray.origin - convert<Real>(sphere.center);
-    const Real dd = squared_length(ray.direction);
-    const Real tau = -dot(from_center, ray.direction) / dd;
-    if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
-
-    const Real radius = Real(sphere.radius);
-    if (judge.textbook())
-        return solve_textbook(dd, Real(dot(from_center, ray.direction)),
-                              Real(squared_length(from_center) - radius * radius));
-    const Vec3<Real> foot = mul_add(tau, ray.direction, from_center);
-    const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
-    if (judge.negative(discriminant)) return {};
-    const Real half_chord = sqrt(discriminant / dd);
-    return {{tau - half_chord, body, true}, {tau + half_chord, body, false}};
+    return ball_crossings(Vec3<Real>(ray.origin - convert<Real>(sphere.center)), ray.direction,
+                          Real(sphere.radius), start, judge);
 }
 
 template <class Real>
@@ -63,10 +45,7 @@ Vec3<Real> outward_direction(const Sphere& sphere, const Vec3<Real>& point, Face
 }
 
 inline ExactQuadratic form_along(const Sphere& sphere, const ExactRay& ray, Face) {
-    const Vec3<Dyadic> f = ray.origin - convert<Dyadic>(sphere.center);
-    const Dyadic radius = sphere.radius;
-    return {squared_length(ray.direction), dot(f, ray.direction),
-            squared_length(f) - radius * radius};
+    return ball_along(ray.origin - convert<Dyadic>(sphere.center), ray.direction, sphere.radius);
 }
 
 template <class Real>

@@ -95,26 +95,22 @@ void write_material(TextFile& file, const core::Material& material) {
 }
 
 void write_shape(Object& object, const core::Sphere& s) {
-    object.text("type", "sphere");
     object.vector("center", s.center);
     object.number("radius", s.radius);
 }
 
 void write_shape(Object& object, const core::Plane& s) {
-    object.text("type", "plane");
     object.vector("point", s.point);
     object.vector("normal", s.normal);
 }
 
 void write_shape(Object& object, const core::Disc& s) {
-    object.text("type", "disc");
     object.vector("center", s.center);
     object.vector("normal", s.normal);
     object.number("radius", s.radius);
 }
 
 void write_corners(Object& object, const auto& s) {
-    object.text("type", "triangle");
     object.vector("a", s.a);
     object.vector("b", s.b);
     object.vector("c", s.c);
@@ -130,14 +126,12 @@ void write_shape(Object& object, const core::SmoothTriangle& s) {
 }
 
 void write_shape(Object& object, const core::Box& s) {
-    object.text("type", "box");
     object.vector("corner", s.corner);
     object.vectors("edges", {s.edge_u, s.edge_v, s.edge_w});
 }
 
 template <core::Ends ends>
 void write_shape(Object& object, const core::Cylinder<ends>& s) {
-    object.text("type", "cylinder");
     object.vector("base", s.base);
     object.vector("axis", s.axis);
     object.number("radius", s.radius);
@@ -146,7 +140,6 @@ void write_shape(Object& object, const core::Cylinder<ends>& s) {
 
 template <core::Ends ends>
 void write_shape(Object& object, const core::Cone<ends>& s) {
-    object.text("type", "cone");
     object.vector("base", s.base);
     object.vector("axis", s.axis);
     object.number("base_radius", s.base_radius);
@@ -155,7 +148,6 @@ void write_shape(Object& object, const core::Cone<ends>& s) {
 }
 
 void write_shape(Object& object, const core::Quadric& s) {
-    object.text("type", "quadric");
     object.vector("center", s.center);
     const float rows[4][4] = {{s.xx, s.xy, s.xz, s.x},
                               {s.xy, s.yy, s.yz, s.y},
@@ -258,9 +250,10 @@ void write_json(TextFile& file, const core::Scene& scene) {
     file << "}";
     root.key("objects") << "[";
     separator = "\n";
-    for_each_by_id(scene, [&](const auto& shape, core::ShapeId id) {
+    for_each_by_id(scene, [&]<class Shape>(const Shape& shape, core::ShapeId id) {
         file << std::exchange(separator, ",\n");
         Object object(file);
+        object.text("type", core::type_name_of(core::kind_of<Shape>));
         write_shape(object, shape);
         object.text("material", std::to_string(scene.material_index_of(id)));
     });

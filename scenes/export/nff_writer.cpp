@@ -143,11 +143,12 @@ class NffWriter {
         write_face(s.point - core::convert<float>(Vec3d(across + up)),
                    core::convert<float>(2.0 * across), core::convert<float>(2.0 * up));
     }
-    void write_shape(const core::Disc&) { refuse("a disc"); }
-    void write_shape(const core::Quadric&) { refuse("a quadric"); }
-    [[noreturn]] static void refuse(const char* what) {
-        throw core::InvalidValue("",
-                                 std::string("has no word for ") + what + ": .pov and .json have");
+    template <class Shape>
+    [[noreturn]] void write_shape(const Shape&) {
+        const std::string name(core::name_of(core::kind_of<Shape>));
+        const bool vowel = std::string_view("aeiou").find(name[0]) != std::string_view::npos;
+        throw core::InvalidValue("", (vowel ? "has no word for an " : "has no word for a ") + name +
+                                         ": .pov and .json have");
     }
 
     TextFile& file_;

@@ -173,9 +173,13 @@ class PovWriter {
         }
     }
     void write_shape(const core::Box& s) {
-        file_ << "box { <0, 0, 0>, <1, 1, 1> matrix <";
+        file_ << "box { <0, 0, 0>, <1, 1, 1>";
+        matrix({s.edge_u, s.edge_v, s.edge_w, s.corner});
+    }
+    void matrix(std::initializer_list<Vec3f> rows) {
+        file_ << " matrix <";
         const char* between = "";
-        for (const Vec3f& v : {s.edge_u, s.edge_v, s.edge_w, s.corner}) {
+        for (const Vec3f& v : rows) {
             file_ << between;
             file_.list(v, ", ");
             between = ", ";

@@ -2,6 +2,11 @@
 
 #include "scenes/generators.hpp"
 
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
 namespace raylane::scenes {
 
 namespace {
@@ -15,22 +20,22 @@ class ObjectReader {
                  const MaterialOf& material_of)
         : object_(object), builder_(builder), material_of_(material_of) {}
 
-    void sphere() {
+    void read(std::type_identity<core::Sphere>) {
         object_.allow_only({"type", "material", "center", "radius"});
         add(core::Sphere{vector("center"), number("radius")});
     }
 
-    void plane() {
+    void read(std::type_identity<core::Plane>) {
         object_.allow_only({"type", "material", "point", "normal"});
         add(core::Plane{vector("point"), vector("normal")});
     }
 
-    void disc() {
+    void read(std::type_identity<core::Disc>) {
         object_.allow_only({"type", "material", "center", "normal", "radius"});
         add(core::Disc{vector("center"), vector("normal"), number("radius")});
     }
 
-    void triangle() {
+    void read(std::type_identity<core::Triangle>) {
         object_.allow_only({"type", "material", "a", "b", "c", "normals"});
         const core::Triangle flat{vector("a"), vector("b"), vector("c")};
         if (!object_.find("normals")) {
@@ -42,9 +47,14 @@ class ObjectReader {
                                  normals[2].vector()});
     }
 
-    void box();
+    void read(std::type_identity<core::SmoothTriangle>) {
+        read(std::type_identity<core::Triangle>());
+    }
 
-    void cylinder() {
+    void read(std::type_identity<core::Box>);
+
+    template <Ends ends>
+    void read(std::type_identity<core::Cylinder<ends>>) {
         object_.allow_only({"type", "material", "base", "axis", "radius", "capped"});
         if (capped())
             add(cylinder_with<Ends::capped>());
@@ -52,7 +62,8 @@ class ObjectReader {
             add(cylinder_with<Ends::open>());
     }
 
-    void cone() {
+    template <Ends ends>
+    void read(std::type_identity<core::Cone<ends>>) {
         object_.allow_only(
             {"type", "material", "base", "axis", "base_radius", "top_radius", "capped"});
         if (capped())
@@ -61,7 +72,7 @@ class ObjectReader {
             add(cone_with<Ends::open>());
     }
 
-    void quadric();
+    void read(std::type_identity<core::Quadric>);
 
     void sphereflake() {
         object_.allow_only({"type", "material", "center", "radius", "depth", "up"});
@@ -107,7 +118,7 @@ class ObjectReader {
     const MaterialOf& material_of_;
 };
 
-void ObjectReader::box() {
+void ObjectReader::read(std::type_identity<core::Box>) {
     object_.allow_only({"type", "material", "corner", "edges", "min", "max"});
     if (!object_.find("min") && !object_.find("max")) {
         const core::Vec3f corner = vector("corner");
@@ -137,7 +148,7 @@ void ObjectReader::box() {
     });
 }
 
-void ObjectReader::quadric() {
+void ObjectReader::read(std::type_identity<core::Quadric>) {
     object_.allow_only({"type", "material", "center", "matrix", "lower", "upper"});
     float matrix[4][4];
     const std::vector<JsonValue> rows = object_.at("matrix").array(4, "rows");
@@ -189,23 +200,32 @@ void ObjectReader::lattice() {
     checked(object_, [&] { scenes::add(builder_, lattice, own, strut_material); });
 }
 
+using Read = void (*)(ObjectReader&);
+
+/// By JSON's "type".
+const std::vector<std::pair<std::string_view, Read>>& readers() {
+    static const auto all = [] {
+        std::vector<std::pair<std::string_view, Read>> readers;
+        core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+            const std::string_view name = core::type_name_of(core::kind_of<Shape>);
+            // Of kinds that share a name, the first looks which it is.
+            if (readers.empty() || readers.back().first != name)
+                readers.push_back(
+                    {name, [](ObjectReader& of) { of.read(std::type_identity<Shape>()); }});
+        });
+        readers.push_back({"sphereflake", [](ObjectReader& of) { of.sphereflake(); }});
+        readers.push_back({"lattice", [](ObjectReader& of) { of.lattice(); }});
+        return readers;
+    }();
+    return all;
+}
+
 } // namespace
 
 void add_object(const JsonValue& object, core::SceneBuilder& builder,
                 const MaterialOf& material_of) {
-    using Read = void (ObjectReader::*)();
-    const Read read = object.at("type").choice<Read>({{"sphere", &ObjectReader::sphere},
-                                                      {"plane", &ObjectReader::plane},
-                                                      {"disc", &ObjectReader::disc},
-                                                      {"triangle", &ObjectReader::triangle},
-                                                      {"box", &ObjectReader::box},
-                                                      {"cylinder", &ObjectReader::cylinder},
-                                                      {"cone", &ObjectReader::cone},
-                                                      {"quadric", &ObjectReader::quadric},
-                                                      {"sphereflake", &ObjectReader::sphereflake},
-                                                      {"lattice", &ObjectReader::lattice}});
     ObjectReader reader(object, builder, material_of);
-    (reader.*read)();
+    object.at("type").choice(JsonValue::Choices<Read>(readers()))(reader);
 }
 
 } // namespace raylane::scenes

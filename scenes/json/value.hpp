@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -116,9 +117,13 @@ class JsonValue {
     core::Color color() const;
 
     template <class Value>
-    using Choices = std::initializer_list<std::pair<std::string_view, Value>>;
+    using Choices = std::span<const std::pair<std::string_view, Value>>;
 
     /// What belongs to this string.
+    template <class Value>
+    Value choice(std::initializer_list<std::pair<std::string_view, Value>> choices) const {
+        return choice(Choices<Value>(choices.begin(), choices.size()));
+    }
     template <class Value>
     Value choice(Choices<Value> choices) const {
         const std::string_view text = string();

@@ -85,45 +85,14 @@ void SceneBuilder::add_light(const Light& light) {
     translated([&] { builder_->add_light(converted<core::Light>(light)); });
 }
 
-template <class CoreShape, class Shape>
-ShapeId SceneBuilder::add_as(const Shape& shape, MaterialIndex material) {
-    return translated(
-        [&] { return builder_->add(library::core_shape<CoreShape>(shape), material); });
-}
-
-ShapeId SceneBuilder::add(const Sphere& shape, MaterialIndex material) {
-    return add_as<core::Sphere>(shape, material);
-}
-ShapeId SceneBuilder::add(const Plane& shape, MaterialIndex material) {
-    return add_as<core::Plane>(shape, material);
-}
-ShapeId SceneBuilder::add(const Disc& shape, MaterialIndex material) {
-    return add_as<core::Disc>(shape, material);
-}
-ShapeId SceneBuilder::add(const Triangle& shape, MaterialIndex material) {
-    return add_as<core::Triangle>(shape, material);
-}
-ShapeId SceneBuilder::add(const SmoothTriangle& shape, MaterialIndex material) {
-    return add_as<core::SmoothTriangle>(shape, material);
-}
-ShapeId SceneBuilder::add(const Box& shape, MaterialIndex material) {
-    return add_as<core::Box>(shape, material);
-}
-ShapeId SceneBuilder::add(const OpenCylinder& shape, MaterialIndex material) {
-    return add_as<core::OpenCylinder>(shape, material);
-}
-ShapeId SceneBuilder::add(const CappedCylinder& shape, MaterialIndex material) {
-    return add_as<core::CappedCylinder>(shape, material);
-}
-ShapeId SceneBuilder::add(const OpenCone& shape, MaterialIndex material) {
-    return add_as<core::OpenCone>(shape, material);
-}
-ShapeId SceneBuilder::add(const CappedCone& shape, MaterialIndex material) {
-    return add_as<core::CappedCone>(shape, material);
-}
-ShapeId SceneBuilder::add(const Quadric& shape, MaterialIndex material) {
-    return add_as<core::Quadric>(shape, material);
-}
+#define RAYLANE_ADD(Shape, name, text)                                                             \
+    template <>                                                                                    \
+    ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {                        \
+        return translated(                                                                         \
+            [&] { return builder_->add(library::core_shape<core::Shape>(shape), material); });     \
+    }
+RAYLANE_SHAPES(RAYLANE_ADD)
+#undef RAYLANE_ADD
 
 template <class CoreShape, class Shape>
 ShapeId SceneBuilder::add_polygon_as(std::span<const Shape> triangles, MaterialIndex material) {

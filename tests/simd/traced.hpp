@@ -20,7 +20,7 @@ using namespace core;
 using namespace simd;
 using ray_sets::Random;
 
-inline constexpr std::uint32_t all_kinds = (1U << kinds) - 1;
+inline constexpr std::uint32_t all_kinds = (1U << core::kind_count) - 1;
 
 template <class Shape>
 void add(SceneBuilder& builder, Random& random, int count) {

@@ -71,17 +71,8 @@ class SceneBuilder {
     void add_light(const Light& light);
 
     /// The id of the new shape: 0, 1, 2, ... `material` is an index that add_material returned.
-    ShapeId add(const Sphere& shape, MaterialIndex material);
-    ShapeId add(const Plane& shape, MaterialIndex material);
-    ShapeId add(const Disc& shape, MaterialIndex material);
-    ShapeId add(const Triangle& shape, MaterialIndex material);
-    ShapeId add(const SmoothTriangle& shape, MaterialIndex material);
-    ShapeId add(const Box& shape, MaterialIndex material);
-    ShapeId add(const OpenCylinder& shape, MaterialIndex material);
-    ShapeId add(const CappedCylinder& shape, MaterialIndex material);
-    ShapeId add(const OpenCone& shape, MaterialIndex material);
-    ShapeId add(const CappedCone& shape, MaterialIndex material);
-    ShapeId add(const Quadric& shape, MaterialIndex material);
+    template <AnyShape Shape>
+    ShapeId add(const Shape& shape, MaterialIndex material);
 
     /// One or more triangles that tile one flat polygon: no reflection or shadow of one of them
     /// falls on another. Returns the first id; the others follow.
@@ -97,8 +88,6 @@ class SceneBuilder {
     Scene build();
 
   private:
-    template <class CoreShape, class Shape>
-    ShapeId add_as(const Shape& shape, MaterialIndex material);
     template <class CoreShape, class Shape>
     ShapeId add_polygon_as(std::span<const Shape> triangles, MaterialIndex material);
 

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "simd/kernel/shapes/enclosing.hpp"
+#include "simd/kernel/shapes/ball.hpp"
 #include "simd/kernel/shapes/filter.hpp"
 #include "simd/kernel/shapes/finisher.hpp"
-#include "simd/kernel/shapes/quadratic.hpp"
 
 namespace raylane::simd {
 
@@ -123,33 +122,13 @@ struct SphereFilter : SphereNumbers<Arch> {
 };
 
 /// core/shapes/sphere.hpp
-template <class Arch, bool textbook = false>
+template <class Arch, bool textbook>
 struct SphereSolver : SphereNumbers<Arch> {
     using Numbers = SphereNumbers<Arch>;
     using Numbers::Numbers, Numbers::center, Numbers::radius;
-    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
-        const Vectors<Arch> from_center = rays.origin - center;
-        const Floats<Arch> dd = squared_length(rays.direction);
-        const Floats<Arch> tau = negated(dot(from_center, rays.direction)) / dd;
-        const Mask<Arch> leaves = starts.on_surface & starts.inward;
-        if constexpr (textbook) {
-            Crossings<Arch> roots =
-                solve_textbook<Arch>(dd, dot(from_center, rays.direction),
-                                     squared_length(from_center) - radius * radius);
-            roots.first.exists = roots.first.exists & ~starts.on_surface;
-            roots.second.exists = (roots.second.exists & ~starts.on_surface) | leaves;
-            roots.second.t = select(leaves, not_behind<Arch>(tau + tau), roots.second.t);
-            return roots;
-        }
-        const Vectors<Arch> foot = mul_add<Arch>(tau, rays.direction, from_center);
-        const Floats<Arch> discriminant =
-            mul_add<Arch>(radius, radius, negated(squared_length(foot)));
-        const Floats<Arch> half_chord = sqrt(discriminant / dd);
 
-        const Mask<Arch> meets = ~(discriminant < zero<Arch>()) & ~starts.on_surface;
-        return {{meets, tau - half_chord, zero<Arch>(), all<Arch>()},
-                {meets | leaves, select(leaves, not_behind<Arch>(tau + tau), tau + half_chord),
-                 zero<Arch>(), none<Arch>()}};
+    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
+        return ball_crossings<Arch, textbook>(rays.origin - center, rays.direction, radius, starts);
     }
 
     Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>&) const {

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "core/shapes/form.hpp"
+#include "core/shapes/quadratic.hpp"
+
+/// Crossings with a ball about the origin: what spheres and ellipsoids have in common.
+namespace raylane::core {
+
+/// |origin + t direction|^2 = radius^2, solved at the foot of the perpendicular from the centre.
+/// Source: Haines, Guenther and Akenine-Moeller, Ray Tracing Gems, ch. 7.
+template <class Real>
+Crossings<Real> ball_crossings(const Vec3<Real>& origin, const Vec3<Real>& direction,
+                               const Real& radius, const Start& start, Judge<Real>& judge) {
+    using std::sqrt;
+    if (start.on_surface && !start.inward) return {};
+
+    const Real dd = squared_length(direction);
+    const Real tau = -dot(origin, direction) / dd;
+    if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
+
+    if (judge.textbook())
+        return solve_textbook(dd, Real(dot(origin, direction)),
+                              Real(squared_length(origin) - radius * radius));
+    const Vec3<Real> foot = mul_add(tau, direction, origin);
+    const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
+    if (judge.negative(discriminant)) return {};
+    const Real half_chord = sqrt(discriminant / dd);
+    return {{tau - half_chord, body, true}, {tau + half_chord, body, false}};
+}
+
+inline ExactQuadratic ball_along(const Vec3<Dyadic>& origin, const Vec3<Dyadic>& direction,
+                                 const Dyadic& radius) {
+    return {squared_length(direction), dot(origin, direction),
+            squared_length(origin) - radius * radius};
+}
+
+} // namespace raylane::core
