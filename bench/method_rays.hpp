@@ -2,7 +2,7 @@
 
 #include "bench/random_shapes.hpp"
 #include "core/reference/search.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/query.hpp"
 #include "tests/ray_sets.hpp"
 
 #include <benchmark/benchmark.h>

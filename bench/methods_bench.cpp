@@ -10,7 +10,7 @@ namespace raylane::bench {
 namespace {
 
 /// What is left open, as surfaces touch there, is the truth: the reference goes on from it.
-std::vector<Crossed> found_in(const simd::HitFinder& finder, const std::vector<Crossed>& truths) {
+std::vector<Crossed> found_in(const simd::Query& finder, const std::vector<Crossed>& truths) {
     const simd::Hits& hits = finder.hits();
     std::vector<Crossed> found(method_ray_count);
     for (std::size_t i = 0; i < found.size(); ++i)
@@ -24,14 +24,12 @@ std::vector<Crossed> found_in(const simd::HitFinder& finder, const std::vector<C
 template <class Shape, bool hard>
 void find(benchmark::State& state, simd::Isa isa, core::Precision precision) {
     const auto& of = MethodRays<Shape, hard>::get();
-    core::ReferenceTracer<double> reference(of.scene, of.scene.settings(), core::Search::hierarchy,
-                                            precision);
-    simd::HitFinder finder(of.data, {&simd::kernels_of(isa), precision}, reference);
+    simd::Query finder(of.data, {&simd::kernels_of(isa), precision}, simd::Asked::points);
     const simd::Arena arena =
         simd::arena_for([&](simd::Arena& a) { finder.take_from(a, method_ray_count); });
-    core::Counters counters;
+    simd::EngineCounters counters;
     for (auto _ : state)
-        finder.find(of.paths, nullptr, counters);
+        finder.nearest(of.paths, nullptr, counters);
     state.SetItemsProcessed(static_cast<std::int64_t>(method_ray_count) * state.iterations());
     const double rays =
         static_cast<double>(method_ray_count) * static_cast<double>(state.iterations());

@@ -12,7 +12,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 void draw(benchmark::State& state, const core::Scene& scene, const simd::RenderOptions& options) {
-    core::Counters counters;
+    simd::EngineCounters counters;
     double seconds = 0.0;
     for (auto _ : state) {
         const Clock::time_point start = Clock::now();

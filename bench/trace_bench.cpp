@@ -1,5 +1,5 @@
 #include "simd/isa.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/query.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -69,7 +69,7 @@ struct Setup {
     simd::SceneData data{scene};
     std::vector<simd::Arena> arenas;
     std::vector<simd::Paths> waves;
-    std::vector<float> t_most;
+    std::vector<double> t_most;
 
     Setup(Mix mix, int count) : scene(Maker().make(mix, count)) {
         std::mt19937_64 engine(2);
@@ -88,7 +88,7 @@ struct Setup {
                     paths.origin[axis][i] = uniform(engine);
                     paths.direction[axis][i] = direction[axis];
                 }
-                t_most.push_back(static_cast<float>(0.3 * uniform(engine)));
+                t_most.push_back(0.3 * static_cast<double>(uniform(engine)));
             }
             waves.push_back(paths);
         }
@@ -109,37 +109,27 @@ void report(benchmark::State& state, std::uint64_t left) {
 }
 
 void nearest(benchmark::State& state, const Setup& setup, const simd::Tracing& tracing) {
-    core::ReferenceTracer<double> reference(setup.scene, setup.scene.settings(),
-                                            core::Search::hierarchy, tracing.precision);
-    simd::HitFinder finder(setup.data, tracing, reference);
+    simd::Query finder(setup.data, tracing, simd::Asked::points);
     const simd::Arena arena = simd::arena_for([&](simd::Arena& a) { finder.take_from(a, wave); });
-    core::Counters counters;
+    simd::EngineCounters counters;
     std::size_t next = 0;
     for (auto _ : state)
-        finder.find(setup.waves[next++ % setup.waves.size()], nullptr, counters);
+        finder.nearest(setup.waves[next++ % setup.waves.size()], nullptr, counters);
     report(state, counters.doubtful);
 }
 
 void occluded(benchmark::State& state, const Setup& setup, const simd::Tracing& tracing) {
-    simd::RoundedRays rounded{};
-    simd::Workspace workspace{};
-    const simd::Arena arena = simd::arena_for([&](simd::Arena& a) {
-        simd::take_rounded(a, rounded, wave);
-        workspace = simd::workspace_for(setup.data, a, wave);
-    });
+    simd::Query query(setup.data, tracing, simd::Asked::points);
+    const simd::Arena arena = simd::arena_for([&](simd::Arena& a) { query.take_from(a, wave); });
     std::vector<std::uint8_t> states(wave);
-    simd::TraceCounters counters{};
+    simd::EngineCounters counters;
     std::size_t next = 0;
     std::uint64_t left = 0;
     for (auto _ : state) {
         const std::size_t at = next++ % setup.waves.size();
-        const simd::Paths& paths = setup.waves[at];
-        paths.pass_to(rounded);
-        tracing.kernels->rays.round_rays(wave, rounded);
         std::fill(states.begin(), states.end(), simd::open);
-        tracing.method().trace.occluded(setup.data.view(), setup.data.listed_kinds(), nullptr, wave,
-                                        rounded, {&setup.t_most[at * wave], states.data()},
-                                        workspace, counters);
+        query.occluded(setup.waves[at].columns(), &setup.t_most[at * wave], states.data(), nullptr,
+                       counters);
         left += static_cast<std::uint64_t>(
             std::count_if(states.begin(), states.end(), [](std::uint8_t found) {
                 return found != simd::open && found != simd::blocked;

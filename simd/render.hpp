@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/reference/counters.hpp"
 #include "core/scene/film.hpp"
 #include "core/scene/scene.hpp"
 #include "core/shapes/precision.hpp"
+#include "simd/engine_counters.hpp"
 #include "simd/isa.hpp"
 
 #include <atomic>
@@ -40,7 +40,7 @@ struct RenderOptions {
 
 struct Rendering {
     core::Film film;
-    core::Counters counters;
+    EngineCounters counters;
     bool complete = true; ///< false if it was stopped: tiles may be black
 };
 

@@ -1,9 +1,9 @@
 #include "simd/stream_tracer.hpp"
 
 #include "core/reference/search.hpp"
+#include "simd/query/as_core.hpp"
+#include "simd/query/query.hpp"
 #include "simd/threads.hpp"
-#include "simd/wavefront/as_core.hpp"
-#include "simd/wavefront/hit_finder.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -26,9 +26,9 @@ bool is_finite(const Vec3d& v) {
 
 /// One ray of a stream, its direction brought near length 1 by a power of two: that is exact, and
 /// lets no product in the solvers over- or underflow.
-class Query {
+class LimitedRay {
   public:
-    Query(const RayStream& rays, std::size_t i)
+    LimitedRay(const RayStream& rays, std::size_t i)
         : ray_{at(rays.origin, i), at(rays.direction, i)},
           t_min_(rays.t_min != nullptr ? std::max(0.0F, rays.t_min[i]) : 0.0F),
           t_max_(rays.t_max != nullptr ? rays.t_max[i] : infinity) {
@@ -98,7 +98,7 @@ void store_none(const HitStream& hits, std::size_t i) {
 }
 
 /// The nearest crossing between a ray's limits, or none.
-Hit<double> nearest_of(const core::Scene& scene, Searcher& searcher, const Query& query) {
+Hit<double> nearest_of(const core::Scene& scene, Searcher& searcher, const LimitedRay& query) {
     if (!query.is_ray()) return {};
     return searcher.nearest_hit(
         query.ray(),
@@ -117,7 +117,7 @@ core::Vec3f in_float(const Vec3d& normal) {
     return core::convert<float>(normal) + core::Vec3f(0.0F);
 }
 
-bool is_occluded(const core::Scene& scene, Searcher& searcher, const Query& query) {
+bool is_occluded(const core::Scene& scene, Searcher& searcher, const LimitedRay& query) {
     bool found = false;
     if (query.is_ray())
         searcher.each(query.ray(), {}, query.t_most(), [&](const Hit<double>& hit) {
@@ -135,8 +135,8 @@ class StreamTracer::Worker {
     Worker(const core::Scene& scene, const SceneData& data, const Tracing& tracing,
            std::size_t capacity)
         : scene_(scene), data_(data), tracing_(tracing),
-          searcher_(scene, core::Search::hierarchy, tracing.precision), finder_(data, tracing),
-          approach_(data) {
+          searcher_(scene, core::Search::hierarchy, tracing.precision),
+          query_(data, tracing, Asked::floats) {
         arena_ = arena_for([&](Arena& arena) { take_from(arena, capacity); });
     }
 
@@ -145,16 +145,16 @@ class StreamTracer::Worker {
         for (std::size_t i = first; i < last; ++i)
             store_none(hits, i);
         start(rays, first, last);
-        core::Counters counters;
-        finder_.find(paths_, nullptr, counters);
+        EngineCounters counters;
+        query_.nearest(paths_, nullptr, counters);
         if (!is_exact()) // else they meet several shapes there, and have the first
-            for (const std::uint32_t lane : finder_.left_open())
+            for (const std::uint32_t lane : query_.left_open())
                 is_open_[lane] = 1;
         const bool with_normals = wants_normals(hits);
-        const Hits& found = finder_.hits();
+        const Hits& found = query_.hits();
         for (std::size_t lane = 0; lane < paths_.count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
-            const Query query(rays, i);
+            const LimitedRay query(rays, i);
             const bool any = found.slot[lane] != no_slot;
             if (!any && is_open_[lane] == 0) continue;
             float t = 0.0F;
@@ -174,31 +174,23 @@ class StreamTracer::Worker {
         for (std::size_t i = first; i < last; ++i)
             occluded[i] = 0;
         start(rays, first, last);
-        const std::size_t count = paths_.count;
-        paths_.pass_to(rounded_);
-        if (is_exact()) approach_.bring_near(paths_, rounded_);
-        tracing_.kernels->rays.round_rays(count, rounded_);
-        approach_.widen(rounded_);
-        for (std::size_t lane = 0; lane < count; ++lane) {
-            const Query query(rays, first + paths_.sample[lane]);
-            t_most_[lane] = static_cast<float>(query.t_most() * paths_.length_of(lane) -
-                                               approach_.before(lane));
+        for (std::size_t lane = 0; lane < paths_.count; ++lane) {
+            const LimitedRay query(rays, first + paths_.sample[lane]);
+            distance_[lane] = query.t_most() * paths_.length_of(lane);
             // A limit from below is no matter for bounds, nor is a t that is none until rounded.
             const bool simple = query.t_min() <= 0.0F &&
                                 query.t_max() >= std::numeric_limits<float>::min() * 0x1p24F;
             state_[lane] = simple ? open : doubtful;
         }
-        TraceCounters counters{};
-        tracing_.method().trace.occluded(data_.view(), data_.listed_kinds(), nullptr, count,
-                                         rounded_, {t_most_, state_}, workspace_, counters);
-        for (std::size_t lane = 0; lane < count; ++lane) {
+        EngineCounters counters;
+        query_.occluded(paths_.columns(), distance_, state_, nullptr, counters);
+        for (std::size_t lane = 0; lane < paths_.count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
-            const Query query(rays, i);
+            const LimitedRay query(rays, i);
             // What bounds call blocked says nothing of a limit from below; and what light may pass
             // blocks a ray here.
-            occluded[i] = state_[lane] == blocked && query.t_min() <= 0.0F && is_fine(lane, query)
-                              ? 1
-                          : state_[lane] == open ? 0
+            occluded[i] = state_[lane] == blocked && query.t_min() <= 0.0F ? 1
+                          : state_[lane] == open                           ? 0
                                                  : (is_occluded(scene_, searcher_, query) ? 1 : 0);
         }
     }
@@ -206,15 +198,8 @@ class StreamTracer::Worker {
   private:
     bool is_exact() const { return tracing_.precision == core::Precision::exact; }
 
-    /// Whether a ray's t_max, less what lies before where it has been brought, is off by no more
-    /// than kernels grant: little more than half an ulp of t_max.
-    bool is_fine(std::size_t lane, const Query& query) const {
-        const double before = approach_.before(lane);
-        return before <= 0.25 * query.t_most() * paths_.length_of(lane);
-    }
-
     /// The scalar search for one ray.
-    void search(const Query& query, const HitStream& hits, std::size_t i) {
+    void search(const LimitedRay& query, const HitStream& hits, std::size_t i) {
         const Hit<double> hit = nearest_of(scene_, searcher_, query);
         if (!hit.any()) {
             store_none(hits, i);
@@ -230,14 +215,14 @@ class StreamTracer::Worker {
     /// Whether the lane's hit can be seen from where the ray comes.
     bool is_seen(std::size_t lane) const {
         if (!data_.one_sided()) return true;
-        const Hits& found = finder_.hits();
+        const Hits& found = query_.hits();
         const core::MaterialIndex material = data_.occupant_of(found.slot[lane]).material;
         return scene_.materials()[material].is_seen((found.hit[lane] & hit_entering) != 0);
     }
 
     /// Of the lane's hit, for the caller.
-    float t_at(std::size_t lane, const Query& query) const {
-        const Hits& found = finder_.hits();
+    float t_at(std::size_t lane, const LimitedRay& query) const {
+        const Hits& found = query_.hits();
         const double per_unit = query.scale() / paths_.length_of(lane);
         const double t = found.t[lane] * per_unit;
         float rounded = 0.0F;
@@ -248,7 +233,7 @@ class StreamTracer::Worker {
     }
 
     core::Vec3f normal_at(std::size_t lane) const {
-        const Hits& found = finder_.hits();
+        const Hits& found = query_.hits();
         if ((found.hit[lane] & (hit_normal_doubtful | hit_normal_unknown)) != 0)
             return core::rounded_normal(scene_, {ray_of(paths_, lane), {}},
                                         hit_of(data_, paths_, found, lane));
@@ -256,21 +241,18 @@ class StreamTracer::Worker {
     }
 
     void take_from(Arena& arena, std::size_t capacity) {
-        finder_.take_from(arena, capacity);
+        query_.take_from(arena, capacity);
         paths_.take_from(arena, capacity, false, /*for_others=*/true);
         is_open_ = arena.take<std::uint8_t>(capacity);
-        approach_.take_from(arena, capacity);
-        take_rounded(arena, rounded_, capacity);
-        t_most_ = arena.take<float>(capacity);
+        distance_ = arena.take<double>(capacity);
         state_ = arena.take<std::uint8_t>(capacity);
-        workspace_ = workspace_for(data_, arena, capacity);
     }
 
     /// The rays that are any, with unit directions.
     void start(const RayStream& rays, std::size_t first, std::size_t last) {
         paths_.count = 0;
         for (std::size_t i = first; i < last; ++i) {
-            const Query query(rays, i);
+            const LimitedRay query(rays, i);
             if (!query.is_ray()) continue;
             const std::size_t lane = paths_.count++;
             const double length = core::length(query.ray().direction);
@@ -290,15 +272,12 @@ class StreamTracer::Worker {
     const SceneData& data_;
     Tracing tracing_;
     Searcher searcher_;
-    HitFinder finder_;
-    Approach approach_;
+    Query query_;
     Arena arena_;
     Paths paths_{}; // sample: the ray's number in the stream
     std::uint8_t* is_open_ = nullptr;
-    RoundedRays rounded_{};
-    float* t_most_ = nullptr;
+    double* distance_ = nullptr; // that an occluder must be within
     std::uint8_t* state_ = nullptr;
-    Workspace workspace_{};
 };
 
 /// A worker as long as it is used.

@@ -2,7 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "simd/isa.hpp"
-#include "simd/wavefront/tracing.hpp"
+#include "simd/tracing.hpp"
 
 #include <cstddef>
 #include <cstdint>

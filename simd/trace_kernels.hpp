@@ -89,7 +89,7 @@ struct TraceCounters {
     std::uint64_t nodes;  ///< visited by a ray or a group of rays
     std::uint64_t shapes; ///< tests of a ray against a shape
     std::uint64_t one_by_one, in_frusta, in_streams,
-        in_flight; ///< rays, as core::Counters has them
+        in_flight; ///< rays, as EngineCounters has them
 };
 
 /// Rays that start at one point, or end there, or are parallel; or that would have come from one

@@ -1,7 +1,7 @@
 #include "bench/by_id.hpp"
 #include "bench/embree_scene.hpp"
 #include "bench/peers/measure.hpp"
-#include "simd/wavefront/tracing.hpp"
+#include "simd/tracing.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "simd/isa.hpp"
 #include "simd/render.hpp"
-#include "simd/wavefront/scene_data.hpp"
+#include "simd/scene_data.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

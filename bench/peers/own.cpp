@@ -1,5 +1,5 @@
 #include "bench/peers/contender.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/query.hpp"
 
 #include <algorithm>
 
@@ -12,9 +12,8 @@ namespace {
 class Worker {
   public:
     Worker(const simd::SceneData& scene, simd::Isa isa)
-        : scene_(scene), tracing_{&simd::kernels_of(isa)},
-          reference_(scene.scene(), scene.scene().settings()), most_(scene.best_stream()),
-          finder_(scene, tracing_, reference_), doubtful_(scene, tracing_, reference_),
+        : scene_(scene), tracing_{&simd::kernels_of(isa)}, most_(scene.best_stream()),
+          query_(scene, tracing_, simd::Asked::points),
           arena_(simd::arena_for([this](simd::Arena& arena) { take_from(arena); })) {}
     Worker(const Worker&) = delete; // parts of it refer to others
     Worker& operator=(const Worker&) = delete;
@@ -28,60 +27,52 @@ class Worker {
             rays.paths(begin, std::min(in_waves ? RaySet::wave : most_, end - begin));
         if (rays.occlusion) {
             find_blocked(paths, rays.t_most(begin), bundle);
-            std::copy_n(occlusions_.state, paths.count, answers);
+            std::copy_n(state_, paths.count, answers);
         } else {
-            finder_.find(paths, bundle, counters_);
-            std::copy_n(finder_.hits().slot, paths.count, answers);
+            query_.nearest(paths, bundle, counters_);
+            std::copy_n(query_.hits().slot, paths.count, answers);
         }
         return paths.count;
     }
 
   private:
     void take_from(simd::Arena& arena) {
-        finder_.take_from(arena, most_);
-        doubtful_.take_from(arena, most_);
+        query_.take_from(arena, most_);
         gathered_.take_from(arena, most_, false);
-        simd::take_rounded(arena, rounded_, most_);
-        occlusions_.state = arena.take<std::uint8_t>(most_);
-        workspace_ = simd::workspace_for(scene_, arena, most_);
+        distance_ = arena.take<double>(most_);
+        state_ = arena.take<std::uint8_t>(most_);
     }
 
     /// What is in doubt is decided by its nearest hit.
     void find_blocked(const simd::Paths& paths, const float* t_most, const simd::Bundle* bundle) {
-        paths.pass_to(rounded_);
-        tracing_.kernels->rays.round_rays(paths.count, rounded_);
-        std::fill_n(occlusions_.state, paths.count, std::uint8_t{simd::open});
-        occlusions_.t_most = t_most;
-        simd::TraceCounters traced{};
-        tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(), bundle, paths.count,
-                                         rounded_, occlusions_, workspace_, traced);
+        std::copy_n(t_most, paths.count, distance_);
+        std::fill_n(state_, paths.count, std::uint8_t{simd::open});
+        query_.occluded(paths.columns(), distance_, state_, bundle, counters_);
         gathered_.count = 0;
         for (std::size_t lane = 0; lane < paths.count; ++lane)
-            if (occlusions_.state[lane] == simd::doubtful) {
+            if (state_[lane] == simd::doubtful) {
                 gathered_.copy_ray(paths, lane, gathered_.count);
                 gathered_.sample[gathered_.count++] = static_cast<std::uint32_t>(lane);
             }
         if (gathered_.count == 0) return;
-        doubtful_.find(gathered_, nullptr, counters_);
+        query_.nearest(gathered_, nullptr, counters_);
         for (std::size_t i = 0; i < gathered_.count; ++i) {
             const std::uint32_t lane = gathered_.sample[i];
-            const simd::Hits& hits = doubtful_.hits();
+            const simd::Hits& hits = query_.hits();
             const bool any =
                 hits.slot[i] != simd::no_slot && hits.t[i] < static_cast<double>(t_most[lane]);
-            occlusions_.state[lane] = any ? simd::blocked : simd::open;
+            state_[lane] = any ? simd::blocked : simd::open;
         }
     }
 
     const simd::SceneData& scene_;
     simd::Tracing tracing_;
-    core::ReferenceTracer<double> reference_;
     std::size_t most_; ///< rays at a time
-    simd::HitFinder finder_, doubtful_;
-    core::Counters counters_;
+    simd::Query query_;
+    simd::EngineCounters counters_;
     simd::Paths gathered_{};
-    simd::RoundedRays rounded_{};
-    simd::Occlusions occlusions_{};
-    simd::Workspace workspace_{};
+    double* distance_ = nullptr;
+    std::uint8_t* state_ = nullptr;
     simd::Arena arena_;
 };
 

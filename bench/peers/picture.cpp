@@ -1,5 +1,5 @@
 #include "bench/peers/measure.hpp"
-#include "simd/wavefront/tracing.hpp"
+#include "simd/tracing.hpp"
 
 #include <algorithm>
 #include <cmath>

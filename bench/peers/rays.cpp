@@ -1,7 +1,7 @@
 #include "bench/peers/contender.hpp"
 #include "bench/peers/measure.hpp"
 #include "core/reference/tracer.hpp"
-#include "simd/wavefront/as_core.hpp"
+#include "simd/query/as_core.hpp"
 
 #include <algorithm>
 #include <atomic>

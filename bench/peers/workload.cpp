@@ -3,7 +3,7 @@
 #include "core/scene/camera_rays.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/isa.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/query.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -92,15 +92,14 @@ simd::Bundle bundle_at(const Vec3f& apex, bool towards) {
 void add_secondary(const core::Scene& scene, const simd::SceneData& data, const RaySet& camera,
                    RaySet& mirror, RaySet& shadow) {
     const simd::Tracing tracing{&simd::kernels_of(simd::best_isa())};
-    core::ReferenceTracer<double> reference(scene, scene.settings());
-    simd::HitFinder finder(data, tracing, reference);
+    simd::Query finder(data, tracing, simd::Asked::points);
     const simd::Arena arena =
         simd::arena_for([&](simd::Arena& a) { finder.take_from(a, RaySet::wave); });
-    core::Counters counters;
+    simd::EngineCounters counters;
     const Vec3d light = core::convert<double>(light_of(scene));
     for (std::size_t begin = 0; begin < camera.count; begin += RaySet::wave) {
         const simd::Paths paths = camera.paths(begin, RaySet::wave);
-        finder.find(paths, &*camera.bundle, counters);
+        finder.nearest(paths, &*camera.bundle, counters);
         const simd::Hits& hits = finder.hits();
         for (std::size_t lane = 0; lane < paths.count; ++lane) {
             if (hits.slot[lane] == simd::no_slot) continue;

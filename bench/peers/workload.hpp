@@ -2,7 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "core/shapes/ray.hpp"
-#include "simd/wavefront/paths.hpp"
+#include "simd/query/paths.hpp"
 
 #include <optional>
 #include <string>

@@ -139,7 +139,7 @@ std::string isa_in_use(const std::string& engine) {
 
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
                                 const core::Settings& settings, const simd::RenderOptions& options,
-                                const core::Counters& counters, const Times& times) {
+                                const simd::EngineCounters& counters, const Times& times) {
     const auto count = static_cast<double>(counters.rays());
     return {{"version", RAYLANE_VERSION},
             {"scene", printable(*arguments.scene, 4096)},
@@ -169,7 +169,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"searches",
              {{"shape_by_shape", counters.one_by_one},
               {"frusta", counters.in_frusta},
-              {"streams", counters.in_streams},
+              {"lists", counters.in_lists},
               {"in_flight", counters.in_flight}}},
             {"rays_refined", counters.refined},
             {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};

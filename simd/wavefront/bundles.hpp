@@ -1,8 +1,8 @@
 #pragma once
 
+#include "simd/scene_data.hpp"
 #include "simd/shade_kernels.hpp"
 #include "simd/trace_kernels.hpp"
-#include "simd/wavefront/scene_data.hpp"
 
 namespace raylane::simd {
 

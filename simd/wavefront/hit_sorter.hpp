@@ -1,7 +1,7 @@
 #pragma once
 
-#include "simd/wavefront/arena.hpp"
-#include "simd/wavefront/scene_data.hpp"
+#include "simd/arena.hpp"
+#include "simd/scene_data.hpp"
 
 #include <cstdint>
 #include <span>

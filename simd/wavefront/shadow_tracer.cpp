@@ -1,12 +1,26 @@
 #include "simd/wavefront/shadow_tracer.hpp"
 
 #include "core/optics/optics.hpp"
+#include "simd/query/as_core.hpp"
 #include "simd/wavefront/bundles.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace raylane::simd {
+
+namespace {
+
+RayColumns columns_of(const SpawnedRays& rays, const std::uint32_t* departed_first,
+                      const std::uint32_t* departed_last) {
+    return {rays.count,
+            {rays.origin[0], rays.origin[1], rays.origin[2]},
+            {rays.direction[0], rays.direction[1], rays.direction[2]},
+            departed_first,
+            departed_last};
+}
+
+} // namespace
 
 void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
     arena.take(rays.origin, capacity);
@@ -18,7 +32,7 @@ void take_spawned(Arena& arena, SpawnedRays& rays, std::size_t capacity) {
 
 ShadowTracer::ShadowTracer(const SceneData& scene, const Tracing& tracing,
                            core::ReferenceTracer<double>& reference)
-    : scene_(scene), tracing_(tracing), reference_(reference), walker_(scene, tracing, reference) {}
+    : scene_(scene), reference_(reference), walker_(scene, tracing) {}
 
 void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media) {
     leave_first_ = arena.take<std::uint32_t>(capacity);
@@ -27,23 +41,13 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
     take_spawned(arena, rays_, capacity);
     departed_first_ = arena.take<std::uint32_t>(capacity);
     departed_last_ = arena.take<std::uint32_t>(capacity);
-    take_rounded(arena, rounded_, capacity);
-    rounded_.departed_first = departed_first_;
-    rounded_.departed_last = departed_last_;
-    for (int axis = 0; axis < 3; ++axis) {
-        rounded_.meant_origin[axis] = rays_.origin[axis];
-        rounded_.meant_direction[axis] = rays_.direction[axis];
-    }
-    t_most_ = arena.take<float>(capacity);
-    occlusions_.t_most = t_most_;
-    occlusions_.state = arena.take<std::uint8_t>(capacity);
-    workspace_ = workspace_for(scene_, arena, capacity);
+    state_ = arena.take<std::uint8_t>(capacity);
     walker_.take_from(arena, capacity);
     walk_.take_from(arena, capacity, with_media);
     walk_distance_ = arena.take<double>(capacity);
 }
 
-void ShadowTracer::trace(const LightView& light, core::Counters& counters) {
+void ShadowTracer::trace(const LightView& light, EngineCounters& counters) {
     counters.shadow += rays_.count;
     const Bundle bundle = bundle_of(light);
     start();
@@ -51,7 +55,7 @@ void ShadowTracer::trace(const LightView& light, core::Counters& counters) {
 
     walk_.count = 0;
     for (std::size_t k = 0; k < rays_.count; ++k)
-        if (occlusions_.state[k] == doubtful) start_walk(k);
+        if (state_[k] == doubtful) start_walk(k);
     if (walk_.count != 0) walk(bundle, counters);
 }
 
@@ -74,20 +78,15 @@ void ShadowTracer::start() {
         const auto position = static_cast<std::size_t>(rays_.parent[k]);
         departed_first_[k] = leave_first_[position];
         departed_last_[k] = leave_last_[position];
-        occlusions_.state[k] = leave_state_[position];
-        t_most_[k] = static_cast<float>(rays_.distance[k]);
+        state_[k] = leave_state_[position];
     }
-    tracing_.kernels->rays.round_rays(rays_.count, rounded_);
 }
 
-void ShadowTracer::find_blocked(const Bundle& bundle, core::Counters& counters) {
-    TraceCounters traced{};
+void ShadowTracer::find_blocked(const Bundle& bundle, EngineCounters& counters) {
     // Deeper waves hit here and there: too much is between them and the light.
     const bool together = wave_->coherent || !scene_.has_tree();
-    tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(),
-                                     together ? &bundle : nullptr, rays_.count, rounded_,
-                                     occlusions_, workspace_, traced);
-    count(traced, counters);
+    walker_.query().occluded(columns_of(rays_, departed_first_, departed_last_), rays_.distance,
+                             state_, together ? &bundle : nullptr, counters);
 }
 
 void ShadowTracer::start_walk(std::size_t ray) {
@@ -108,7 +107,7 @@ void ShadowTracer::start_walk(std::size_t ray) {
 
 /// From surface to surface, until the light or something opaque. As
 /// core::ReferenceTracer::light_let_through has it.
-void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
+void ShadowTracer::walk(const Bundle& bundle, EngineCounters& counters) {
     counters.walked += walk_.count;
     for (int passed = 0; walk_.count != 0; ++passed) {
         if (passed == longest_walk) {
@@ -117,7 +116,7 @@ void ShadowTracer::walk(const Bundle& bundle, core::Counters& counters) {
                 follow(lane);
             return;
         }
-        walker_.find(walk_, &bundle, counters);
+        walker_.nearest(walk_, &bundle, counters);
         for (const std::uint32_t lane : walker_.left_open()) {
             ++counters.followed;
             follow(lane);
@@ -159,7 +158,7 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
     const SceneData::Occupant shape = scene_.occupant_of(slot);
     const core::Material& material = scene_.scene().materials()[shape.material];
     if (!material.transmits()) {
-        occlusions_.state[number] = blocked;
+        state_[number] = blocked;
         return false;
     }
     const bool entering = (found.hit[lane] & hit_entering) != 0;

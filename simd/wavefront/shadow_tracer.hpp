@@ -1,6 +1,7 @@
 #pragma once
 
-#include "simd/wavefront/hit_finder.hpp"
+#include "core/reference/tracer.hpp"
+#include "simd/query/look_through.hpp"
 
 #include <optional>
 
@@ -32,21 +33,20 @@ class ShadowTracer {
     /// Whose rays are traced from now on, to any number of lights.
     void look_at(const Wave& wave);
     /// Weakens the rays' weights by what is in the way, or blocks them.
-    void trace(const LightView& light, core::Counters& counters);
+    void trace(const LightView& light, EngineCounters& counters);
 
-    bool arrives(std::size_t ray) const { return occlusions_.state[ray] != blocked; }
+    bool arrives(std::size_t ray) const { return state_[ray] != blocked; }
 
   private:
     void start();
-    void find_blocked(const Bundle& bundle, core::Counters& counters);
-    void walk(const Bundle& bundle, core::Counters& counters);
+    void find_blocked(const Bundle& bundle, EngineCounters& counters);
+    void walk(const Bundle& bundle, EngineCounters& counters);
     void start_walk(std::size_t ray);
     void follow(std::size_t lane);
     bool step(std::size_t lane, double& distance);
     void absorb(core::MaterialIndex medium, double distance, std::size_t lane);
 
     const SceneData& scene_;
-    Tracing tracing_;
     core::ReferenceTracer<double>& reference_;
 
     std::optional<Wave> wave_;
@@ -58,14 +58,11 @@ class ShadowTracer {
     SpawnedRays rays_{};
     std::uint32_t* departed_first_ = nullptr;
     std::uint32_t* departed_last_ = nullptr;
-    RoundedRays rounded_{};
-    float* t_most_ = nullptr;
-    Occlusions occlusions_{};
-    Workspace workspace_{};
+    std::uint8_t* state_ = nullptr;
 
     // Rays that some surface may let through, or that may cross again what they start on: they walk
     // from surface to surface.
-    HitFinder walker_;
+    LookThrough walker_;
     Paths walk_{}; // throughput: what is left of the weight; sample: the ray
     double* walk_distance_ = nullptr;
 };

@@ -2,6 +2,7 @@
 
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
+#include "simd/query/as_core.hpp"
 #include "simd/wavefront/bundles.hpp"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
       shade_(tracing.kernels->shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
-      finder_(scene, tracing, reference_), shadows_(scene, tracing, reference_), sorted_(scene) {
+      finder_(scene, tracing), shadows_(scene, tracing, reference_), sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
     pending_.reserve(64);
@@ -96,8 +97,8 @@ void Wavefront::take_from(Arena& arena) {
     deferred_.take_from(arena, deferred_rays, with_media_); // last: rarely touched
 }
 
-core::Counters Wavefront::counters() const {
-    core::Counters all = counters_;
+EngineCounters Wavefront::counters() const {
+    EngineCounters all = counters_;
     all += reference_.counters();
     return all;
 }
@@ -193,11 +194,11 @@ void Wavefront::trace() {
 
 void Wavefront::trace_wave(int depth) {
     coherent_ = depth == 0;
-    finder_.find(paths_,
-                 depth == 0   ? &camera_bundle_
-                 : depth == 1 ? &second_bundle_
-                              : &neighbours,
-                 counters_);
+    finder_.nearest(paths_,
+                    depth == 0   ? &camera_bundle_
+                    : depth == 1 ? &second_bundle_
+                                 : &neighbours,
+                    counters_);
     for (const std::uint32_t lane : finder_.left_open())
         follow(lane, depth); // several surfaces meet there
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.left_open());

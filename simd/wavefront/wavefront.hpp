@@ -25,7 +25,7 @@ class Wavefront {
     Wavefront(const Wavefront&) = delete; // parts of it refer to others
     Wavefront& operator=(const Wavefront&) = delete;
 
-    core::Counters counters() const;
+    EngineCounters counters() const;
 
     /// Pixels on a region's side, at most.
     static constexpr int max_region = 64;
@@ -73,9 +73,9 @@ class Wavefront {
     bool with_media_;
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;
-    HitFinder finder_;
+    LookThrough finder_;
     ShadowTracer shadows_;
-    core::Counters counters_;
+    EngineCounters counters_;
 
     Arena arena_;
     Paths paths_{}, next_{}, deferred_{};

@@ -1,7 +1,7 @@
 #include "core/scene/shape_table.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
-#include "simd/wavefront/tracing.hpp"
+#include "simd/tracing.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
 #include "tests/simd/mutations.hpp"

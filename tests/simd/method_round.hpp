@@ -1,7 +1,8 @@
 #pragma once
 
 #include "core/shapes/solve.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/as_core.hpp"
+#include "simd/query/query.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/separate.hpp"
 
@@ -67,11 +68,11 @@ class MethodRound {
 
     /// Lets the kernels find what the twin has found. Returns how many rays hit the shape.
     int check(const simd::Kernels& kernels) const {
-        simd::HitFinder finder(data_, {&kernels, precision});
+        simd::Query finder(data_, {&kernels, precision}, simd::Asked::floats);
         const simd::Arena arena =
             simd::arena_for([&](simd::Arena& a) { finder.take_from(a, capacity); });
-        core::Counters counters;
-        finder.find(paths_, nullptr, counters);
+        simd::EngineCounters counters;
+        finder.nearest(paths_, nullptr, counters);
 
         std::array<bool, capacity> is_open{};
         for (const std::uint32_t lane : finder.left_open())

@@ -1,5 +1,6 @@
 #include "simd/isa.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/as_core.hpp"
+#include "simd/query/look_through.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
 #include "tests/ray_sets.hpp"
@@ -72,18 +73,17 @@ class Trial {
 
     void trace(const Kernels& kernels, Tally& tally) const {
         const SceneData data(*scene_);
-        ReferenceTracer<double> reference(*scene_, scene_->settings());
-        HitFinder finder(data, {&kernels, Precision::exact}, reference);
+        LookThrough finder(data, {&kernels, Precision::exact});
         const Arena arena = arena_for([&](Arena& a) { finder.take_from(a, rays_a_scene); });
-        Counters counters;
-        finder.find(paths_, nullptr, counters);
+        EngineCounters counters;
+        finder.nearest(paths_, nullptr, counters);
         tally.left += counters.doubtful;
         for (std::size_t i = 0; i < rays_a_scene; ++i)
             compare(finder, data, i, tally);
     }
 
   private:
-    void compare(const HitFinder& finder, const SceneData& data, std::size_t i,
+    void compare(const LookThrough& finder, const SceneData& data, std::size_t i,
                  Tally& tally) const {
         const Hits& hits = finder.hits();
         const Ray<double> ray = ray_of(paths_, i);

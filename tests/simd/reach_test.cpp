@@ -1,5 +1,5 @@
 #include "simd/isa.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/look_through.hpp"
 #include "tests/catch.hpp"
 #include "tests/random.hpp"
 
@@ -32,7 +32,7 @@ Scene cloud(double size, double camera) {
 }
 
 struct Work {
-    Counters counters;
+    EngineCounters counters;
     int hits = 0;
 };
 
@@ -51,11 +51,10 @@ Work work_for(const Scene& scene, std::size_t count, const Aim& aim) {
             paths.direction[axis][lane] = ray.direction[axis];
         }
     }
-    ReferenceTracer<double> reference(scene, scene.settings());
-    HitFinder finder(data, {&kernels_of(best_isa()), Precision::exact}, reference);
+    LookThrough finder(data, {&kernels_of(best_isa()), Precision::exact});
     const Arena found = arena_for([&](Arena& a) { finder.take_from(a, count); });
     Work work;
-    finder.find(paths, nullptr, work.counters);
+    finder.nearest(paths, nullptr, work.counters);
     for (std::size_t lane = 0; lane < count; ++lane)
         work.hits += static_cast<int>(finder.hits().slot[lane] != no_slot);
     return work;

@@ -1,5 +1,7 @@
+#include "core/reference/tracer.hpp"
 #include "simd/isa.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/as_core.hpp"
+#include "simd/query/look_through.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/simd/rounds.hpp"
@@ -55,14 +57,13 @@ struct Stream {
 
 /// Finds what a stream's rays hit.
 struct Finding {
-    HitFinder finder;
-    Counters counters;
+    LookThrough finder;
+    EngineCounters counters;
 
-    Finding(const SceneData& data, const Kernels& kernels, ReferenceTracer<double>& reference,
-            const Paths& paths)
-        : finder(data, {&kernels, Precision::exact}, reference) {
+    Finding(const SceneData& data, const Kernels& kernels, const Paths& paths)
+        : finder(data, {&kernels, Precision::exact}) {
         arena_ = arena_for([&](Arena& a) { finder.take_from(a, paths.count); });
-        finder.find(paths, nullptr, counters);
+        finder.nearest(paths, nullptr, counters);
     }
 
   private:
@@ -82,7 +83,6 @@ class Round {
 
     const SceneData& data() const { return data_; }
     const Paths& paths() const { return stream_.paths; }
-    ReferenceTracer<double>& reference() { return reference_; }
     const Encounter<double>& truth(std::size_t lane) const { return truths_[lane]; }
 
   private:
@@ -140,13 +140,13 @@ class Round {
     std::vector<Encounter<double>> truths_;
 };
 
-bool is_open(const HitFinder& finder, std::size_t lane) {
+bool is_open(const LookThrough& finder, std::size_t lane) {
     for (const std::uint32_t open : finder.left_open())
         if (open == lane) return true;
     return false;
 }
 
-void check_truth(const Round& round, const HitFinder& finder) {
+void check_truth(const Round& round, const LookThrough& finder) {
     for (std::size_t lane = 0; lane < ray_count; ++lane) {
         const Hit<double>& truth = round.truth(lane).hit;
         CAPTURE(lane, truth.any(), truth.t, round.paths().departed_slot[lane]);
@@ -164,7 +164,8 @@ void check_truth(const Round& round, const HitFinder& finder) {
 }
 
 /// Lane `a` of one and lane `b` of the other.
-void check_same_bits(const HitFinder& one, std::size_t a, const HitFinder& other, std::size_t b) {
+void check_same_bits(const LookThrough& one, std::size_t a, const LookThrough& other,
+                     std::size_t b) {
     const auto same = [](double x, double y) {
         return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
     };
@@ -180,17 +181,17 @@ void check_same_bits(const HitFinder& one, std::size_t a, const HitFinder& other
 }
 
 /// The ray of one lane by itself.
-void check_alone(Round& round, const Kernels& kernels, const HitFinder& together,
+void check_alone(Round& round, const Kernels& kernels, const LookThrough& together,
                  std::size_t lane) {
     const Stream alone(1);
     alone.paths.copy_ray(round.paths(), lane, 0);
-    const Finding finding(round.data(), kernels, round.reference(), alone.paths);
+    const Finding finding(round.data(), kernels, alone.paths);
     check_same_bits(together, lane, finding.finder, 0);
 }
 
 void check_rounds(int of_each) {
     Random random(static_cast<std::uint64_t>(of_each));
-    Counters counters;
+    EngineCounters counters;
     for (int i = 0; i < rounds(); ++i) {
         Round round(of_each, random);
         std::optional<Finding> first;
@@ -199,12 +200,12 @@ void check_rounds(int of_each) {
             const Kernels& kernels = kernels_of(isa);
             CAPTURE(i, std::string(kernels.name));
             if (first) {
-                const Finding next(round.data(), kernels, round.reference(), round.paths());
+                const Finding next(round.data(), kernels, round.paths());
                 for (std::size_t lane = 0; lane < ray_count; ++lane)
                     check_same_bits(first->finder, lane, next.finder, lane);
                 continue;
             }
-            first.emplace(round.data(), kernels, round.reference(), round.paths());
+            first.emplace(round.data(), kernels, round.paths());
             check_truth(round, first->finder);
             counters += first->counters;
             check_alone(round, kernels, first->finder,

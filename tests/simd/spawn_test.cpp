@@ -1,5 +1,6 @@
 #include "core/optics/optics.hpp"
 #include "simd/isa.hpp"
+#include "simd/query/as_core.hpp"
 #include "simd/wavefront/shadow_tracer.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/rounds.hpp"
@@ -59,10 +60,10 @@ class Spawning {
     }
 
     void check() {
-        ReferenceTracer<double> alone_reference(alone_, {}), reference(*scene_, {});
-        HitFinder first(alone_data_, {kernels_}, alone_reference);
-        HitFinder in_the_open(alone_data_, {kernels_}, alone_reference);
-        HitFinder next(*data_, {kernels_}, reference);
+        ReferenceTracer<double> reference(*scene_, {});
+        LookThrough first(alone_data_, {kernels_});
+        LookThrough in_the_open(alone_data_, {kernels_});
+        LookThrough next(*data_, {kernels_});
         ShadowTracer shadows(*data_, {kernels_}, reference);
         const Arena arena = arena_for([&](Arena& a) {
             first.take_from(a, rays_per_nest);
@@ -84,7 +85,7 @@ class Spawning {
 
   private:
     /// Where rays hit the shape, as the engine has it.
-    void hit(HitFinder& finder) {
+    void hit(LookThrough& finder) {
         paths_.count = rays_per_nest;
         for (std::size_t i = 0; i < paths_.count; ++i) {
             const Ray<double> ray = ray_to(nest_, place_, random_);
@@ -94,8 +95,8 @@ class Spawning {
             }
         }
         paths_.start_in_the_open(0, paths_.count);
-        Counters counters;
-        finder.find(paths_, nullptr, counters);
+        EngineCounters counters;
+        finder.nearest(paths_, nullptr, counters);
         REQUIRE(finder.left_open().empty());
         hits_ = finder.hits();
         hit_count_ = 0;
@@ -165,9 +166,9 @@ class Spawning {
         }
     }
 
-    void find(HitFinder& finder, ReferenceTracer<double>& reference) {
-        Counters counters;
-        finder.find(spawned_, nullptr, counters);
+    void find(LookThrough& finder, ReferenceTracer<double>& reference) {
+        EngineCounters counters;
+        finder.nearest(spawned_, nullptr, counters);
         tally_.doubtful += static_cast<long>(counters.doubtful);
         std::vector<Next> found(spawned_.count);
         const Hits& hits = finder.hits();
@@ -250,7 +251,7 @@ class Spawning {
 
     /// Where there is nothing else, the engine needs no help to know that what goes outward meets
     /// nothing.
-    void leave_alone(HitFinder& finder) {
+    void leave_alone(LookThrough& finder) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < spawned_.count; ++i) {
             if ((spawned_.departure[i] & departure_inward) != 0) continue;
@@ -259,8 +260,8 @@ class Spawning {
                 alone_data_.view().tables[static_cast<int>(kind_)].first_slot;
         }
         spawned_.count = kept;
-        Counters counters;
-        finder.find(spawned_, nullptr, counters);
+        EngineCounters counters;
+        finder.nearest(spawned_, nullptr, counters);
         tally_.into_the_open += static_cast<long>(kept);
         tally_.doubtful_in_the_open += static_cast<long>(counters.doubtful);
         if (kind_ == Kind::quadric) return;
@@ -296,7 +297,7 @@ class Spawning {
             rays.distance[to] = distance;
             rays.parent[to] = static_cast<double>(k);
         }
-        Counters counters;
+        EngineCounters counters;
         const bool coherent = random_.integer(0, 1) == 0;
         tracer.look_at({paths_, hits_, order_, hit_count_, coherent});
         tracer.trace(light, counters);

@@ -2,7 +2,7 @@
 
 #include "core/reference/search.hpp"
 #include "core/scene/scene.hpp"
-#include "simd/wavefront/hit_finder.hpp"
+#include "simd/query/query.hpp"
 #include "tests/catch.hpp"
 #include "tests/targets.hpp"
 

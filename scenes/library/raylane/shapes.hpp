@@ -97,12 +97,12 @@ struct Quadric {
 
 /// What a scene can be made of.
 template <class Shape>
-concept AnyShape = std::same_as<Shape, Sphere> || std::same_as<Shape, Plane> ||
-    std::same_as<Shape, Disc> || std::same_as<Shape, Triangle> ||
-    std::same_as<Shape, SmoothTriangle> || std::same_as<Shape, Box> ||
-    std::same_as<Shape, OpenCylinder> || std::same_as<Shape, CappedCylinder> ||
-    std::same_as<Shape, OpenCone> || std::same_as<Shape, CappedCone> ||
-    std::same_as<Shape, Quadric>;
+concept AnyShape =
+    std::same_as<Shape, Sphere> || std::same_as<Shape, Plane> || std::same_as<Shape, Disc> ||
+    std::same_as<Shape, Triangle> || std::same_as<Shape, SmoothTriangle> ||
+    std::same_as<Shape, Box> || std::same_as<Shape, OpenCylinder> ||
+    std::same_as<Shape, CappedCylinder> || std::same_as<Shape, OpenCone> ||
+    std::same_as<Shape, CappedCone> || std::same_as<Shape, Quadric>;
 
 /// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added. In a
 /// scene from a file, the order of the file.

@@ -1,4 +1,4 @@
-#include "simd/wavefront/approach.hpp"
+#include "simd/query/approach.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,21 +38,21 @@ void Approach::take_from(Arena& arena, std::size_t capacity) {
     t_ = arena.take<double>(capacity);
 }
 
-void Approach::bring_near(const Paths& paths, RoundedRays& rays) {
+void Approach::bring_near(std::size_t count, RoundedRays& rays) {
     any_ = false;
     if (radius_ < 0.0) return;
     double farthest = 0.0;
-    for (std::size_t lane = 0; lane < paths.count; ++lane)
-        for (int axis = 0; axis < 3; ++axis)
-            farthest = std::max(farthest, std::abs(paths.origin[axis][lane] - center_[axis]));
+    for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t lane = 0; lane < count; ++lane)
+            farthest = std::max(farthest, std::abs(rays.meant_origin[axis][lane] - center_[axis]));
     if (!(farthest > far_away * radius_)) return;
     any_ = true;
-    count_ = paths.count;
+    count_ = count;
     for (std::size_t lane = 0; lane < count_; ++lane) {
         core::Ray<double> ray; // of unit length
         for (int axis = 0; axis < 3; ++axis) {
-            ray.origin[axis] = paths.origin[axis][lane];
-            ray.direction[axis] = paths.direction[axis][lane];
+            ray.origin[axis] = rays.meant_origin[axis][lane];
+            ray.direction[axis] = rays.meant_direction[axis][lane];
         }
         const double before = before_of(ray);
         const core::Vec3d there = core::mul_add(before, ray.direction, ray.origin);

@@ -1,11 +1,8 @@
 #pragma once
 
-#include "core/reference/counters.hpp"
 #include "core/reference/crossing_order.hpp"
-#include "simd/wavefront/approach.hpp"
-#include "simd/wavefront/hits.hpp"
-#include "simd/wavefront/scene_data.hpp"
-#include "simd/wavefront/tracing.hpp"
+#include "simd/query/hits.hpp"
+#include "simd/query/search.hpp"
 
 #include <span>
 #include <vector>
@@ -20,35 +17,23 @@ namespace raylane::simd {
 /// point: then they are as good as double can have them.
 class Refinery {
   public:
-    Refinery(const SceneData& scene, const Tracing& tracing) : scene_(scene), tracing_(tracing) {}
+    Refinery(const SceneData& scene, const Tracing& tracing, Asked asked)
+        : scene_(scene), tracing_(tracing), for_points_(asked == Asked::points) {}
 
-    /// For rays that `stand_for_others` or not (see Paths), of whose hits points and normals will
-    /// be asked in double, or answers in float.
-    void take_from(Arena& arena, bool stand_for_others, bool for_points);
+    void take_from(Arena& arena);
 
     /// Whether there is anything to be had of it.
     bool works() const { return tracing_.method().refine.finish_again != nullptr; }
 
-    /// What paths are to filters.
-    struct Stream {
-        const RoundedRays& rounded;
-        const Approach& approach;
-    };
-
     /// Decides on `lanes`, for which hits has what has been found so far, but for those that are
     /// `doubtful`. Puts first, and counts, those that meet several surfaces at one point; they have
     /// the one that comes first.
-    std::size_t refine(const Paths& paths, const Stream& stream, const Pending& pending,
+    std::size_t refine(const Paths& paths, const CandidateSearch& search,
                        const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
-                       const Hits& hits, core::Counters& counters);
+                       const Hits& hits, EngineCounters& counters);
 
-    /// A hit point that the ray and its t in double do not lead to.
-    struct Point {
-        std::uint32_t lane;
-        core::Vec3d point;
-    };
     /// Of the lanes that the last call has decided on.
-    std::span<const Point> points() const { return points_; }
+    std::span<const HitPoint> points() const { return points_; }
 
   private:
     /// A ray and its candidates: those from `begin` on, up to the next one's.
@@ -61,18 +46,18 @@ class Refinery {
         std::uint32_t slot;
     };
 
-    void list(const Paths& paths, const Stream& stream, const Pending& pending, std::size_t lane,
-              double limit, core::Counters& counters);
+    void list(const Paths& paths, const CandidateSearch& search, std::size_t lane, double limit,
+              EngineCounters& counters);
     void take(const CandidateList& list, double before);
-    double end_of_first(const Paths& paths, std::size_t lane, core::Counters& counters);
-    double end_of_first(std::size_t begin, std::size_t end, core::Counters& counters);
+    double end_of_first(const Paths& paths, std::size_t lane, EngineCounters& counters);
+    double end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters);
     void add(const Paths& paths, std::size_t lane, std::span<const Listed> candidates);
     void finish(std::size_t begin);
-    std::size_t first_of_many(const Paths& paths, std::size_t lane, core::Counters& counters);
-    std::size_t first_of(std::size_t begin, std::size_t end, core::Counters& counters);
+    std::size_t first_of_many(const Paths& paths, std::size_t lane, EngineCounters& counters);
+    std::size_t first_of(std::size_t begin, std::size_t end, EngineCounters& counters);
     std::size_t first_of_close(std::size_t begin);
     void widen_close();
-    void solve(std::size_t candidate, core::Counters& counters);
+    void solve(std::size_t candidate, EngineCounters& counters);
     core::Hit<double> hit_of(std::size_t candidate) const;
     void swap(std::size_t a, std::size_t b);
     void hand_over(std::size_t candidate, const Hits& hits, std::uint32_t lane);
@@ -81,7 +66,7 @@ class Refinery {
 
     const SceneData& scene_;
     Tracing tracing_;
-    bool for_points_ = true;
+    bool for_points_;
     Paths paths_{}; ///< by candidate
     Hits hits_{};
     double* lower_ = nullptr;
@@ -94,7 +79,7 @@ class Refinery {
     std::vector<std::size_t> close_;    ///< candidates that bounds do not tell from the first
     std::vector<core::SharpHit> sharp_; ///< their hits
     std::vector<double> wide_;          ///< their t
-    std::vector<Point> points_;
+    std::vector<HitPoint> points_;
 };
 
 } // namespace raylane::simd

@@ -1,14 +1,23 @@
 #pragma once
 
 #include "core/optics/media.hpp"
+#include "simd/arena.hpp"
 #include "simd/kernels.hpp"
-#include "simd/wavefront/arena.hpp"
-#include "simd/wavefront/scene_data.hpp"
+#include "simd/scene_data.hpp"
 
 #include <algorithm>
 #include <cstdint>
 
 namespace raylane::simd {
+
+/// Rays in double, structure of arrays, with the shapes that they leave, first to last.
+struct RayColumns {
+    std::size_t count;
+    const double* origin[3];
+    const double* direction[3]; ///< of length 1
+    const std::uint32_t* departed_first;
+    const std::uint32_t* departed_last;
+};
 
 /// Beside the kernels' departure bits: the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t departure_may_return = 0x10000;
@@ -85,14 +94,12 @@ struct Paths {
         std::fill(departure + begin, departure + end, 0U);
     }
 
-    /// To be rounded.
-    void pass_to(RoundedRays& rays) const {
-        for (int axis = 0; axis < 3; ++axis) {
-            rays.meant_origin[axis] = origin[axis];
-            rays.meant_direction[axis] = direction[axis];
-        }
-        rays.departed_first = departed_first;
-        rays.departed_last = departed_last;
+    RayColumns columns() const {
+        return {count,
+                {origin[0], origin[1], origin[2]},
+                {direction[0], direction[1], direction[2]},
+                departed_first,
+                departed_last};
     }
 
     /// Lane `from` of `other` to lane `to`.

@@ -1,11 +1,24 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
-#include "simd/wavefront/paths.hpp"
+#include "simd/query/paths.hpp"
 
 #include <utility>
 
 namespace raylane::simd {
+
+/// What is asked of hits.
+enum class Asked : std::uint8_t {
+    points, ///< for pictures: points and normals, in double
+    floats, ///< for the library: the floats nearest to t and normals; rays may stand for others
+            ///< (Paths), and hits have hit_normal_doubtful
+};
+
+/// A hit point that the ray and its t in double do not lead to.
+struct HitPoint {
+    std::uint32_t lane;
+    core::Vec3d point;
+};
 
 /// What rays hit, by lane.
 struct Hits {

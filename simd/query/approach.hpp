@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/shapes/ray.hpp"
-#include "simd/wavefront/paths.hpp"
-#include "simd/wavefront/scene_data.hpp"
+#include "simd/query/paths.hpp"
+#include "simd/scene_data.hpp"
 
 namespace raylane::simd {
 
@@ -16,9 +16,9 @@ class Approach {
 
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// Has the rays rounded from where they are near, if any of the paths is far. Their slack is
-    /// to be widened then.
-    void bring_near(const Paths& paths, RoundedRays& rays);
+    /// Has `count` rays, before they are rounded, rounded from where they are near, if any of them
+    /// is far. Their slack is to be widened then.
+    void bring_near(std::size_t count, RoundedRays& rays);
     void widen(const RoundedRays& rays) const;
 
     /// Of the last paths.

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "core/reference/counters.hpp"
 #include "core/reference/departure.hpp"
-#include "simd/wavefront/hits.hpp"
-#include "simd/wavefront/scene_data.hpp"
+#include "simd/query/hits.hpp"
+#include "simd/scene_data.hpp"
 
 namespace raylane::simd {
 
@@ -54,16 +53,6 @@ core::Departure<Real> departure_of(const SceneData& scene, const Paths& paths, s
                                       inward,
                                       inward};
     return core::Departure<Real>(std::span(&surface, 1));
-}
-
-/// What a kernel has done, among what core counts.
-inline void count(const TraceCounters& traced, core::Counters& counters) {
-    counters.nodes += traced.nodes;
-    counters.shapes += traced.shapes;
-    counters.one_by_one += traced.one_by_one;
-    counters.in_frusta += traced.in_frusta;
-    counters.in_streams += traced.in_streams;
-    counters.in_flight += traced.in_flight;
 }
 
 } // namespace raylane::simd

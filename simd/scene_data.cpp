@@ -1,4 +1,4 @@
-#include "simd/wavefront/scene_data.hpp"
+#include "simd/scene_data.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#include "simd/wavefront/refinery.hpp"
+#include "simd/query/refinery.hpp"
 
 #include "core/reference/rounding.hpp"
-#include "simd/wavefront/as_core.hpp"
+#include "simd/query/as_core.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -28,9 +28,8 @@ bool crosses(std::uint32_t hit) {
 
 } // namespace
 
-void Refinery::take_from(Arena& arena, bool stand_for_others, bool for_points) {
-    for_points_ = for_points;
-    paths_.take_from(arena, most + beyond, false, stand_for_others);
+void Refinery::take_from(Arena& arena) {
+    paths_.take_from(arena, most + beyond, false, !for_points_);
     hits_.take_from(arena, most + beyond, scene_.smooth());
     lower_ = arena.take<double>(most);
     slots_.resize(most);
@@ -43,9 +42,9 @@ void Refinery::take_from(Arena& arena, bool stand_for_others, bool for_points) {
     points_.reserve(64);
 }
 
-std::size_t Refinery::refine(const Paths& paths, const Stream& stream, const Pending& pending,
+std::size_t Refinery::refine(const Paths& paths, const CandidateSearch& search,
                              const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
-                             const Hits& hits, core::Counters& counters) {
+                             const Hits& hits, EngineCounters& counters) {
     counters.refined += lanes.size();
     points_.clear();
     std::size_t met_several = 0;
@@ -65,7 +64,7 @@ std::size_t Refinery::refine(const Paths& paths, const Stream& stream, const Pen
             const std::uint32_t lane = lanes[next];
             const bool is_hit =
                 doubtful[lane] == 0 && hits.slot[lane] != no_slot && crosses(hits.hit[lane]);
-            list(paths, stream, pending, lane, is_hit ? hits.t[lane] + hits.error[lane] : infinity,
+            list(paths, search, lane, is_hit ? hits.t[lane] + hits.error[lane] : infinity,
                  counters);
             if (listed_.size() > most - count_) break;
             rays_.push_back({lane, static_cast<std::uint32_t>(count_)});
@@ -86,9 +85,9 @@ std::size_t Refinery::refine(const Paths& paths, const Stream& stream, const Pen
 }
 
 /// All that a ray may cross before the limit, or what is surely crossed.
-void Refinery::list(const Paths& paths, const Stream& stream, const Pending& pending,
-                    std::size_t lane, double limit, core::Counters& counters) {
-    const double before = stream.approach.before(lane);
+void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size_t lane,
+                    double limit, EngineCounters& counters) {
+    const double before = search.approach().before(lane);
     for (std::size_t room = at_first;; room *= 8) {
         // Not before what is behind a certain crossing by as little as does not tell them apart,
         // nor by what the difference is off by.
@@ -107,8 +106,9 @@ void Refinery::list(const Paths& paths, const Stream& stream, const Pending& pen
         }
         TraceCounters traced{};
         const bool has_room = tracing_.method().refine.list_candidates(
-            scene_.view(), scene_.listed_kinds(), stream.rounded, lane, pending, list, traced);
-        count(traced, counters);
+            scene_.view(), scene_.listed_kinds(), search.rounded(), lane, search.pending(), list,
+            traced);
+        counters += traced;
         take(list, before);
         if (has_room) return;
         limit = std::min(limit, end_of_first(paths, lane, counters));
@@ -127,7 +127,7 @@ void Refinery::take(const CandidateList& list, double before) {
 }
 
 /// What the first crossing is surely not behind, by the nearest that are listed.
-double Refinery::end_of_first(const Paths& paths, std::size_t lane, core::Counters& counters) {
+double Refinery::end_of_first(const Paths& paths, std::size_t lane, EngineCounters& counters) {
     const std::size_t begin = count_;
     add(paths, lane, std::span(listed_).first(std::min({at_first, listed_.size(), most - begin})));
     finish(begin);
@@ -154,7 +154,7 @@ void Refinery::finish(std::size_t begin) {
 
 /// first_of() of all that is listed, which is more than there is room for.
 std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
-                                    core::Counters& counters) {
+                                    EngineCounters& counters) {
     count_ = 0;
     for (std::size_t next = 0; next < listed_.size();) {
         const std::size_t found = count_;
@@ -169,7 +169,7 @@ std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
 }
 
 /// What the first crossing with some candidates is surely not behind. Solves those in doubt.
-double Refinery::end_of_first(std::size_t begin, std::size_t end, core::Counters& counters) {
+double Refinery::end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters) {
     double last = infinity;
     for (std::size_t i = begin; i < end; ++i)
         if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
@@ -183,7 +183,7 @@ double Refinery::end_of_first(std::size_t begin, std::size_t end, core::Counters
 
 /// Puts first, of one ray's candidates, what it crosses first, and behind that another that it
 /// crosses at the same point. Returns how many these are: 0, 1 or 2.
-std::size_t Refinery::first_of(std::size_t begin, std::size_t end, core::Counters& counters) {
+std::size_t Refinery::first_of(std::size_t begin, std::size_t end, EngineCounters& counters) {
     const double last = end_of_first(begin, end, counters);
     close_.clear();
     for (std::size_t i = begin; i < end; ++i)
@@ -236,7 +236,7 @@ std::size_t Refinery::first_of_close(std::size_t begin) {
 }
 
 /// Where a ray first crosses one shape, exactly. The normal is left open.
-void Refinery::solve(std::size_t candidate, core::Counters& counters) {
+void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
     ++counters.doubtful;
     const std::uint32_t slot = hits_.slot[candidate];
     const core::Kind kind = scene_.occupant_of(slot).kind;

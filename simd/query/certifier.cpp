@@ -1,0 +1,125 @@
+#include "simd/query/certifier.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace raylane::simd {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// A float that is not above a value >= 0, nor far below it.
+float rounded_down(double value) {
+    return static_cast<float>(value) * (1.0F - 0x1p-22F);
+}
+
+} // namespace
+
+Certifier::Certifier(const SceneData& scene, const Tracing& tracing, Asked asked)
+    : scene_(scene), tracing_(tracing), asked_(asked), refinery_(scene, tracing, asked) {
+    if (!refinery_.works()) tie_breaker_.emplace(scene, tracing);
+}
+
+void Certifier::take_from(Arena& arena, std::size_t capacity) {
+    doubtful_ = arena.take<std::uint8_t>(capacity);
+    open_ = arena.take<std::uint32_t>(capacity);
+    gathered_.take_from(arena, capacity, false, asked_ == Asked::floats);
+    gathered_hits_.take_from(arena, capacity, scene_.smooth());
+    lanes_ = arena.take<std::uint32_t>(capacity);
+    if (refinery_.works()) refinery_.take_from(arena);
+}
+
+void Certifier::find_own_exits(const Paths& paths, const Candidates& candidates) {
+    std::fill_n(doubtful_, (paths.count + 15) / 16 * 16, std::uint8_t{0});
+    std::uint32_t any = 0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane)
+        any |= paths.departure[lane];
+    if ((any & departure_may_return) == 0) return;
+    std::size_t count = 0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        lanes_[count] = static_cast<std::uint32_t>(lane);
+        count += static_cast<std::size_t>((paths.departure[lane] & departure_may_return) != 0);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        gathered_.copy_ray(paths, lanes_[i], i);
+        gathered_hits_.slot[i] = paths.departed_slot[lanes_[i]];
+    }
+    finish(gathered_hits_.found(gathered_, 0, count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
+        if ((hit & hit_doubtful) != 0) {
+            doubtful_[lane] = 1;
+        } else if ((hit & hit_none) == 0) {
+            const double t = gathered_hits_.t[i];
+            candidates.first[lane] = tracing_.certifies()
+                                         ? std::max(0.0F, rounded_down(t - gathered_hits_.error[i]))
+                                         : static_cast<float>(t);
+            candidates.slot[lane] = gathered_hits_.slot[i];
+        }
+    }
+}
+
+void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candidates& candidates,
+                        const Hits& hits, EngineCounters& counters) {
+    open_count_ = 0;
+    if (!tracing_.certifies()) {
+        break_ties(paths, candidates, hits);
+        finish(hits.found(paths, 0, paths.count));
+        return;
+    }
+    finish(hits.found(paths, 0, paths.count));
+    const std::size_t uncertain = tracing_.kernels->rays.list_uncertain(
+        paths.count, candidates, search.approach().from_there(hits.t), hits.error, hits.hit,
+        doubtful_, lanes_);
+    if (!refinery_.works()) {
+        compare_in_double(paths, {lanes_, uncertain}, hits, counters);
+        return;
+    }
+    open_count_ = refinery_.refine(paths, search, doubtful_, {lanes_, uncertain}, hits, counters);
+    std::copy_n(lanes_, open_count_, open_);
+}
+
+void Certifier::finish(Found found) const {
+    found.holds_points = asked_ == Asked::points;
+    const MethodKernels& method = tracing_.method();
+    (found.holds_points ? method.finish : method.finish_all)(scene_.view(), found);
+}
+
+/// The kernels take of several crossings at the same t whichever they meet first, and note that
+/// there is another. That is rare: most packets are done with at a glance.
+void Certifier::break_ties(const Paths& paths, const Candidates& candidates, const Hits& hits) {
+    for (std::size_t begin = 0; begin < paths.count; begin += 16) {
+        const float* const first = candidates.first + begin;
+        const float* const second = candidates.second + begin;
+        int ties = 0;
+        for (int i = 0; i < 16; ++i)
+            ties += static_cast<int>(first[i] == second[i]) & static_cast<int>(first[i] < infinity);
+        if (ties == 0) continue;
+        for (std::size_t i = 0; i < 16 && begin + i < paths.count; ++i) {
+            if (first[i] != second[i] || first[i] == infinity) continue;
+            const std::size_t lane = begin + i;
+            hits.slot[lane] = tie_breaker_->first_at(first[i], paths, lane, hits.slot[lane]);
+        }
+    }
+}
+
+/// The shape is decided; the numbers are those that the kernel has for it.
+void Certifier::compare_in_double(const Paths& paths, std::span<const std::uint32_t> lanes,
+                                  const Hits& hits, EngineCounters& counters) {
+    counters.doubtful += lanes.size();
+    for (const std::uint32_t lane : lanes) {
+        const TieBreaker::First first = tie_breaker_->first_of(paths, lane);
+        if (!first.hit.any()) {
+            hits.slot[lane] = no_slot;
+            continue;
+        }
+        if (!first.is_alone) open_[open_count_++] = lane;
+        gathered_.copy_ray(paths, lane, 0);
+        gathered_hits_.slot[0] = scene_.slot_of(first.hit.kind, first.hit.slot);
+        finish(gathered_hits_.found(gathered_, 0, 1));
+        hits.copy(gathered_hits_, 0, lane);
+    }
+}
+
+} // namespace raylane::simd

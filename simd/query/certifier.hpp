@@ -1,0 +1,54 @@
+#pragma once
+
+#include "simd/query/hits.hpp"
+#include "simd/query/refinery.hpp"
+#include "simd/query/search.hpp"
+#include "simd/query/tie_breaker.hpp"
+
+#include <optional>
+#include <span>
+
+namespace raylane::simd {
+
+/// The second of what finds a hit: solves the shape that may be the nearest, and decides where that
+/// is not certain. With core::Precision::exact a Refinery does; in double without bounds a
+/// TieBreaker, as it does in float where t is the same.
+class Certifier {
+  public:
+    Certifier(const SceneData& scene, const Tracing& tracing, Asked asked);
+
+    void take_from(Arena& arena, std::size_t capacity);
+
+    /// What rays that leave a shape which they may cross again cross of it. No filter can tell that
+    /// from where they start, so it is solved before, and bounds what else can be nearest.
+    void find_own_exits(const Paths& paths, const Candidates& candidates);
+    /// Decides on what a search has found; hits.slot are the candidates' slots.
+    void certify(const Paths& paths, CandidateSearch& search, const Candidates& candidates,
+                 const Hits& hits, EngineCounters& counters);
+
+    /// Of the last rays; see Query.
+    std::span<const std::uint32_t> left_open() const { return {open_, open_count_}; }
+    std::span<const HitPoint> points() const { return refinery_.points(); }
+
+  private:
+    void break_ties(const Paths& paths, const Candidates& candidates, const Hits& hits);
+    void compare_in_double(const Paths& paths, std::span<const std::uint32_t> lanes,
+                           const Hits& hits, EngineCounters& counters);
+    void finish(Found found) const;
+
+    const SceneData& scene_;
+    Tracing tracing_;
+    Asked asked_;
+    std::optional<TieBreaker> tie_breaker_; // where nothing is certified
+    Refinery refinery_;
+
+    std::uint8_t* doubtful_ = nullptr; // whatever the search says
+    std::uint32_t* open_ = nullptr;
+    std::size_t open_count_ = 0;
+    // Some of the rays, put together.
+    Paths gathered_{};
+    Hits gathered_hits_{};
+    std::uint32_t* lanes_ = nullptr;
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,112 @@
+#include "simd/query/look_through.hpp"
+
+#include "simd/query/as_core.hpp"
+
+#include <algorithm>
+
+namespace raylane::simd {
+
+namespace {
+
+/// Of the points that are known; else where the ray and its t lead to.
+core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, const Paths& paths,
+                        std::size_t lane) {
+    for (const HitPoint& known : points)
+        if (known.lane == lane) return known.point;
+    const core::Ray<double> ray = ray_of(paths, lane);
+    return core::mul_add(hits.t[lane], ray.direction, ray.origin);
+}
+
+} // namespace
+
+LookThrough::LookThrough(const SceneData& scene, const Tracing& tracing)
+    : scene_(scene), query_(scene, tracing, Asked::points) {
+    if (scene.one_sided()) onward_ = std::make_unique<Query>(scene, tracing, Asked::points);
+}
+
+void LookThrough::take_from(Arena& arena, std::size_t capacity) {
+    query_.take_from(arena, capacity);
+    open_.reserve(capacity);
+    points_.reserve(64);
+    if (onward_ == nullptr) return;
+    onward_->take_from(arena, capacity);
+    onward_paths_.take_from(arena, capacity, false);
+    passed_ = arena.take<double>(capacity);
+}
+
+void LookThrough::nearest(const Paths& paths, const Bundle* bundle, EngineCounters& counters) {
+    query_.nearest(paths, bundle, counters);
+    open_.assign(query_.left_open().begin(), query_.left_open().end());
+    points_.assign(query_.points().begin(), query_.points().end());
+    if (onward_ != nullptr) go_on(paths, bundle, counters);
+}
+
+core::Vec3d LookThrough::point_of(const Paths& paths, std::size_t lane) const {
+    return point_among(points_, hits(), paths, lane);
+}
+
+void LookThrough::go_on(const Paths& paths, const Bundle* bundle, EngineCounters& counters) {
+    const Hits& hits = query_.hits();
+    for (const std::uint32_t lane : open_)
+        hits.slot[lane] = no_slot; // the reference goes on
+    onward_paths_.count = 0;
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        if (is_visible(hits, lane)) continue;
+        const std::size_t to = onward_paths_.count++;
+        onward_paths_.copy(paths, lane, to);
+        onward_paths_.sample[to] = static_cast<std::uint32_t>(lane);
+        passed_[to] = 0.0;
+        onward_paths_.move_to(to, point_of(paths, lane));
+        move_on(hits, lane, to);
+        std::erase_if(points_, [&](const HitPoint& of) { return of.lane == lane; });
+    }
+    // They no longer start at one point.
+    if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = &neighbours;
+    for (int passed = 1; onward_paths_.count != 0; ++passed) {
+        if (passed == longest_walk) {
+            open_.insert(open_.end(), onward_paths_.sample,
+                         onward_paths_.sample + onward_paths_.count);
+            return;
+        }
+        onward_->nearest(onward_paths_, bundle, counters);
+        const Hits& found = onward_->hits();
+        for (const std::uint32_t i : onward_->left_open()) {
+            open_.push_back(onward_paths_.sample[i]);
+            onward_paths_.sample[i] = no_slot;
+        }
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < onward_paths_.count; ++i) {
+            const std::uint32_t lane = onward_paths_.sample[i];
+            if (lane == no_slot) continue;
+            const core::Vec3d point = point_among(onward_->points(), found, onward_paths_, i);
+            if (is_visible(found, i)) {
+                hits.copy(found, i, lane);
+                hits.t[lane] += passed_[i];
+                // What lies behind several is not where the first origin and a sum lead to.
+                for (const HitPoint& known : onward_->points())
+                    if (known.lane == i) points_.push_back({lane, known.point});
+                continue;
+            }
+            onward_paths_.copy(onward_paths_, i, kept);
+            passed_[kept] = passed_[i];
+            onward_paths_.move_to(kept, point);
+            move_on(found, i, kept++);
+        }
+        onward_paths_.count = kept;
+    }
+}
+
+bool LookThrough::is_visible(const Hits& hits, std::size_t lane) const {
+    if (hits.slot[lane] == no_slot) return true;
+    const core::MaterialIndex material = scene_.occupant_of(hits.slot[lane]).material;
+    return scene_.scene().materials()[material].is_seen((hits.hit[lane] & hit_entering) != 0);
+}
+
+/// Starts a ray anew behind what it has hit, where it has been moved to.
+void LookThrough::move_on(const Hits& hits, std::size_t lane, std::size_t to) {
+    passed_[to] += hits.t[lane];
+    const std::uint32_t slot = hits.slot[lane];
+    onward_paths_.start_on(to, slot, scene_.occupant_of(slot), hits.hit[lane], /*through=*/true);
+}
+
+} // namespace raylane::simd

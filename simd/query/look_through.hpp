@@ -1,0 +1,44 @@
+#pragma once
+
+#include "simd/query/query.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace raylane::simd {
+
+/// The third of what finds a hit, for pictures: rays pass surfaces that cannot be seen from where
+/// they come as if these were not there. Answers are points.
+class LookThrough {
+  public:
+    LookThrough(const SceneData& scene, const Tracing& tracing);
+
+    void take_from(Arena& arena, std::size_t capacity);
+
+    /// As Query has it.
+    void nearest(const Paths& paths, const Bundle* bundle, EngineCounters& counters);
+    const Hits& hits() const { return query_.hits(); }
+    std::span<const std::uint32_t> left_open() const { return open_; }
+    std::span<const HitPoint> points() const { return points_; }
+    core::Vec3d point_of(const Paths& paths, std::size_t lane) const;
+
+    /// Whatever can be seen from where.
+    Query& query() { return query_; }
+
+  private:
+    void go_on(const Paths& paths, const Bundle* bundle, EngineCounters& counters);
+    bool is_visible(const Hits& hits, std::size_t lane) const;
+    void move_on(const Hits& hits, std::size_t lane, std::size_t to);
+
+    const SceneData& scene_;
+    Query query_;
+    std::vector<std::uint32_t> open_;
+    std::vector<HitPoint> points_;
+
+    // Where surfaces are visible from one side only: what is behind the other.
+    std::unique_ptr<Query> onward_;
+    Paths onward_paths_{}; // sample: the lane
+    double* passed_ = nullptr;
+};
+
+} // namespace raylane::simd

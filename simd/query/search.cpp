@@ -1,0 +1,59 @@
+#include "simd/query/search.hpp"
+
+#include <algorithm>
+
+namespace raylane::simd {
+
+Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capacity) {
+    Workspace workspace{};
+    if (!scene.has_tree()) return workspace;
+    const std::uint32_t levels = scene.view().tree_depth;
+    const std::size_t entries = in_flight * pending_entries(levels);
+    workspace.key = arena.take<std::uint16_t>(entries);
+    workspace.child = arena.take<std::uint32_t>(entries);
+    workspace.capacity = capacity;
+    workspace.records = arena.take<std::byte>(capacity * stream_record_bytes);
+    workspace.lists = arena.take<std::uint16_t>(list_entries(capacity, levels));
+    return workspace;
+}
+
+void CandidateSearch::take_from(Arena& arena, std::size_t capacity) {
+    approach_.take_from(arena, capacity);
+    arena.take(rounded_.origin, capacity);
+    arena.take(rounded_.direction, capacity);
+    rounded_.slack = arena.take<float>(capacity);
+    workspace_ = workspace_for(scene_, arena, capacity);
+}
+
+void CandidateSearch::take(const RayColumns& rays) {
+    count_ = rays.count;
+    std::copy_n(rays.origin, 3, rounded_.meant_origin);
+    std::copy_n(rays.direction, 3, rounded_.meant_direction);
+    rounded_.departed_first = rays.departed_first;
+    rounded_.departed_last = rays.departed_last;
+    if (tracing_.precision == core::Precision::exact) approach_.bring_near(count_, rounded_);
+    tracing_.kernels->rays.round_rays(count_, rounded_);
+    approach_.widen(rounded_);
+}
+
+const Bundle* CandidateSearch::common(const Bundle* bundle) const {
+    return approach_.any() && bundle != nullptr ? &neighbours : bundle;
+}
+
+void CandidateSearch::nearest(const Bundle* bundle, const Candidates& candidates,
+                              EngineCounters& counters) {
+    TraceCounters traced{};
+    tracing_.method().trace.nearest(scene_.view(), scene_.listed_kinds(), common(bundle), count_,
+                                    rounded_, candidates, workspace_, traced);
+    counters += traced;
+}
+
+void CandidateSearch::occluded(const Bundle* bundle, const Occlusions& occlusions,
+                               EngineCounters& counters) {
+    TraceCounters traced{};
+    tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(), common(bundle), count_,
+                                     rounded_, occlusions, workspace_, traced);
+    counters += traced;
+}
+
+} // namespace raylane::simd
