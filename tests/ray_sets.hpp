@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/shapes/ray.hpp"
-#include "tests/targets.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <glm/common.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "tests/placing.hpp"
+#include "tests/any_shape.hpp"
 
 #include <vector>
 
@@ -67,8 +67,7 @@ class ScaledScene {
     void add(core::SceneBuilder& builder, const Shape& first, const std::vector<AnyShape>& shapes,
              const core::IdRange& range) const {
         const core::MaterialIndex material = scene_.material_index_of(range.first);
-        if constexpr (std::is_same_v<Shape, core::Triangle> ||
-                      std::is_same_v<Shape, core::SmoothTriangle>) {
+        if constexpr (Nature<Shape>::tiles_polygons) {
             if (range.first != range.last) {
                 std::vector<Shape> polygon;
                 for (core::ShapeId id = range.first; id <= range.last; ++id)

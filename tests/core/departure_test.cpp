@@ -64,38 +64,6 @@ Vec3d inward_direction(const Vec3d& normal, Random& random) {
     return normalized(Vec3d(direction - normal * (flattened * dot(direction, normal))));
 }
 
-/// How far a point is from the whole of the surface that a face is a part of.
-double distance_to_face(const Sphere& sphere, Face, const Vec3d& point) {
-    return std::abs(length(Vec3d(point - convert<double>(sphere.center))) -
-                    static_cast<double>(sphere.radius));
-}
-double distance_to_face(const Box& box, Face face, const Vec3d& point) {
-    const std::array edges = {box.edge_u, box.edge_v, box.edge_w};
-    const Vec3d normal = normalized(cross(convert<double>(edges[(face / 2 + 1) % 3]),
-                                          convert<double>(edges[(face / 2 + 2) % 3])));
-    Vec3d on_face = convert<double>(box.corner);
-    if (face % 2 == 1) on_face += convert<double>(edges[face / 2]);
-    return std::abs(dot(normal, Vec3d(point - on_face)));
-}
-double axial_distance_to_face(const Vec3f& base, const Vec3f& axis, double base_radius,
-                              double top_radius, Face face, const Vec3d& point) {
-    const Vec3d a = convert<double>(axis), from_base = point - convert<double>(base);
-    const double height = dot(from_base, a) / squared_length(a);
-    if (face == base_cap) return std::abs(height) * length(a);
-    if (face == top_cap) return std::abs(height - 1.0) * length(a);
-    const double radius = base_radius + height * (top_radius - base_radius);
-    const double across = length(Vec3d(from_base - height * a));
-    return std::abs(across - radius) * length(a) / std::hypot(length(a), top_radius - base_radius);
-}
-double distance_to_face(const CappedCylinder& c, Face face, const Vec3d& point) {
-    const double radius = static_cast<double>(c.radius);
-    return axial_distance_to_face(c.base, c.axis, radius, radius, face, point);
-}
-double distance_to_face(const CappedCone& c, Face face, const Vec3d& point) {
-    return axial_distance_to_face(c.base, c.axis, static_cast<double>(c.base_radius),
-                                  static_cast<double>(c.top_radius), face, point);
-}
-
 double to_double(const oracle::Number& number) {
     return number.template convert_to<double>();
 }
@@ -143,8 +111,8 @@ TEMPLATE_TEST_CASE("what enters a solid leaves it, where and by which face the o
                                        << exit.t << " instead of " << truth);
 
         const Vec3d end = mul_add(exit.t, direction, at.point);
-        const bool on_face =
-            distance_to_face(shape, exit.face, end) <= allowed + at.error + 1e-14 * length(end);
+        const bool on_face = tests::distance_to_face(shape, exit.face, end) <=
+                             allowed + at.error + 1e-14 * length(end);
         if (!on_face && wrong_face++ < 3)
             UNSCOPED_INFO("from face " << int{at.face} << " not to face " << int{exit.face});
     });

@@ -1,6 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
-#include "tests/targets.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "core/hierarchy/hierarchy.hpp"
 #include "tests/catch.hpp"
-#include "tests/targets.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <map>
 #include <numeric>

@@ -35,22 +35,6 @@ double reach_of(const Shape& shape, const Vec3d& from) {
     return std::sqrt(squared);
 }
 
-/// From a point near a surface to the surface, to first order.
-double distance_to(const Sphere& sphere, const Vec3d& p) {
-    return std::abs(length(p - convert<double>(sphere.center)) -
-                    static_cast<double>(sphere.radius));
-}
-
-double distance_to(const Disc& disc, const Vec3d& p) {
-    return std::abs(
-        dot(p - convert<double>(disc.center), normalized(convert<double>(disc.normal))));
-}
-
-double distance_to(const Quadric& quadric, const Vec3d& point) {
-    const Vec3d p = point - convert<double>(quadric.center);
-    return std::abs(quadric_value(quadric, p)) / (2.0 * length(quadric_half_gradient(quadric, p)));
-}
-
 /// The nearest crossing that is ahead.
 template <class Real, class Shape>
 double nearest(const Shape& shape, const Ray<Real>& ray, Precision precision) {
@@ -118,7 +102,8 @@ Seen look_at(Precision precision) {
             REQUIRE((is_on_a_line(shape, unit, off) || is_at_an_edge(shape, unit, hits, off)));
         } else if (hits) {
             // Half of what moves along the ray counts as displacement.
-            const double distance = distance_to(shape, mul_add(drawn, unit.direction, unit.origin));
+            const double distance =
+                tests::distance_to_face(shape, body, mul_add(drawn, unit.direction, unit.origin));
             seen.worst = std::max(seen.worst, distance / (2.0 * off));
             if (distance > 2.0 * off) {
                 INFO("shape " << name_of(kind_of<Shape>) << ", round " << i << ", off " << off);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/shapes/ray.hpp"
+#include "tests/any_shape.hpp"
 #include "tests/meetings/frame.hpp"
 
 namespace raylane::meetings {

@@ -119,34 +119,18 @@ inline Meeting terrain(int across, Random& random, int rays) {
     return gathering.make(rays - rays / 4);
 }
 
-/// A shape of one center and one size with others of its kind.
-inline AnyShape shell(int kind, const Frame& frame, int r) {
-    const Vec3f center = frame.exact(0, 0, -r);
-    const float radius = radius_of(frame, r);
-    core::Quadric ball{};
-    switch (kind) {
-    case 0:
-        return core::Sphere{center, radius};
-    case 1:
-        return core::CappedCylinder{frame.exact(-2, 0, -r), frame.exact(4, 0, 0), radius};
-    case 2:
-        return core::OpenCylinder{frame.exact(-1, 0, -r), frame.exact(3, 0, 0), radius};
-    case 3:
-        return core::CappedCone{frame.exact(-2, 0, -r), frame.exact(2, 0, 0), 0.5F * radius,
-                                radius};
-    case 4:
-        return core::Box{frame.exact(-r, -r, -2 * r), frame.exact(2 * r, 0, 0),
-                         frame.exact(0, 2 * r, 0), frame.exact(0, 0, 2 * r)};
-    case 5:
-        return core::Disc{frame.exact(0, 0, 0), frame.exact(0, 0, 1), radius};
-    default:
-        ball.center = center;
-        ball.xx = ball.yy = ball.zz = 1;
-        ball.one = -radius * radius;
-        ball.lower = Vec3f(-2.0F * radius);
-        ball.upper = Vec3f(2.0F * radius);
-        return ball;
-    }
+using MakeShell = AnyShape (*)(const Frame&, int);
+
+/// What makes shapes about one center that touch at its top, for each kind that there are such of.
+inline std::vector<MakeShell> all_shells() {
+    std::vector<MakeShell> all;
+    core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+        if constexpr (requires(const Frame& frame) { Touching<Shape>::shell(frame, 1); })
+            all.push_back([](const Frame& frame, int r) {
+                return AnyShape(Touching<Shape>::shell(frame, r));
+            });
+    });
+    return all;
 }
 
 /// Shapes about one center, of one or several kinds, which touch at its top; the same, some ulps
@@ -154,11 +138,12 @@ inline AnyShape shell(int kind, const Frame& frame, int r) {
 inline Meeting shells(int count, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
-    constexpr int kinds = 7;
+    const std::vector<MakeShell> shells = all_shells();
+    const int kinds = static_cast<int>(shells.size());
     const int r = random.integer(1, 3), only = random.integer(0, 2 * kinds);
     for (int i = 0; i < count; ++i) {
         const int kind = only < kinds ? only : random.integer(0, kinds - 1);
-        AnyShape shape = shell(kind, frame, r);
+        AnyShape shape = shells[static_cast<std::size_t>(kind)](frame, r);
         switch (random.integer(0, 3)) {
         case 0:
             break;
@@ -213,9 +198,9 @@ inline Meeting crowd(int pairs, Random& random, int rays) {
     Gathering gathering(random);
     for (int i = 0; i < pairs; ++i) {
         const auto kind = [&] {
-            // Few planes: one would hide what is behind it.
+            // Few without bounds: one would hide what is behind it.
             const int any = random.integer(0, core::kind_count - 1);
-            return any == static_cast<int>(core::Kind::plane) && i > 0 ? 0 : any;
+            return i > 0 && !tests::is_bounded_kind(static_cast<core::Kind>(any)) ? 0 : any;
         };
         const Place place =
             gathering.place().moved(core::convert<double>(random.small_integers(8)) * 8.0);

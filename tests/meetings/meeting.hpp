@@ -1,13 +1,24 @@
 #pragma once
 
 #include "tests/meetings/aim.hpp"
-#include "tests/meetings/touching.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <iterator>
 #include <utility>
 #include <vector>
 
 namespace raylane::meetings {
+
+template <class Shape>
+AnyShape touching(const Frame& frame, int r, Random& random) {
+    return Touching<Shape>::make(frame, r, random);
+}
+
+using MakeTouching = AnyShape (*)(const Frame&, int, Random&);
+#define RAYLANE_TOUCHING(Shape, name, text) touching<core::Shape>,
+/// By kind.
+inline constexpr MakeTouching make_touching[] = {RAYLANE_SHAPES(RAYLANE_TOUCHING)};
+#undef RAYLANE_TOUCHING
 
 /// How two shapes meet.
 enum class Way {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "tests/oracle/near.hpp"
-#include "tests/oracle/normals.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -9,13 +8,6 @@
 #include <vector>
 
 namespace raylane::oracle {
-
-inline std::vector<Hit> crossings(const AnyShape& any, const core::Ray<double>& ray) {
-    return std::visit([&](const auto& shape) { return crossings(shape, ray); }, any);
-}
-inline Normal normal(const AnyShape& any, const core::Ray<double>& ray, const Hit& hit) {
-    return std::visit([&](const auto& shape) { return normal(shape, ray, hit); }, any);
-}
 
 /// A crossing with one of several shapes.
 struct Found {

@@ -2,6 +2,7 @@
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <string>
 #include <vector>
@@ -55,73 +56,6 @@ std::vector<Substance> all_substances() {
             {"stained glass", stained}};
 }
 
-/// One surface, said in ways that are the same in real numbers and whose numbers differ.
-template <class Shape>
-Shape again(int i);
-
-template <>
-Plane again(int i) {
-    const float step = 0.5F * static_cast<float>(i);
-    return {{step, 1, 2.0F * step}, {0, 1.0F + step, 0}};
-}
-template <>
-Disc again(int i) {
-    return {{0, 0.5F, 0}, Vec3f(1, 2, 2) * static_cast<float>(i + 1), 2};
-}
-template <>
-Triangle again(int i) {
-    const Vec3f corners[] = {{-2, -0.5F, 1}, {2, -0.25F, 0.5F}, {0.25F, 2, -1}};
-    return {corners[i % 3], corners[(i + 1) % 3], corners[(i + 2) % 3]};
-}
-template <>
-SmoothTriangle again(int) {
-    const Triangle flat = again<Triangle>(0);
-    return {flat.a, flat.b, flat.c, {0, 1, 3}, {1, 0, 2}, {-1, 1, 2}};
-}
-template <>
-Box again(int i) {
-    const Vec3f corner(-1, -0.5F, -1), edges[] = {{2, 0.5F, 0}, {-0.5F, 1.5F, 0}, {0, 0.25F, 2}};
-    const Vec3f u = edges[i % 3], v = edges[(i + 1) % 3], w = edges[(i + 2) % 3];
-    return i % 2 == 0 ? Box{corner, u, v, w} : Box{corner + u, -u, v, w};
-}
-template <class Cylinder>
-Cylinder cylinder_again(int i) {
-    const Vec3f base(-1, -0.5F, 0), axis(1.5F, 1.5F, 0.5F);
-    return i % 2 == 0 ? Cylinder{base, axis, 0.75F} : Cylinder{base + axis, -axis, 0.75F};
-}
-template <>
-CappedCylinder again(int i) {
-    return cylinder_again<CappedCylinder>(i);
-}
-template <>
-OpenCylinder again(int i) {
-    return cylinder_again<OpenCylinder>(i);
-}
-template <class Cone>
-Cone cone_again(int i) {
-    const Vec3f base(-1, -0.5F, 0), axis(1.5F, 1.5F, 0.5F);
-    return i % 2 == 0 ? Cone{base, axis, 1, 0.25F} : Cone{base + axis, -axis, 0.25F, 1};
-}
-template <>
-CappedCone again(int i) {
-    return cone_again<CappedCone>(i);
-}
-template <>
-OpenCone again(int i) {
-    return cone_again<OpenCone>(i);
-}
-template <>
-Quadric again(int i) {
-    const float scale = static_cast<float>(i + 1);
-    Quadric bowl{};
-    bowl.xx = bowl.yy = scale;
-    bowl.zz = 0.5F * scale;
-    bowl.one = -2.0F * scale;
-    bowl.lower = Vec3f(-1.25F);
-    bowl.upper = Vec3f(1.25F);
-    return bowl;
-}
-
 std::vector<Color> picture_of(Room&& room, simd::Engine engine) {
     const Scene scene = room.finish();
     simd::RenderOptions options;
@@ -160,48 +94,15 @@ void check_are_one(const Add& add, bool opaque_only = false) {
     }
 }
 
-template <class Shape>
-void check_is_one_shape() {
-    check_are_one(
-        [](Room& room, int i, MaterialIndex material) { room.add(again<Shape>(i), material); });
-}
-
 } // namespace
 
-TEST_CASE("any number of the same sphere is one sphere", "[native]") {
-    check_are_one([](Room& room, int, MaterialIndex material) {
-        room.add(Sphere{{0, 0.5F, 0}, 1.25F}, material);
+TEMPLATE_TEST_CASE("any number of one shape in each other are one", "[native]",
+                   RAYLANE_ALL_SHAPES) {
+    check_are_one([](Room& room, int i, MaterialIndex material) {
+        room.add(tests::Restated<TestType>::make(i), material);
     });
 }
 
-TEST_CASE("any number of planes in each other are one", "[native]") {
-    check_is_one_shape<Plane>();
-}
-TEST_CASE("any number of discs in each other are one", "[native]") {
-    check_is_one_shape<Disc>();
-}
-TEST_CASE("any number of triangles in each other are one", "[native]") {
-    check_is_one_shape<Triangle>();
-}
-TEST_CASE("any number of the same smooth triangle are one", "[native]") {
-    check_are_one([](Room& room, int, MaterialIndex material) {
-        room.add(again<SmoothTriangle>(0), material);
-    });
-}
-TEST_CASE("any number of boxes in each other are one", "[native]") {
-    check_is_one_shape<Box>();
-}
-TEST_CASE("any number of cylinders in each other are one", "[native]") {
-    check_is_one_shape<CappedCylinder>();
-    check_is_one_shape<OpenCylinder>();
-}
-TEST_CASE("any number of cones in each other are one", "[native]") {
-    check_is_one_shape<CappedCone>();
-    check_is_one_shape<OpenCone>();
-}
-TEST_CASE("any number of quadrics in each other are one", "[native]") {
-    check_is_one_shape<Quadric>();
-}
 TEST_CASE("a sphere and the quadrics in it are one", "[native]") {
     check_are_one([](Room& room, int i, MaterialIndex material) {
         const float scale = static_cast<float>(i);

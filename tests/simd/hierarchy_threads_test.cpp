@@ -1,7 +1,7 @@
 #include "core/hierarchy/hierarchy.hpp"
 #include "simd/workers.hpp"
 #include "tests/catch.hpp"
-#include "tests/targets.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <atomic>
 #include <cstring>

@@ -3,7 +3,7 @@
 #include "tests/placing.hpp"
 #include "tests/simd/method_round.hpp"
 #include "tests/simd/rounds.hpp"
-#include "tests/targets.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <cmath>
 

@@ -67,25 +67,6 @@ Shape some_changed(const Shape& shape, Random& random, const Change& change) {
     return shape_of<Shape>(floats);
 }
 
-/// The same in another frame: two coordinates swapped.
-template <class Shape>
-void swap_axes(Shape& shape, int a, int b) {
-    Floats<Shape> floats = floats_of(shape);
-    for (int vector = 0; vector < float_count<Shape> / 3; ++vector)
-        std::swap(floats[3 * vector + a], floats[3 * vector + b]);
-    shape = shape_of<Shape>(floats);
-}
-template <>
-inline void swap_axes(Quadric& q, int a, int b) {
-    for (Vec3f* const vector : {&q.center, &q.lower, &q.upper})
-        std::swap((*vector)[a], (*vector)[b]);
-    float* const squares[] = {&q.xx, &q.yy, &q.zz};
-    float* const mixed[] = {&q.yz, &q.xz, &q.xy}; // by the axis that they leave out
-    float* const linear[] = {&q.x, &q.y, &q.z};
-    for (float* const* const terms : {squares, mixed, linear})
-        std::swap(*terms[a], *terms[b]);
-}
-
 template <class Shape>
 void change_shape(Shape& shape, Random& random) {
     switch (random.integer(0, 3)) {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "tests/any_shape.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/simd/nests.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,16 +18,12 @@ struct Next {
     bool entering = false;
 };
 
-inline bool is_flat(Kind kind) {
-    return kind >= Kind::plane && kind <= Kind::smooth_triangle;
-}
-
 /// What is true of rays that leave a nest's shape.
 class SpawnTruth {
   public:
     /// `shapes`: of the scene, by id.
     SpawnTruth(const Nest& nest, const Place& place, const std::vector<AnyShape>& shapes)
-        : nest_(nest), place_(place), shapes_(shapes), kind_(tests::kind_of(nest.shape)) {}
+        : nest_(nest), place_(place), shapes_(shapes) {}
 
     /// How far the start may be from the surface.
     double slack(const Ray<double>& ray) const {
@@ -41,20 +37,16 @@ class SpawnTruth {
         constexpr double t = std::numeric_limits<double>::quiet_NaN();
         if (shapes_.size() > 3) return std::nullopt; // a sphere may be in between, if far away
         if (nest_.parted) {
-            const Vec3d normal = std::visit(
-                [&]<class Shape>(const Shape& shape) {
-                    return convert<double>(Vec3f(plane_normal(shape)));
-                },
-                shapes_[outer_id]);
+            const auto normal = convert<double>(std::get<Plane>(shapes_[outer_id]).normal);
             if (std::abs(dot(normalized(normal), ray.direction)) < 1e-9) return std::nullopt;
             return inward ? Next{inner_id, t, true} : Next{outer_id, t, false};
         }
         if (!inward) return nest_.closed ? std::optional(Next{outer_id, t, false}) : std::nullopt;
-        if (kind_ != Kind::sphere) return std::nullopt;
-        const auto& inner = std::get<Sphere>(shapes_[inner_id]);
-        const Vec3d from_center = ray.origin - convert<double>(inner.center);
+        const auto* const inner = std::get_if<Sphere>(&shapes_[inner_id]);
+        if (inner == nullptr || !is_a<Solid>(nest_.shape)) return std::nullopt;
+        const Vec3d from_center = ray.origin - convert<double>(inner->center);
         const double past = length(cross(from_center, ray.direction)),
-                     radius = static_cast<double>(inner.radius);
+                     radius = static_cast<double>(inner->radius);
         if (past < radius - slack(ray)) return Next{inner_id, t, true};
         if (past > radius + slack(ray)) return Next{shape_id, t, false};
         return std::nullopt;
@@ -65,13 +57,13 @@ class SpawnTruth {
     std::optional<Next> by_oracle(const Ray<double>& ray, bool inward) const {
         Next next;
         for (const ShapeId id : {outer_id, inner_id})
-            for (const oracle::Hit& hit : crossings(shapes_[id], ray))
+            for (const oracle::Hit& hit : oracle::crossings(shapes_[id], ray))
                 if (hit.t > 0 && to_double(hit.t) < next.t)
                     next = {id, to_double(hit.t), hit.entering};
-        if (is_flat(kind_) || (!inward && kind_ != Kind::quadric)) return next;
+        if (is_a<Flat>(nest_.shape) || (!inward && !may_come_back(nest_.shape))) return next;
 
         double start = std::numeric_limits<double>::infinity(), onward = start;
-        for (const oracle::Hit& hit : crossings(shapes_[shape_id], ray)) {
+        for (const oracle::Hit& hit : oracle::crossings(shapes_[shape_id], ray)) {
             const double t = to_double(hit.t);
             if (hit.entering != inward)
                 onward = t;
@@ -80,9 +72,7 @@ class SpawnTruth {
         }
         if (std::isinf(onward)) {
             // The start is off the surface, and the ray passes all of it; or it is out of bounds.
-            const bool solid = kind_ == Kind::sphere || kind_ == Kind::box ||
-                               kind_ == Kind::capped_cylinder || kind_ == Kind::capped_cone;
-            if (solid || std::isinf(start)) return std::nullopt;
+            if (is_a<Solid>(nest_.shape) || std::isinf(start)) return std::nullopt;
             return next;
         }
         if (!(std::abs(start) <= 0x1p10 * slack(ray)) || onward <= start) return std::nullopt;
@@ -95,20 +85,11 @@ class SpawnTruth {
     }
 
   private:
-    template <class Shape>
-    static Vec3f plane_normal(const Shape& shape) {
-        if constexpr (std::is_same_v<Shape, Plane>)
-            return shape.normal;
-        else
-            return Vec3f(0);
-    }
-
     static double to_double(const oracle::Number& number) { return static_cast<double>(number); }
 
     const Nest& nest_;
     const Place& place_;
     const std::vector<AnyShape>& shapes_;
-    Kind kind_;
 };
 
 } // namespace raylane::tests

@@ -4,7 +4,7 @@
 #include "core/scene/scene.hpp"
 #include "simd/query/query.hpp"
 #include "tests/catch.hpp"
-#include "tests/targets.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

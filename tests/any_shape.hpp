@@ -1,0 +1,55 @@
+#pragma once
+
+#include "tests/shapes/shapes.hpp"
+
+#include <concepts>
+#include <type_traits>
+#include <vector>
+
+/// What tests ask of shapes of whichever kind.
+namespace raylane::tests {
+
+inline core::Kind kind_of(const AnyShape& any) {
+    return std::visit([]<class Shape>(const Shape&) { return core::kind_of<Shape>; }, any);
+}
+
+/// Whether it is Solid, Flat or Curved.
+template <class Sort>
+bool is_a(const AnyShape& any) {
+    return std::visit(
+        []<class Shape>(const Shape&) { return std::is_base_of_v<Sort, Nature<Shape>>; }, any);
+}
+inline bool may_come_back(const AnyShape& any) {
+    return std::visit([]<class Shape>(const Shape&) { return Nature<Shape>::may_come_back; }, any);
+}
+
+inline bool is_bounded_kind(core::Kind kind) {
+    return core::with_shape_type(
+        kind, []<class Shape>(std::type_identity<Shape>) { return Nature<Shape>::is_bounded; });
+}
+
+inline AnyShape placed(const AnyShape& any, const Placing& by) {
+    return std::visit([&](const auto& shape) { return AnyShape(by(shape)); }, any);
+}
+
+} // namespace raylane::tests
+
+namespace raylane::oracle {
+
+using tests::AnyShape;
+
+// Templates, so that no shape whose own file has none is converted.
+template <std::same_as<AnyShape> Any>
+std::vector<Hit> crossings(const Any& any, const core::Ray<double>& ray) {
+    return std::visit([&](const auto& shape) { return crossings(shape, ray); }, any);
+}
+template <std::same_as<AnyShape> Any>
+Normal normal(const Any& any, const core::Ray<double>& ray, const Hit& hit) {
+    return std::visit([&](const auto& shape) { return normal(shape, ray, hit); }, any);
+}
+template <std::same_as<AnyShape> Any>
+Ball ball_around(const Any& any) {
+    return std::visit([](const auto& shape) { return ball_around(shape); }, any);
+}
+
+} // namespace raylane::oracle

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/numbers/vector.hpp"
+
+namespace raylane::oracle {
+
+/// All of a shape is within. Each shape's file has its own
+///   Ball ball_around(shape)
+struct Ball {
+    core::Vec3d center;
+    double radius;
+};
+
+inline double length_of(const core::Vec3f& v) {
+    return core::length(core::convert<double>(v));
+}
+
+inline Ball ball(const core::Vec3f& center, double radius) {
+    constexpr double slack = 1.0 + 0x1p-20; // far more than what is rounded here
+    return {core::convert<double>(center), radius * slack};
+}
+
+} // namespace raylane::oracle

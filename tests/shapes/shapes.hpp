@@ -1,0 +1,49 @@
+#pragma once
+
+#include "core/kinds.hpp"
+#include "tests/shapes/box.hpp"
+#include "tests/shapes/cone.hpp"
+#include "tests/shapes/cylinder.hpp"
+#include "tests/shapes/disc.hpp"
+#include "tests/shapes/plane.hpp"
+#include "tests/shapes/quadric.hpp"
+#include "tests/shapes/sphere.hpp"
+#include "tests/shapes/triangle.hpp"
+
+#include <tuple>
+#include <type_traits>
+
+/// All that tests know of shapes, and lists of them to test.
+namespace raylane::tests {
+
+#define RAYLANE_THEN(Shape, name, text) , Shape
+#define RAYLANE_BUT_FIRST(first, ...) __VA_ARGS__
+#define RAYLANE_BUT_FIRST_OF(...) RAYLANE_BUT_FIRST(__VA_ARGS__)
+/// For TEMPLATE_TEST_CASE, by the names that they have within raylane::core: given a list that is a
+/// type, it would number the tests.
+#define RAYLANE_ALL_SHAPES RAYLANE_BUT_FIRST_OF(none RAYLANE_SHAPES(RAYLANE_THEN))
+
+namespace detail {
+
+template <class Sort, class Shapes>
+struct AllOf;
+template <class Sort, class... Shapes>
+struct AllOf<Sort, std::tuple<Shapes...>> {
+    using Type =
+        decltype(std::tuple_cat(std::conditional_t<std::is_base_of_v<Sort, Nature<Shapes>>,
+                                                   std::tuple<Shapes>, std::tuple<>>()...));
+};
+
+} // namespace detail
+
+/// For TEMPLATE_LIST_TEST_CASE: of all shapes those of one sort, which is Solid, Flat or Curved.
+template <class Sort>
+using AllOf = detail::AllOf<Sort, core::Shapes>::Type;
+using AllSolids = AllOf<Solid>;
+using AllFlat = AllOf<Flat>;
+using AllCurved = AllOf<Curved>;
+
+template <class Shape>
+inline constexpr bool is_bounded = Nature<Shape>::is_bounded;
+
+} // namespace raylane::tests

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "tests/placing.hpp"
+#include "tests/random.hpp"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+/// Shapes between two neighbours, a small gap away on either side: a skin outside of it, and
+/// another inside. All coordinates are whole numbers below 2^23 in size, so that the gaps are what
+/// they are said to be, and stay so wherever a nest is placed; radii are any floats.
+namespace raylane::tests {
+
+using core::Vec3d;
+using ray_sets::Random;
+using ray_sets::rounded;
+
+struct Nest {
+    AnyShape shape, outer, inner;
+    /// Whatever leaves `shape` outward meets `outer`.
+    bool closed;
+    /// Whatever leaves it inward meets `inner`.
+    bool parted = false;
+};
+
+/// The smallest gap between coordinates: an ulp of the largest is 1 where a nest is far away.
+inline constexpr double least_gap = 4.0;
+
+inline double ulp(float value) {
+    return static_cast<double>(std::nextafter(value, 2 * value) - value);
+}
+
+/// Between two radii: from 4 of their ulps to half of them.
+inline float gap_of_radii(float radius, Random& r) {
+    return rounded(r.log_uniform(4.0 * ulp(radius), 0.5 * static_cast<double>(radius)));
+}
+
+inline Vec3f whole(const Vec3d& v) {
+    return rounded(glm::round(v));
+}
+
+/// A step across planes with this normal, of at least 4 and whole numbers.
+inline Vec3f step_across(const Vec3d& normal, double size, Random& r) {
+    const Vec3d n = core::normalized(normal);
+    while (true) {
+        const Vec3f step = whole(n * r.log_uniform(least_gap, std::max(size, 8.0)));
+        if (core::dot(n, core::convert<double>(step)) >= least_gap) return step;
+    }
+}
+
+/// How many gaps of this length make up some length: 4 to 2^16.
+inline float number_of_gaps(double length, double gap) {
+    return rounded(std::clamp(std::round(length / gap), 4.0, 0x1p16));
+}
+
+/// Makes nests of one kind, of about this size.
+template <class Shape>
+struct NestOf;
+
+} // namespace raylane::tests

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/shapes/shapes.hpp"
+#include "tests/random.hpp"
+
+#include <utility>
+
+/// Ways to change any shape by its floats. Where these do not say how, a shape's own file does, by
+/// overloads.
+namespace raylane::hard_cases {
+
+using ray_sets::Random;
+
+inline core::Vec3d in_double(const core::Vec3f& v) {
+    return core::convert<double>(v);
+}
+
+/// The same shape, `scale` times as large.
+template <class Shape>
+Shape scaled(const Shape& shape, double scale) {
+    core::Floats<Shape> floats = core::floats_of(shape);
+    for (float& value : floats)
+        value = static_cast<float>(static_cast<double>(value) * scale);
+    return core::shape_of<Shape>(floats);
+}
+
+/// Long, flat, slender or blunt, that is of proportions that the usual targets do not have.
+template <class Shape>
+Shape extreme(const Shape& shape, Random&) {
+    return shape;
+}
+
+/// The same in another frame: two coordinates swapped.
+template <class Shape>
+void swap_axes(Shape& shape, int a, int b) {
+    core::Floats<Shape> floats = core::floats_of(shape);
+    for (int vector = 0; vector < core::float_count<Shape> / 3; ++vector)
+        std::swap(floats[3 * vector + a], floats[3 * vector + b]);
+    shape = core::shape_of<Shape>(floats);
+}
+
+} // namespace raylane::hard_cases
