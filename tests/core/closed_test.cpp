@@ -40,9 +40,10 @@ void check(const Shape& shape, const Ray<double>& ray, Tally& tally) {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("what enters a solid through a seam of its surface leaves it", "", Sphere, Box,
-                   CappedCylinder, CappedCone) {
+TEMPLATE_LIST_TEST_CASE("what enters a solid through a seam of its surface leaves it", "",
+                        tests::AllSolids) {
     using Shape = TestType;
+    CAPTURE(name_of(kind_of<Shape>));
     Random random(20260600 + static_cast<int>(kind_of<Shape>));
     Tally exact, unit, ulps;
     for (int i = 0; i < shape_count; ++i) {

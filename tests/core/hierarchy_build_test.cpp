@@ -106,7 +106,7 @@ class Audit {
     Bounds visit(const Block<Shape>& block, const std::vector<Bounds>& above) {
         Bounds all;
         ++blocks;
-        if constexpr (kind_of<Shape> != Kind::plane) {
+        if constexpr (tests::is_bounded<Shape>) {
             bool ended = false;
             for (int lane = 0; lane < block_size; ++lane) {
                 if (block.ids[lane] == no_shape) {
@@ -146,7 +146,7 @@ Audit check(const ShapeLists& lists) {
                        [&](const Shape& shape, ShapeId id) { values[id] = floats_of(shape); });
         for (std::size_t i = 0; i < list.size(); ++i)
             if (values[list[i].id] != floats_of(list[i].shape)) ++missing;
-        if constexpr (kind_of<Shape> != Kind::plane) {
+        if constexpr (tests::is_bounded<Shape>) {
             blocks += table.blocks().size();
             shapes += list.size();
             for (std::size_t i = 0; i < list.size(); ++i)

@@ -34,20 +34,10 @@ Aimed heap(bool lattice, int of_each_kind, std::uint64_t seed) {
     Builder builder;
     std::vector<Ray<double>> rays;
     const MaterialIndex material = builder.add_material(luminous());
-    const auto add = [&]<class Shape>(int count) {
+    for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+        const int count = tests::is_bounded<Shape> ? of_each_kind : 2;
         add_kind<Shape>(builder, material, count, lattice, random, rays);
-    };
-    add.operator()<Sphere>(of_each_kind);
-    add.operator()<Plane>(2);
-    add.operator()<Disc>(of_each_kind);
-    add.operator()<Triangle>(of_each_kind);
-    add.operator()<SmoothTriangle>(of_each_kind);
-    add.operator()<Box>(of_each_kind);
-    add.operator()<OpenCylinder>(of_each_kind);
-    add.operator()<CappedCylinder>(of_each_kind);
-    add.operator()<OpenCone>(of_each_kind);
-    add.operator()<CappedCone>(of_each_kind);
-    add.operator()<Quadric>(of_each_kind);
+    });
     return {builder.finish(), rays};
 }
 

@@ -13,16 +13,8 @@ namespace {
 
 /// An apex has no normal, and next to it a rounded point has any.
 template <class Shape>
-bool is_apex(const Shape&, const Vec3d&) {
-    return false;
-}
-template <Ends ends>
-bool is_apex(const Cone<ends>& cone, const Vec3d& point) {
-    return length(offset_from_axis(cone.base, cone.axis, point)) < 1e-6;
-}
-bool is_apex(const Quadric& quadric, const Vec3d& point) {
-    const Vec3d from_center = point - convert<double>(quadric.center);
-    return length(quadric_half_gradient(quadric, from_center)) < 1e-6;
+bool is_apex(const Shape& shape, const Vec3d& point, Face face) {
+    return length(outward_direction(shape, point, face)) < 1e-6;
 }
 
 } // namespace
@@ -44,7 +36,7 @@ TEMPLATE_TEST_CASE("a ray enters against the outward normal and leaves along it"
                                   normalized(convert<double>(aimed.direction))};
             for (const Crossing<double>& crossing : solve(shape, ray, Start{}, widened)) {
                 const Vec3d point = mul_add(crossing.t, ray.direction, ray.origin);
-                if (is_apex(shape, point)) continue;
+                if (is_apex(shape, point, crossing.face)) continue;
                 const Vec3d normal = outward_normal(shape, point, crossing.face);
                 const double cosine = dot(normal, ray.direction);
                 const bool is_unit = std::abs(length(normal) - 1.0) < 1e-12;

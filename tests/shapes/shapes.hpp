@@ -44,6 +44,10 @@ using AllFlat = AllOf<Flat>;
 using AllCurved = AllOf<Curved>;
 
 template <class Shape>
+inline constexpr bool is_solid = std::is_base_of_v<Solid, Nature<Shape>>;
+template <class Shape>
+inline constexpr bool is_flat = std::is_base_of_v<Flat, Nature<Shape>>;
+template <class Shape>
 inline constexpr bool is_bounded = Nature<Shape>::is_bounded;
 
 } // namespace raylane::tests

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <type_traits>
 #include <vector>
 
 using namespace raylane;
@@ -148,17 +147,6 @@ TEST_CASE("a sphere that rays leave straight out is in doubt by each way alike")
 
 namespace {
 
-template <class Shape>
-constexpr bool is_solid =
-    std::is_same_v<Shape, Sphere> || std::is_same_v<Shape, Box> ||
-    std::is_same_v<Shape, CappedCylinder> || std::is_same_v<Shape, CappedCone>;
-
-/// Whether the filter has may_meet.
-template <class Shape>
-constexpr bool is_sifted = std::is_same_v<Shape, Sphere> || std::is_same_v<Shape, OpenCylinder> ||
-                           std::is_same_v<Shape, CappedCylinder> ||
-                           std::is_same_v<Shape, OpenCone> || std::is_same_v<Shape, CappedCone>;
-
 /// How tight the bounds are, in t plus the distance of the origin from the shape.
 struct Tightness {
     std::vector<double> gaps;   ///< from lower to t
@@ -231,9 +219,9 @@ TEMPLATE_TEST_CASE("the filters' bounds are tight", "", RAYLANE_ALL_SHAPES) {
     CHECK(Tightness::quantile(found.gaps, 0.5) < 3e-6);
     CHECK(Tightness::quantile(found.gaps, 0.99) < 1e-4);
     CHECK(found.certain_rate() > 0.95);
-    if constexpr (is_sifted<TestType>) CHECK(found.unsifted_rate() < 0.25);
+    if constexpr (tests::Nature<TestType>::is_sifted) CHECK(found.unsifted_rate() < 0.25);
     CHECK(found.ghost_rate() < 0.01);
-    if constexpr (is_solid<TestType>) {
+    if constexpr (tests::is_solid<TestType>) {
         const Tightness inside = tightness<TestType>(Set::inside);
         CHECK(Tightness::quantile(inside.gaps, 0.5) < 1e-4);
         CHECK(inside.certain_rate() > 0.95);

@@ -59,7 +59,7 @@ Expected expected(const Shape& shape, const Ray<double>& ray, const Start& start
         const Vec3d nearby = mul_add(crossing.t * (1.0 + 1e-9), ray.direction, ray.origin);
         result.has_normal =
             length(outward_normal(shape, nearby, crossing.face) - result.normal) < 1e-4;
-        if constexpr (kind_of<Shape> == Kind::smooth_triangle)
+        if constexpr (requires { shading_normal(shape, point); })
             result.shading_normal = shading_normal(shape, point);
         else
             result.shading_normal = result.normal;
@@ -150,10 +150,6 @@ void add_ray(Rays& rays, const Shape& shape, std::uint32_t slot, ShapeId id, Set
     rays.add(onward, slot, id, start, expected(shape, onward, start));
 }
 
-/// Whether it has an inside, from where rays to it start.
-template <class Shape>
-constexpr bool is_thick = kind_of<Shape> == Kind::sphere || kind_of<Shape> >= Kind::box;
-
 template <class Shape>
 void add_rays(Rays& rays, const Tables& tables, bool lattice, bool adverse, int count,
               Random& random) {
@@ -170,9 +166,10 @@ void add_rays(Rays& rays, const Tables& tables, bool lattice, bool adverse, int 
             place = (place + 1) % static_cast<std::uint32_t>(table.size());
         const Slot slot = {place / 16, static_cast<std::uint8_t>(place % 16)};
         const Set set =
-            lattice    ? Set::lattice
-            : !adverse ? (is_thick<Shape> && random.integer(0, 2) == 0 ? Set::inside : Set::random)
-                       : ray_sets::any_set(random);
+            lattice ? Set::lattice
+            : !adverse
+                ? (!tests::is_flat<Shape> && random.integer(0, 2) == 0 ? Set::inside : Set::random)
+                : ray_sets::any_set(random);
         add_ray(rays, table.get(slot),
                 view.tables[static_cast<int>(kind_of<Shape>)].first_slot + place, table.id(slot),
                 set, adverse, random);

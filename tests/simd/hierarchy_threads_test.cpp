@@ -12,38 +12,40 @@ using ray_sets::Random;
 
 namespace {
 
-template <class Shape>
-void add_shapes(ShapeLists& lists, int count, Random& random, ShapeId& next) {
-    for (int i = 0; i < count; ++i)
-        std::get<ShapeList<Shape>>(lists).add(ray_sets::Target<Shape>::make(random, false), next++);
-}
-
 /// Enough for several strips of items and several parts of the tree. Many are there twice, and one
 /// more often than a part has items.
-ShapeLists many_shapes(bool mixed) {
-    constexpr int spheres = 90'000, twice = 20'000, same = 40'000, others = 9'000;
-    Random random(7);
+struct ManyShapes {
     ShapeLists lists;
-    ShapeId next = 0;
-    add_shapes<Sphere>(lists, spheres, random, next);
-    auto& all = std::get<ShapeList<Sphere>>(lists);
-    for (std::size_t i = 0; i < twice; ++i)
-        all.add(Sphere(all[3 * i].shape), next++);
-    for (int i = 0; i < same; ++i)
-        all.add(Sphere(all[17].shape), next++);
-    if (!mixed) return lists;
-    add_shapes<Plane>(lists, 3, random, next);
-    add_shapes<Disc>(lists, others, random, next);
-    add_shapes<Triangle>(lists, others, random, next);
-    add_shapes<SmoothTriangle>(lists, others, random, next);
-    add_shapes<Box>(lists, others, random, next);
-    add_shapes<OpenCylinder>(lists, others, random, next);
-    add_shapes<CappedCylinder>(lists, others, random, next);
-    add_shapes<OpenCone>(lists, others, random, next);
-    add_shapes<CappedCone>(lists, others, random, next);
-    add_shapes<Quadric>(lists, others, random, next);
-    return lists;
-}
+    ShapeId all = 0, bounded = 0;
+
+    explicit ManyShapes(bool mixed) {
+        constexpr int spheres = 90'000, twice = 20'000, same = 40'000, others = 9'000;
+        Random random(7);
+        add<Sphere>(spheres, random);
+        auto& all_spheres = std::get<ShapeList<Sphere>>(lists);
+        for (std::size_t i = 0; i < twice; ++i)
+            add(Sphere(all_spheres[3 * i].shape));
+        for (int i = 0; i < same; ++i)
+            add(Sphere(all_spheres[17].shape));
+        if (!mixed) return;
+        for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+            if (kind_of<Shape> != Kind::sphere)
+                add<Shape>(tests::is_bounded<Shape> ? others : 3, random);
+        });
+    }
+
+  private:
+    template <class Shape>
+    void add(const Shape& shape) {
+        std::get<ShapeList<Shape>>(lists).add(shape, all++);
+        bounded += tests::is_bounded<Shape> ? 1 : 0;
+    }
+    template <class Shape>
+    void add(int count, Random& random) {
+        for (int i = 0; i < count; ++i)
+            add(ray_sets::Target<Shape>::make(random, false));
+    }
+};
 
 template <class T>
 bool same_bits(const BigArray<T>& a, const BigArray<T>& b) {
@@ -65,10 +67,11 @@ struct Told : simd::ParallelWorkers {
 
 TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[native]") {
     for (const bool mixed : {false, true}) {
-        const ShapeLists lists = many_shapes(mixed);
+        const ManyShapes many(mixed);
+        const ShapeLists& lists = many.lists;
         Workers alone;
         Tables tables;
-        const std::vector<MaterialIndex> one_material(mixed ? 231'000 : 150'000);
+        const std::vector<MaterialIndex> one_material(many.all);
         const Duplicates duplicates(lists, one_material, {});
         const Hierarchy hierarchy = build_hierarchy(lists, duplicates, alone, tables);
         CHECK(hierarchy.nodes.size() > 400);
@@ -81,7 +84,7 @@ TEST_CASE("the hierarchy is the same to the bit on any number of threads", "[nat
             for_each_table(tables, [&]<class Shape>(const Table<Shape>& table) {
                 CHECK(same_bits(table.blocks(), std::get<Table<Shape>>(others).blocks()));
             });
-            CHECK(workers.of == one_material.size());
+            CHECK(workers.of == many.bounded);
             CHECK(workers.shapes == workers.of);
         }
     }
@@ -94,8 +97,8 @@ TEST_CASE("what a worker throws comes out of the build") {
     };
     Failing workers(3);
     Tables tables;
-    const ShapeLists lists = many_shapes(false);
-    const std::vector<MaterialIndex> one_material(150'000);
-    CHECK_THROWS_AS(build_hierarchy(lists, {lists, one_material, {}}, workers, tables),
+    const ManyShapes many(false);
+    const std::vector<MaterialIndex> one_material(many.all);
+    CHECK_THROWS_AS(build_hierarchy(many.lists, {many.lists, one_material, {}}, workers, tables),
                     std::bad_alloc);
 }

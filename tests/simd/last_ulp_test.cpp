@@ -112,11 +112,10 @@ TEST_CASE("traversal and brute force agree on rays along the faces of bounds", "
         builder.wants_light = false;
         builder.add_material({});
         Stream stream;
-        const auto add = [&]<class... Shapes>() {
-            (add_kind<Shapes>(builder, lattice, random, stream), ...);
-        };
-        add.operator()<Sphere, Disc, Triangle, SmoothTriangle, Box, OpenCylinder, CappedCylinder,
-                       OpenCone, CappedCone, Quadric>();
+        for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+            if constexpr (tests::is_bounded<Shape>)
+                add_kind<Shape>(builder, lattice, random, stream);
+        });
         const Scene scene = std::move(builder).build();
         stream.trace(StreamTracer(scene));
 
@@ -139,9 +138,10 @@ TEST_CASE("traversal and brute force agree on rays along the faces of bounds", "
     }
 }
 
-TEMPLATE_TEST_CASE("the vectors lead through a solid: in, out, and no further", "[long]", Sphere,
-                   Box, CappedCylinder, CappedCone) {
+TEMPLATE_LIST_TEST_CASE("the vectors lead through a solid: in, out, and no further", "[long]",
+                        tests::AllSolids) {
     using Shape = TestType;
+    CAPTURE(name_of(kind_of<Shape>));
     Random random(20260700 + static_cast<int>(kind_of<Shape>));
     int through = 0, wrong = 0, misplaced = 0;
     for (int i = 0; i < 4 * of_each_kind; ++i) {

@@ -135,9 +135,7 @@ class Trial {
 
 } // namespace
 
-TEMPLATE_TEST_CASE("the engine decides as the oracle does", "[long]", Sphere, Plane, Disc, Triangle,
-                   SmoothTriangle, Box, OpenCylinder, CappedCylinder, OpenCone, CappedCone,
-                   Quadric) {
+TEMPLATE_TEST_CASE("the engine decides as the oracle does", "[long]", RAYLANE_ALL_SHAPES) {
     const Kernels& kernels = kernels_of(best_isa());
     Random random(20261100 + static_cast<std::uint64_t>(kind_of<TestType>));
     for (const Set set : ray_sets::all_sets) {

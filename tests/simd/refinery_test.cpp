@@ -26,21 +26,6 @@ int rounds() {
     return tests::rounds(200);
 }
 
-template <class Visit>
-void for_each_kind(const Visit& visit) {
-    visit.template operator()<Sphere>();
-    visit.template operator()<Plane>();
-    visit.template operator()<Disc>();
-    visit.template operator()<Triangle>();
-    visit.template operator()<SmoothTriangle>();
-    visit.template operator()<Box>();
-    visit.template operator()<OpenCylinder>();
-    visit.template operator()<CappedCylinder>();
-    visit.template operator()<OpenCone>();
-    visit.template operator()<CappedCone>();
-    visit.template operator()<Quadric>();
-}
-
 /// Rays with room for them.
 struct Stream {
     Paths paths{};
@@ -90,7 +75,7 @@ class Round {
         SceneBuilder builder;
         builder.wants_light = false;
         builder.add_material({});
-        for_each_kind([&]<class Shape>() {
+        for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
             for (int i = 0; i < of_each; ++i)
                 builder.add(ray_sets::Target<Shape>::make(random, false), 0);
         });
@@ -98,9 +83,9 @@ class Round {
     }
 
     Ray<double> aim(Random& random) {
-        int left = random.integer(0, 10);
+        int left = random.integer(0, kind_count - 1);
         Ray<float> aimed{};
-        for_each_kind([&]<class Shape>() {
+        for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
             if (left-- != 0) return;
             const auto& blocks = std::get<Table<Shape>>(scene_.shapes()).blocks();
             std::size_t block = 0;

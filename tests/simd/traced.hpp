@@ -45,16 +45,10 @@ inline Scene make_scene(bool overlapping, int planes = 0) {
     for (int i = 0; i < planes; ++i)
         builder.add(
             Plane{ray_sets::rounded(random.cube(8.0)), ray_sets::rounded(random.direction())}, 0);
-    add<Sphere>(builder, random, 200);
-    add<Disc>(builder, random, 40);
-    add<Triangle>(builder, random, 40);
-    add<SmoothTriangle>(builder, random, 40);
-    add<Box>(builder, random, 40);
-    add<OpenCylinder>(builder, random, 40);
-    add<CappedCylinder>(builder, random, 40);
-    add<OpenCone>(builder, random, 40);
-    add<CappedCone>(builder, random, 40);
-    add<Quadric>(builder, random, 40);
+    for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+        if constexpr (is_bounded<Shape>)
+            add<Shape>(builder, random, kind_of<Shape> == Kind::sphere ? 200 : 40);
+    });
     return std::move(builder).build();
 }
 

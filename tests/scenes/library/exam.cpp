@@ -8,7 +8,6 @@
 #include <cmath>
 #include <ios>
 #include <sstream>
-#include <tuple>
 #include <utility>
 
 namespace raylane::tests {
@@ -16,9 +15,6 @@ namespace raylane::tests {
 namespace {
 
 using core::Vec3f;
-
-using LibraryShapes = std::tuple<Sphere, Plane, Disc, Triangle, SmoothTriangle, Box, OpenCylinder,
-                                 CappedCylinder, OpenCone, CappedCone, Quadric>;
 
 bool is_valid(const AnyShape& any) {
     try {
@@ -71,13 +67,7 @@ Scene scene_of(std::span<const AnyShape> shapes, Sides sides) {
         materials.push_back(builder.add_material({.visible = visible}));
     for (const AnyShape& any : shapes) {
         const MaterialIndex material = materials[which_sides(builder.shape_count(), sides)];
-        std::visit(
-            [&]<class Shape>(const Shape& shape) {
-                constexpr auto kind = static_cast<std::size_t>(core::kind_of<Shape>);
-                builder.add(std::bit_cast<std::tuple_element_t<kind, LibraryShapes>>(shape),
-                            material);
-            },
-            any);
+        std::visit([&](const auto& shape) { add(builder, shape, material); }, any);
     }
     return builder.build();
 }

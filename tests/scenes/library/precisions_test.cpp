@@ -136,7 +136,8 @@ TEST_CASE("by every precision each t, given back as t_min, leads on, and to an e
         rays.t_max.clear();
         std::size_t steps = 0, not_behind = 0;
         for (bool any = true; any; ++steps) {
-            REQUIRE(steps <= 2 * 11 * 14 + 1); // a crossing of each shape on its way in and out
+            // A crossing of each shape on its way in and out.
+            REQUIRE(steps <= 2 * all.scene.shape_count() + 1);
             any = false;
             const Hits hits = intersect(tracer, rays);
             for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -81,12 +81,28 @@ struct Heap {
     Rays rays;
 };
 
-template <class Shape, class CoreShape>
+/// The library's shapes have core's names, and their floats.
+template <class CoreShape>
+struct InLibrary;
+#define RAYLANE_IN_LIBRARY(Shape, name, text)                                                      \
+    template <>                                                                                    \
+    struct InLibrary<core::Shape> {                                                                \
+        using Type = raylane::Shape;                                                               \
+    };
+RAYLANE_SHAPES(RAYLANE_IN_LIBRARY)
+#undef RAYLANE_IN_LIBRARY
+
+template <class CoreShape>
+ShapeId add(SceneBuilder& builder, const CoreShape& shape, MaterialIndex material) {
+    return builder.add(std::bit_cast<typename InLibrary<CoreShape>::Type>(shape), material);
+}
+
+template <class CoreShape>
 void add_kind(SceneBuilder& builder, MaterialIndex material, int count, bool lattice,
               Random& random, Rays& rays) {
     for (int i = 0; i < count; ++i) {
         const auto shape = ray_sets::Target<CoreShape>::make(random, lattice);
-        builder.add(std::bit_cast<Shape>(shape), material);
+        add(builder, shape, material);
         for (const Set set : ray_sets::all_sets) {
             if ((set == Set::lattice) != lattice) continue;
             const core::Ray<float> ray = ray_sets::make_ray(shape, set, random);
@@ -102,20 +118,10 @@ inline Heap heap(bool lattice, int of_each_kind, std::uint64_t seed, const Mater
     SceneBuilder builder;
     Rays rays;
     const MaterialIndex material = builder.add_material(of);
-    const auto add = [&]<class Shape, class CoreShape>(int count) {
-        add_kind<Shape, CoreShape>(builder, material, count, lattice, random, rays);
-    };
-    add.operator()<Sphere, core::Sphere>(of_each_kind);
-    add.operator()<Plane, core::Plane>(2);
-    add.operator()<Disc, core::Disc>(of_each_kind);
-    add.operator()<Triangle, core::Triangle>(of_each_kind);
-    add.operator()<SmoothTriangle, core::SmoothTriangle>(of_each_kind);
-    add.operator()<Box, core::Box>(of_each_kind);
-    add.operator()<OpenCylinder, core::OpenCylinder>(of_each_kind);
-    add.operator()<CappedCylinder, core::CappedCylinder>(of_each_kind);
-    add.operator()<OpenCone, core::OpenCone>(of_each_kind);
-    add.operator()<CappedCone, core::CappedCone>(of_each_kind);
-    add.operator()<Quadric, core::Quadric>(of_each_kind);
+    core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+        const int count = is_bounded<Shape> ? of_each_kind : 2;
+        add_kind<Shape>(builder, material, count, lattice, random, rays);
+    });
     return {builder.build(), rays};
 }
 
