@@ -16,12 +16,13 @@ namespace {
 
 using core::Kind;
 
-/// The kinds of shape that it has, and as such.
+/// Whether it has this kind of shape as such, that is not closed where it is open.
 template <class Shape>
-constexpr bool embree_has =
-    core::kind_of<Shape> == Kind::sphere || core::kind_of<Shape> == Kind::disc ||
-    core::kind_of<Shape> == Kind::triangle || core::kind_of<Shape> == Kind::capped_cylinder ||
-    core::kind_of<Shape> == Kind::capped_cone;
+constexpr bool has_as_such = embree_has<Shape>;
+template <>
+constexpr bool has_as_such<core::OpenCylinder> = false;
+template <>
+constexpr bool has_as_such<core::OpenCone> = false;
 
 constexpr std::size_t wide = 16;
 
@@ -116,7 +117,7 @@ void add() {
 
 const bool registered = [] {
     for_each_kind([]<class Shape>() {
-        if constexpr (embree_has<Shape>) {
+        if constexpr (has_as_such<Shape>) {
             add<Shape, false>();
             add<Shape, true>();
         }

@@ -9,30 +9,6 @@ namespace raylane::bench {
 
 namespace {
 
-using core::Kind;
-
-/// What Embree makes of a kind of shape.
-template <class Shape>
-constexpr RTCGeometryType geometry_type() {
-    switch (core::kind_of<Shape>) {
-    case Kind::sphere:
-        return RTC_GEOMETRY_TYPE_SPHERE_POINT;
-    case Kind::disc:
-        return RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT;
-    case Kind::triangle:
-        return RTC_GEOMETRY_TYPE_TRIANGLE;
-    case Kind::open_cylinder:
-    case Kind::capped_cylinder:
-    case Kind::open_cone:
-    case Kind::capped_cone:
-        return RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE;
-    default:
-        return RTC_GEOMETRY_TYPE_USER;
-    }
-}
-template <class Shape>
-constexpr bool embree_has = geometry_type<Shape>() != RTC_GEOMETRY_TYPE_USER;
-
 void put(float* to, const core::Vec3f& v) {
     for (int axis = 0; axis < 3; ++axis)
         to[axis] = v[axis];
@@ -92,7 +68,7 @@ class Buffers {
     }
 
   private:
-    static constexpr RTCGeometryType type = geometry_type<Shape>();
+    static constexpr RTCGeometryType type = geometry_type<Shape>;
 
     float* vertices_ = nullptr;
     float* normals_ = nullptr;
@@ -125,7 +101,7 @@ EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFla
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         if constexpr (embree_has<Shape>) {
             if (table.size() == 0) return;
-            RTCGeometry geometry = rtcNewGeometry(device, geometry_type<Shape>());
+            RTCGeometry geometry = rtcNewGeometry(device, geometry_type<Shape>);
             const Buffers<Shape> buffers(geometry, table.size());
             std::vector<core::ShapeId>& ids = ids_.emplace_back();
             for (const auto& [id, slot] : slots_by_id(table)) {

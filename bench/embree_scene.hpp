@@ -31,6 +31,26 @@ class NoDenormals {
     unsigned before_ = _mm_getcsr();
 };
 
+/// What Embree makes of a kind of shape: of those that it has not got, nothing. Cylinders and
+/// cones, open ones too, become curves whose ends are closed.
+template <class Shape>
+inline constexpr RTCGeometryType geometry_type = RTC_GEOMETRY_TYPE_USER;
+template <>
+inline constexpr RTCGeometryType geometry_type<core::Sphere> = RTC_GEOMETRY_TYPE_SPHERE_POINT;
+template <>
+inline constexpr RTCGeometryType geometry_type<core::Disc> = RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT;
+template <>
+inline constexpr RTCGeometryType geometry_type<core::Triangle> = RTC_GEOMETRY_TYPE_TRIANGLE;
+template <core::Ends ends>
+inline constexpr RTCGeometryType geometry_type<core::Cylinder<ends>> =
+    RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE;
+template <core::Ends ends>
+inline constexpr RTCGeometryType geometry_type<core::Cone<ends>> =
+    RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE;
+
+template <class Shape>
+inline constexpr bool embree_has = geometry_type<Shape> != RTC_GEOMETRY_TYPE_USER;
+
 /// A scene as Embree has it: spheres, discs and triangles as they are, cylinders and cones, open
 /// ones too, as linear cone curves, whose ends are closed. One geometry for each kind of shape, in
 /// the order of their ids.

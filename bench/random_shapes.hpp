@@ -3,6 +3,7 @@
 #include "core/scene/shape_table.hpp"
 
 #include <random>
+#include <type_traits>
 
 /// Shapes of every kind to measure solvers by.
 namespace raylane::bench {
@@ -21,35 +22,87 @@ class Random {
     std::mt19937 engine_{1};
 };
 
+/// What shapes are made of: vectors of components up to 1.
+struct Vectors {
+    core::Vec3f a, b, c, d;
+};
+
+/// Makes shapes of one kind.
+template <class Shape>
+struct Maker;
+
+template <>
+struct Maker<core::Sphere> {
+    static core::Sphere make(const Vectors& v, Random& r) { return {v.a, r.uniform(0.3F, 1)}; }
+};
+template <>
+struct Maker<core::Plane> {
+    static core::Plane make(const Vectors& v, Random&) { return {v.a, v.b}; }
+};
+template <>
+struct Maker<core::Disc> {
+    static core::Disc make(const Vectors& v, Random& r) {
+        return {v.a, v.b, r.uniform(0.5F, 1.5F)};
+    }
+};
+template <>
+struct Maker<core::Triangle> {
+    static core::Triangle make(const Vectors& v, Random&) {
+        return {2.0F * v.a, 2.0F * v.b, 2.0F * v.c};
+    }
+};
+template <>
+struct Maker<core::SmoothTriangle> {
+    static core::SmoothTriangle make(const Vectors& v, Random&) {
+        return {2.0F * v.a, 2.0F * v.b, 2.0F * v.c, v.a, v.b, v.c};
+    }
+};
+template <>
+struct Maker<core::Box> {
+    static core::Box make(const Vectors& v, Random&) { return {v.a, v.b, v.c, v.d}; }
+};
+template <core::Ends ends>
+struct Maker<core::Cylinder<ends>> {
+    static core::Cylinder<ends> make(const Vectors& v, Random& r) {
+        return {v.a, 2.0F * v.b, r.uniform(0.2F, 0.8F)};
+    }
+};
+template <core::Ends ends>
+struct Maker<core::Cone<ends>> {
+    static core::Cone<ends> make(const Vectors& v, Random& r) {
+        return {v.a, 2.0F * v.b, r.uniform(0.3F, 1), r.uniform(0, 0.3F)};
+    }
+};
+template <>
+struct Maker<core::Quadric> {
+    static core::Quadric make(const Vectors& v, Random& r) {
+        const auto square = [&] { return r.uniform(0.5F, 3); };
+        core::Quadric q{};
+        q.center = v.a;
+        q.xx = square();
+        q.yy = square();
+        q.zz = square();
+        q.xy = q.yz = 0.1F;
+        q.xz = 0.2F;
+        q.one = -1;
+        q.lower = core::Vec3f(-0.7F);
+        q.upper = core::Vec3f(0.7F);
+        return q;
+    }
+};
+
 /// A shape of a size of about 1 within 1 of the origin.
 template <class Shape>
 Shape make_shape(Random& r) {
-    using core::Kind, core::Vec3f;
-    constexpr Kind kind = core::kind_of<Shape>;
-    const Vec3f a = r.cube(1), b = r.cube(1), c = r.cube(1), d = r.cube(1);
-    if constexpr (kind == Kind::sphere) return {a, r.uniform(0.3F, 1)};
-    if constexpr (kind == Kind::plane) return {a, b};
-    if constexpr (kind == Kind::disc) return {a, b, r.uniform(0.5F, 1.5F)};
-    if constexpr (kind == Kind::triangle) return {2.0F * a, 2.0F * b, 2.0F * c};
-    if constexpr (kind == Kind::smooth_triangle) return {2.0F * a, 2.0F * b, 2.0F * c, a, b, c};
-    if constexpr (kind == Kind::box) return {a, b, c, d};
-    if constexpr (kind == Kind::open_cylinder || kind == Kind::capped_cylinder)
-        return {a, 2.0F * b, r.uniform(0.2F, 0.8F)};
-    if constexpr (kind == Kind::open_cone || kind == Kind::capped_cone)
-        return {a, 2.0F * b, r.uniform(0.3F, 1), r.uniform(0, 0.3F)};
-    if constexpr (kind == Kind::quadric) {
-        const auto square = [&] { return r.uniform(0.5F, 3); };
-        return {a, square(), square(), square(), 0.1F,         0.2F,       0.1F,
-                0, 0,        0,        -1,       Vec3f(-0.7F), Vec3f(0.7F)};
-    }
+    const Vectors vectors{r.cube(1), r.cube(1), r.cube(1), r.cube(1)};
+    return Maker<Shape>::make(vectors, r);
 }
 
 /// Calls visit.operator()<Shape>() for every kind in order.
 template <class Visit>
 void for_each_kind(const Visit& visit) {
-    const core::Tables none;
-    core::for_each_table(
-        none, [&]<class Shape>(const core::Table<Shape>&) { visit.template operator()<Shape>(); });
+    core::for_each_shape_type(
+        [&]<class Shape>(std::type_identity<Shape>) { visit.template operator()<Shape>(); });
 }
 
 } // namespace raylane::bench
