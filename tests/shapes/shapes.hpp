@@ -38,7 +38,7 @@ struct AllOf<Sort, std::tuple<Shapes...>> {
 
 /// For TEMPLATE_LIST_TEST_CASE: of all shapes those of one sort, which is Solid, Flat or Curved.
 template <class Sort>
-using AllOf = detail::AllOf<Sort, core::Shapes>::Type;
+using AllOf = typename detail::AllOf<Sort, core::Shapes>::Type;
 using AllSolids = AllOf<Solid>;
 using AllFlat = AllOf<Flat>;
 using AllCurved = AllOf<Curved>;
