@@ -42,6 +42,11 @@ inline std::string with_objects(const std::string& objects) {
            objects + "]}";
 }
 
+/// What makes up a shape, with a material, as one of the objects.
+inline std::string object(const std::string& shape, const std::string& material) {
+    return "{" + shape + R"(, "material": )" + material + "}";
+}
+
 /// The shape with this id.
 template <class Shape>
 Shape shape(const core::Scene& scene, core::ShapeId id) {

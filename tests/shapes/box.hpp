@@ -118,6 +118,19 @@ inline double distance_to_face(const core::Box& box, core::Face face, const Vec3
     return std::abs(core::dot(normal, Vec3d(point - on_face)));
 }
 
+template <>
+struct Written<core::Box> {
+    static constexpr const char* text = R"("type": "box", "corner": [1, 2, 3],
+                                           "edges": [[1, 0, 0.5], [0, 2, 0], [0, 0.1, 3]])";
+    template <class Box>
+    static Box by_name() {
+        return {.corner = {1, 2, 3},
+                .edge_u = {1, 0, 0.5F},
+                .edge_v = {0, 2, 0},
+                .edge_w = {0, 0.1F, 3}};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

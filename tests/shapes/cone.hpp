@@ -121,6 +121,20 @@ inline double distance_to_face(const core::CappedCone& c, core::Face face, const
                                   static_cast<double>(c.top_radius), face, point);
 }
 
+template <core::Ends ends>
+struct Written<core::Cone<ends>> {
+    static constexpr const char* text =
+        ends == core::Ends::open
+            ? R"("type": "cone", "base": [1, 2, 3], "axis": [0, 5, 0], "base_radius": 0.9,
+                 "top_radius": 0.4, "capped": false)"
+            : R"("type": "cone", "base": [1, 2, 3], "axis": [0, 5, 0], "base_radius": 0.9,
+                 "top_radius": 0.4)";
+    template <class Cone>
+    static Cone by_name() {
+        return {.base = {1, 2, 3}, .axis = {0, 5, 0}, .base_radius = 0.9F, .top_radius = 0.4F};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

@@ -85,6 +85,19 @@ inline double distance_to_face(const core::CappedCylinder& c, core::Face face, c
     return axial_distance_to_face(c.base, c.axis, radius, radius, face, point);
 }
 
+template <core::Ends ends>
+struct Written<core::Cylinder<ends>> {
+    static constexpr const char* text =
+        ends == core::Ends::open
+            ? R"("type": "cylinder", "base": [1, 2, 3], "axis": [0, 0.1, 4], "radius": 0.6,
+                 "capped": false)"
+            : R"("type": "cylinder", "base": [1, 2, 3], "axis": [0, 0.1, 4], "radius": 0.6)";
+    template <class Cylinder>
+    static Cylinder by_name() {
+        return {.base = {1, 2, 3}, .axis = {0, 0.1F, 4}, .radius = 0.6F};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

@@ -63,6 +63,16 @@ inline double distance_to_face(const core::Disc& disc, core::Face, const Vec3d& 
                               core::normalized(core::convert<double>(disc.normal))));
 }
 
+template <>
+struct Written<core::Disc> {
+    static constexpr const char* text =
+        R"("type": "disc", "center": [1, 2, 3], "normal": [0, 0, -2], "radius": 0.3)";
+    template <class Disc>
+    static Disc by_name() {
+        return {.center = {1, 2, 3}, .normal = {0, 0, -2}, .radius = 0.3F};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

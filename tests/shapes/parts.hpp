@@ -20,6 +20,7 @@
 ///   meetings::Touching             one that touches others
 ///   tests::NestOf                  one close between others
 ///   tests::Restated                one surface in other numbers
+///   tests::Written                 one as a file and a program have it
 ///   tests::Seamed                  solids: where their faces meet
 ///   tests::distance_to_face        solids, and what float may displace by little
 ///   hard_cases::scaled, extreme, swap_axes   where they are not the usual ones
@@ -56,6 +57,11 @@ struct Restated;
 /// wall ends in a point: on small integers too as far as there are any.
 template <class Shape>
 struct Seamed;
+
+/// What an object of a scene file says of one such shape, `text`, and the same by_name<Shape>() of
+/// fields, which are the library's as they are core's.
+template <class Shape>
+struct Written;
 
 using Seams = std::array<Vec3f, 4>;
 

@@ -52,6 +52,16 @@ struct Restated<core::Plane> {
     }
 };
 
+template <>
+struct Written<core::Plane> {
+    static constexpr const char* text =
+        R"("type": "plane", "point": [0, -9, 0], "normal": [0, 3, 0.1])";
+    template <class Plane>
+    static Plane by_name() {
+        return {.point = {0, -9, 0}, .normal = {0, 3, 0.1F}};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

@@ -155,6 +155,30 @@ inline double distance_to_face(const core::Quadric& quadric, core::Face, const V
            (2.0 * core::length(core::quadric_half_gradient(quadric, p)));
 }
 
+template <>
+struct Written<core::Quadric> {
+    static constexpr const char* text =
+        R"("type": "quadric", "center": [0.1, 0.2, 0.3],
+           "matrix": [[1, 2, 3, 4], [2, 5, 6, 7], [3, 6, 8, 9], [4, 7, 9, 10]],
+           "lower": [-1, -2, -3], "upper": [1, 2, 3])";
+    template <class Quadric>
+    static Quadric by_name() {
+        return {.center = {0.1F, 0.2F, 0.3F},
+                .xx = 1,
+                .yy = 5,
+                .zz = 8,
+                .xy = 2,
+                .xz = 3,
+                .yz = 6,
+                .x = 4,
+                .y = 7,
+                .z = 9,
+                .one = 10,
+                .lower = {-1, -2, -3},
+                .upper = {1, 2, 3}};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

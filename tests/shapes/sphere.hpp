@@ -61,6 +61,16 @@ inline double distance_to_face(const core::Sphere& sphere, core::Face, const Vec
                     static_cast<double>(sphere.radius));
 }
 
+template <>
+struct Written<core::Sphere> {
+    static constexpr const char* text =
+        R"("type": "sphere", "center": [0.1, -2, 3], "radius": 0.7)";
+    template <class Sphere>
+    static Sphere by_name() {
+        return {.center = {0.1F, -2, 3}, .radius = 0.7F};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

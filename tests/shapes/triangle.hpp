@@ -145,6 +145,31 @@ struct Restated<core::SmoothTriangle> {
     }
 };
 
+template <>
+struct Written<core::Triangle> {
+    static constexpr const char* text =
+        R"("type": "triangle", "a": [0, 0, 0], "b": [1, 0.1, 0], "c": [0, 1, 0.2])";
+    template <class Triangle>
+    static Triangle by_name() {
+        return {.a = {0, 0, 0}, .b = {1, 0.1F, 0}, .c = {0, 1, 0.2F}};
+    }
+};
+template <>
+struct Written<core::SmoothTriangle> {
+    static constexpr const char* text =
+        R"("type": "triangle", "a": [1, 2, 3], "b": [4, 5, 7], "c": [8, 9, 0],
+           "normals": [[0, 0, 1], [0.1, 0, 1], [0, 0.2, 1]])";
+    template <class Triangle>
+    static Triangle by_name() {
+        return {.a = {1, 2, 3},
+                .b = {4, 5, 7},
+                .c = {8, 9, 0},
+                .normal_a = {0, 0, 1},
+                .normal_b = {0.1F, 0, 1},
+                .normal_c = {0, 0.2F, 1}};
+    }
+};
+
 } // namespace raylane::tests
 
 namespace raylane::oracle {

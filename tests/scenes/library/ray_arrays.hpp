@@ -2,6 +2,7 @@
 
 #include "raylane/raylane.hpp"
 #include "tests/ray_sets.hpp"
+#include "tests/scenes/library/in_library.hpp"
 
 #include <bit>
 #include <limits>
@@ -80,17 +81,6 @@ struct Heap {
     Scene scene;
     Rays rays;
 };
-
-/// The library's shapes have core's names, and their floats.
-template <class CoreShape>
-struct InLibrary;
-#define RAYLANE_IN_LIBRARY(Shape, name, text)                                                      \
-    template <>                                                                                    \
-    struct InLibrary<core::Shape> {                                                                \
-        using Type = raylane::Shape;                                                               \
-    };
-RAYLANE_SHAPES(RAYLANE_IN_LIBRARY)
-#undef RAYLANE_IN_LIBRARY
 
 template <class CoreShape>
 ShapeId add(SceneBuilder& builder, const CoreShape& shape, MaterialIndex material) {

@@ -1,7 +1,9 @@
 #include "raylane/raylane.hpp"
 #include "scenes/library/internals.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/library/in_library.hpp"
 #include "tests/scenes/message_of.hpp"
+#include "tests/shapes/shapes.hpp"
 
 #include <array>
 #include <string>
@@ -45,62 +47,17 @@ Scene ball() {
 TEST_CASE("every kind of shape has its fields in a file's order") {
     SceneBuilder builder;
     const MaterialIndex m = builder.add_material({});
-    CHECK(builder.add(Sphere{.center = {1, 2, 3}, .radius = 4}, m) == 0);
-    CHECK(builder.add(Plane{.point = {1, 2, 3}, .normal = {4, 5, 6}}, m) == 1);
-    CHECK(builder.add(Disc{.center = {1, 2, 3}, .normal = {4, 5, 6}, .radius = 7}, m) == 2);
-    CHECK(builder.add(Triangle{.a = {1, 2, 3}, .b = {4, 5, 7}, .c = {8, 9, 0}}, m) == 3);
-    CHECK(builder.add(SmoothTriangle{.a = {1, 2, 3},
-                                     .b = {4, 5, 7},
-                                     .c = {8, 9, 0},
-                                     .normal_a = {1, 0, 2},
-                                     .normal_b = {3, 1, 4},
-                                     .normal_c = {1, 5, 9}},
-                      m) == 4);
-    CHECK(
-        builder.add(
-            Box{.corner = {1, 2, 3}, .edge_u = {4, 0, 1}, .edge_v = {0, 5, 0}, .edge_w = {1, 0, 6}},
-            m) == 5);
-    CHECK(builder.add(OpenCylinder{.base = {1, 2, 3}, .axis = {4, 5, 6}, .radius = 7}, m) == 6);
-    CHECK(builder.add(CappedCylinder{.base = {1, 2, 3}, .axis = {4, 5, 6}, .radius = 8}, m) == 7);
-    CHECK(builder.add(
-              OpenCone{.base = {1, 2, 3}, .axis = {4, 5, 6}, .base_radius = 7, .top_radius = 8},
-              m) == 8);
-    CHECK(builder.add(CappedCone{.base = {1, 2, 3}, .axis = {4, 5, 6}, .base_radius = 9}, m) == 9);
-    CHECK(builder.add(Quadric{.center = {1, 2, 3},
-                              .xx = 1,
-                              .yy = 2,
-                              .zz = 3,
-                              .xy = 4,
-                              .xz = 5,
-                              .yz = 6,
-                              .x = 7,
-                              .y = 8,
-                              .z = 9,
-                              .one = 10,
-                              .lower = {-1, -2, -3},
-                              .upper = {4, 5, 6}},
-                      m) == 10);
-    CHECK(builder.shape_count() == 11);
+    ShapeId count = 0;
+    std::string objects;
+    core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+        using InLibrary = typename tests::InLibrary<Shape>::Type;
+        CHECK(builder.add(tests::Written<Shape>::template by_name<InLibrary>(), m) == count++);
+        objects += (objects.empty() ? "{" : ", {") + std::string(tests::Written<Shape>::text) +
+                   R"(, "material": "m"})";
+    });
+    CHECK(builder.shape_count() == static_cast<std::size_t>(core::kind_count));
     const Scene built = builder.build();
-    const Scene parsed = parse(with_objects(R"(
-        {"type": "sphere", "material": "m", "center": [1, 2, 3], "radius": 4},
-        {"type": "plane", "material": "m", "point": [1, 2, 3], "normal": [4, 5, 6]},
-        {"type": "disc", "material": "m", "center": [1, 2, 3], "normal": [4, 5, 6], "radius": 7},
-        {"type": "triangle", "material": "m", "a": [1, 2, 3], "b": [4, 5, 7], "c": [8, 9, 0]},
-        {"type": "triangle", "material": "m", "a": [1, 2, 3], "b": [4, 5, 7], "c": [8, 9, 0],
-         "normals": [[1, 0, 2], [3, 1, 4], [1, 5, 9]]},
-        {"type": "box", "material": "m", "corner": [1, 2, 3],
-         "edges": [[4, 0, 1], [0, 5, 0], [1, 0, 6]]},
-        {"type": "cylinder", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "radius": 7,
-         "capped": false},
-        {"type": "cylinder", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "radius": 8},
-        {"type": "cone", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "base_radius": 7,
-         "top_radius": 8, "capped": false},
-        {"type": "cone", "material": "m", "base": [1, 2, 3], "axis": [4, 5, 6], "base_radius": 9},
-        {"type": "quadric", "material": "m", "center": [1, 2, 3],
-         "matrix": [[1, 4, 5, 7], [4, 2, 6, 8], [5, 6, 3, 9], [7, 8, 9, 10]],
-         "lower": [-1, -2, -3], "upper": [4, 5, 6]})"));
-    CHECK(same_shapes(Internals::of(built), Internals::of(parsed)));
+    CHECK(same_shapes(Internals::of(built), Internals::of(parse(with_objects(objects)))));
 }
 
 TEST_CASE("everything else comes back as it was given") {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/kinds.hpp"
+#include "raylane/shapes.hpp"
+
+namespace raylane::tests {
+
+/// The library's shapes have core's names, and their floats.
+template <class CoreShape>
+struct InLibrary;
+#define RAYLANE_IN_LIBRARY(Shape, name, text)                                                      \
+    template <>                                                                                    \
+    struct InLibrary<core::Shape> {                                                                \
+        using Type = raylane::Shape;                                                               \
+    };
+RAYLANE_SHAPES(RAYLANE_IN_LIBRARY)
+#undef RAYLANE_IN_LIBRARY
+
+} // namespace raylane::tests
