@@ -31,7 +31,9 @@ struct Target<core::Disc> {
 namespace raylane::tests {
 
 template <>
-struct Nature<core::Disc> : Flat {};
+struct Nature<core::Disc> : Flat {
+    static constexpr bool has_displacement = true;
+};
 
 inline core::Disc placed(const core::Disc& d, const Placing& by) {
     return {by.point(d.center), d.normal, d.radius * by.factor()};

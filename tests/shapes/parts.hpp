@@ -22,7 +22,7 @@
 ///   tests::Restated                one surface in other numbers
 ///   tests::Written                 one as a file and a program have it
 ///   tests::Seamed                  solids: where their faces meet
-///   tests::distance_to_face        solids, and what float may displace by little
+///   tests::distance_to_face        solids, and what has_displacement
 ///   hard_cases::scaled, extreme, swap_axes   where they are not the usual ones
 /// What is missing and asked for does not compile.
 namespace raylane::tests {
@@ -33,6 +33,8 @@ struct AnySurface {
     static constexpr bool is_bounded = true;
     /// What leaves it outward may meet it again.
     static constexpr bool may_come_back = false;
+    /// There is a bound to how far float may displace it.
+    static constexpr bool has_displacement = false;
     /// Many of them may be one polygon.
     static constexpr bool tiles_polygons = false;
     /// Its filter also tells, at a glance, what passes it by.

@@ -87,6 +87,7 @@ namespace raylane::tests {
 template <>
 struct Nature<core::Quadric> : Curved {
     static constexpr bool may_come_back = true;
+    static constexpr bool has_displacement = true;
 };
 
 /// The form is that of p / factor.

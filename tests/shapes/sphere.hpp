@@ -25,6 +25,7 @@ namespace raylane::tests {
 
 template <>
 struct Nature<core::Sphere> : Solid {
+    static constexpr bool has_displacement = true;
     static constexpr bool is_sifted = true;
 };
 
