@@ -138,12 +138,12 @@ inline std::vector<MakeShell> all_shells() {
 inline Meeting shells(int count, Random& random, int rays) {
     Gathering gathering(random);
     const Frame& frame = gathering.frame();
-    const std::vector<MakeShell> shells = all_shells();
-    const int kinds = static_cast<int>(shells.size());
+    const std::vector<MakeShell> makers = all_shells();
+    const int kinds = static_cast<int>(makers.size());
     const int r = random.integer(1, 3), only = random.integer(0, 2 * kinds);
     for (int i = 0; i < count; ++i) {
         const int kind = only < kinds ? only : random.integer(0, kinds - 1);
-        AnyShape shape = shells[static_cast<std::size_t>(kind)](frame, r);
+        AnyShape shape = makers[static_cast<std::size_t>(kind)](frame, r);
         switch (random.integer(0, 3)) {
         case 0:
             break;

@@ -2,8 +2,11 @@
 
 #include "tests/shapes/parts.hpp"
 
-/// What cylinders and cones have in common.
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
+/// What cylinders and cones have in common.
 namespace raylane::ray_sets {
 
 /// A point of the body, of a rim, of a cap or the apex.
@@ -30,13 +33,13 @@ Vec3d axial_center(const Shape& c) {
 
 namespace raylane::tests {
 
-/// Of small integers, along x, y or z.
+/// An axis of small integers along x, y or z.
 inline Vec3f axis_of_integers(Random& r) {
     Vec3f axis{0.0F};
     axis[r.integer(0, 2)] = static_cast<float>(r.integer(1, 6) * (r.integer(0, 1) == 0 ? 1 : -1));
     return axis;
 }
-/// Of points where cap and wall meet, with such an axis.
+/// Points where cap and wall meet, with such an axis.
 inline Seams rims(const Vec3f& base, const Vec3f& axis, float r0, float r1) {
     const int along = axis.x != 0.0F ? 0 : axis.y != 0.0F ? 1 : 2;
     const auto out = [&](float u, float v) {

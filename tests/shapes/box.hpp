@@ -2,6 +2,12 @@
 
 #include "tests/shapes/parts.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
 namespace raylane::ray_sets {
 
 template <>

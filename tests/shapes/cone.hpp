@@ -3,7 +3,9 @@
 #include "tests/shapes/axial.hpp"
 #include "tests/shapes/parts.hpp"
 
+#include <algorithm>
 #include <type_traits>
+#include <vector>
 
 namespace raylane::ray_sets {
 

@@ -4,6 +4,7 @@
 #include "tests/shapes/parts.hpp"
 
 #include <type_traits>
+#include <vector>
 
 namespace raylane::ray_sets {
 

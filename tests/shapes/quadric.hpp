@@ -3,6 +3,11 @@
 #include "core/shapes/quadric.hpp"
 #include "tests/shapes/parts.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
 namespace raylane::ray_sets {
 
 /// Ellipsoids, paraboloids, hyperboloids of one and two sheets, and any form at all.

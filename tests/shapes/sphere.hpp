@@ -2,6 +2,9 @@
 
 #include "tests/shapes/parts.hpp"
 
+#include <cmath>
+#include <vector>
+
 namespace raylane::ray_sets {
 
 template <>

@@ -2,6 +2,10 @@
 
 #include "tests/shapes/parts.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 namespace raylane::ray_sets {
 
 template <>
