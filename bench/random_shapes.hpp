@@ -91,6 +91,11 @@ struct Maker<core::Quadric> {
     }
 };
 
+template <>
+struct Maker<core::Ellipsoid> {
+    static core::Ellipsoid make(const Vectors& v, Random&) { return {v.a, v.b, v.c, v.d}; }
+};
+
 /// A shape of a size of about 1 within 1 of the origin.
 template <class Shape>
 Shape make_shape(Random& r) {

@@ -28,6 +28,7 @@ struct Cone;
 using OpenCone = Cone<Ends::open>;
 using CappedCone = Cone<Ends::capped>;
 struct Quadric;
+struct Ellipsoid;
 
 /// Type, enumerator, and what people call it: a last word that is JSON's "type", behind what tells
 /// it from others of that type.
@@ -42,7 +43,8 @@ struct Quadric;
     SHAPE(CappedCylinder, capped_cylinder, "capped cylinder")                                      \
     SHAPE(OpenCone, open_cone, "open cone")                                                        \
     SHAPE(CappedCone, capped_cone, "capped cone")                                                  \
-    SHAPE(Quadric, quadric, "quadric")
+    SHAPE(Quadric, quadric, "quadric")                                                             \
+    SHAPE(Ellipsoid, ellipsoid, "ellipsoid")
 
 #define RAYLANE_ENUMERATOR(Shape, name, text) name,
 enum class Kind : std::uint8_t { RAYLANE_SHAPES(RAYLANE_ENUMERATOR) };

@@ -4,6 +4,7 @@
 #include "core/shapes/cone.hpp"
 #include "core/shapes/cylinder.hpp"
 #include "core/shapes/disc.hpp"
+#include "core/shapes/ellipsoid.hpp"
 #include "core/shapes/plane.hpp"
 #include "core/shapes/quadric.hpp"
 #include "core/shapes/sphere.hpp"
@@ -13,10 +14,10 @@
 /// exactly these values. Nothing is normalised, transformed or rounded on the way in.
 ///
 /// Lengths are in the scene's unit. Normals and axes may have any length but zero.
-/// A solid (sphere, box, capped cylinder, capped cone) is closed: its surface belongs to it, a line
-/// that only touches it hits it, as does one within a face. A surface (the others) ends at its rim,
-/// and the rim belongs to it. A line that touches it hits it; one that lies in it, in a flat
-/// surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
+/// A solid (sphere, ellipsoid, box, capped cylinder, capped cone) is closed: its surface belongs to
+/// it, a line that only touches it hits it, as does one within a face. A surface (the others) ends
+/// at its rim, and the rim belongs to it. A line that touches it hits it; one that lies in it, in a
+/// flat surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
 namespace raylane::core {
 
 template <class Shape>

@@ -165,6 +165,11 @@ void write_shape(Object& object, const core::Quadric& s) {
     object.vector("upper", s.upper);
 }
 
+void write_shape(Object& object, const core::Ellipsoid& s) {
+    object.vector("center", s.center);
+    object.vectors("axes", {s.axis_u, s.axis_v, s.axis_w});
+}
+
 void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) {
     const core::Settings& settings = scene.settings();
     root.key("image");

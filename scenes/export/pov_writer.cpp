@@ -176,6 +176,10 @@ class PovWriter {
         file_ << "box { <0, 0, 0>, <1, 1, 1>";
         matrix({s.edge_u, s.edge_v, s.edge_w, s.corner});
     }
+    void write_shape(const core::Ellipsoid& s) {
+        file_ << "sphere { <0, 0, 0>, 1";
+        matrix({s.axis_u, s.axis_v, s.axis_w, s.center});
+    }
     void matrix(std::initializer_list<Vec3f> rows) {
         file_ << " matrix <";
         const char* between = "";

@@ -74,6 +74,13 @@ class ObjectReader {
 
     void read(std::type_identity<core::Quadric>);
 
+    void read(std::type_identity<core::Ellipsoid>) {
+        object_.allow_only({"type", "material", "center", "axes"});
+        const core::Vec3f center = vector("center");
+        const std::vector<JsonValue> axes = object_.at("axes").array(3, "vectors");
+        add(core::Ellipsoid{center, axes[0].vector(), axes[1].vector(), axes[2].vector()});
+    }
+
     void sphereflake() {
         object_.allow_only({"type", "material", "center", "radius", "depth", "up"});
         Sphereflake flake{

@@ -5,6 +5,7 @@
 #include "tests/shapes/cone.hpp"
 #include "tests/shapes/cylinder.hpp"
 #include "tests/shapes/disc.hpp"
+#include "tests/shapes/ellipsoid.hpp"
 #include "tests/shapes/plane.hpp"
 #include "tests/shapes/quadric.hpp"
 #include "tests/shapes/sphere.hpp"

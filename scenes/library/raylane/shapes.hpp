@@ -10,10 +10,10 @@
 /// exactly these values.
 ///
 /// Coordinates and lengths are from -1e30 to 1e30. Normals and axes may have any length but zero.
-/// A solid (sphere, box, capped cylinder, capped cone) is closed: its surface belongs to it, a line
-/// that only touches it hits it, as does one within a face. A surface (the others) ends at its rim,
-/// and the rim belongs to it. A line that touches it hits it; one that lies in it, in a flat
-/// surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
+/// A solid (sphere, ellipsoid, box, capped cylinder, capped cone) is closed: its surface belongs to
+/// it, a line that only touches it hits it, as does one within a face. A surface (the others) ends
+/// at its rim, and the rim belongs to it. A line that touches it hits it; one that lies in it, in a
+/// flat surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
 namespace raylane {
 
 struct Sphere {
@@ -95,14 +95,21 @@ struct Quadric {
     Vec3 lower, upper; ///< lower < upper on each axis
 };
 
+/// The points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1, solid. The
+/// semi-axes span a volume; they need not be perpendicular to each other.
+struct Ellipsoid {
+    Vec3 center;
+    Vec3 axis_u, axis_v, axis_w;
+};
+
 /// What a scene can be made of.
 template <class Shape>
-concept AnyShape =
-    std::same_as<Shape, Sphere> || std::same_as<Shape, Plane> || std::same_as<Shape, Disc> ||
-    std::same_as<Shape, Triangle> || std::same_as<Shape, SmoothTriangle> ||
-    std::same_as<Shape, Box> || std::same_as<Shape, OpenCylinder> ||
-    std::same_as<Shape, CappedCylinder> || std::same_as<Shape, OpenCone> ||
-    std::same_as<Shape, CappedCone> || std::same_as<Shape, Quadric>;
+concept AnyShape = std::same_as<Shape, Sphere> || std::same_as<Shape, Plane> ||
+    std::same_as<Shape, Disc> || std::same_as<Shape, Triangle> ||
+    std::same_as<Shape, SmoothTriangle> || std::same_as<Shape, Box> ||
+    std::same_as<Shape, OpenCylinder> || std::same_as<Shape, CappedCylinder> ||
+    std::same_as<Shape, OpenCone> || std::same_as<Shape, CappedCone> ||
+    std::same_as<Shape, Quadric> || std::same_as<Shape, Ellipsoid>;
 
 /// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added. In a
 /// scene from a file, the order of the file.

@@ -4,6 +4,7 @@
 #include "simd/kernel/shapes/cone.hpp"
 #include "simd/kernel/shapes/cylinder.hpp"
 #include "simd/kernel/shapes/disc.hpp"
+#include "simd/kernel/shapes/ellipsoid.hpp"
 #include "simd/kernel/shapes/plane.hpp"
 #include "simd/kernel/shapes/quadric.hpp"
 #include "simd/kernel/shapes/sphere.hpp"

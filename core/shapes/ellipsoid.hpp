@@ -1,0 +1,97 @@
+#pragma once
+
+#include "core/shapes/ball.hpp"
+#include "core/shapes/checks.hpp"
+#include "core/shapes/form.hpp"
+#include "core/shapes/shape.hpp"
+
+#include <array>
+#include <type_traits>
+
+namespace raylane::core {
+
+/// The points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1, solid. The
+/// semi-axes span a volume; they need not be perpendicular to each other.
+struct Ellipsoid {
+    Vec3f center;
+    Vec3f axis_u, axis_v, axis_w;
+
+    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::inward,
+                                        .costs = {1.0, 1.0, 1.0, 2.0}};
+};
+
+inline void validate(const Ellipsoid& e) {
+    checks::require_point("center", e.center);
+    checks::require_spanning("axes", e.axis_u, e.axis_v, e.axis_w);
+}
+
+/// Along a coordinate it reaches as far as the vector of the axes' components is long.
+inline Bounds bounds_of(const Ellipsoid& e) {
+    const Vec3d center = convert<double>(e.center), u = convert<double>(e.axis_u),
+                v = convert<double>(e.axis_v), w = convert<double>(e.axis_w);
+    Vec3d extent;
+    for (int axis = 0; axis < 3; ++axis)
+        extent[axis] = length(Vec3d(u[axis], v[axis], w[axis]));
+    return bounds_around(center, extent, absolute(center) + extent);
+}
+
+/// What makes of the ellipsoid a ball about the origin: the coordinate a of p, relative to the
+/// centre, is ((v x w) . p) / ((v x w) . u), likewise b and c. A ray goes through the ball where it
+/// goes through the ellipsoid.
+template <class Real>
+struct ToBall {
+    std::array<Vec3<Real>, 3> rows;
+    Real radius; ///< of either sign
+
+    explicit ToBall(const Ellipsoid& e) {
+        const Vec3<Real> u = convert<Real>(e.axis_u), v = convert<Real>(e.axis_v),
+                         w = convert<Real>(e.axis_w);
+        rows = {cross(v, w), cross(w, u), cross(u, v)};
+        radius = dot(rows[0], u);
+        // The sixth power of a length is more than float has room for. Elsewhere nothing is
+        // divided: so small whole numbers stay exact.
+        if constexpr (std::is_same_v<Real, float>) {
+            for (Vec3<Real>& row : rows)
+                row = row / radius;
+            radius = 1.0F;
+        }
+    }
+
+    Vec3<Real> operator()(const Vec3<Real>& v) const {
+        return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
+    }
+    /// Half the gradient of |to_ball(p)|^2, given that.
+    Vec3<Real> normal(const Vec3<Real>& in_ball) const {
+        return mul_add(in_ball.x, rows[0],
+                       mul_add(in_ball.y, rows[1], Vec3<Real>(rows[2] * in_ball.z)));
+    }
+};
+
+template <class Real>
+Crossings<Real> crossings(const Ellipsoid& ellipsoid, const Ray<Real>& ray, const Start& start,
+                          Judge<Real>& judge) {
+    const ToBall<Real> to_ball(ellipsoid);
+    return ball_crossings(to_ball(Vec3<Real>(ray.origin - convert<Real>(ellipsoid.center))),
+                          to_ball(ray.direction), to_ball.radius, start, judge);
+}
+
+template <class Real>
+Vec3<Real> outward_direction(const Ellipsoid& ellipsoid, const Vec3<Real>& point, Face) {
+    const ToBall<Real> to_ball(ellipsoid);
+    return to_ball.normal(to_ball(Vec3<Real>(point - convert<Real>(ellipsoid.center))));
+}
+
+inline ExactQuadratic form_along(const Ellipsoid& ellipsoid, const ExactRay& ray, Face) {
+    const ToBall<Dyadic> to_ball(ellipsoid);
+    return ball_along(to_ball(Vec3<Dyadic>(ray.origin - convert<Dyadic>(ellipsoid.center))),
+                      to_ball(ray.direction), to_ball.radius);
+}
+
+template <class Real>
+NormalAlong<Real> normal_along(const Ellipsoid& ellipsoid, const Ray<Real>& ray, Face) {
+    const ToBall<Real> to_ball(ellipsoid);
+    return {to_ball.normal(to_ball(Vec3<Real>(ray.origin - convert<Real>(ellipsoid.center)))),
+            to_ball.normal(to_ball(ray.direction))};
+}
+
+} // namespace raylane::core
