@@ -30,7 +30,7 @@ struct Setup {
     std::vector<double> ox, oy, oz, dx, dy, dz;
     std::vector<std::uint32_t> slots;
     std::vector<double> out[8];
-    std::vector<std::uint32_t> none, departure, hit;
+    std::vector<std::uint32_t> none, origins, hit;
 
     explicit Setup(bool one_shape) {
         for (int i = 0; i < shape_count; ++i)
@@ -41,7 +41,7 @@ struct Setup {
             add(shape);
         }
         none.assign(ray_count, no_shape);
-        departure.assign(ray_count, 0);
+        origins.assign(ray_count, 0);
         hit.assign(ray_count, 0);
         for (std::vector<double>& array : out)
             array.assign(ray_count, 0.0);
@@ -62,7 +62,7 @@ struct Setup {
                 {dx.data(), dy.data(), dz.data()},
                 none.data(),
                 none.data(),
-                departure.data(),
+                origins.data(),
                 slots.data(),
                 out[0].data(),
                 out[1].data(),

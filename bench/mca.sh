@@ -66,8 +66,8 @@ extern "C" [[gnu::flatten]] void loop_$kind(const float (*rows)[16], int lane,
     Method::with_filter(raylane::core::Kind($kind), [&]<class Filter>() {
         const Filter filter(BroadcastReader<Avx512>(rows, lane));
         for (std::size_t i = 0; i < count; i += 16) {
-            const Packet<Avx512, Method> packet(rays, i);
-            PacketCandidates<Avx512> found(candidates, i);
+            const RayLanes<Avx512, Method> packet(rays, i);
+            LaneCandidates<Avx512> found(candidates, i);
             found.take(filter.bounds(packet.rays), packet.elsewhere(0), 0);
             found.store(candidates, i);
         }

@@ -62,7 +62,7 @@ struct MethodRays {
         arena =
             simd::arena_for([&](simd::Arena& a) { paths.take_from(a, method_ray_count, false); });
         paths.count = method_ray_count;
-        paths.start_in_the_open(0, method_ray_count);
+        paths.start_nowhere(0, method_ray_count);
         Searcher<double> searcher(scene, Search::every_shape);
         for (std::size_t i = 0; i < method_ray_count; ++i) {
             const auto set =

@@ -16,7 +16,7 @@ std::vector<Crossed> found_in(const simd::Query& finder, const std::vector<Cross
     for (std::size_t i = 0; i < found.size(); ++i)
         if (hits.slot[i] != simd::no_slot && (hits.hit[i] & simd::hit_none) == 0)
             found[i] = {hits.slot[i], (hits.hit[i] & simd::hit_entering) != 0, hits.t[i]};
-    for (const std::uint32_t i : finder.left_open())
+    for (const std::uint32_t i : finder.at_contacts())
         found[i] = truths[i];
     return found;
 }

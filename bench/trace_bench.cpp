@@ -80,7 +80,7 @@ struct Setup {
             arenas.push_back(
                 simd::arena_for([&](simd::Arena& a) { paths.take_from(a, wave, false); }));
             paths.count = wave;
-            paths.start_in_the_open(0, wave);
+            paths.start_nowhere(0, wave);
             for (std::size_t i = 0; i < wave; ++i) {
                 const Vec3d direction =
                     core::normalized(Vec3d(normal(engine), normal(engine), normal(engine)));
@@ -127,12 +127,12 @@ void occluded(benchmark::State& state, const Setup& setup, const simd::Tracing& 
     std::uint64_t left = 0;
     for (auto _ : state) {
         const std::size_t at = next++ % setup.waves.size();
-        std::fill(states.begin(), states.end(), simd::open);
+        std::fill(states.begin(), states.end(), simd::unblocked);
         query.occluded(setup.waves[at].columns(), &setup.t_most[at * wave], states.data(), nullptr,
                        counters);
         left += static_cast<std::uint64_t>(
             std::count_if(states.begin(), states.end(), [](std::uint8_t found) {
-                return found != simd::open && found != simd::blocked;
+                return found != simd::unblocked && found != simd::blocked;
             }));
     }
     report(state, left);

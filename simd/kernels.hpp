@@ -18,9 +18,9 @@ struct Found {
     const double* origin[3];
     const double* direction[3];
     /// The shapes that the ray leaves, first to last; `no_shape` twice if none.
-    const std::uint32_t* departed_first;
-    const std::uint32_t* departed_last;
-    const std::uint32_t* departure; ///< departure_bits
+    const std::uint32_t* origin_first;
+    const std::uint32_t* origin_last;
+    const std::uint32_t* origin_bits; ///< origin_bits
     /// The shape's slot, or no_slot: such lanes are left as they are.
     const std::uint32_t* slot;
 
@@ -39,9 +39,9 @@ struct Found {
     bool holds_points = true;
 };
 
-/// Of Found::departure.
-inline constexpr std::uint32_t departure_face = 0xFF;
-inline constexpr std::uint32_t departure_inward = 0x100;
+/// Of Found::origins.
+inline constexpr std::uint32_t origin_face = 0xFF;
+inline constexpr std::uint32_t origin_inward = 0x100;
 
 /// Of Found::hit.
 inline constexpr std::uint32_t hit_face = 0xFF;

@@ -148,7 +148,7 @@ class StreamTracer::Worker {
         EngineCounters counters;
         query_.nearest(paths_, nullptr, counters);
         if (!is_exact()) // else they meet several shapes there, and have the first
-            for (const std::uint32_t lane : query_.left_open())
+            for (const std::uint32_t lane : query_.at_contacts())
                 is_open_[lane] = 1;
         const bool with_normals = wants_normals(hits);
         const Hits& found = query_.hits();
@@ -180,7 +180,7 @@ class StreamTracer::Worker {
             // A limit from below is no matter for bounds, nor is a t that is none until rounded.
             const bool simple = query.t_min() <= 0.0F &&
                                 query.t_max() >= std::numeric_limits<float>::min() * 0x1p24F;
-            state_[lane] = simple ? open : doubtful;
+            state_[lane] = simple ? unblocked : doubtful;
         }
         EngineCounters counters;
         query_.occluded(paths_.columns(), distance_, state_, nullptr, counters);
@@ -190,8 +190,9 @@ class StreamTracer::Worker {
             // What bounds call blocked says nothing of a limit from below; and what light may pass
             // blocks a ray here.
             occluded[i] = state_[lane] == blocked && query.t_min() <= 0.0F ? 1
-                          : state_[lane] == open                           ? 0
-                                                 : (is_occluded(scene_, searcher_, query) ? 1 : 0);
+                          : state_[lane] == unblocked
+                              ? 0
+                              : (is_occluded(scene_, searcher_, query) ? 1 : 0);
         }
     }
 
@@ -265,7 +266,7 @@ class StreamTracer::Worker {
             paths_.sample[lane] = static_cast<std::uint32_t>(i - first);
             is_open_[lane] = 0;
         }
-        paths_.start_in_the_open(0, paths_.count);
+        paths_.start_nowhere(0, paths_.count);
     }
 
     const core::Scene& scene_;

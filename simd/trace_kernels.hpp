@@ -18,8 +18,8 @@ struct RoundedRays {
     float* origin[3];
     float* direction[3];
     float* slack;
-    const std::uint32_t* departed_first;
-    const std::uint32_t* departed_last;
+    const std::uint32_t* origin_first;
+    const std::uint32_t* origin_last;
     const double* meant_origin[3]; ///< before they were rounded
     const double* meant_direction[3];
 };
@@ -47,7 +47,7 @@ struct Occlusions {
 
 /// Lanes that are blocked on the way in are not looked at.
 enum Occlusion : std::uint8_t {
-    open = 0,
+    unblocked = 0,
     doubtful = 1, ///< perhaps something, or something that light may pass
     blocked = 2,
 };
@@ -95,14 +95,14 @@ struct TraceCounters {
 /// Rays that start at one point, or end there, or are parallel; or that would have come from one
 /// point, as those that a flat mirror reflects. Consecutive ones are near each other, so that what
 /// many of them miss need be found only once.
-struct Bundle {
-    float apex[3]; ///< unless they are parallel
-    bool towards;  ///< they end at the apex
+struct Coherence {
+    float apex[3];   ///< unless they are parallel
+    bool converging; ///< they end at the apex
     bool parallel;
     bool loose;  ///< they are near each other and no more: the rest means nothing
     bool beyond; ///< they start beyond the apex
 };
-constexpr Bundle neighbours{{}, false, false, true, false};
+constexpr Coherence neighbours{{}, false, false, true, false};
 
 /// What is done to rays before and after they are traced.
 struct RayKernels {
@@ -120,12 +120,12 @@ struct RayKernels {
 };
 
 /// The shapes of the kinds in `kind_bits` one by one, and the hierarchy if there is one to walk.
-/// `bundle` is null if the rays have nothing in common, nor are near each other.
+/// `coherence` is null if the rays have nothing in common, nor are near each other.
 struct TraceKernels {
-    void (*nearest)(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
+    void (*nearest)(const SceneView& scene, std::uint32_t kind_bits, const Coherence* coherence,
                     std::size_t count, const RoundedRays& rays, const Candidates& candidates,
                     const Workspace& workspace, TraceCounters& counters);
-    void (*occluded)(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
+    void (*occluded)(const SceneView& scene, std::uint32_t kind_bits, const Coherence* coherence,
                      std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
                      const Workspace& workspace, TraceCounters& counters);
 };

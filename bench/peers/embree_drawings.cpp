@@ -61,7 +61,7 @@ void reject_departed(const RTCFilterFunctionNArguments* hits) {
     for (unsigned i = 0; i < hits->N; ++i) {
         if (hits->valid[i] == 0) continue;
         const unsigned lane = RTCRayN_id(hits->ray, hits->N, i);
-        const core::IdRange departed{rays.departed_first[lane], rays.departed_last[lane]};
+        const core::IdRange departed{rays.origin_first[lane], rays.origin_last[lane]};
         const core::ShapeId id = traversal->scene.shape(RTCHitN_geomID(hits->hit, hits->N, i),
                                                         RTCHitN_primID(hits->hit, hits->N, i));
         if (departed.contains(id)) hits->valid[i] = 0;
@@ -71,7 +71,7 @@ void reject_departed(const RTCFilterFunctionNArguments* hits) {
 /// A ten-thousandth of the largest coordinate. A thirtieth of it, as RaySet::t_least has it, makes
 /// three times as many pixels of balls.nff wrong by surfaces that shadow themselves.
 float t_least(const simd::RoundedRays& rays, std::size_t lane) {
-    if (way.filters || rays.departed_first[lane] == no_slot) return 0.0F;
+    if (way.filters || rays.origin_first[lane] == no_slot) return 0.0F;
     float largest = 0.0F;
     for (const float* origin : rays.origin)
         largest = std::max(largest, std::abs(origin[lane]));
@@ -117,11 +117,11 @@ void fill(RTCRay16& packet, const simd::RoundedRays& rays, std::size_t begin, co
 }
 
 void nearest(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
-             const simd::Bundle* bundle, std::size_t count, const simd::RoundedRays& rays,
+             const simd::Coherence* coherence, std::size_t count, const simd::RoundedRays& rays,
              const simd::Candidates& candidates, const simd::Workspace& /*workspace*/,
              simd::TraceCounters& /*counters*/) {
     const NoDenormals no_denormals;
-    EmbreeQuery query(/*coherent=*/bundle != nullptr && !bundle->loose);
+    EmbreeQuery query(/*coherent=*/coherence != nullptr && !coherence->loose);
     if (way.filters) query.set_filter(reject_departed, &rays);
     const RTCScene scene = traversal->scene.get();
     const auto keep = [&](std::size_t lane, float t, unsigned geometry, unsigned primitive) {
@@ -153,11 +153,11 @@ void nearest(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
 }
 
 void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
-              const simd::Bundle* bundle, std::size_t count, const simd::RoundedRays& rays,
+              const simd::Coherence* coherence, std::size_t count, const simd::RoundedRays& rays,
               const simd::Occlusions& occlusions, const simd::Workspace& /*workspace*/,
               simd::TraceCounters& /*counters*/) {
     const NoDenormals no_denormals;
-    EmbreeQuery query(/*coherent=*/bundle != nullptr && !bundle->loose);
+    EmbreeQuery query(/*coherent=*/coherence != nullptr && !coherence->loose);
     if (way.filters) query.set_filter(reject_departed, &rays);
     const RTCScene scene = traversal->scene.get();
     if (!way.by_16) {

@@ -21,15 +21,15 @@ class Worker {
     /// Of some rays: slots, or, of occlusion, simd::Occlusion. Returns how many these are.
     std::size_t answer(const RaySet& rays, std::size_t begin, std::size_t end,
                        std::uint32_t* answers) {
-        const simd::Bundle* const bundle = rays.bundle ? &*rays.bundle : nullptr;
-        const bool in_waves = bundle != nullptr || rays.occlusion;
+        const simd::Coherence* const coherence = rays.coherence ? &*rays.coherence : nullptr;
+        const bool in_waves = coherence != nullptr || rays.occlusion;
         const simd::Paths paths =
             rays.paths(begin, std::min(in_waves ? RaySet::wave : most_, end - begin));
         if (rays.occlusion) {
-            find_blocked(paths, rays.t_most(begin), bundle);
+            find_blocked(paths, rays.t_most(begin), coherence);
             std::copy_n(state_, paths.count, answers);
         } else {
-            query_.nearest(paths, bundle, counters_);
+            query_.nearest(paths, coherence, counters_);
             std::copy_n(query_.hits().slot, paths.count, answers);
         }
         return paths.count;
@@ -44,10 +44,11 @@ class Worker {
     }
 
     /// What is in doubt is decided by its nearest hit.
-    void find_blocked(const simd::Paths& paths, const float* t_most, const simd::Bundle* bundle) {
+    void find_blocked(const simd::Paths& paths, const float* t_most,
+                      const simd::Coherence* coherence) {
         std::copy_n(t_most, paths.count, distance_);
-        std::fill_n(state_, paths.count, std::uint8_t{simd::open});
-        query_.occluded(paths.columns(), distance_, state_, bundle, counters_);
+        std::fill_n(state_, paths.count, std::uint8_t{simd::unblocked});
+        query_.occluded(paths.columns(), distance_, state_, coherence, counters_);
         gathered_.count = 0;
         for (std::size_t lane = 0; lane < paths.count; ++lane)
             if (state_[lane] == simd::doubtful) {
@@ -61,7 +62,7 @@ class Worker {
             const simd::Hits& hits = query_.hits();
             const bool any =
                 hits.slot[i] != simd::no_slot && hits.t[i] < static_cast<double>(t_most[lane]);
-            state_[lane] = any ? simd::blocked : simd::open;
+            state_[lane] = any ? simd::blocked : simd::unblocked;
         }
     }
 

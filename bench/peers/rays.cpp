@@ -42,7 +42,7 @@ class Judge {
 
     void ask(std::size_t ray) {
         encounter_ = reference_.nearest(
-            rays_.ray(ray), simd::departure_of(scene_, rays_.paths(ray, 1), /*lane=*/0));
+            rays_.ray(ray), simd::origin_surfaces_of(scene_, rays_.paths(ray, 1), /*lane=*/0));
         blocked_ =
             encounter_.hit.any() && encounter_.hit.t < static_cast<double>(*rays_.t_most(ray));
     }

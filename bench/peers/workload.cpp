@@ -84,7 +84,7 @@ Ray<float> in_float(const Ray<double>& ray) {
     return {core::convert<float>(ray.origin), core::convert<float>(ray.direction)};
 }
 
-simd::Bundle bundle_at(const Vec3f& apex, bool towards) {
+simd::Coherence coherence_at(const Vec3f& apex, bool towards) {
     return {{apex.x, apex.y, apex.z}, towards, false, false, false};
 }
 
@@ -99,7 +99,7 @@ void add_secondary(const core::Scene& scene, const simd::SceneData& data, const 
     const Vec3d light = core::convert<double>(light_of(scene));
     for (std::size_t begin = 0; begin < camera.count; begin += RaySet::wave) {
         const simd::Paths paths = camera.paths(begin, RaySet::wave);
-        finder.nearest(paths, &*camera.bundle, counters);
+        finder.nearest(paths, &*camera.coherence, counters);
         const simd::Hits& hits = finder.hits();
         for (std::size_t lane = 0; lane < paths.count; ++lane) {
             if (hits.slot[lane] == simd::no_slot) continue;
@@ -149,10 +149,10 @@ simd::Paths RaySet::paths(std::size_t begin, std::size_t most) const {
         paths.origin[axis] = from(origin_[axis]);
         paths.direction[axis] = from(direction_[axis]);
     }
-    paths.departed_first = from(departed_first_);
-    paths.departed_last = from(departed_last_);
-    paths.departed_slot = from(departed_slot_);
-    paths.departure = from(departure_);
+    paths.origin_first = from(origin_first_);
+    paths.origin_last = from(origin_last_);
+    paths.origin_slot = from(origin_slot_);
+    paths.origin_bits = from(departure_);
     paths.count = std::min(most, count - begin);
     return paths;
 }
@@ -174,7 +174,7 @@ void RaySet::reserve(std::size_t rays) {
     in_float_.reserve(padded);
     t_most_.reserve(padded);
     t_least_.reserve(padded);
-    for (auto* column : {&departed_first_, &departed_last_, &departed_slot_, &departure_})
+    for (auto* column : {&origin_first_, &origin_last_, &origin_slot_, &departure_})
         column->reserve(padded);
 }
 
@@ -193,7 +193,7 @@ void RaySet::append(const Ray<double>& ray, const Ray<float>& in_float, float t_
     in_float_.push_back(in_float);
     t_most_.push_back(t_most);
     t_least_.push_back(0.0F);
-    for (auto* column : {&departed_first_, &departed_last_, &departed_slot_})
+    for (auto* column : {&origin_first_, &origin_last_, &origin_slot_})
         column->push_back(simd::no_slot);
     departure_.push_back(0);
     ++count;
@@ -226,9 +226,9 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
     for (std::size_t i = 0; i < sets.size(); ++i)
         sets[i].name = ray_set_names[i];
     shadow.occlusion = occlusion.occlusion = true;
-    camera.bundle = bundle_at(scene.camera().from, false);
-    mirror.bundle = simd::neighbours;
-    shadow.bundle = bundle_at(light_of(scene), true);
+    camera.coherence = coherence_at(scene.camera().from, false);
+    mirror.coherence = simd::neighbours;
+    shadow.coherence = coherence_at(light_of(scene), true);
     for (RaySet& set : sets)
         set.reserve(pixels);
 

@@ -22,7 +22,7 @@ core::Scene make_workload(const std::string& name);
 struct RaySet {
     std::string name;
     bool occlusion = false; ///< whether anything is hit before t_most; else what is hit first
-    std::optional<simd::Bundle> bundle; ///< what all of them have in common
+    std::optional<simd::Coherence> coherence; ///< what all of them have in common
     std::size_t count = 0;
 
     /// From `begin` on, so many or all that are left.
@@ -52,7 +52,7 @@ struct RaySet {
     std::vector<double> origin_[3], direction_[3];
     std::vector<core::Ray<float>> in_float_;
     std::vector<float> t_most_, t_least_;
-    std::vector<std::uint32_t> departed_first_, departed_last_, departed_slot_, departure_;
+    std::vector<std::uint32_t> origin_first_, origin_last_, origin_slot_, departure_;
 };
 
 inline constexpr const char* ray_set_names[] = {"camera", "mirror", "shadow", "incoherent",

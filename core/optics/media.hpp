@@ -18,7 +18,7 @@ inline float index_of(const std::vector<Material>& materials, MaterialIndex medi
 
 /// The transmissive materials that a ray is inside of, by number: MediaStacks knows them.
 using Media = std::uint32_t;
-inline constexpr Media in_the_open = 0;
+inline constexpr Media empty_space = 0;
 
 /// All stacks of materials that rays have been inside of, the last entered on top. That one decides
 /// index and absorption. Each is said once, so two are the same where their numbers are, and a ray
@@ -30,7 +30,7 @@ class MediaStacks {
         clear();
     }
     /// Forgets all but empty space.
-    void clear() { stacks_.assign(1, {no_medium, in_the_open, none, none}); }
+    void clear() { stacks_.assign(1, {no_medium, empty_space, none, none}); }
 
     MaterialIndex top(Media media) const { return stacks_[media].material; }
 
@@ -45,9 +45,9 @@ class MediaStacks {
     Media left(Media media, MaterialIndex material) {
         above_.clear();
         Media at = media;
-        for (; at != in_the_open && top(at) != material; at = stacks_[at].below)
+        for (; at != empty_space && top(at) != material; at = stacks_[at].below)
             above_.push_back(top(at));
-        if (at == in_the_open) return media;
+        if (at == empty_space) return media;
         at = stacks_[at].below;
         for (; !above_.empty(); above_.pop_back())
             at = entered(at, above_.back());
@@ -61,7 +61,7 @@ class MediaStacks {
     /// What a ray is inside of that meets a surface of this material. One that leaves a body which
     /// it never entered has been inside from its start.
     MaterialIndex before(Media media, MaterialIndex material, bool transmits, bool entering) const {
-        return media == in_the_open && !entering && transmits ? material : top(media);
+        return media == empty_space && !entering && transmits ? material : top(media);
     }
 
   private:

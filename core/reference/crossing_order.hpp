@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/reference/departure.hpp"
+#include "core/reference/origin_surfaces.hpp"
 #include "core/shapes/solve.hpp"
 
 #include <optional>
@@ -11,19 +11,19 @@
 namespace raylane::core {
 
 /// A ray that starts on no surface, or on known ones.
-struct Departing {
+struct LeavingRay {
     const Ray<double>& ray;
-    const Departure<double>& departure;
+    const OriginSurfaces<double>& origins;
 };
 
 /// The crossing as a root of its surface's equation along the ray. For a start on that surface, of
 /// which t = 0 is one root, of what is left of it (as the solvers have it); behind the start it is
 /// there: not_behind().
 template <class Shape>
-ExactRoot root_of(const Shape& shape, const Departing& from, const Hit<double>& hit) {
+ExactRoot root_of(const Shape& shape, const LeavingRay& from, const Hit<double>& hit) {
     if (hit.at_start) return ExactRoot::at(0.0);
     const ExactRay ray{convert<Dyadic>(from.ray.origin), convert<Dyadic>(from.ray.direction)};
-    const Start start = from.departure.start_on(hit.shape);
+    const Start start = from.origins.start_on(hit.shape);
     ExactQuadratic form = form_along(shape, ray, hit.face);
     if (!start.on_surface || start.face != hit.face) return {std::move(form), !hit.entering};
     ExactRoot root({0.0, 0.5 * form.A, form.B + form.B}, true);
@@ -44,7 +44,7 @@ class SharpHit {
 
     const Hit<double>& hit() const { return hit_; }
     /// In 106 bits, if that is more.
-    void widen(const Scene& scene, const Departing& from) const {
+    void widen(const Scene& scene, const LeavingRay& from) const {
         if (std::exchange(is_wide_, true) || hit_.at_start) return;
         t_ = hit_.t;
         t_error_ = hit_.error;
@@ -66,7 +66,7 @@ class SharpHit {
                         : Bounded<DoubleDouble>(hit_.t, hit_.error);
     }
     /// Exactly.
-    const ExactRoot& root(const Scene& scene, const Departing& from) const {
+    const ExactRoot& root(const Scene& scene, const LeavingRay& from) const {
         if (!root_)
             with_table(scene.shapes(), hit_.kind, [&](const auto& table) {
                 root_ = root_of(table.get(hit_.slot), from, hit_);
@@ -87,12 +87,12 @@ class SharpHit {
 
   private:
     template <class Shape>
-    void widen(const Shape& shape, const Departing& from) const {
+    void widen(const Shape& shape, const LeavingRay& from) const {
         using Wide = Bounded<DoubleDouble>;
         Judge<Wide> judge;
         const Ray<Wide> wide{convert<Wide>(from.ray.origin), convert<Wide>(from.ray.direction)};
         const Crossings<Wide> found =
-            crossings(shape, wide, from.departure.start_on(hit_.shape), judge);
+            crossings(shape, wide, from.origins.start_on(hit_.shape), judge);
         if (judge.doubt()) return; // the formulas may be others' then
         for (const Crossing<Wide>& crossing : found) {
             if (crossing.face != hit_.face || crossing.entering != hit_.entering) continue;
@@ -112,7 +112,7 @@ class SharpHit {
 /// Orders the crossings of one ray: by intervals, then in double-double, then exactly.
 class CrossingOrder {
   public:
-    CrossingOrder(const Scene& scene, const Departing& from) : scene_(scene), from_(from) {}
+    CrossingOrder(const Scene& scene, const LeavingRay& from) : scene_(scene), from_(from) {}
 
     /// -1 if a comes first by its t, 0 if both are at the same t.
     int compare(const SharpHit& a, const SharpHit& b) const {
@@ -134,7 +134,7 @@ class CrossingOrder {
 
   private:
     const Scene& scene_;
-    Departing from_;
+    LeavingRay from_;
 };
 
 } // namespace raylane::core

@@ -15,7 +15,7 @@ template <class Real>
 std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& searcher,
                                       const Ray<Real>& ray) {
     std::vector<Hit<Real>> hits;
-    searcher.each(ray, Departure<Real>{}, std::numeric_limits<Real>::infinity(),
+    searcher.each(ray, OriginSurfaces<Real>{}, std::numeric_limits<Real>::infinity(),
                   [&](const Hit<Real>& hit) {
                       if (traits_of(hit.kind).bounded && scene.material_of(hit.shape).transmits())
                           hits.push_back(hit);
@@ -42,7 +42,7 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
 template <class Real>
 Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks& stacks,
                       const Vec3<Real>& point) {
-    Media media = in_the_open;
+    Media media = empty_space;
     const auto transmits = [](const Material& material) { return material.transmits(); };
     if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits)) return media;
 

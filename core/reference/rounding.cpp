@@ -52,7 +52,7 @@ bool are_within(const Vec3<Bounded<double>>& v, double accuracy) {
 /// Calls is_enough(t) with t as well as it is known, then in 106 bits, then within 2^-100 of
 /// itself, until that returns true. Returns whether it did.
 template <class IsEnough>
-bool with_better_t(const Scene& scene, const Departing& from, const Hit<double>& hit,
+bool with_better_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
                    const IsEnough& is_enough) {
     const SharpHit sharp(hit);
     if (is_enough(sharp.wide_t())) return true;
@@ -73,7 +73,7 @@ Vec3<Real> wide_normal(const Scene& scene, const Ray<Real>& ray, const Real& t,
 /// A vector that is linear in t, at a root: components of it when it is brought to length 1.
 class ExactDirection {
   public:
-    ExactDirection(const Scene& scene, const Departing& from, const Hit<double>& hit)
+    ExactDirection(const Scene& scene, const LeavingRay& from, const Hit<double>& hit)
         : root_(SharpHit(hit).root(scene, from)),
           along_(with_shape(scene, hit, [&](const auto& shape) {
               return normal_along(shape, ray_in<Dyadic>(from.ray), hit.face);
@@ -136,7 +136,7 @@ bool rounds_surely(double t, double error, float& t_rounded) {
     return t_rounded == float_of(above(t, error));
 }
 
-float rounded_t(const Scene& scene, const Departing& from, const Hit<double>& hit, int exponent) {
+float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent) {
     float result = 0.0F;
     const auto is_sure = [&](const Hit<double>& known) {
         return rounds_surely(std::ldexp(known.t, exponent), std::ldexp(known.error, exponent),
@@ -152,7 +152,7 @@ float rounded_t(const Scene& scene, const Departing& from, const Hit<double>& hi
                          exponent);
 }
 
-Vec3f rounded_normal(const Scene& scene, const Departing& from, const Hit<double>& hit) {
+Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
     const Ray<Real> ray = ray_in<Real>(from.ray);
     Vec3f normal;
     const auto is_sure = [&](const Real& t) {
@@ -174,7 +174,7 @@ Vec3f rounded_normal(const Scene& scene, const Departing& from, const Hit<double
     return normal + Vec3f(0.0F); // no -0
 }
 
-SurfacePoint<double> surface_point(const Scene& scene, const Departing& from,
+SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
                                    const Hit<double>& hit) {
     const Ray<double>& ray = from.ray;
     SurfacePoint<double> result;

@@ -8,7 +8,7 @@ namespace raylane::core {
 
 /// t * 2^exponent, rounded to the nearest float, ties to even, but never to 0 or infinity. For what
 /// is not sure from t and its error alone it is decided exactly.
-float rounded_t(const Scene& scene, const Departing& from, const Hit<double>& hit, int exponent);
+float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent);
 
 /// Whether a t that is off by no more than `error` rounds to one float as above, whatever it is.
 /// That is then `t_rounded`.
@@ -18,7 +18,7 @@ bool rounds_surely(double t, double error, float& t_rounded);
 /// component rounded to the nearest float, ties to even; 0 is +0. At an edge it is that of the
 /// lowest of the faces which the ray crosses there; at the apex of a cone the axis, to the outside;
 /// at that of a quadric z.
-Vec3f rounded_normal(const Scene& scene, const Departing& from, const Hit<double>& hit);
+Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit);
 
 /// The same in double, within 2^-40, and the point itself, within 2^-50 of its largest coordinate
 /// or of the shape's distance from it.
@@ -27,7 +27,7 @@ struct SurfacePoint {
     Vec3<Real> point;
     Vec3<Real> normal;
 };
-SurfacePoint<double> surface_point(const Scene& scene, const Departing& from,
+SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
                                    const Hit<double>& hit);
 
 } // namespace raylane::core

@@ -27,39 +27,39 @@ class Searcher {
 
     /// The first crossing with t < t_most that `counts(hit)`. Its t is infinite if there is none.
     template <class Counts>
-    Encounter<Real> nearest(const Ray<Real>& ray, const Departure<Real>& departure,
+    Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                             const Counts& counts,
                             Real t_most = std::numeric_limits<Real>::infinity()) {
         Hit<Real> first;
-        for (const Contact<Real>& contact : departure) {
+        for (const Contact<Real>& contact : origins) {
             if (!contact.is_crossed() || !counts(contact_hit(contact))) continue;
             if (!first.any() || contact_hit(contact).precedes(first)) first = contact_hit(contact);
         }
-        if (first.any()) return {first, departure};
-        const Hit<Real> best = look(ray, departure, counts, t_most);
-        return best.any() ? encounter(ray, departure, best, /*whole=*/true) : Encounter<Real>{};
+        if (first.any()) return {first, origins};
+        const Hit<Real> best = look(ray, origins, counts, t_most);
+        return best.any() ? encounter(ray, origins, best, /*whole=*/true) : Encounter<Real>{};
     }
 
     /// The same for a ray that starts on no surface, without what it touches there.
     template <class Counts>
     Hit<Real> nearest_hit(const Ray<Real>& ray, const Counts& counts, Real t_most) {
-        const Departure<Real> nowhere{};
+        const OriginSurfaces<Real> nowhere{};
         const Hit<Real> best = look(ray, nowhere, counts, t_most);
         return best.any() ? encounter(ray, nowhere, best, /*whole=*/false).hit : Hit<Real>{};
     }
 
     /// Calls visit(hit) for the crossings with t < t_most, in no order, until it returns false.
     template <class Visit>
-    void each(const Ray<Real>& ray, const Departure<Real>& departure, Real t_most,
+    void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most,
               const Visit& visit) {
         bool more = true;
-        for (const Contact<Real>& contact : departure)
+        for (const Contact<Real>& contact : origins)
             if (more && contact.is_crossed()) more = visit(contact_hit(contact));
         if (!more) return;
         for_each_candidate(
             ray, [&] { return t_most; },
             [&](Kind kind, std::uint32_t block) {
-                cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
+                cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
                     if (more && hit.t < t_most) more = visit(hit);
                 });
                 return more;
@@ -67,10 +67,10 @@ class Searcher {
     }
 
     /// The point of a crossing, and the unit normal on the outside (the front) there.
-    SurfacePoint<Real> surface_at(const Ray<Real>& ray, const Departure<Real>& departure,
+    SurfacePoint<Real> surface_at(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                   const Hit<Real>& hit) const {
         if constexpr (std::is_same_v<Real, double>)
-            if (is_exact()) return surface_point(scene_, {ray, departure}, hit);
+            if (is_exact()) return surface_point(scene_, {ray, origins}, hit);
         const Vec3<Real> point = mul_add(hit.t, ray.direction, ray.origin);
         return with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
             return SurfacePoint<Real>{point, outward_normal(table.get(hit.slot), point, hit.face)};
@@ -78,11 +78,11 @@ class Searcher {
     }
 
     /// Into the order in which the ray meets them.
-    void sort(const Ray<Real>& ray, const Departure<Real>& departure,
+    void sort(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
               std::vector<Hit<Real>>& hits) {
         if constexpr (std::is_same_v<Real, double>)
             if (is_exact()) {
-                const CrossingOrder order(scene_, {ray, departure});
+                const CrossingOrder order(scene_, {ray, origins});
                 sharp_.assign(hits.begin(), hits.end());
                 std::sort(sharp_.begin(), sharp_.end(), [&](const SharpHit& a, const SharpHit& b) {
                     return order.is_before(a, b);
@@ -122,7 +122,7 @@ class Searcher {
 
     /// Fills the candidates; returns one that may be the first, if any.
     template <class Counts>
-    Hit<Real> look(const Ray<Real>& ray, const Departure<Real>& departure, const Counts& counts,
+    Hit<Real> look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, const Counts& counts,
                    Real t_most) {
         Hit<Real> best;
         best.t = t_most;
@@ -130,7 +130,7 @@ class Searcher {
         for_each_candidate(
             ray, [&] { return best.t; },
             [&](Kind kind, std::uint32_t block) {
-                cross_block(kind, block, ray, departure, [&](const Hit<Real>& hit) {
+                cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
                     if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
                     // What does not count may still lie where the ray will go on from.
                     const bool may_be_hit = counts(hit);
@@ -143,24 +143,24 @@ class Searcher {
     }
 
     /// Of the candidates, among which is `best`; `whole`: with its contacts.
-    Encounter<Real> encounter(const Ray<Real>& ray, const Departure<Real>& departure,
+    Encounter<Real> encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                               const Hit<Real>& best, bool whole) {
         std::erase_if(candidates_, [&](const Candidate& candidate) {
             return best.is_surely_before(candidate.hit);
         });
         if constexpr (std::is_same_v<Real, double>)
             if (is_exact() && candidates_.size() > 1) {
-                const CrossingOrder order(scene_, {ray, departure});
+                const CrossingOrder order(scene_, {ray, origins});
                 sharp_.clear();
                 for (const Candidate& candidate : candidates_)
                     sharp_.emplace_back(candidate.hit);
                 return first_of(
-                    sharp_, ray, departure,
+                    sharp_, ray, origins,
                     [&](const SharpHit& a, const SharpHit& b) { return order.compare(a, b); },
                     whole);
             }
         return first_of(
-            candidates_, ray, departure,
+            candidates_, ray, origins,
             [](const Candidate& a, const Candidate& b) {
                 return a.hit.t < b.hit.t ? -1 : a.hit.t > b.hit.t ? 1 : 0;
             },
@@ -175,7 +175,8 @@ class Searcher {
     /// Of hits that belong to the candidates: the first that counts, and all that are where it is.
     template <class AnyHit, class Compare>
     Encounter<Real> first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
-                             const Departure<Real>& departure, const Compare& compare, bool whole) {
+                             const OriginSurfaces<Real>& origins, const Compare& compare,
+                             bool whole) {
         std::size_t first = hits.size();
         for (std::size_t i = 0; i < hits.size(); ++i) {
             if (!candidates_[i].may_be_hit) continue;
@@ -195,13 +196,13 @@ class Searcher {
                 }))
                 return;
             contacts_.push_back({hit, shapes, scene_.material_index_of(hit.shape),
-                                 surface_at(ray, departure, hit).normal, !hit.entering,
+                                 surface_at(ray, origins, hit).normal, !hit.entering,
                                  hit.entering});
         };
         add(hit_first);
         for (std::size_t i = 0; i < hits.size(); ++i)
             if (i != first && compare(hits[i], hits[first]) == 0) add(sharpened(hits[i]));
-        return {hit_first, Departure<Real>(contacts_)};
+        return {hit_first, OriginSurfaces<Real>(contacts_)};
     }
 
     struct Pending {
@@ -277,12 +278,12 @@ class Searcher {
     /// Calls visit(hit) for each crossing ahead of the ray with one block's shapes.
     template <class Visit>
     void cross_block(Kind kind, std::uint32_t index, const Ray<Real>& ray,
-                     const Departure<Real>& departure, const Visit& visit) {
+                     const OriginSurfaces<Real>& origins, const Visit& visit) {
         with_table(scene_.shapes(), kind, [&](const auto& table) {
             const auto& block = table.blocks()[index];
             for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
                 const ShapeId id = block.ids[lane];
-                const Start start = departure.start_on(id);
+                const Start start = origins.start_on(id);
                 ++counters.shapes;
                 for (const Crossing<Real>& crossing :
                      solve(block.get(lane), ray, start, counters.widened, precision_))

@@ -50,7 +50,7 @@ Color ReferenceTracer<Real>::pixel(int x, int y) {
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::trace(const Ray<Real>& ray) {
     ++searcher_.counters.primary;
-    return light_along({ray, Departure<Real>{}, media_around(ray.origin), Vector(1), 0});
+    return light_along({ray, OriginSurfaces<Real>{}, media_around(ray.origin), Vector(1), 0});
 }
 
 /// Perspective rays share their origin, so the last one's media serve again.
@@ -80,9 +80,8 @@ Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
 /// The nearest visible surface, behind whatever fills the space in between.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
-    const Encounter<Real> encounter =
-        searcher_.nearest(path.ray, path.departure,
-                          [&](const Hit<Real>& candidate) { return is_visible(candidate); });
+    const Encounter<Real> encounter = searcher_.nearest(
+        path.ray, path.origins, [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
     if (!hit.any()) return path.throughput * color_at_infinity(path);
 
@@ -97,7 +96,7 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::color_at_infinity(const Path& path) const {
     const Vector background = convert<Real>(scene_.background());
-    if (path.media != in_the_open)
+    if (path.media != empty_space)
         return absorbed(media_.top(path.media), infinity<Real>) * background;
     const Real fog = fog_fraction_at_infinity(scene_.fog(), path.ray.origin, path.ray.direction);
     return mul_add(fog, convert<Real>(scene_.fog().color), Vector((Real(1) - fog) * background));
@@ -107,7 +106,7 @@ template <class Real>
 typename ReferenceTracer<Real>::Surface
 ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encounter) const {
     const Hit<Real>& hit = encounter.hit;
-    auto [point, flat] = searcher_.surface_at(path.ray, path.departure, hit);
+    auto [point, flat] = searcher_.surface_at(path.ray, path.origins, hit);
     Vector normal = with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
         return shading_normal_at(table.get(hit.slot), point, flat);
     });
@@ -173,10 +172,10 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
         }
         if (share == Vector(0)) continue;
         ++searcher_.counters.shadow;
-        color += light_let_through({surface.point, to_light},
-                                   surface.departure(/*through=*/false, to_light), path.media,
-                                   distance) *
-                 convert<Real>(light.color) * share;
+        color +=
+            light_let_through({surface.point, to_light},
+                              surface.origins(/*through=*/false, to_light), path.media, distance) *
+            convert<Real>(light.color) * share;
     }
     return color;
 }
@@ -192,7 +191,7 @@ void ReferenceTracer<Real>::reflect(const Path& path, const Surface& surface,
 
     ++searcher_.counters.reflected;
     pending_.push_back({{surface.point, normalized(direction)},
-                        surface.departure(/*through=*/false, direction),
+                        surface.origins(/*through=*/false, direction),
                         path.media,
                         throughput,
                         path.depth + 1});
@@ -208,7 +207,7 @@ void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
     ++searcher_.counters.refracted;
     pending_.push_back(
         {{surface.point, normalized(direction)},
-         surface.departure(/*through=*/true, direction),
+         surface.origins(/*through=*/true, direction),
          media_behind(path, surface),
          throughput,
          path.depth + (is_free ? 0 : 1),
@@ -217,9 +216,9 @@ void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
 
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
-                                                    const Departure<Real>& departure, Media media,
-                                                    Real distance) {
-    if (!find_crossings(ray, departure, distance)) return Vector(0);
+                                                    const OriginSurfaces<Real>& origins,
+                                                    Media media, Real distance) {
+    if (!find_crossings(ray, origins, distance)) return Vector(0);
 
     Vector share(1);
     Real reached = 0;
@@ -237,7 +236,7 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
                 ++end;
             }
         const Media behind = media_behind(*hit, media, static_cast<int>(end - hit));
-        share *= let_through(*hit, ray, departure, media, behind);
+        share *= let_through(*hit, ray, origins, media, behind);
         media = behind;
         hit = end - 1;
     }
@@ -246,11 +245,11 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
 
 /// The transmissive surfaces on a shadow ray, in their order; false if there is an opaque one.
 template <class Real>
-bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure<Real>& departure,
-                                           Real distance) {
+bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray,
+                                           const OriginSurfaces<Real>& origins, Real distance) {
     bool is_open = true;
     crossings_.clear();
-    searcher_.each(ray, departure, distance, [&](const Hit<Real>& hit) {
+    searcher_.each(ray, origins, distance, [&](const Hit<Real>& hit) {
         if (!is_visible(hit)) return true;
         is_open = scene_.material_of(hit.shape).transmits();
         if (is_open) crossings_.push_back(hit);
@@ -258,16 +257,16 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray, const Departure
     });
     if (!is_open) return false;
 
-    searcher_.sort(ray, departure, crossings_);
+    searcher_.sort(ray, origins, crossings_);
     return true;
 }
 
 /// The share that one surface lets through.
 template <class Real>
 Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
-                                        const Departure<Real>& departure, Media media,
+                                        const OriginSurfaces<Real>& origins, Media media,
                                         Media media_behind) {
-    const Vector normal = searcher_.surface_at(ray, departure, hit).normal;
+    const Vector normal = searcher_.surface_at(ray, origins, hit).normal;
     const Real cos = std::abs(dot(ray.direction, normal));
     const auto [before, behind] = indices_at(hit, media, media_behind);
     return let_straight_through(scene_.material_of(hit.shape), std::min(cos, Real(1)), before,

@@ -36,7 +36,7 @@ class ReferenceTracer {
     /// A ray underway.
     struct Path {
         Ray<Real> ray;
-        Departure<Real> departure;
+        OriginSurfaces<Real> origins;
         Media media;       ///< what it is inside of
         Vector throughput; ///< what of its colour reaches the pixel
         int depth;         ///< reflections and refractions so far
@@ -47,13 +47,13 @@ class ReferenceTracer {
     Vector light_along(Path path);
 
     /// The first surface along a ray, whether it can be seen or not, and what it touches there.
-    Encounter<Real> nearest(const Ray<Real>& ray, const Departure<Real>& departure) {
-        return searcher_.nearest(ray, departure, [](const Hit<Real>&) { return true; });
+    Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins) {
+        return searcher_.nearest(ray, origins, [](const Hit<Real>&) { return true; });
     }
 
     /// What of a light reaches the origin of a ray towards it: nothing through an opaque surface;
     /// through transmissive ones, on a straight line, what they transmit and do not absorb.
-    Vector light_let_through(const Ray<Real>& ray, const Departure<Real>& departure, Media media,
+    Vector light_let_through(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Media media,
                              Real distance);
 
     /// What a ray from the camera starts in.
@@ -70,14 +70,14 @@ class ReferenceTracer {
     /// The surface that a path has hit, seen from the side that it came from.
     struct Surface {
         Hit<Real> hit;
-        const Departure<Real>& contacts;
+        const OriginSurfaces<Real>& contacts;
         const Material& material;
         Vector point;
         Vector flat_normal; ///< unit, perpendicular to the surface
         Vector normal;      ///< unit, to shade with: differs for smooth triangles
 
         /// For a ray from here.
-        Departure<Real> departure(bool through, const Vector& direction) const {
+        OriginSurfaces<Real> origins(bool through, const Vector& direction) const {
             return contacts.turned(hit, through, direction);
         }
     };
@@ -96,14 +96,14 @@ class ReferenceTracer {
     void reflect(const Path& path, const Surface& surface, const Vector& throughput);
     void transmit(const Path& path, const Surface& surface, const Vector& throughput,
                   const Vector& direction);
-    bool find_crossings(const Ray<Real>& ray, const Departure<Real>& departure, Real distance);
+    bool find_crossings(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real distance);
 
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
     Indices indices_at(const Hit<Real>& hit, Media media, Media behind);
 
-    Real let_through(const Hit<Real>& hit, const Ray<Real>& ray, const Departure<Real>& departure,
-                     Media media, Media media_behind);
+    Real let_through(const Hit<Real>& hit, const Ray<Real>& ray,
+                     const OriginSurfaces<Real>& origins, Media media, Media media_behind);
     Media media_behind(const Path& path, const Surface& surface);
     Media media_behind(const Hit<Real>& hit, Media media, int count = 1);
     MaterialIndex medium_before(const Hit<Real>& hit, Media media) const;

@@ -42,19 +42,20 @@ struct AxialRay {
 
 /// Clips against the caps of a solid, or, for a start on its surface going inward, against those
 /// caps that the ray can leave through: not the one it starts on.
-template <class Real, class AnySpan>
-void clip_caps(AnySpan& span, const AxialRay<Real>& axial, const Start& start, Judge<Real>& judge) {
+template <class Real, class AnyInterval>
+void clip_caps(AnyInterval& interval, const AxialRay<Real>& axial, const Start& start,
+               Judge<Real>& judge) {
     if (!start.on_surface) {
-        span.clip_slab(axial.height_origin, axial.height_direction, axial.axis_squared, base_cap,
-                       top_cap);
+        interval.clip_slab(axial.height_origin, axial.height_direction, axial.axis_squared,
+                           base_cap, top_cap);
         return;
     }
     const int direction = judge.sign(axial.height_direction);
     if (direction > 0 && start.face != top_cap)
-        span.clip_back((axial.axis_squared - axial.height_origin) / axial.height_direction,
-                       top_cap);
+        interval.clip_back((axial.axis_squared - axial.height_origin) / axial.height_direction,
+                           top_cap);
     if (direction < 0 && start.face != base_cap)
-        span.clip_back(-axial.height_origin / axial.height_direction, base_cap);
+        interval.clip_back(-axial.height_origin / axial.height_direction, base_cap);
 }
 
 /// The crossings of an open surface that lie between its ends.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/shapes/checks.hpp"
-#include "core/shapes/convex.hpp"
+#include "core/shapes/clip_interval.hpp"
 #include "core/shapes/form.hpp"
 #include "core/shapes/shape.hpp"
 
@@ -56,22 +56,22 @@ Crossings<Real> crossings(const Box& box, const Ray<Real>& ray, const Start& sta
     const bool left_handed = static_cast<double>(volume) < 0.0;
     const auto turned = [&](const Real& a) { return left_handed ? Real(-a) : a; };
 
-    Span<Real> span(judge);
+    ClipInterval<Real> interval(judge);
     for (int i = 0; i < 3; ++i) {
         const Real position = turned(dot(normals[i], from_corner));
         const Real slope = turned(dot(normals[i], ray.direction));
         const Face low = static_cast<Face>(2 * i), high = static_cast<Face>(2 * i + 1);
         if (!start.on_surface) {
-            span.clip_slab(position, slope, turned(volume), low, high);
+            interval.clip_slab(position, slope, turned(volume), low, high);
             continue;
         }
         // From a face inward: only the ways out count, and not the face itself.
         const int direction = judge.sign(slope);
         if (direction > 0 && start.face != high)
-            span.clip_back((turned(volume) - position) / slope, high);
-        if (direction < 0 && start.face != low) span.clip_back(-position / slope, low);
+            interval.clip_back((turned(volume) - position) / slope, high);
+        if (direction < 0 && start.face != low) interval.clip_back(-position / slope, low);
     }
-    return start.on_surface ? span.exit() : span.crossings();
+    return start.on_surface ? interval.exit() : interval.crossings();
 }
 
 template <class Real>

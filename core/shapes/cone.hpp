@@ -2,7 +2,7 @@
 
 #include "core/shapes/axial.hpp"
 #include "core/shapes/checks.hpp"
-#include "core/shapes/convex.hpp"
+#include "core/shapes/clip_interval.hpp"
 #include "core/shapes/quadratic.hpp"
 #include "core/shapes/shape.hpp"
 
@@ -95,13 +95,13 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
     if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, judge);
 
     // The solid is convex: clip to the nappe that lies between the ends.
-    Span<Real> span(judge);
+    ClipInterval<Real> interval(judge);
     for (const Crossing<Real>& root : roots) {
-        if (root.entering && !start.on_surface) span.clip_front(root.t, root.face);
-        if (!root.entering) span.clip_back(root.t, root.face);
+        if (root.entering && !start.on_surface) interval.clip_front(root.t, root.face);
+        if (!root.entering) interval.clip_back(root.t, root.face);
     }
-    clip_caps(span, axial, start, judge);
-    return start.on_surface ? span.exit() : span.crossings();
+    clip_caps(interval, axial, start, judge);
+    return start.on_surface ? interval.exit() : interval.crossings();
 }
 
 /// Half the gradient of F: across - width slope axis. It vanishes at the apex.

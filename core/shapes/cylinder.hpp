@@ -2,7 +2,7 @@
 
 #include "core/shapes/axial.hpp"
 #include "core/shapes/checks.hpp"
-#include "core/shapes/convex.hpp"
+#include "core/shapes/clip_interval.hpp"
 #include "core/shapes/quadratic.hpp"
 #include "core/shapes/shape.hpp"
 
@@ -49,9 +49,9 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
                          ? Real(0.0)
                          : Real(-dot(axial.across_origin, axial.across_direction) / speed_squared);
 
-    Span<Real> span(judge);
+    ClipInterval<Real> interval(judge);
     const bool from_body = start.on_surface && start.face == body;
-    if (from_body && !parallel) span.clip_back(not_behind(Real(tau + tau)), body);
+    if (from_body && !parallel) interval.clip_back(not_behind(Real(tau + tau)), body);
     if (judge.textbook() && !start.on_surface) {
         const Real C = squared_length(axial.across_origin) - radius * radius;
         if (parallel) {
@@ -61,7 +61,8 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
                 speed_squared, Real(dot(axial.across_origin, axial.across_direction)), C);
             if (roots.begin() == roots.end()) return {};
             for (const Crossing<Real>& root : roots)
-                root.entering ? span.clip_front(root.t, body) : span.clip_back(root.t, body);
+                root.entering ? interval.clip_front(root.t, body)
+                              : interval.clip_back(root.t, body);
         }
     } else if (!from_body) {
         const Vec3<Real> foot = mul_add(tau, axial.across_direction, axial.across_origin);
@@ -73,15 +74,16 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
         }
         if (!parallel) {
             const Real half_chord = sqrt(discriminant / speed_squared);
-            if (!start.on_surface) span.clip_front(tau - half_chord, body);
-            span.clip_back(tau + half_chord, body);
+            if (!start.on_surface) interval.clip_front(tau - half_chord, body);
+            interval.clip_back(tau + half_chord, body);
         }
     }
 
     if constexpr (ends == Ends::open)
-        return keep_between_ends(start.on_surface ? span.exit() : span.crossings(), axial, judge);
-    clip_caps(span, axial, start, judge);
-    return start.on_surface ? span.exit() : span.crossings();
+        return keep_between_ends(start.on_surface ? interval.exit() : interval.crossings(), axial,
+                                 judge);
+    clip_caps(interval, axial, start, judge);
+    return start.on_surface ? interval.exit() : interval.crossings();
 }
 
 template <class Real, Ends ends>

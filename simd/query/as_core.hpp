@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/reference/departure.hpp"
+#include "core/reference/origin_surfaces.hpp"
 #include "simd/query/hits.hpp"
 #include "simd/scene_data.hpp"
 
@@ -36,23 +36,24 @@ inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, cons
 }
 
 template <class Real = double>
-core::Departure<Real> departure_of(const SceneData& scene, const Paths& paths, std::size_t lane) {
-    const std::uint32_t slot = paths.departed_slot[lane];
+core::OriginSurfaces<Real> origin_surfaces_of(const SceneData& scene, const Paths& paths,
+                                              std::size_t lane) {
+    const std::uint32_t slot = paths.origin_slot[lane];
     if (slot == no_slot) return {};
     core::Hit<Real> hit;
     const SceneData::Occupant shape = scene.occupant_of(slot);
     hit.shape = shape.id;
-    hit.face = static_cast<core::Face>(paths.departure[lane] & departure_face);
+    hit.face = static_cast<core::Face>(paths.origin_bits[lane] & origin_face);
     hit.kind = shape.kind;
     hit.slot = scene.place_of(slot);
-    const bool inward = (paths.departure[lane] & departure_inward) != 0;
+    const bool inward = (paths.origin_bits[lane] & origin_inward) != 0;
     const core::Contact<Real> surface{hit,
-                                      {paths.departed_first[lane], paths.departed_last[lane]},
+                                      {paths.origin_first[lane], paths.origin_last[lane]},
                                       shape.material,
                                       core::Vec3<Real>(0),
                                       inward,
                                       inward};
-    return core::Departure<Real>(std::span(&surface, 1));
+    return core::OriginSurfaces<Real>(std::span(&surface, 1));
 }
 
 } // namespace raylane::simd

@@ -23,7 +23,7 @@ Certifier::Certifier(const SceneData& scene, const Tracing& tracing, Asked asked
 
 void Certifier::take_from(Arena& arena, std::size_t capacity) {
     doubtful_ = arena.take<std::uint8_t>(capacity);
-    open_ = arena.take<std::uint32_t>(capacity);
+    at_contacts_ = arena.take<std::uint32_t>(capacity);
     gathered_.take_from(arena, capacity, false, asked_ == Asked::floats);
     gathered_hits_.take_from(arena, capacity, scene_.smooth());
     lanes_ = arena.take<std::uint32_t>(capacity);
@@ -34,16 +34,16 @@ void Certifier::find_own_exits(const Paths& paths, const Candidates& candidates)
     std::fill_n(doubtful_, (paths.count + 15) / 16 * 16, std::uint8_t{0});
     std::uint32_t any = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane)
-        any |= paths.departure[lane];
-    if ((any & departure_may_return) == 0) return;
+        any |= paths.origin_bits[lane];
+    if ((any & origin_may_return) == 0) return;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         lanes_[count] = static_cast<std::uint32_t>(lane);
-        count += static_cast<std::size_t>((paths.departure[lane] & departure_may_return) != 0);
+        count += static_cast<std::size_t>((paths.origin_bits[lane] & origin_may_return) != 0);
     }
     for (std::size_t i = 0; i < count; ++i) {
         gathered_.copy_ray(paths, lanes_[i], i);
-        gathered_hits_.slot[i] = paths.departed_slot[lanes_[i]];
+        gathered_hits_.slot[i] = paths.origin_slot[lanes_[i]];
     }
     finish(gathered_hits_.found(gathered_, 0, count));
     for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ void Certifier::find_own_exits(const Paths& paths, const Candidates& candidates)
 
 void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candidates& candidates,
                         const Hits& hits, EngineCounters& counters) {
-    open_count_ = 0;
+    contact_count_ = 0;
     if (!tracing_.certifies()) {
         break_ties(paths, candidates, hits);
         finish(hits.found(paths, 0, paths.count));
@@ -76,8 +76,9 @@ void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candi
         compare_in_double(paths, {lanes_, uncertain}, hits, counters);
         return;
     }
-    open_count_ = refinery_.refine(paths, search, doubtful_, {lanes_, uncertain}, hits, counters);
-    std::copy_n(lanes_, open_count_, open_);
+    contact_count_ =
+        refinery_.refine(paths, search, doubtful_, {lanes_, uncertain}, hits, counters);
+    std::copy_n(lanes_, contact_count_, at_contacts_);
 }
 
 void Certifier::finish(Found found) const {
@@ -114,7 +115,7 @@ void Certifier::compare_in_double(const Paths& paths, std::span<const std::uint3
             hits.slot[lane] = no_slot;
             continue;
         }
-        if (!first.is_alone) open_[open_count_++] = lane;
+        if (!first.is_alone) at_contacts_[contact_count_++] = lane;
         gathered_.copy_ray(paths, lane, 0);
         gathered_hits_.slot[0] = scene_.slot_of(first.hit.kind, first.hit.slot);
         finish(gathered_hits_.found(gathered_, 0, 1));

@@ -27,7 +27,7 @@ class Certifier {
                  const Hits& hits, EngineCounters& counters);
 
     /// Of the last rays; see Query.
-    std::span<const std::uint32_t> left_open() const { return {open_, open_count_}; }
+    std::span<const std::uint32_t> at_contacts() const { return {at_contacts_, contact_count_}; }
     std::span<const HitPoint> points() const { return refinery_.points(); }
 
   private:
@@ -43,8 +43,8 @@ class Certifier {
     Refinery refinery_;
 
     std::uint8_t* doubtful_ = nullptr; // whatever the search says
-    std::uint32_t* open_ = nullptr;
-    std::size_t open_count_ = 0;
+    std::uint32_t* at_contacts_ = nullptr;
+    std::size_t contact_count_ = 0;
     // Some of the rays, put together.
     Paths gathered_{};
     Hits gathered_hits_{};

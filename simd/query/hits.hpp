@@ -85,9 +85,9 @@ struct Hits {
                 found.meant_direction[axis] = paths.meant_direction[axis] + begin;
         }
         if (paths.stand_for_others()) found.meant_length = paths.meant_length + begin;
-        found.departed_first = paths.departed_first + begin;
-        found.departed_last = paths.departed_last + begin;
-        found.departure = paths.departure + begin;
+        found.origin_first = paths.origin_first + begin;
+        found.origin_last = paths.origin_last + begin;
+        found.origin_bits = paths.origin_bits + begin;
         found.slot = slot + begin;
         found.t = t + begin;
         found.error = error + begin;

@@ -26,7 +26,7 @@ LookThrough::LookThrough(const SceneData& scene, const Tracing& tracing)
 
 void LookThrough::take_from(Arena& arena, std::size_t capacity) {
     query_.take_from(arena, capacity);
-    open_.reserve(capacity);
+    at_contacts_.reserve(capacity);
     points_.reserve(64);
     if (onward_ == nullptr) return;
     onward_->take_from(arena, capacity);
@@ -34,20 +34,21 @@ void LookThrough::take_from(Arena& arena, std::size_t capacity) {
     passed_ = arena.take<double>(capacity);
 }
 
-void LookThrough::nearest(const Paths& paths, const Bundle* bundle, EngineCounters& counters) {
-    query_.nearest(paths, bundle, counters);
-    open_.assign(query_.left_open().begin(), query_.left_open().end());
+void LookThrough::nearest(const Paths& paths, const Coherence* coherence,
+                          EngineCounters& counters) {
+    query_.nearest(paths, coherence, counters);
+    at_contacts_.assign(query_.at_contacts().begin(), query_.at_contacts().end());
     points_.assign(query_.points().begin(), query_.points().end());
-    if (onward_ != nullptr) go_on(paths, bundle, counters);
+    if (onward_ != nullptr) go_on(paths, coherence, counters);
 }
 
 core::Vec3d LookThrough::point_of(const Paths& paths, std::size_t lane) const {
     return point_among(points_, hits(), paths, lane);
 }
 
-void LookThrough::go_on(const Paths& paths, const Bundle* bundle, EngineCounters& counters) {
+void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters) {
     const Hits& hits = query_.hits();
-    for (const std::uint32_t lane : open_)
+    for (const std::uint32_t lane : at_contacts_)
         hits.slot[lane] = no_slot; // the reference goes on
     onward_paths_.count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
@@ -61,17 +62,18 @@ void LookThrough::go_on(const Paths& paths, const Bundle* bundle, EngineCounters
         std::erase_if(points_, [&](const HitPoint& of) { return of.lane == lane; });
     }
     // They no longer start at one point.
-    if (bundle != nullptr && !bundle->towards && !bundle->parallel) bundle = &neighbours;
+    if (coherence != nullptr && !coherence->converging && !coherence->parallel)
+        coherence = &neighbours;
     for (int passed = 1; onward_paths_.count != 0; ++passed) {
         if (passed == longest_walk) {
-            open_.insert(open_.end(), onward_paths_.sample,
-                         onward_paths_.sample + onward_paths_.count);
+            at_contacts_.insert(at_contacts_.end(), onward_paths_.sample,
+                                onward_paths_.sample + onward_paths_.count);
             return;
         }
-        onward_->nearest(onward_paths_, bundle, counters);
+        onward_->nearest(onward_paths_, coherence, counters);
         const Hits& found = onward_->hits();
-        for (const std::uint32_t i : onward_->left_open()) {
-            open_.push_back(onward_paths_.sample[i]);
+        for (const std::uint32_t i : onward_->at_contacts()) {
+            at_contacts_.push_back(onward_paths_.sample[i]);
             onward_paths_.sample[i] = no_slot;
         }
         std::size_t kept = 0;

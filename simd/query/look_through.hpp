@@ -16,9 +16,9 @@ class LookThrough {
     void take_from(Arena& arena, std::size_t capacity);
 
     /// As Query has it.
-    void nearest(const Paths& paths, const Bundle* bundle, EngineCounters& counters);
+    void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
     const Hits& hits() const { return query_.hits(); }
-    std::span<const std::uint32_t> left_open() const { return open_; }
+    std::span<const std::uint32_t> at_contacts() const { return at_contacts_; }
     std::span<const HitPoint> points() const { return points_; }
     core::Vec3d point_of(const Paths& paths, std::size_t lane) const;
 
@@ -26,13 +26,13 @@ class LookThrough {
     Query& query() { return query_; }
 
   private:
-    void go_on(const Paths& paths, const Bundle* bundle, EngineCounters& counters);
+    void go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
     bool is_visible(const Hits& hits, std::size_t lane) const;
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
 
     const SceneData& scene_;
     Query query_;
-    std::vector<std::uint32_t> open_;
+    std::vector<std::uint32_t> at_contacts_;
     std::vector<HitPoint> points_;
 
     // Where surfaces are visible from one side only: what is behind the other.

@@ -15,12 +15,12 @@ struct RayColumns {
     std::size_t count;
     const double* origin[3];
     const double* direction[3]; ///< of length 1
-    const std::uint32_t* departed_first;
-    const std::uint32_t* departed_last;
+    const std::uint32_t* origin_first;
+    const std::uint32_t* origin_last;
 };
 
-/// Beside the kernels' departure bits: the ray may cross again the shape that it starts on.
-inline constexpr std::uint32_t departure_may_return = 0x10000;
+/// Beside the kernels' origins bits: the ray may cross again the shape that it starts on.
+inline constexpr std::uint32_t origin_may_return = 0x10000;
 
 /// Rays underway, structure of arrays: what core::ReferenceTracer::Path holds, but the depth, which
 /// a whole wave shares.
@@ -30,11 +30,11 @@ struct Paths {
     double* direction[3];
     double* throughput[3];
     std::uint32_t* sample;
-    /// The shapes left, first to last id, the one that was hit, and departure_bits.
-    std::uint32_t* departed_first;
-    std::uint32_t* departed_last;
-    std::uint32_t* departed_slot;
-    std::uint32_t* departure;
+    /// The shapes left, first to last id, the one that was hit, and origin_bits.
+    std::uint32_t* origin_first;
+    std::uint32_t* origin_last;
+    std::uint32_t* origin_slot;
+    std::uint32_t* origin_bits;
     core::Media* media; ///< what it is inside of; null where nothing transmits
     /// Where directions stand for others, of any length, which were brought to length 1 and so
     /// rounded: those, and their lengths. The rays meant are theirs. Null: directions are exact.
@@ -46,10 +46,10 @@ struct Paths {
         arena.take(direction, capacity);
         arena.take(throughput, capacity);
         sample = arena.take<std::uint32_t>(capacity);
-        departed_first = arena.take<std::uint32_t>(capacity);
-        departed_last = arena.take<std::uint32_t>(capacity);
-        departed_slot = arena.take<std::uint32_t>(capacity);
-        departure = arena.take<std::uint32_t>(capacity);
+        origin_first = arena.take<std::uint32_t>(capacity);
+        origin_last = arena.take<std::uint32_t>(capacity);
+        origin_slot = arena.take<std::uint32_t>(capacity);
+        origin_bits = arena.take<std::uint32_t>(capacity);
         media = with_media ? arena.take<core::Media>(capacity) : nullptr;
         for (double*& column : meant_direction)
             column = for_others ? arena.take<double>(capacity) : nullptr;
@@ -63,7 +63,7 @@ struct Paths {
     }
 
     core::Media media_at(std::size_t lane) const {
-        return media != nullptr ? media[lane] : core::in_the_open;
+        return media != nullptr ? media[lane] : core::empty_space;
     }
 
     void set_media(std::size_t lane, core::Media values) const {
@@ -80,26 +80,26 @@ struct Paths {
     void start_on(std::size_t lane, std::uint32_t slot, const SceneData::Occupant& shape,
                   std::uint32_t hit, bool through) const {
         const bool inward = through == ((hit & hit_entering) != 0);
-        departed_first[lane] = shape.coplanar.first;
-        departed_last[lane] = shape.coplanar.last;
-        departed_slot[lane] = slot;
-        departure[lane] = (hit & hit_face) | (inward ? departure_inward : 0) |
-                          (core::may_meet_again(shape.kind, inward) ? departure_may_return : 0);
+        origin_first[lane] = shape.coplanar.first;
+        origin_last[lane] = shape.coplanar.last;
+        origin_slot[lane] = slot;
+        origin_bits[lane] = (hit & hit_face) | (inward ? origin_inward : 0) |
+                            (core::may_meet_again(shape.kind, inward) ? origin_may_return : 0);
     }
 
     /// Lanes `begin` to `end` start in the open.
-    void start_in_the_open(std::size_t begin, std::size_t end) const {
-        for (std::uint32_t* column : {departed_first, departed_last, departed_slot})
+    void start_nowhere(std::size_t begin, std::size_t end) const {
+        for (std::uint32_t* column : {origin_first, origin_last, origin_slot})
             std::fill(column + begin, column + end, no_slot);
-        std::fill(departure + begin, departure + end, 0U);
+        std::fill(origin_bits + begin, origin_bits + end, 0U);
     }
 
     RayColumns columns() const {
         return {count,
                 {origin[0], origin[1], origin[2]},
                 {direction[0], direction[1], direction[2]},
-                departed_first,
-                departed_last};
+                origin_first,
+                origin_last};
     }
 
     /// Lane `from` of `other` to lane `to`.
@@ -122,10 +122,10 @@ struct Paths {
                 meant_direction[axis][to] = other.meant_direction[axis][from];
             meant_length[to] = other.meant_length[from];
         }
-        departed_first[to] = other.departed_first[from];
-        departed_last[to] = other.departed_last[from];
-        departed_slot[to] = other.departed_slot[from];
-        departure[to] = other.departure[from];
+        origin_first[to] = other.origin_first[from];
+        origin_last[to] = other.origin_last[from];
+        origin_slot[to] = other.origin_slot[from];
+        origin_bits[to] = other.origin_bits[from];
     }
 };
 

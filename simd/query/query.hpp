@@ -18,20 +18,20 @@ class Query {
     /// Arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// `bundle` may be null: the rays have nothing in common.
-    void nearest(const Paths& paths, const Bundle* bundle, EngineCounters& counters);
+    /// `coherence` may be null: the rays have nothing in common.
+    void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
     /// Of the last rays: what they hit.
     const Hits& hits() const { return hits_; }
     /// Lanes that meet several surfaces at one point, where only the reference can go on. They have
     /// the one that comes first.
-    std::span<const std::uint32_t> left_open() const { return certifier_.left_open(); }
+    std::span<const std::uint32_t> at_contacts() const { return certifier_.at_contacts(); }
     /// Hit points that rays and t in double do not lead to.
     std::span<const HitPoint> points() const { return certifier_.points(); }
 
     /// Raises state, an Occlusion of each ray, by what is in its way before a distance. What is
     /// doubtful is for nearest() to say.
     void occluded(const RayColumns& rays, const double* distance, std::uint8_t* state,
-                  const Bundle* bundle, EngineCounters& counters);
+                  const Coherence* coherence, EngineCounters& counters);
 
   private:
     const SceneData& scene_;

@@ -100,8 +100,8 @@ void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size
         }
         CandidateList list = {slots_.data(), bounds_.data(), room, 0, limit_there, before == 0.0};
         // No filter sees the shape that it starts on.
-        if ((paths.departure[lane] & departure_may_return) != 0) {
-            list.slot[0] = paths.departed_slot[lane];
+        if ((paths.origin_bits[lane] & origin_may_return) != 0) {
+            list.slot[0] = paths.origin_slot[lane];
             list.lower[list.count++] = 0.0F;
         }
         TraceCounters traced{};
@@ -210,8 +210,8 @@ void Refinery::widen_close() {
 /// By core's order.
 std::size_t Refinery::first_of_close(std::size_t begin) {
     const core::Ray<double> ray = ray_of(paths_, begin);
-    const core::Departure<double> departure = departure_of(scene_, paths_, begin);
-    const core::CrossingOrder order(scene_.scene(), {ray, departure});
+    const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, begin);
+    const core::CrossingOrder order(scene_.scene(), {ray, origins});
     widen_close();
     std::size_t first = 0;
     for (std::size_t k = 1; k < sharp_.size(); ++k)
@@ -242,7 +242,7 @@ void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
     const core::Kind kind = scene_.occupant_of(slot).kind;
     const core::Ray<double> ray = ray_of(paths_, candidate);
     const core::Start start =
-        departure_of(scene_, paths_, candidate).start_on(scene_.occupant_of(slot).id);
+        origin_surfaces_of(scene_, paths_, candidate).start_on(scene_.occupant_of(slot).id);
     hits_.hit[candidate] = hit_none;
     core::with_table(scene_.scene().shapes(), kind, [&](const auto& table) {
         for (const core::Crossing<double>& crossing :
@@ -273,9 +273,9 @@ void Refinery::swap(std::size_t a, std::size_t b) {
 void Refinery::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t lane) {
     if (for_points_ && (hits_.hit[candidate] & hit_normal_unknown) != 0) {
         const core::Ray<double> ray = ray_of(paths_, candidate);
-        const core::Departure<double> departure = departure_of(scene_, paths_, candidate);
+        const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, candidate);
         const core::Hit<double> hit = hit_of(candidate);
-        const auto [point, normal] = core::surface_point(scene_.scene(), {ray, departure}, hit);
+        const auto [point, normal] = core::surface_point(scene_.scene(), {ray, origins}, hit);
         if (point != core::mul_add(hit.t, ray.direction, ray.origin))
             points_.push_back({lane, point});
         hits_.set_normals(

@@ -29,30 +29,30 @@ void CandidateSearch::take(const RayColumns& rays) {
     count_ = rays.count;
     std::copy_n(rays.origin, 3, rounded_.meant_origin);
     std::copy_n(rays.direction, 3, rounded_.meant_direction);
-    rounded_.departed_first = rays.departed_first;
-    rounded_.departed_last = rays.departed_last;
+    rounded_.origin_first = rays.origin_first;
+    rounded_.origin_last = rays.origin_last;
     if (tracing_.precision == core::Precision::exact) approach_.bring_near(count_, rounded_);
     tracing_.kernels->rays.round_rays(count_, rounded_);
     approach_.widen(rounded_);
 }
 
-const Bundle* CandidateSearch::common(const Bundle* bundle) const {
-    return approach_.any() && bundle != nullptr ? &neighbours : bundle;
+const Coherence* CandidateSearch::common(const Coherence* coherence) const {
+    return approach_.any() && coherence != nullptr ? &neighbours : coherence;
 }
 
-void CandidateSearch::nearest(const Bundle* bundle, const Candidates& candidates,
+void CandidateSearch::nearest(const Coherence* coherence, const Candidates& candidates,
                               EngineCounters& counters) {
     TraceCounters traced{};
-    tracing_.method().trace.nearest(scene_.view(), scene_.listed_kinds(), common(bundle), count_,
+    tracing_.method().trace.nearest(scene_.view(), scene_.listed_kinds(), common(coherence), count_,
                                     rounded_, candidates, workspace_, traced);
     counters += traced;
 }
 
-void CandidateSearch::occluded(const Bundle* bundle, const Occlusions& occlusions,
+void CandidateSearch::occluded(const Coherence* coherence, const Occlusions& occlusions,
                                EngineCounters& counters) {
     TraceCounters traced{};
-    tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(), common(bundle), count_,
-                                     rounded_, occlusions, workspace_, traced);
+    tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(), common(coherence),
+                                     count_, rounded_, occlusions, workspace_, traced);
     counters += traced;
 }
 

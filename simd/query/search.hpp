@@ -17,11 +17,13 @@ class CandidateSearch {
     /// Rounds rays, which are asked about from now on: brought near first, if they are far.
     void take(const RayColumns& rays);
 
-    /// `bundle` may be null: the rays have nothing in common.
-    void nearest(const Bundle* bundle, const Candidates& candidates, EngineCounters& counters);
+    /// `coherence` may be null: the rays have nothing in common.
+    void nearest(const Coherence* coherence, const Candidates& candidates,
+                 EngineCounters& counters);
     /// What is in the way before some distances, which t_most says of the rounded rays: t_most() of
     /// them.
-    void occluded(const Bundle* bundle, const Occlusions& occlusions, EngineCounters& counters);
+    void occluded(const Coherence* coherence, const Occlusions& occlusions,
+                  EngineCounters& counters);
     float t_most(std::size_t lane, double distance) const {
         return static_cast<float>(distance - approach_.before(lane));
     }
@@ -33,7 +35,7 @@ class CandidateSearch {
 
   private:
     /// Rays that have been brought near no longer come from one point.
-    const Bundle* common(const Bundle* bundle) const;
+    const Coherence* common(const Coherence* coherence) const;
 
     const SceneData& scene_;
     Tracing tracing_;

@@ -17,7 +17,7 @@ TieBreaker::TieBreaker(const SceneData& scene, const Tracing& tracing) : scene_(
 std::uint32_t TieBreaker::first_at(float t, const Paths& paths, std::size_t lane,
                                    std::uint32_t found) {
     core::Hit<float> first;
-    in_float_->each(ray_of<float>(paths, lane), departure_of<float>(scene_, paths, lane),
+    in_float_->each(ray_of<float>(paths, lane), origin_surfaces_of<float>(scene_, paths, lane),
                     std::nextafter(t, std::numeric_limits<float>::infinity()),
                     [&](const core::Hit<float>& hit) {
                         if (hit.t == t && (!first.any() || hit.precedes(first))) first = hit;
@@ -28,7 +28,7 @@ std::uint32_t TieBreaker::first_at(float t, const Paths& paths, std::size_t lane
 
 TieBreaker::First TieBreaker::first_of(const Paths& paths, std::size_t lane) {
     const core::Encounter<double> encounter =
-        in_double_->nearest(ray_of(paths, lane), departure_of(scene_, paths, lane),
+        in_double_->nearest(ray_of(paths, lane), origin_surfaces_of(scene_, paths, lane),
                             [](const core::Hit<double>&) { return true; });
     return {encounter.hit, encounter.contacts.size() <= 1};
 }

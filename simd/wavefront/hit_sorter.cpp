@@ -14,12 +14,12 @@ void HitSorter::take_from(Arena& arena, std::size_t capacity) {
 }
 
 void HitSorter::sort(const std::uint32_t* slots, std::size_t count,
-                     std::span<const std::uint32_t> left_open) {
+                     std::span<const std::uint32_t> at_contacts) {
     const auto materials = static_cast<std::uint32_t>(scene_.materials().size());
     const std::uint32_t missed = materials, open = materials + 1;
     for (std::size_t lane = 0; lane < count; ++lane)
         keys_[lane] = slots[lane] == no_slot ? missed : scene_.occupant_of(slots[lane]).material;
-    for (const std::uint32_t lane : left_open)
+    for (const std::uint32_t lane : at_contacts)
         keys_[lane] = open;
 
     std::iota(order_, order_ + count, 0U);

@@ -18,7 +18,7 @@ class HitSorter {
 
     /// The lanes that have hit these slots (no_slot: nothing), but those that are left open.
     void sort(const std::uint32_t* slots, std::size_t count,
-              std::span<const std::uint32_t> left_open);
+              std::span<const std::uint32_t> at_contacts);
 
     /// The lane at each position.
     const std::uint32_t* order() const { return order_; }

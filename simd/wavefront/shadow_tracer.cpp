@@ -2,7 +2,7 @@
 
 #include "core/optics/optics.hpp"
 #include "simd/query/as_core.hpp"
-#include "simd/wavefront/bundles.hpp"
+#include "simd/wavefront/coherence.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +11,13 @@ namespace raylane::simd {
 
 namespace {
 
-RayColumns columns_of(const SpawnedRays& rays, const std::uint32_t* departed_first,
-                      const std::uint32_t* departed_last) {
+RayColumns columns_of(const SpawnedRays& rays, const std::uint32_t* origin_first,
+                      const std::uint32_t* origin_last) {
     return {rays.count,
             {rays.origin[0], rays.origin[1], rays.origin[2]},
             {rays.direction[0], rays.direction[1], rays.direction[2]},
-            departed_first,
-            departed_last};
+            origin_first,
+            origin_last};
 }
 
 } // namespace
@@ -39,8 +39,8 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
     leave_last_ = arena.take<std::uint32_t>(capacity);
     leave_state_ = arena.take<std::uint8_t>(capacity);
     take_spawned(arena, rays_, capacity);
-    departed_first_ = arena.take<std::uint32_t>(capacity);
-    departed_last_ = arena.take<std::uint32_t>(capacity);
+    origin_first_ = arena.take<std::uint32_t>(capacity);
+    origin_last_ = arena.take<std::uint32_t>(capacity);
     state_ = arena.take<std::uint8_t>(capacity);
     walker_.take_from(arena, capacity);
     walk_.take_from(arena, capacity, with_media);
@@ -49,14 +49,14 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
 
 void ShadowTracer::trace(const LightView& light, EngineCounters& counters) {
     counters.shadow += rays_.count;
-    const Bundle bundle = bundle_of(light);
+    const Coherence coherence = coherence_of(light);
     start();
-    find_blocked(bundle, counters);
+    find_blocked(coherence, counters);
 
     walk_.count = 0;
     for (std::size_t k = 0; k < rays_.count; ++k)
         if (state_[k] == doubtful) start_walk(k);
-    if (walk_.count != 0) walk(bundle, counters);
+    if (walk_.count != 0) walk(coherence, counters);
 }
 
 void ShadowTracer::look_at(const Wave& wave) {
@@ -67,26 +67,26 @@ void ShadowTracer::look_at(const Wave& wave) {
         leave_first_[position] = shape.coplanar.first;
         leave_last_[position] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
-        const bool in_medium = wave.paths.media_at(lane) != core::in_the_open;
+        const bool in_medium = wave.paths.media_at(lane) != core::empty_space;
         leave_state_[position] =
-            in_medium || core::may_meet_again(shape.kind, inward) ? doubtful : open;
+            in_medium || core::may_meet_again(shape.kind, inward) ? doubtful : unblocked;
     }
 }
 
 void ShadowTracer::start() {
     for (std::size_t k = 0; k < rays_.count; ++k) {
         const auto position = static_cast<std::size_t>(rays_.parent[k]);
-        departed_first_[k] = leave_first_[position];
-        departed_last_[k] = leave_last_[position];
+        origin_first_[k] = leave_first_[position];
+        origin_last_[k] = leave_last_[position];
         state_[k] = leave_state_[position];
     }
 }
 
-void ShadowTracer::find_blocked(const Bundle& bundle, EngineCounters& counters) {
+void ShadowTracer::find_blocked(const Coherence& coherence, EngineCounters& counters) {
     // Deeper waves hit here and there: too much is between them and the light.
     const bool together = wave_->coherent || !scene_.has_tree();
-    walker_.query().occluded(columns_of(rays_, departed_first_, departed_last_), rays_.distance,
-                             state_, together ? &bundle : nullptr, counters);
+    walker_.query().occluded(columns_of(rays_, origin_first_, origin_last_), rays_.distance, state_,
+                             together ? &coherence : nullptr, counters);
 }
 
 void ShadowTracer::start_walk(std::size_t ray) {
@@ -107,7 +107,7 @@ void ShadowTracer::start_walk(std::size_t ray) {
 
 /// From surface to surface, until the light or something opaque. As
 /// core::ReferenceTracer::light_let_through has it.
-void ShadowTracer::walk(const Bundle& bundle, EngineCounters& counters) {
+void ShadowTracer::walk(const Coherence& coherence, EngineCounters& counters) {
     counters.walked += walk_.count;
     for (int passed = 0; walk_.count != 0; ++passed) {
         if (passed == longest_walk) {
@@ -116,8 +116,8 @@ void ShadowTracer::walk(const Bundle& bundle, EngineCounters& counters) {
                 follow(lane);
             return;
         }
-        walker_.nearest(walk_, &bundle, counters);
-        for (const std::uint32_t lane : walker_.left_open()) {
+        walker_.nearest(walk_, &coherence, counters);
+        for (const std::uint32_t lane : walker_.at_contacts()) {
             ++counters.followed;
             follow(lane);
             walk_distance_[lane] = -1.0; // done
@@ -136,7 +136,7 @@ void ShadowTracer::walk(const Bundle& bundle, EngineCounters& counters) {
 /// The reference takes a walk to its end.
 void ShadowTracer::follow(std::size_t lane) {
     const core::Vec3d share =
-        reference_.light_let_through(ray_of(walk_, lane), departure_of(scene_, walk_, lane),
+        reference_.light_let_through(ray_of(walk_, lane), origin_surfaces_of(scene_, walk_, lane),
                                      walk_.media_at(lane), walk_distance_[lane]);
     for (int channel = 0; channel < 3; ++channel)
         rays_.weight[channel][walk_.sample[lane]] =

@@ -39,8 +39,8 @@ class ShadowTracer {
 
   private:
     void start();
-    void find_blocked(const Bundle& bundle, EngineCounters& counters);
-    void walk(const Bundle& bundle, EngineCounters& counters);
+    void find_blocked(const Coherence& coherence, EngineCounters& counters);
+    void walk(const Coherence& coherence, EngineCounters& counters);
     void start_walk(std::size_t ray);
     void follow(std::size_t lane);
     bool step(std::size_t lane, double& distance);
@@ -56,8 +56,8 @@ class ShadowTracer {
     std::uint8_t* leave_state_ = nullptr;
 
     SpawnedRays rays_{};
-    std::uint32_t* departed_first_ = nullptr;
-    std::uint32_t* departed_last_ = nullptr;
+    std::uint32_t* origin_first_ = nullptr;
+    std::uint32_t* origin_last_ = nullptr;
     std::uint8_t* state_ = nullptr;
 
     // Rays that some surface may let through, or that may cross again what they start on: they walk

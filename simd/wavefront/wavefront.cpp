@@ -3,7 +3,7 @@
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
 #include "simd/query/as_core.hpp"
-#include "simd/wavefront/bundles.hpp"
+#include "simd/wavefront/coherence.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,7 +60,7 @@ CameraView view_of(const core::CameraRays<double>& rays) {
 Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing)
     : scene_(scene), settings_(settings), tracing_(tracing),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
-      camera_bundle_(bundle_of(camera_)), with_media_(any_transmits(scene.scene())),
+      camera_coherence_(coherence_of(camera_)), with_media_(any_transmits(scene.scene())),
       shade_(tracing.kernels->shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
       finder_(scene, tracing), shadows_(scene, tracing, reference_), sorted_(scene) {
@@ -161,7 +161,7 @@ void Wavefront::start(std::size_t count) {
     for (double* channel : paths_.throughput)
         std::fill_n(channel, count, 1.0);
     std::iota(paths_.sample, paths_.sample + count, 0U);
-    paths_.start_in_the_open(0, count);
+    paths_.start_nowhere(0, count);
     if (with_media_ && camera_.orthographic)
         for (std::size_t i = 0; i < count; ++i)
             paths_.set_media(i, reference_.media_around(ray_of(paths_, i).origin));
@@ -195,13 +195,13 @@ void Wavefront::trace() {
 void Wavefront::trace_wave(int depth) {
     coherent_ = depth == 0;
     finder_.nearest(paths_,
-                    depth == 0   ? &camera_bundle_
-                    : depth == 1 ? &second_bundle_
+                    depth == 0   ? &camera_coherence_
+                    : depth == 1 ? &second_coherence_
                                  : &neighbours,
                     counters_);
-    for (const std::uint32_t lane : finder_.left_open())
+    for (const std::uint32_t lane : finder_.at_contacts())
         follow(lane, depth); // several surfaces meet there
-    sorted_.sort(finder_.hits().slot, paths_.count, finder_.left_open());
+    sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts());
     see_background();
     shade(depth);
 }
@@ -212,7 +212,7 @@ void Wavefront::follow(std::size_t lane, int depth) {
     const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                  paths_.throughput[2][lane]);
     const core::Vec3d light =
-        reference_.light_along({ray_of(paths_, lane), departure_of(scene_, paths_, lane),
+        reference_.light_along({ray_of(paths_, lane), origin_surfaces_of(scene_, paths_, lane),
                                 paths_.media_at(lane), throughput, depth});
     add(paths_.sample[lane], light.x, light.y, light.z);
 }
@@ -220,7 +220,7 @@ void Wavefront::follow(std::size_t lane, int depth) {
 core::Vec3d Wavefront::background_along(std::size_t lane) {
     const core::Scene& scene = scene_.scene();
     const core::Vec3d color = core::convert<double>(scene.background());
-    if (const core::Media media = paths_.media_at(lane); media != core::in_the_open) {
+    if (const core::Media media = paths_.media_at(lane); media != core::empty_space) {
         const core::MaterialIndex medium = reference_.media().top(media);
         return core::let_through_medium(scene.materials()[medium], infinity) * color;
     }
@@ -330,10 +330,10 @@ void Wavefront::spawn(int depth) {
     counters_.reflected += reflected.count;
     counters_.refracted += transmitted_.count;
     if (depth == 0)
-        second_bundle_ = transmitted_.count == 0
-                             ? bundle_off_mirror(camera_, scene_, surfaces_, sorted_.order(),
-                                                 finder_.hits().slot, reflected)
-                             : neighbours;
+        second_coherence_ = transmitted_.count == 0
+                                ? coherence_off_mirror(camera_, scene_, surfaces_, sorted_.order(),
+                                                       finder_.hits().slot, reflected)
+                                : neighbours;
     add_to_next(reflected, /*through=*/false);
     if (transmitted_.count == 0) return;
     for (int axis = 0; axis < 3; ++axis) {

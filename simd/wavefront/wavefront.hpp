@@ -68,8 +68,8 @@ class Wavefront {
     Tracing tracing_;
     core::CameraRays<double> camera_rays_;
     CameraView camera_{};
-    Bundle camera_bundle_{};
-    Bundle second_bundle_ = neighbours; ///< of what the camera's rays leave for depth 1
+    Coherence camera_coherence_{};
+    Coherence second_coherence_ = neighbours; ///< of what the camera's rays leave for depth 1
     bool with_media_;
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;

@@ -43,7 +43,7 @@ Aimed heap(bool lattice, int of_each_kind, std::uint64_t seed) {
 
 bool crosses(Searcher<double>& searcher, const Ray<double>& ray, double t_most) {
     bool found = false;
-    searcher.each(ray, Departure<double>{}, t_most, [&](const Hit<double>&) {
+    searcher.each(ray, OriginSurfaces<double>{}, t_most, [&](const Hit<double>&) {
         found = true;
         return false;
     });
@@ -65,9 +65,10 @@ TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
             const auto all = [](const Hit<double>&) { return true; };
             int hits = 0, lost = 0, blocked_otherwise = 0;
             for (const Ray<double>& ray : aimed.rays) {
-                const Hit<double> hit = by_trying.nearest(ray, Departure<double>{}, all).hit;
+                const Hit<double> hit = by_trying.nearest(ray, OriginSurfaces<double>{}, all).hit;
                 hits += hit.any() ? 1 : 0;
-                if (!same(hit, by_hierarchy.nearest(ray, Departure<double>{}, all).hit)) ++lost;
+                if (!same(hit, by_hierarchy.nearest(ray, OriginSurfaces<double>{}, all).hit))
+                    ++lost;
                 // Up to the hit, nothing; just beyond it, something.
                 const double off = 2.0 * needed_accuracy * hit.t;
                 if (crosses(by_hierarchy, ray, hit.any() ? hit.t - off : hit.t))
@@ -94,9 +95,9 @@ TEST_CASE("of shapes hit at one distance, the first added counts") {
         Searcher<double> searcher(scene, search);
         const auto all = [](const Hit<double>&) { return true; };
         const Ray<double> ray{{0, 0, 5}, {0, 0, -1}};
-        CHECK(searcher.nearest(ray, Departure<double>{}, all).hit.shape == 0);
+        CHECK(searcher.nearest(ray, OriginSurfaces<double>{}, all).hit.shape == 0);
         const auto but_the_first = [](const Hit<double>& hit) { return hit.shape > 0; };
-        CHECK(searcher.nearest(ray, Departure<double>{}, but_the_first).hit.shape == 1);
+        CHECK(searcher.nearest(ray, OriginSurfaces<double>{}, but_the_first).hit.shape == 1);
     }
 }
 
@@ -114,9 +115,10 @@ TEST_CASE("a ray that starts in a node's plane and runs along it loses nothing")
         for (const double dy : {0.0, -0.0, 1e-45, -1e-45, 4e-324, -4e-324})
             for (const double dx : {1.0, -1.0}) {
                 const Ray<double> ray{{dx > 0 ? -1.0 : 300.0, y, 0.5}, {dx, dy, 0.0}};
-                const Hit<double> hit = by_hierarchy.nearest(ray, Departure<double>{}, all).hit;
+                const Hit<double> hit =
+                    by_hierarchy.nearest(ray, OriginSurfaces<double>{}, all).hit;
                 CAPTURE(y, dy, dx);
-                CHECK(same(hit, by_trying.nearest(ray, Departure<double>{}, all).hit));
+                CHECK(same(hit, by_trying.nearest(ray, OriginSurfaces<double>{}, all).hit));
                 if (dy == 0.0) CHECK(hit.shape == (dx > 0 ? 0U : 99U));
             }
 }

@@ -243,17 +243,17 @@ TEST_CASE("a ray knows the index of what surrounds it") {
 
 TEST_CASE("media nest, and are left in any order") {
     MediaStacks stacks;
-    CHECK(stacks.top(in_the_open) == no_medium);
-    Media media = stacks.entered(stacks.entered(in_the_open, 7), 3);
+    CHECK(stacks.top(empty_space) == no_medium);
+    Media media = stacks.entered(stacks.entered(empty_space, 7), 3);
     CHECK(stacks.top(media) == 3);
     media = stacks.left(media, 7);
     CHECK(stacks.top(media) == 3);
-    CHECK(media == stacks.entered(in_the_open, 3)); // the same is said once
+    CHECK(media == stacks.entered(empty_space, 3)); // the same is said once
     CHECK(stacks.left(media, 5) == media);          // never entered
-    CHECK(stacks.left(media, 3) == in_the_open);
+    CHECK(stacks.left(media, 3) == empty_space);
 
     for (int turn = 0; turn < 2; ++turn) {
-        media = in_the_open;
+        media = empty_space;
         for (MaterialIndex material = 0; material < 1000; ++material)
             media = stacks.entered(media, material);
         for (MaterialIndex material = 999; material > 0; --material) {

@@ -73,7 +73,7 @@ struct Rays {
     std::vector<Ray<double>> rays;
     std::vector<Expected> truth;
     std::vector<double> ox, oy, oz, dx, dy, dz;
-    std::vector<std::uint32_t> first, last, departure, slot;
+    std::vector<std::uint32_t> first, last, origins, slot;
     std::vector<double> t, error, nx, ny, nz, sx, sy, sz;
     std::vector<std::uint32_t> hit;
 
@@ -89,7 +89,7 @@ struct Rays {
         dz.push_back(ray.direction.z);
         first.push_back(start.on_surface ? departed : no_shape);
         last.push_back(start.on_surface ? departed : no_shape);
-        departure.push_back(start.face | (start.inward ? departure_inward : 0));
+        origins.push_back(start.face | (start.inward ? origin_inward : 0));
         slot.push_back(to);
     }
 
@@ -98,7 +98,7 @@ struct Rays {
         const std::size_t room = (rays.size() + 15) / 16 * 16;
         for (std::vector<double>* array : {&ox, &oy, &oz, &dx, &dy, &dz})
             array->resize(room, std::numeric_limits<double>::quiet_NaN());
-        for (std::vector<std::uint32_t>* array : {&first, &last, &departure, &slot})
+        for (std::vector<std::uint32_t>* array : {&first, &last, &origins, &slot})
             while (array->size() < room)
                 array->push_back(static_cast<std::uint32_t>(random.integer(0, 0x7FFFFFFF)));
         for (std::vector<double>* array : {&t, &error, &nx, &ny, &nz, &sx, &sy, &sz})
@@ -109,7 +109,7 @@ struct Rays {
                 {dx.data(), dy.data(), dz.data()},
                 first.data(),
                 last.data(),
-                departure.data(),
+                origins.data(),
                 slot.data(),
                 t.data(),
                 error.data(),
@@ -207,8 +207,8 @@ void check(const Rays& rays, std::size_t i, bool adverse, Share& share) {
         if ((hit & hit_doubtful) != 0) ++share.doubtful_elsewhere;
     }
     if ((hit & hit_doubtful) != 0) return;
-    CAPTURE(i, rays.slot[i], rays.departure[i], rays.first[i] != no_shape, rays.t[i], rays.error[i],
-            hit);
+    CAPTURE(i, rays.slot[i], rays.origin_bits[i], rays.first[i] != no_shape, rays.t[i],
+            rays.error[i], hit);
     if (hit == hit_none) {
         if (truth.crossing) FAIL("certain of a miss where there is a hit");
         return;
@@ -345,8 +345,8 @@ TEST_CASE("the finish sorts out packets of many kinds, and leaves lanes without 
             const std::size_t from = static_cast<std::size_t>(
                 random.integer(0, static_cast<int>(by_kind.rays.size()) - 1));
             const Start start = {by_kind.first[from] != no_shape,
-                                 static_cast<Face>(by_kind.departure[from] & departure_face),
-                                 (by_kind.departure[from] & departure_inward) != 0};
+                                 static_cast<Face>(by_kind.origin_bits[from] & origin_face),
+                                 (by_kind.origin_bits[from] & origin_inward) != 0};
             const bool idle = random.integer(0, 5) == 0;
             rays.add(by_kind.rays[from], idle ? no_slot : by_kind.slot[from], by_kind.first[from],
                      start, by_kind.truth[from]);

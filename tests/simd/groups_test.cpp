@@ -10,7 +10,7 @@ using namespace raylane::tests;
 namespace {
 
 /// Rays from anywhere to one light, which groups of them see in another order.
-/// `strays`: of each hundred bunches, those that hold rays from anywhere between the others.
+/// `strays`: of each hundred packets, those that hold rays from anywhere between the others.
 void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
     CAPTURE(std::string(kernels.name), overlapping, strays);
     Rays rays(3001, overlapping ? 9.0 : 12.0);
@@ -23,7 +23,7 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         rays.aim(i, normalized(way));
         rays.t_most[i] = static_cast<float>(length(way));
     }
-    const Bundle to_light{{20.0F, 15.0F, 10.0F}, true, false, false, false};
+    const Coherence to_light{{20.0F, 15.0F, 10.0F}, true, false, false, false};
     const TraceKernels& trace = Traced::exactly(kernels);
     for (const std::size_t count : {std::size_t{5}, std::size_t{16}, std::size_t{63},
                                     std::size_t{256}, std::size_t{257}, rays.count}) {
@@ -32,7 +32,9 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         TraceCounters counters{};
         Answers alone(rays.padded), grouped(rays.padded);
         for (std::size_t i = 0; i < rays.padded; ++i) // what is blocked is not to be looked at
-            alone.state[i] = grouped.state[i] = i % 7 == 0 ? blocked : i % 7 == 1 ? doubtful : open;
+            alone.state[i] = grouped.state[i] = i % 7 == 0   ? blocked
+                                                : i % 7 == 1 ? doubtful
+                                                             : unblocked;
         const std::vector<std::uint8_t> before = grouped.state;
         trace.occluded(traced.data.view(), 0, nullptr, count, rounded,
                        {rays.t_most.data(), alone.state.data()}, traced.workspace, counters);
@@ -45,7 +47,7 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
                 grouped.state[i] < before[i] || (i >= count && grouped.state[i] != before[i]);
             different += alone.state[i] == grouped.state[i] ? 0 : 1;
             opposed += static_cast<int>(std::max(alone.state[i], grouped.state[i]) == blocked &&
-                                        std::min(alone.state[i], grouped.state[i]) == open);
+                                        std::min(alone.state[i], grouped.state[i]) == unblocked);
         }
         CHECK(lowered == 0);
         CHECK(opposed == 0);
@@ -58,17 +60,18 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
 }
 
 /// Rays that have something in common see as a group what they see one by one.
-void check_bundle(const Kernels& kernels, const Bundle& bundle, int planes) {
-    CAPTURE(std::string(kernels.name), bundle.towards, bundle.parallel, bundle.beyond, planes);
+void check_bundle(const Kernels& kernels, const Coherence& coherence, int planes) {
+    CAPTURE(std::string(kernels.name), coherence.converging, coherence.parallel, coherence.beyond,
+            planes);
     Rays rays(1000, 12.0);
     Traced traced(make_scene(false, planes), rays.padded);
-    const Vec3d apex(bundle.apex[0], bundle.apex[1], bundle.apex[2]);
+    const Vec3d apex(coherence.apex[0], coherence.apex[1], coherence.apex[2]);
     for (std::size_t i = 0; i < rays.count; ++i) {
         rays.stay_near(i);
         const Vec3d on_plane = rays.get(i).origin;
-        const Vec3d way = normalized(bundle.parallel ? Vec3d(0.3, 1.0, 0.2) : on_plane - apex);
-        rays.aim(i, bundle.towards ? -way : way);
-        if (!bundle.towards && !bundle.parallel && !bundle.beyond) rays.start(i, apex);
+        const Vec3d way = normalized(coherence.parallel ? Vec3d(0.3, 1.0, 0.2) : on_plane - apex);
+        rays.aim(i, coherence.converging ? -way : way);
+        if (!coherence.converging && !coherence.parallel && !coherence.beyond) rays.start(i, apex);
     }
     REQUIRE((traced.data.listed_kinds() != 0) == (planes > 0));
     std::vector<Hit<double>> hits;
@@ -94,7 +97,7 @@ void check_bundle(const Kernels& kernels, const Bundle& bundle, int planes) {
         TraceCounters counters{};
         trace.nearest(traced.data.view(), all_kinds, nullptr, count, rounded, alone.candidates(),
                       {}, counters);
-        trace.nearest(traced.data.view(), traced.data.listed_kinds(), &bundle, count, rounded,
+        trace.nearest(traced.data.view(), traced.data.listed_kinds(), &coherence, count, rounded,
                       grouped.candidates(), traced.workspace, counters);
         CHECK(counters.in_frusta == count);
         int different = 0;
@@ -120,13 +123,13 @@ TEST_CASE("rays to a light are put in another order for nobody to notice") {
 TEST_CASE("rays see as a group what they see alone") {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
-        for (const Bundle& bundle : {
-                 Bundle{{4.0F, -20.0F, 2.0F}, false, false, false, false}, // from the camera
-                 Bundle{{4.0F, -20.0F, 2.0F}, false, false, false, true},  // off a mirror
-                 Bundle{{6.0F, 25.0F, 5.0F}, true, false, false, false},   // to a light
-                 Bundle{{0.0F, 0.0F, 0.0F}, false, true, false, false},    // parallel
+        for (const Coherence& coherence : {
+                 Coherence{{4.0F, -20.0F, 2.0F}, false, false, false, false}, // from the camera
+                 Coherence{{4.0F, -20.0F, 2.0F}, false, false, false, true},  // off a mirror
+                 Coherence{{6.0F, 25.0F, 5.0F}, true, false, false, false},   // to a light
+                 Coherence{{0.0F, 0.0F, 0.0F}, false, true, false, false},    // parallel
              })
             for (const int planes : {0, 2}) // which are in no tree, and whose t has no limit
-                check_bundle(kernels_of(isa), bundle, planes);
+                check_bundle(kernels_of(isa), coherence, planes);
     }
 }

@@ -41,7 +41,7 @@ class MethodRound {
         : shape_(shape), scene_(scene_of(shape)), data_(scene_),
           slot_(data_.slot_of(core::kind_of<Shape>, core::Slot{0, 0})) {
         arena_ = simd::arena_for([&](simd::Arena& a) { paths_.take_from(a, capacity, false); });
-        paths_.start_in_the_open(0, capacity);
+        paths_.start_nowhere(0, capacity);
     }
 
     /// A direction of length 1, as far as doubles can tell. `start` is on the shape, if anywhere.
@@ -75,7 +75,7 @@ class MethodRound {
         finder.nearest(paths_, nullptr, counters);
 
         std::array<bool, capacity> is_open{};
-        for (const std::uint32_t lane : finder.left_open())
+        for (const std::uint32_t lane : finder.at_contacts())
             is_open[lane] = true;
         int hits = 0;
         for (std::size_t lane = 0; lane < paths_.count; ++lane) {
@@ -124,7 +124,7 @@ class MethodRound {
 
     /// Whether the shape is where it was expected. Bounds may keep rays away from one that is not.
     bool is_there(std::size_t lane) const {
-        if (paths_.departed_slot[lane] == slot_) return true; // no bounds are asked
+        if (paths_.origin_slot[lane] == slot_) return true; // no bounds are asked
         const core::Ray<double> ray = simd::ray_of(paths_, lane);
         std::uint64_t widened = 0;
         for (const core::Crossing<double>& crossing : core::solve(shape_, ray, {}, widened))

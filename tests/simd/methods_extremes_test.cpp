@@ -1,9 +1,9 @@
 #include "core/scene/invalid_value.hpp"
 #include "simd/isa.hpp"
 #include "tests/placing.hpp"
+#include "tests/shapes/shapes.hpp"
 #include "tests/simd/method_round.hpp"
 #include "tests/simd/rounds.hpp"
-#include "tests/shapes/shapes.hpp"
 
 #include <cmath>
 

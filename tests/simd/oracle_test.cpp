@@ -57,7 +57,7 @@ class Trial {
         scene_.emplace(std::move(builder).build());
         arena_ = arena_for([&](Arena& a) { paths_.take_from(a, rays_a_scene, false); });
         paths_.count = rays_a_scene;
-        paths_.start_in_the_open(0, rays_a_scene);
+        paths_.start_nowhere(0, rays_a_scene);
         for (std::size_t i = 0; i < rays_a_scene; ++i) {
             const Ray<float> aimed = ray_sets::make_ray(
                 shapes_[static_cast<std::size_t>(random.integer(0, shapes_a_scene - 1))], set,
@@ -101,7 +101,7 @@ class Trial {
         }
         ++tally.rays;
         // Where surfaces touch, the engine leaves more than a hit to the reference.
-        const std::span<const std::uint32_t> open = finder.left_open();
+        const std::span<const std::uint32_t> open = finder.at_contacts();
         const bool is_open = std::find(open.begin(), open.end(), i) != open.end();
         const bool hit = hits.slot[i] != no_slot;
         const bool same_side = truth && ((hits.hit[i] & hit_entering) != 0) == truth->entering;

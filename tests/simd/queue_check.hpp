@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/traverse/queue.hpp"
+#include "simd/kernel/traverse/traversal_queue.hpp"
 
 /// For units that are built for one instruction set, as lanes_check.hpp.
 namespace raylane::simd {
@@ -19,7 +19,7 @@ int queue_failures() {
             keys[i] = static_cast<std::uint16_t>(canary);
             children[i] = canary;
         }
-        Queue<Arch> queue;
+        TraversalQueue<Arch> queue;
         queue.place({keys, children}, 0, levels);
         queue.start(0);
         std::uint32_t visited[levels + 1] = {};

@@ -43,7 +43,7 @@ Work work_for(const Scene& scene, std::size_t count, const Aim& aim) {
     Paths paths{};
     const Arena stream = arena_for([&](Arena& a) { paths.take_from(a, count, false); });
     paths.count = count;
-    paths.start_in_the_open(0, count);
+    paths.start_nowhere(0, count);
     for (std::size_t lane = 0; lane < count; ++lane) {
         const Ray<double> ray = aim();
         for (int axis = 0; axis < 3; ++axis) {

@@ -33,7 +33,7 @@ struct Stream {
     explicit Stream(std::size_t count) {
         arena_ = arena_for([&](Arena& a) { paths.take_from(a, count, false); });
         paths.count = count;
-        paths.start_in_the_open(0, count);
+        paths.start_nowhere(0, count);
     }
 
   private:
@@ -115,7 +115,7 @@ class Round {
             paths.origin[axis][lane] = ray.origin[axis];
             paths.direction[axis][lane] = ray.direction[axis];
         }
-        truths_.push_back(reference_.nearest(ray, departure_of(data_, paths, lane)));
+        truths_.push_back(reference_.nearest(ray, origin_surfaces_of(data_, paths, lane)));
     }
 
     Scene scene_;
@@ -126,7 +126,7 @@ class Round {
 };
 
 bool is_open(const LookThrough& finder, std::size_t lane) {
-    for (const std::uint32_t open : finder.left_open())
+    for (const std::uint32_t open : finder.at_contacts())
         if (open == lane) return true;
     return false;
 }
@@ -134,7 +134,7 @@ bool is_open(const LookThrough& finder, std::size_t lane) {
 void check_truth(const Round& round, const LookThrough& finder) {
     for (std::size_t lane = 0; lane < ray_count; ++lane) {
         const Hit<double>& truth = round.truth(lane).hit;
-        CAPTURE(lane, truth.any(), truth.t, round.paths().departed_slot[lane]);
+        CAPTURE(lane, truth.any(), truth.t, round.paths().origin_slot[lane]);
         if (is_open(finder, lane)) continue;
         const Hits& hits = finder.hits();
         if (!truth.any()) {

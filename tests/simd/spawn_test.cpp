@@ -62,12 +62,12 @@ class Spawning {
     void check() {
         ReferenceTracer<double> reference(*scene_, {});
         LookThrough first(alone_data_, {kernels_});
-        LookThrough in_the_open(alone_data_, {kernels_});
+        LookThrough empty_space(alone_data_, {kernels_});
         LookThrough next(*data_, {kernels_});
         ShadowTracer shadows(*data_, {kernels_}, reference);
         const Arena arena = arena_for([&](Arena& a) {
             first.take_from(a, rays_per_nest);
-            in_the_open.take_from(a, 2 * rays_per_nest);
+            empty_space.take_from(a, 2 * rays_per_nest);
             next.take_from(a, 2 * rays_per_nest);
             shadows.take_from(a, rays_per_nest, false);
             paths_.take_from(a, rays_per_nest, false);
@@ -80,7 +80,7 @@ class Spawning {
         find(next, reference);
         for (int light = 0; light < 2; ++light)
             look_at_light(shadows);
-        leave_alone(in_the_open);
+        leave_alone(empty_space);
     }
 
   private:
@@ -94,10 +94,10 @@ class Spawning {
                 paths_.direction[axis][i] = ray.direction[axis];
             }
         }
-        paths_.start_in_the_open(0, paths_.count);
+        paths_.start_nowhere(0, paths_.count);
         EngineCounters counters;
         finder.nearest(paths_, nullptr, counters);
-        REQUIRE(finder.left_open().empty());
+        REQUIRE(finder.at_contacts().empty());
         hits_ = finder.hits();
         hit_count_ = 0;
         for (std::size_t i = 0; i < paths_.count; ++i)
@@ -176,25 +176,25 @@ class Spawning {
             if (hits.slot[i] != no_slot)
                 found[i] = {data_->id_of(hits.slot[i]), hits.t[i],
                             (hits.hit[i] & hit_entering) != 0};
-        for (const std::uint32_t i : finder.left_open()) {
+        for (const std::uint32_t i : finder.at_contacts()) {
             ++tally_.followed;
             const Hit<double> hit =
-                reference.nearest(ray_of(spawned_, i), departure_of(*data_, spawned_, i)).hit;
+                reference.nearest(ray_of(spawned_, i), origin_surfaces_of(*data_, spawned_, i)).hit;
             found[i] = {hit.shape, hit.t, hit.entering};
         }
         for (std::size_t i = 0; i < spawned_.count; ++i) {
-            const bool inward = (spawned_.departure[i] & departure_inward) != 0;
+            const bool inward = (spawned_.origin_bits[i] & origin_inward) != 0;
             ++tally_.rays[inward ? 1 : 0][spawned_.sample[i]];
-            compare(found[i], ray_of(spawned_, i), departure_of(*data_, spawned_, i), inward);
+            compare(found[i], ray_of(spawned_, i), origin_surfaces_of(*data_, spawned_, i), inward);
         }
     }
 
     /// What the engine has found against the certified search, the oracle and the construction.
-    void compare(const Next& found, const Ray<double>& ray, const Departure<double>& departure,
+    void compare(const Next& found, const Ray<double>& ray, const OriginSurfaces<double>& origins,
                  bool inward) {
         Searcher<double> searcher(*scene_, Search::every_shape);
         const Hit<double> certified =
-            searcher.nearest(ray, departure, [](const Hit<double>&) { return true; }).hit;
+            searcher.nearest(ray, origins, [](const Hit<double>&) { return true; }).hit;
         agree(found, {certified.shape, certified.t, certified.entering}, ray, inward,
               "the certified search");
 
@@ -254,9 +254,9 @@ class Spawning {
     void leave_alone(LookThrough& finder) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < spawned_.count; ++i) {
-            if ((spawned_.departure[i] & departure_inward) != 0) continue;
+            if ((spawned_.origin_bits[i] & origin_inward) != 0) continue;
             spawned_.copy(spawned_, i, kept);
-            spawned_.departed_slot[kept++] =
+            spawned_.origin_slot[kept++] =
                 alone_data_.view().tables[static_cast<int>(kind_)].first_slot;
         }
         spawned_.count = kept;
@@ -315,10 +315,10 @@ class Spawning {
                               {rays.direction[0][k], rays.direction[1][k], rays.direction[2][k]}};
         spawned_.start_on(0, slots_[lane], data_->occupant_of(slots_[lane]), hits_.hit[lane],
                           /*through=*/false);
-        const Departure<double> departure = departure_of(*data_, spawned_, 0);
+        const OriginSurfaces<double> origins = origin_surfaces_of(*data_, spawned_, 0);
         Searcher<double> searcher(*scene_, Search::every_shape);
         const Hit<double> certified =
-            searcher.nearest(ray, departure, [](const Hit<double>&) { return true; }).hit;
+            searcher.nearest(ray, origins, [](const Hit<double>&) { return true; }).hit;
         const double distance = rays.distance[k];
         const bool arrives = tracer.arrives(k);
         agree_on_shadow(arrives, {certified.shape, certified.t, certified.entering}, distance, ray,

@@ -80,7 +80,7 @@ TEST_CASE("of surfaces at one t the same is seen by all precisions and processor
         add_shapes(seen, count, 0.0F, random);
         check_same(seen.finish());
 
-        // Each ray by itself: behind a mirror they are no bundle.
+        // Each ray by itself: behind a mirror they are no coherence.
         Builder reflected = looking_down();
         reflected.add_shape(Plane{{0, 0, 0}, {0, 0, 1}}, mirror());
         add_shapes(reflected, count, 16.0F, random);

@@ -60,7 +60,7 @@ void check(const Kernels& kernels, bool overlapping) {
             const std::uint8_t state = answers->state[i];
             const auto t_most = static_cast<double>(rays.t_most[i]);
             if (state == blocked && !(hit.any() && hit.t < t_most)) FAIL("nothing blocks it");
-            if (state == open && hit.any() && hit.t < t_most) FAIL("not open");
+            if (state == unblocked && hit.any() && hit.t < t_most) FAIL("not open");
         }
         // What only may be there, the bounds of nodes can rule out: above all along the faces of
         // boxes.
@@ -89,7 +89,7 @@ void check_departures(const Kernels& kernels, bool overlapping) {
     const auto [by_all, by_tree, by_lists] = nearest_each_way(kernels, traced, rays, rounded);
     int leave = 0, found[3] = {}, different = 0;
     for (std::size_t i = 0; i < rays.count; ++i) {
-        leave += rays.departed_first[i] == no_slot ? 0 : 1;
+        leave += rays.origin_first[i] == no_slot ? 0 : 1;
         const Answers* const ways[] = {&by_all, &by_tree, &by_lists};
         for (int way = 0; way < 3; ++way) {
             const std::uint32_t slot = ways[way]->slot[i];

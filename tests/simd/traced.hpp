@@ -57,11 +57,11 @@ struct Rays {
     std::size_t count, padded;
     std::vector<double> of[6];
     std::vector<float> rounded[7], t_most;
-    std::vector<std::uint32_t> departed_first, departed_last;
+    std::vector<std::uint32_t> origin_first, origin_last;
 
     Rays(std::size_t n, double size)
-        : count(n), padded((n + 31) / 16 * 16), t_most(padded), departed_first(padded, no_slot),
-          departed_last(padded, no_slot) {
+        : count(n), padded((n + 31) / 16 * 16), t_most(padded), origin_first(padded, no_slot),
+          origin_last(padded, no_slot) {
         Random random(7);
         for (std::vector<double>& values : of)
             values.assign(padded, 1.0);
@@ -90,8 +90,8 @@ struct Rays {
         const RoundedRays result = {{rounded[0].data(), rounded[1].data(), rounded[2].data()},
                                     {rounded[3].data(), rounded[4].data(), rounded[5].data()},
                                     rounded[6].data(),
-                                    departed_first.data(),
-                                    departed_last.data(),
+                                    origin_first.data(),
+                                    origin_last.data(),
                                     {of[0].data(), of[1].data(), of[2].data()},
                                     {of[3].data(), of[4].data(), of[5].data()}};
         kernels.rays.round_rays(count, result);
@@ -105,11 +105,11 @@ struct Rays {
 
     /// The ray starts on the shapes of these ids.
     void leave(std::size_t i, ShapeId first, ShapeId last) {
-        departed_first[i] = first;
-        departed_last[i] = last;
+        origin_first[i] = first;
+        origin_last[i] = last;
     }
     bool leaves(std::size_t i, ShapeId id) const {
-        return departed_first[i] <= id && id <= departed_last[i];
+        return origin_first[i] <= id && id <= origin_last[i];
     }
 
     void start(std::size_t i, const Vec3d& origin) {
@@ -140,7 +140,7 @@ struct Answers {
 
     explicit Answers(std::size_t padded)
         : first(padded, infinity), second(padded, infinity), slot(padded, no_slot),
-          state(padded, open) {}
+          state(padded, unblocked) {}
     Candidates candidates() { return {first.data(), second.data(), slot.data()}; }
 
     /// Whether both have found the same for a ray, but for what is beyond what is certain.

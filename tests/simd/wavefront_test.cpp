@@ -95,7 +95,7 @@ TEST_CASE("more materials than a byte counts are sorted") {
     CHECK(differing(builder.finish()) == 0);
 }
 
-TEST_CASE("an orthographic camera and parallel light trace bundles too") {
+TEST_CASE("an orthographic camera and parallel light trace coherent rays too") {
     Builder builder;
     builder.settings.width = builder.settings.height = 64;
     builder.camera.projection = Projection::orthographic;

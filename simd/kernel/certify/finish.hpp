@@ -145,7 +145,7 @@ class Finish {
 
     bool leaves_any(std::size_t i, std::uint32_t active) const {
         const std::uint32_t no_shape = ~0U;
-        return (active & ~in_range(found_.departed_first + i, no_shape, no_shape)) != 0;
+        return (active & ~in_range(found_.origin_first + i, no_shape, no_shape)) != 0;
     }
 
     Starts<D> starts(const TableView& table, const Spots<Arch>& spots, std::size_t i) const {
@@ -154,10 +154,9 @@ class Finish {
         std::uint32_t id[width];
         for (unsigned lane = 0; lane < width; ++lane)
             id[lane] = __builtin_bit_cast(std::uint32_t, ids[spots.offsets[lane]]);
-        starts.on_surface =
-            Lanes<D>::in_range(id, found_.departed_first + i, found_.departed_last + i);
-        starts.inward = Lanes<D>::from_numbers(found_.departure + i, departure_inward) > zero<D>();
-        starts.face = Lanes<D>::from_numbers(found_.departure + i, departure_face);
+        starts.on_surface = Lanes<D>::in_range(id, found_.origin_first + i, found_.origin_last + i);
+        starts.inward = Lanes<D>::from_numbers(found_.origin_bits + i, origin_inward) > zero<D>();
+        starts.face = Lanes<D>::from_numbers(found_.origin_bits + i, origin_face);
         return starts;
     }
 

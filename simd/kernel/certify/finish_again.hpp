@@ -67,8 +67,8 @@ class FinishAgain {
         const TableView& table = S::table_of(scene_, S::kind_of(scene_, slot));
         const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
         const auto id = __builtin_bit_cast(std::uint32_t, ids[S::offset(table, slot)]);
-        const std::uint32_t first = found_.departed_first[i];
-        return id - first <= found_.departed_last[i] - first;
+        const std::uint32_t first = found_.origin_first[i];
+        return id - first <= found_.origin_last[i] - first;
     }
 
     int index_of(std::size_t ray) const {

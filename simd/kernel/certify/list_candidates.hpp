@@ -2,7 +2,7 @@
 
 #include "simd/kernel/certify/finish.hpp"
 #include "simd/kernel/traverse/leaf.hpp"
-#include "simd/kernel/traverse/queue.hpp"
+#include "simd/kernel/traverse/traversal_queue.hpp"
 
 namespace raylane::simd {
 
@@ -28,7 +28,7 @@ struct ListCandidates : Streams<Arch> {
         box_rays.load(scene, rays, i / 16 * 16);
         const BoxRay ray = box_rays.get(static_cast<int>(i % 16));
         const BoxRay::Rows ray_rows = ray.template rows<Arch>();
-        Queue<Arch> queue;
+        TraversalQueue<Arch> queue;
         queue.place(pending, 0, scene.tree_depth);
         queue.start(0);
         for (std::uint32_t child; (child = queue.pop(list.limit)) != no_child;) {

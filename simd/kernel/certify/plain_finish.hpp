@@ -112,16 +112,16 @@ class PlainFinish {
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const auto id = __builtin_bit_cast(std::uint32_t,
                                                reader.from[lane][std::size_t{16} * table.values]);
-            const std::uint32_t first = found_.departed_first[i + lane];
-            const bool on = id - first <= found_.departed_last[i + lane] - first;
+            const std::uint32_t first = found_.origin_first[i + lane];
+            const bool on = id - first <= found_.origin_last[i + lane] - first;
             any |= std::uint32_t{on};
             on_surface[lane] = on ? Value(1) : Value(0);
         }
         if (any == 0) return starts_nowhere<Number>();
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const std::uint32_t departure = found_.departure[i + lane];
-            inward[lane] = (departure & departure_inward) != 0 ? Value(1) : Value(0);
-            face[lane] = static_cast<Value>(departure & departure_face);
+            const std::uint32_t origins = found_.origin_bits[i + lane];
+            inward[lane] = (origins & origin_inward) != 0 ? Value(1) : Value(0);
+            face[lane] = static_cast<Value>(origins & origin_face);
         }
         return {F::load_unaligned(on_surface) > zero<Number>(),
                 F::load_unaligned(inward) > zero<Number>(), F::load_unaligned(face)};

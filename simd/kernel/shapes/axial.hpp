@@ -31,18 +31,19 @@ inline constexpr float base_cap_code = 1.0F;
 inline constexpr float top_cap_code = 2.0F;
 
 template <class Arch>
-void clip_caps(Span<Arch>& span, const AxialRays<Arch>& axial, const Starts<Arch>& starts) {
+void clip_caps(ClipInterval<Arch>& interval, const AxialRays<Arch>& axial,
+               const Starts<Arch>& starts) {
     const Floats<Arch> base_face = constant<Arch>(base_cap_code),
                        top_face = constant<Arch>(top_cap_code);
-    span.clip_slab(~starts.on_surface, axial.height_origin, axial.height_direction,
-                   axial.axis_squared, base_cap_code, top_cap_code);
+    interval.clip_slab(~starts.on_surface, axial.height_origin, axial.height_direction,
+                       axial.axis_squared, base_cap_code, top_cap_code);
     const Mask<Arch> rises =
         starts.on_surface & (axial.height_direction > zero<Arch>()) & (starts.face != top_face);
     const Mask<Arch> falls =
         starts.on_surface & (axial.height_direction < zero<Arch>()) & (starts.face != base_face);
-    span.clip_back(rises, (axial.axis_squared - axial.height_origin) / axial.height_direction,
-                   top_face);
-    span.clip_back(falls, negated(axial.height_origin) / axial.height_direction, base_face);
+    interval.clip_back(rises, (axial.axis_squared - axial.height_origin) / axial.height_direction,
+                       top_face);
+    interval.clip_back(falls, negated(axial.height_origin) / axial.height_direction, base_face);
 }
 
 template <class Arch>

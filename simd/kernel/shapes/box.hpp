@@ -96,20 +96,20 @@ struct BoxSolver : BoxNumbers<Arch> {
             return select(left_handed, negated(a), a);
         };
 
-        Span<Arch> span;
+        ClipInterval<Arch> interval;
         for (int i = 0; i < 3; ++i) {
             const Floats<Arch> position = turned(dot(normals[i], from_corner));
             const Floats<Arch> slope = turned(dot(normals[i], rays.direction));
             const float low = static_cast<float>(2 * i), high = static_cast<float>(2 * i + 1);
-            span.clip_slab(~starts.on_surface, position, slope, turned(volume), low, high);
+            interval.clip_slab(~starts.on_surface, position, slope, turned(volume), low, high);
             const Mask<Arch> rises =
                 starts.on_surface & (slope > zero<Arch>()) & (starts.face != constant<Arch>(high));
             const Mask<Arch> falls =
                 starts.on_surface & (slope < zero<Arch>()) & (starts.face != constant<Arch>(low));
-            span.clip_back(rises, (turned(volume) - position) / slope, constant<Arch>(high));
-            span.clip_back(falls, negated(position) / slope, constant<Arch>(low));
+            interval.clip_back(rises, (turned(volume) - position) / slope, constant<Arch>(high));
+            interval.clip_back(falls, negated(position) / slope, constant<Arch>(low));
         }
-        return inward_only(span.crossings(starts.on_surface), starts);
+        return inward_only(interval.crossings(starts.on_surface), starts);
     }
 
     Vectors<Arch> outward_normal(const Vectors<Arch>&, const Floats<Arch>& face) const {

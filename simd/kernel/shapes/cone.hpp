@@ -104,13 +104,13 @@ struct ConeSolver : ConeNumbers<Arch> {
 
         Crossings<Arch> result = roots;
         if constexpr (capped) {
-            Span<Arch> span;
+            ClipInterval<Arch> interval;
             for (const Crossing<Arch>& root : {roots.first, roots.second}) {
-                span.clip_front(root.exists & root.entering & ~starts.on_surface, root.t, o);
-                span.clip_back(root.exists & ~root.entering, root.t, o);
+                interval.clip_front(root.exists & root.entering & ~starts.on_surface, root.t, o);
+                interval.clip_back(root.exists & ~root.entering, root.t, o);
             }
-            clip_caps(span, axial, starts);
-            result = span.crossings(starts.on_surface);
+            clip_caps(interval, axial, starts);
+            result = interval.crossings(starts.on_surface);
         } else {
             result = keep_between_ends(roots, axial);
         }

@@ -86,9 +86,9 @@ Crossings<Arch> inward_only(Crossings<Arch> crossings, const Starts<Arch>& start
     return crossings;
 }
 
-/// core::Span per lane.
+/// core::ClipInterval per lane.
 template <class Arch>
-class Span {
+class ClipInterval {
   public:
     void clip_front(const Mask<Arch>& lanes, const Floats<Arch>& t, const Floats<Arch>& face) {
         const Mask<Arch> clips = lanes & (~has_front_ | (front_ < t));

@@ -69,9 +69,9 @@ struct CylinderSolver : CylinderNumbers<Arch> {
             select(parallel, zero<Arch>(),
                    negated(dot(axial.across_origin, axial.across_direction)) / speed_squared);
 
-        Span<Arch> span;
+        ClipInterval<Arch> interval;
         const Mask<Arch> from_body = starts.on_surface & (starts.face == zero<Arch>());
-        span.clip_back(from_body & ~parallel, not_behind<Arch>(tau + tau), zero<Arch>());
+        interval.clip_back(from_body & ~parallel, not_behind<Arch>(tau + tau), zero<Arch>());
 
         const Vectors<Arch> foot = mul_add<Arch>(tau, axial.across_direction, axial.across_origin);
         const Floats<Arch> discriminant =
@@ -86,19 +86,19 @@ struct CylinderSolver : CylinderNumbers<Arch> {
                 speed_squared, dot(axial.across_origin, axial.across_direction), C);
             beside = ~starts.on_surface &
                      ((parallel & (C > zero<Arch>())) | (~parallel & ~roots.first.exists));
-            span.clip_front(roots.first.exists & ~parallel & ~starts.on_surface, roots.first.t,
-                            zero<Arch>());
-            span.clip_back(roots.second.exists & ~parallel & ~starts.on_surface, roots.second.t,
-                           zero<Arch>());
-            span.clip_back(~parallel & ~from_body & starts.on_surface, tau + half_chord,
-                           zero<Arch>());
+            interval.clip_front(roots.first.exists & ~parallel & ~starts.on_surface, roots.first.t,
+                                zero<Arch>());
+            interval.clip_back(roots.second.exists & ~parallel & ~starts.on_surface, roots.second.t,
+                               zero<Arch>());
+            interval.clip_back(~parallel & ~from_body & starts.on_surface, tau + half_chord,
+                               zero<Arch>());
         } else {
-            span.clip_front(~parallel & ~starts.on_surface, tau - half_chord, zero<Arch>());
-            span.clip_back(~parallel & ~from_body, tau + half_chord, zero<Arch>());
+            interval.clip_front(~parallel & ~starts.on_surface, tau - half_chord, zero<Arch>());
+            interval.clip_back(~parallel & ~from_body, tau + half_chord, zero<Arch>());
         }
 
-        if constexpr (capped) clip_caps(span, axial, starts);
-        Crossings<Arch> result = span.crossings(starts.on_surface);
+        if constexpr (capped) clip_caps(interval, axial, starts);
+        Crossings<Arch> result = interval.crossings(starts.on_surface);
         if constexpr (!capped) result = keep_between_ends(result, axial);
         result.first.exists = result.first.exists & ~beside;
         result.second.exists = result.second.exists & ~beside;

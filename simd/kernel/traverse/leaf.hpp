@@ -42,8 +42,8 @@ struct Leaf : Streams<Arch> {
 
     /// The shapes that the ray does not leave.
     static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {
-        return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.departed_first[i]),
-                                      S::broadcast_bits(rays.departed_last[i]));
+        return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.origin_first[i]),
+                                      S::broadcast_bits(rays.origin_last[i]));
     }
 
     /// The shapes that may be met, as bits, as far as that can be told for less than their bounds
@@ -111,7 +111,7 @@ struct Leaf : Streams<Arch> {
         const std::uint32_t* ids = S::ids_of(table, block);
         const typename Method::Rays ray = Method::broadcast(rays, i);
         const std::uint32_t plain = S::plain_lanes(scene, table.first_slot + 16 * number);
-        std::uint8_t state = open;
+        std::uint8_t state = unblocked;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
             const std::uint32_t asked = Lanes<Arch>::bits(elsewhere(ids + from, rays, i));

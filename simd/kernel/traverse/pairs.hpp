@@ -37,12 +37,12 @@ class Pairs : Streams<Arch> {
         std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(table, number, rays, i);
         for (; bits != 0; bits &= bits - 1) {
             add(table, number, __builtin_ctz(bits), rays, i, owner);
-            if (count_ == 16) finish(take);
+            if (count_ == 16) flush(take);
         }
     }
     /// Calls take() for what is left.
     template <class Take>
-    [[gnu::always_inline]] void finish(const Take& take) {
+    [[gnu::always_inline]] void flush(const Take& take) {
         if (count_ != 0) take();
         count_ = 0;
     }
@@ -103,12 +103,12 @@ class PairsByKind {
 
     /// Calls take.template operator()<Filter>(pairs) for those that are left of each kind.
     template <class Take>
-    [[gnu::always_inline]] void finish(const Take& take) {
+    [[gnu::always_inline]] void flush(const Take& take) {
         Streams<Arch>::for_each_kind((1U << core::kind_count) - 1, [&](core::Kind kind) {
             if (!of(kind).empty())
                 Method::with_filter(kind, [&]<class Filter>() {
                     if constexpr (packs_pairs<Filter, Method>)
-                        of(kind).finish([&] { take.template operator()<Filter>(of(kind)); });
+                        of(kind).flush([&] { take.template operator()<Filter>(of(kind)); });
                 });
         });
     }

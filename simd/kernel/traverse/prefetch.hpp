@@ -6,7 +6,7 @@ namespace raylane::simd {
 
 /// Where children are in memory: what fetches them ahead without a branch for each ray.
 template <class Arch>
-struct Places {
+struct Prefetcher {
     /// What nodes have, and what the smallest of blocks has.
     static constexpr std::uint32_t most_lines = (sizeof(NodeView) + 63) / 64, least_lines = 5;
     struct Place {
@@ -16,7 +16,7 @@ struct Places {
             further[most_lines - least_lines]; ///< where other lines start, as far as there are any
     } of[32];                                  ///< by the bits of a child above its index
 
-    explicit Places(const SceneView& scene) {
+    explicit Prefetcher(const SceneView& scene) {
         for (Place& place : of)
             set(place, scene.nodes, sizeof(NodeView));
         for (int kind = 0; kind < core::kind_count; ++kind) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "simd/kernel/traverse/every_shape/every_shape.hpp"
-#include "simd/kernel/traverse/frustum/bunches.hpp"
-#include "simd/kernel/traverse/frustum/sorted_towards.hpp"
+#include "simd/kernel/traverse/frustum/packets.hpp"
+#include "simd/kernel/traverse/frustum/sorted_by_direction.hpp"
 #include "simd/kernel/traverse/frustum/walk.hpp"
 #include "simd/kernel/traverse/in_flight/nearest.hpp"
 #include "simd/kernel/traverse/in_flight/occluded.hpp"
@@ -10,18 +10,19 @@
 
 namespace raylane::simd {
 
-/// TraceKernels. This is where it is decided how rays are traced: bundles by groups; rays that are
-/// near each other by lists, and many that are not; others in flight; and shape by shape where
-/// there is no hierarchy.
+/// TraceKernels. This is where it is decided how rays are traced: coherent rays by frusta; rays
+/// that are near each other by lists, and many that are not; others in flight; and shape by shape
+/// where there is no hierarchy.
 template <class Arch, class Method>
 struct Trace : Streams<Arch> {
-    using Rays = Group<Arch>;
+    using Rays = Frustum<Arch>;
     template <bool nearest_first>
-    using Walk = GroupWalk<Arch, Method, nearest_first>;
+    using Walk = FrustumWalk<Arch, Method, nearest_first>;
 
-    /// Shapes that a group of rays to a light, and one that looks for the nearest, may have before
-    /// it: as many as it takes for its rays to be done otherwise. What a float method makes of a
-    /// ray may depend on that, so its groups are left alone; nor are they put in another order.
+    /// Shapes that a frustum of rays to a light, and one that looks for the nearest, may have
+    /// before it: as many as it takes for its rays to be done otherwise. What a float method makes
+    /// of a ray may depend on that, so its frusta are left alone; nor are they put in another
+    /// order.
     static constexpr int unlimited = 0x7FFFFFFF;
     static constexpr int most_occluders = Method::certifies ? 512 : unlimited;
     static constexpr int most_candidates = Method::certifies ? 2048 : unlimited;
@@ -30,26 +31,28 @@ struct Trace : Streams<Arch> {
     /// that, nor on more than it is in float.
     static constexpr bool any_way = Method::certifies && Method::rounded_alone;
 
-    static bool is_grouped(const Bundle* bundle) { return bundle != nullptr && !bundle->loose; }
+    static bool makes_frusta(const Coherence* coherence) {
+        return coherence != nullptr && !coherence->loose;
+    }
 
-    static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
+    static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Coherence* coherence,
                         std::size_t count, const RoundedRays& rays, const Candidates& candidates,
                         const Workspace& workspace, TraceCounters& counters) {
-        if (!is_grouped(bundle)) {
-            nearest_of_any(scene, kind_bits, bundle, 0, count, rays, candidates, workspace,
+        if (!makes_frusta(coherence)) {
+            nearest_of_any(scene, kind_bits, coherence, 0, count, rays, candidates, workspace,
                            counters);
             return;
         }
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
             const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
-            Rays group;
-            if (!group.enclose(rays, begin, end, *bundle, nullptr)) {
+            Rays frustum;
+            if (!frustum.enclose(rays, begin, end, *coherence, nullptr)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, end, rays, candidates,
                                workspace, counters);
                 continue;
             }
-            GroupCandidates<Arch, Method> found(rays, candidates, begin, end);
-            if (!Walk<true>(scene, group, workspace, counters, most_candidates)
+            FrustumCandidates<Arch, Method> found(rays, candidates, begin, end);
+            if (!Walk<true>(scene, frustum, workspace, counters, most_candidates)
                      .go(kind_bits, found)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, count, rays, candidates,
                                workspace, counters);
@@ -60,37 +63,39 @@ struct Trace : Streams<Arch> {
         }
     }
 
-    static void occluded(const SceneView& scene, std::uint32_t kind_bits, const Bundle* bundle,
-                         std::size_t count, const RoundedRays& rays, const Occlusions& occlusions,
-                         const Workspace& workspace, TraceCounters& counters) {
-        if (!is_grouped(bundle)) {
+    static void occluded(const SceneView& scene, std::uint32_t kind_bits,
+                         const Coherence* coherence, std::size_t count, const RoundedRays& rays,
+                         const Occlusions& occlusions, const Workspace& workspace,
+                         TraceCounters& counters) {
+        if (!makes_frusta(coherence)) {
             occluded_of_any(scene, kind_bits, 0, count, rays, occlusions, workspace, counters);
-        } else if (any_way && bundle->towards && SortedTowards<Arch>::has_room(count, workspace)) {
-            const SortedTowards<Arch> sorted(rays, occlusions, count, workspace);
-            occluded_groups(scene, kind_bits, *bundle, count, sorted.rays, sorted.occlusions,
+        } else if (any_way && coherence->converging &&
+                   SortedByDirection<Arch>::has_room(count, workspace)) {
+            const SortedByDirection<Arch> sorted(rays, occlusions, count, workspace);
+            occluded_frusta(scene, kind_bits, *coherence, count, sorted.rays, sorted.occlusions,
                             workspace, counters);
             sorted.hand_back(occlusions, count);
         } else {
-            occluded_groups(scene, kind_bits, *bundle, count, rays, occlusions, workspace,
+            occluded_frusta(scene, kind_bits, *coherence, count, rays, occlusions, workspace,
                             counters);
         }
     }
 
-    static void occluded_groups(const SceneView& scene, std::uint32_t kind_bits,
-                                const Bundle& bundle, std::size_t count, const RoundedRays& rays,
-                                const Occlusions& occlusions, const Workspace& workspace,
-                                TraceCounters& counters) {
+    static void occluded_frusta(const SceneView& scene, std::uint32_t kind_bits,
+                                const Coherence& coherence, std::size_t count,
+                                const RoundedRays& rays, const Occlusions& occlusions,
+                                const Workspace& workspace, TraceCounters& counters) {
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
             const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
-            Rays group;
-            if (!group.enclose(rays, begin, end, bundle, occlusions.t_most)) {
+            Rays frustum;
+            if (!frustum.enclose(rays, begin, end, coherence, occlusions.t_most)) {
                 occluded_of_any(scene, kind_bits, begin, end, rays, occlusions, workspace,
                                 counters);
                 continue;
             }
-            GroupOcclusions<Arch, Method> found(scene, rays, occlusions, begin, end);
-            const bool done =
-                Walk<false>(scene, group, workspace, counters, most_occluders).go(kind_bits, found);
+            FrustumOcclusions<Arch, Method> found(scene, rays, occlusions, begin, end);
+            const bool done = Walk<false>(scene, frustum, workspace, counters, most_occluders)
+                                  .go(kind_bits, found);
             found.hand_back(occlusions, begin, end);
             if (!done) { // nor will those that follow be, as a rule
                 occluded_of_any(scene, kind_bits, begin, count, rays, occlusions, workspace,
@@ -111,8 +116,8 @@ struct Trace : Streams<Arch> {
             result.meant_direction[axis] += begin;
         }
         result.slack += begin;
-        result.departed_first += begin;
-        result.departed_last += begin;
+        result.origin_first += begin;
+        result.origin_last += begin;
         return result;
     }
 
@@ -121,11 +126,11 @@ struct Trace : Streams<Arch> {
         return scene.small || (any_way && !scene.large && count >= long_list);
     }
 
-    /// Rays that have no more in common than `bundle` says, which is loose or null. However many
+    /// Rays that have no more in common than `coherence` says, which is loose or null. However many
     /// there are, the way of a float method is the same: what it makes of a ray then does not
     /// depend on who goes with it.
     static void nearest_of_any(const SceneView& scene, std::uint32_t kind_bits,
-                               const Bundle* bundle, std::size_t begin, std::size_t end,
+                               const Coherence* coherence, std::size_t begin, std::size_t end,
                                const RoundedRays& rays, const Candidates& candidates,
                                const Workspace& workspace, TraceCounters& counters) {
         const RoundedRays some = from_ray(rays, begin);
@@ -136,7 +141,7 @@ struct Trace : Streams<Arch> {
             TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += count;
-        } else if ((bundle != nullptr || makes_lists(scene, count)) &&
+        } else if ((coherence != nullptr || makes_lists(scene, count)) &&
                    count <= workspace.capacity) {
             counters.in_streams += count;
             TraceStream<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/traverse/block_spheres.hpp"
-#include "simd/kernel/traverse/packet.hpp"
+#include "simd/kernel/traverse/ray_lanes.hpp"
 
 namespace raylane::simd {
 
@@ -90,8 +90,8 @@ struct TraceAll : Streams<Arch> {
         const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
-            const Packet<Arch, Method> packet(stream, i);
-            PacketCandidates<Arch> found(candidates, i);
+            const RayLanes<Arch, Method> packet(stream, i);
+            LaneCandidates<Arch> found(candidates, i);
             for_each_shape(scene, kind_bits, spheres, packet.rays, found.first,
                            [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {
                                found.test(filter, id, slot, packet);
@@ -108,8 +108,8 @@ struct TraceAll : Streams<Arch> {
         const Spheres spheres(scene, kind_bits);
         std::uint64_t shapes = 0;
         for (std::size_t i = 0; i < count; i += F::size) {
-            const Packet<Arch, Method> packet(stream, i);
-            PacketOcclusions<Arch> found(occlusions, i);
+            const RayLanes<Arch, Method> packet(stream, i);
+            LaneOcclusions<Arch> found(occlusions, i);
             for_each_shape(scene, kind_bits, spheres, packet.rays, found.t_most,
                            [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {
                                found.test(filter, id, S::is_plain(scene, slot), packet);

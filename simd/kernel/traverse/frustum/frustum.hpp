@@ -9,14 +9,14 @@ namespace raylane::simd {
 ///
 /// One coordinate k counts along the rays. With w = p - apex, a point on a ray has w_a - u w_k =
 /// offset, for each other coordinate a, with slopes u and offsets of the ray's: through a point,
-/// the offsets are 0, in one direction, the slopes are the same. The group is what lies between the
-/// least and the greatest of these; so is each of its sixteen bunches of 16 consecutive rays, which
-/// are lanes here.
+/// the offsets are 0, in one direction, the slopes are the same. The frustum is what lies between
+/// the least and the greatest of these; so is each of its sixteen packets of 16 consecutive rays,
+/// which are lanes here.
 ///
 /// Roundings are a few u of |w_a| + |u w_k| + |offset|; `grace` grants 16 u of the sizes of w, and
 /// as slopes are at most 4, twice that of the rest.
 template <class Arch>
-struct Group : Streams<Arch> {
+struct Frustum : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
@@ -27,7 +27,7 @@ struct Group : Streams<Arch> {
     /// Of the rays on one side: w_a - slope w_k > offset is outside, or < for the other side.
     struct Side {
         float slope, offset, norm;
-        alignas(64) float slopes[16], offsets[16], norms[16]; // of the bunches
+        alignas(64) float slopes[16], offsets[16], norms[16]; // of the packets
     };
 
     float apex[3];
@@ -41,30 +41,32 @@ struct Group : Streams<Arch> {
     float t_per_w;      ///< less than its inverse
     float latest_start; ///< sense * w_k of the last origin
     Side above[2], below[2];
-    std::size_t bunches;
+    std::size_t packets;
 
     /// For rays from or to `apex`; of rays in one direction it is any point near them. Returns
     /// whether the rays are coherent enough.
-    bool enclose(const RoundedRays& rays, std::size_t begin, std::size_t end, Bundle bundle,
+    bool enclose(const RoundedRays& rays, std::size_t begin, std::size_t end, Coherence coherence,
                  const float* t_most) {
-        bunches = (end - begin + 15) / 16;
+        packets = (end - begin + 15) / 16;
         for (int axis = 0; axis < 3; ++axis)
-            apex[axis] = bundle.parallel ? rays.origin[axis][begin] : bundle.apex[axis];
+            apex[axis] = coherence.parallel ? rays.origin[axis][begin] : coherence.apex[axis];
         slack = half_ulp * (size(apex[0]) + size(apex[1]) + size(apex[2]));
-        choose_axes(rays, begin, end, bundle.towards);
+        choose_axes(rays, begin, end, coherence.converging);
 
-        least_w = bundle.towards ? 0.0F : __builtin_inff();
-        greatest_w = bundle.towards && t_most != nullptr ? 0.0F : __builtin_inff();
+        least_w = coherence.converging ? 0.0F : __builtin_inff();
+        greatest_w = coherence.converging && t_most != nullptr ? 0.0F : __builtin_inff();
         // Towards the apex, what is far from it is near.
-        const bool anywhere = bundle.parallel || bundle.beyond; // they start
-        latest_start = anywhere ? -__builtin_inff() : bundle.towards ? __builtin_inff() : 0.0F;
-        if (!bundle.towards && !anywhere) least_w = 0.0F;
+        const bool anywhere = coherence.parallel || coherence.beyond; // they start
+        latest_start = anywhere               ? -__builtin_inff()
+                       : coherence.converging ? __builtin_inff()
+                                              : 0.0F;
+        if (!coherence.converging && !anywhere) least_w = 0.0F;
         pad(rays, end);
         F speeds_low = S::infinity(), speeds_high = zero<Arch>(), ends_high = zero<Arch>();
         F starts_low = S::infinity(), starts_high = negated(S::infinity());
         F most_slack = zero<Arch>();
-        for (std::size_t bunch = 0; bunch < bunches; ++bunch) {
-            const std::size_t from = begin + 16 * bunch;
+        for (std::size_t packet = 0; packet < packets; ++packet) {
+            const std::size_t from = begin + 16 * packet;
             F low_slope[2] = {S::infinity(), S::infinity()}, high_slope[2];
             F low_offset[2] = {S::infinity(), S::infinity()}, high_offset[2];
             for (int side = 0; side < 2; ++side)
@@ -72,7 +74,7 @@ struct Group : Streams<Arch> {
             for (std::size_t i = from; i < from + 16; i += F::size) {
                 most_slack = max(most_slack, S::load(rays.slack + i));
                 const F direction = S::load(rays.direction[along] + i);
-                const F d = F(bundle.towards ? -sense : sense) * direction;
+                const F d = F(coherence.converging ? -sense : sense) * direction;
                 speeds_low = min(speeds_low, d);
                 speeds_high = max(speeds_high, d);
                 const F w = S::load(rays.origin[along] + i) - F(apex[along]);
@@ -80,7 +82,7 @@ struct Group : Streams<Arch> {
                     starts_low = min(starts_low, F(sense) * w);
                     starts_high = max(starts_high, F(sense) * w);
                 }
-                if (t_most != nullptr && bundle.towards && i < end)
+                if (t_most != nullptr && coherence.converging && i < end)
                     ends_high = max(ends_high, select(S::first_lanes(end - i),
                                                       d * S::load(t_most + i), zero<Arch>()));
                 for (int side = 0; side < 2; ++side) {
@@ -88,7 +90,7 @@ struct Group : Streams<Arch> {
                     const F slope = S::load(rays.direction[a] + i) / direction;
                     low_slope[side] = min(low_slope[side], slope);
                     high_slope[side] = max(high_slope[side], slope);
-                    if (!bundle.parallel) continue;
+                    if (!coherence.parallel) continue;
                     const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) - slope * w;
                     low_offset[side] = min(low_offset[side], offset);
                     high_offset[side] = max(high_offset[side], offset);
@@ -98,16 +100,16 @@ struct Group : Streams<Arch> {
                 const float low = Lanes<Arch>::least(low_slope[side]);
                 const float high = Lanes<Arch>::greatest(high_slope[side]);
                 // Seen against the coordinate's sense the greater slope bounds from below.
-                set(above[side], bunch, sense > 0.0F ? high : low,
-                    bundle.parallel ? Lanes<Arch>::greatest(high_offset[side]) : 0.0F);
-                set(below[side], bunch, sense > 0.0F ? low : high,
-                    bundle.parallel ? Lanes<Arch>::least(low_offset[side]) : 0.0F);
+                set(above[side], packet, sense > 0.0F ? high : low,
+                    coherence.parallel ? Lanes<Arch>::greatest(high_offset[side]) : 0.0F);
+                set(below[side], packet, sense > 0.0F ? low : high,
+                    coherence.parallel ? Lanes<Arch>::least(low_offset[side]) : 0.0F);
             }
         }
-        for (std::size_t bunch = bunches; bunch < 16; ++bunch)
+        for (std::size_t packet = packets; packet < 16; ++packet)
             for (int side = 0; side < 2; ++side) { // outside, unless it is infinite
-                set(above[side], bunch, above[side].slopes[0], -__builtin_inff());
-                set(below[side], bunch, below[side].slopes[0], __builtin_inff());
+                set(above[side], packet, above[side].slopes[0], -__builtin_inff());
+                set(below[side], packet, below[side].slopes[0], __builtin_inff());
             }
         fastest = Lanes<Arch>::greatest(speeds_high);
         t_per_w = (1 - 8 * half_ulp) / fastest;
@@ -115,11 +117,11 @@ struct Group : Streams<Arch> {
             least_w = least(least_w, Lanes<Arch>::least(starts_low));
             latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
         }
-        if (bundle.towards && t_most != nullptr)
+        if (coherence.converging && t_most != nullptr)
             greatest_w = greatest(greatest_w, Lanes<Arch>::greatest(ends_high));
         slack += Lanes<Arch>::greatest(most_slack);
         for (int side = 0; side < 2; ++side)
-            enclose_bunches(side);
+            enclose_packets(side);
         bool coherent = Lanes<Arch>::least(speeds_low) > 0.0F;
         for (int side = 0; side < 2; ++side)
             coherent = coherent && size(above[side].slope) < steepest &&
@@ -155,16 +157,16 @@ struct Group : Streams<Arch> {
         sense = (rays.direction[along][middle] > 0.0F) != towards ? 1.0F : -1.0F;
     }
 
-    static void set(Side& side, std::size_t bunch, float slope, float offset) {
-        side.slopes[bunch] = slope;
-        side.offsets[bunch] = offset;
-        side.norms[bunch] = norm_above(slope);
+    static void set(Side& side, std::size_t packet, float slope, float offset) {
+        side.slopes[packet] = slope;
+        side.offsets[packet] = offset;
+        side.norms[packet] = norm_above(slope);
     }
 
     /// At least sqrt(1 + slope^2).
     static float norm_above(float slope) { return 1.0F + 0.5F * slope * slope; }
 
-    void enclose_bunches(int side) {
+    void enclose_packets(int side) {
         Side &high = above[side], &low = below[side];
         const bool forwards = sense > 0.0F;
         high.slope = forwards ? S::greatest_of_16(high.slopes) : S::least_of_16(high.slopes);
@@ -180,7 +182,7 @@ struct Group : Streams<Arch> {
         return F(grace_factor) * (abs(w_along) + abs(w_across)) + F(8 * steepest * slack);
     }
 
-    /// The boxes of a node that the group may meet, and the least t at which.
+    /// The boxes of a node that the frustum may meet, and the least t at which.
     std::uint32_t enter(const NodeView& node, int from, const F& t_most, F& near) const {
         const F apex_along(apex[along]);
         const F lower_k = S::load(node.lower[along] + from) - apex_along;
@@ -209,15 +211,15 @@ struct Group : Streams<Arch> {
     /// From how far along to a lower bound of t.
     F near_t(const F& w) const { return max((w - F(latest_start)) * F(t_per_w), zero<Arch>()); }
 
-    /// One side's plane, or as many as there are bunches.
+    /// One side's plane, or as many as there are packets.
     struct Plane {
         F slope, norm, offset;
 
         explicit Plane(const Side& of_all)
             : slope(of_all.slope), norm(of_all.norm), offset(of_all.offset) {}
-        Plane(const Side& of_bunches, std::size_t from)
-            : slope(S::load(of_bunches.slopes + from)), norm(S::load(of_bunches.norms + from)),
-              offset(S::load(of_bunches.offsets + from)) {}
+        Plane(const Side& of_packets, std::size_t from)
+            : slope(S::load(of_packets.slopes + from)), norm(S::load(of_packets.norms + from)),
+              offset(S::load(of_packets.offsets + from)) {}
 
         /// w_across - slope w_along + radius norm
         F outmost(const F& w_along, const F& w_across, const F& radius) const {
@@ -245,7 +247,7 @@ struct Group : Streams<Arch> {
         }
     };
 
-    /// A block's spheres, or those around one end of its shapes, as the group sees them.
+    /// A block's spheres, or those around one end of its shapes, as the frustum sees them.
     struct alignas(64) Seen {
         float near[16];                ///< the least t
         float along[16];               ///< w_k
@@ -257,7 +259,7 @@ struct Group : Streams<Arch> {
         int ends;
     };
 
-    /// What is inside of the sides: of spheres and all rays, or of one and the rays of bunches.
+    /// What is inside of the sides: of spheres and all rays, or of one and the rays of packets.
     template <class Load, class PlaneOf>
     [[gnu::always_inline]] void reach_sides(const Seen& seen, const Load& load,
                                             const PlaneOf& plane_of, Reach& reach) const {
@@ -288,8 +290,8 @@ struct Group : Streams<Arch> {
         return least(greatest_w, w == w ? w : __builtin_inff());
     }
 
-    /// Fills `seen` from one on. Returns the shapes that the group may meet, as bits, of which none
-    /// is further along than `furthest`.
+    /// Fills `seen` from one on. Returns the shapes that the frustum may meet, as bits, of which
+    /// none is further along than `furthest`.
     [[gnu::always_inline]] std::uint32_t meet(const BlockSpheres<Arch>& spheres, int from,
                                               float furthest, SeenBlock& seen) const {
         const F grace_apart(8 * steepest * slack), factor(grace_factor);
@@ -322,9 +324,9 @@ struct Group : Streams<Arch> {
         return reached(spheres.ends, reach_of);
     }
 
-    /// The bunches, from one on, that one shape may meet before t_most, as bits.
+    /// The packets, from one on, that one shape may meet before t_most, as bits.
     [[gnu::always_inline]] std::uint32_t
-    bunches_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_most) const {
+    packets_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_most) const {
         const auto reach_of = [&](int end) {
             Reach reach;
             reach.along[0] = reach.along[1] = F(seen.end[end].near[lane]) <= t_most;

@@ -2,36 +2,36 @@
 
 #include "simd/kernel/traverse/frustum/frustum.hpp"
 #include "simd/kernel/traverse/prefetch.hpp"
-#include "simd/kernel/traverse/queue.hpp"
+#include "simd/kernel/traverse/traversal_queue.hpp"
 
 namespace raylane::simd {
 
-/// A group's way through the scene: a node or a block is visited once for all of its rays, and a
-/// shape is tested against those bunches of 16 that may meet it. Nodes are visited in the order of
+/// A frustum's way through the scene: a node or a block is visited once for all of its rays, and a
+/// shape is tested against those packets of 16 that may meet it. Nodes are visited in the order of
 /// their distance; or, where that is of no use, what is below one before its neighbours.
 template <class Arch, class Method, bool nearest_first>
-struct GroupWalk : Streams<Arch> {
+struct FrustumWalk : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
-    using Rays = Group<Arch>;
+    using Rays = Frustum<Arch>;
 
     const SceneView& scene;
-    const Rays& group;
+    const Rays& frustum;
     const Workspace& workspace;
     TraceCounters& counters;
-    /// Shapes that are still worth a look. Where the group is so wide that there are more, its rays
-    /// are better off one by one.
+    /// Shapes that are still worth a look. Where the frustum is so wide that there are more, its
+    /// rays are better off one by one.
     const int most_shapes;
-    alignas(64) float limits[16]; ///< by bunch: the t from which on nothing matters to it
+    alignas(64) float limits[16]; ///< by packet: the t from which on nothing matters to it
     float largest_limit;
 
-    GroupWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
-              TraceCounters& trace_counters, int shapes)
-        : scene(scene_view), group(rays), workspace(space), counters(trace_counters),
+    FrustumWalk(const SceneView& scene_view, const Rays& rays, const Workspace& space,
+                TraceCounters& trace_counters, int shapes)
+        : scene(scene_view), frustum(rays), workspace(space), counters(trace_counters),
           most_shapes(shapes) {}
 
-    /// Of each shape that bunches may meet, calls
-    ///   found.test(filter, id, slot, which)  for each of the bunches, by number, and now and then
+    /// Of each shape that packets may meet, calls
+    ///   found.test(filter, id, slot, which)  for each of the packets, by number, and now and then
     ///   found.limit_of(which)                the t from which on nothing matters to it
     /// The shapes come in the order of their nodes' distances, as far as that is known. Returns
     /// whether the budget was enough.
@@ -39,7 +39,7 @@ struct GroupWalk : Streams<Arch> {
     bool go(std::uint32_t kind_bits, Found& found) {
         for (float& limit : limits)
             limit = -1.0F; // of what is not there
-        update_limits((1U << group.bunches) - 1, found);
+        update_limits((1U << frustum.packets) - 1, found);
         S::for_each_kind(kind_bits, [&](core::Kind kind) {
             for (std::uint32_t block = 0; block < S::table_of(scene, kind).block_count; ++block) {
                 const std::uint32_t child =
@@ -49,8 +49,8 @@ struct GroupWalk : Streams<Arch> {
         });
         if (workspace.key == nullptr) return true;
         int budget = most_shapes; // what is listed has to be tested whatever the way
-        const Places<Arch> places(scene);
-        Queue<Arch> queue;
+        const Prefetcher<Arch> prefetcher(scene);
+        TraversalQueue<Arch> queue;
         queue.place(workspace, 0, scene.tree_depth);
         queue.start(0);
         std::uint32_t blocks[batch];
@@ -65,7 +65,7 @@ struct GroupWalk : Streams<Arch> {
                 if ((child & child_is_block) != 0)
                     blocks[count++] = child;
                 else
-                    at_node(scene.nodes[child], queue, places);
+                    at_node(scene.nodes[child], queue, prefetcher);
             }
             budget -= at_blocks(blocks, count, found);
         }
@@ -73,36 +73,37 @@ struct GroupWalk : Streams<Arch> {
     }
 
   private:
-    void at_node(const NodeView& node, Queue<Arch>& queue, const Places<Arch>& places) {
+    void at_node(const NodeView& node, TraversalQueue<Arch>& queue,
+                 const Prefetcher<Arch>& prefetcher) {
         ++counters.nodes;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             F near = zero<Arch>();
-            const std::uint32_t bits = group.enter(node, from, F(largest_limit), near);
+            const std::uint32_t bits = frustum.enter(node, from, F(largest_limit), near);
             const int before = queue.size;
             queue.add(near, node.children + from, bits);
             if (!scene.large) continue;
             for (int k = before; k < queue.size; ++k)
-                places.fetch(queue.child[k]);
+                prefetcher.fetch(queue.child[k]);
         }
     }
 
-    /// All shapes that the group may meet are listed before it is seen which of its bunches do, and
-    /// all these pairs before any is tested: what waits for the last result, and what branches, is
-    /// done once for several blocks. Returns how many shapes these are.
+    /// All shapes that the frustum may meet are listed before it is seen which of its packets do,
+    /// and all these pairs before any is tested: what waits for the last result, and what branches,
+    /// is done once for several blocks. Returns how many shapes these are.
     template <class Found>
     int at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
         BlockSpheres<Arch> spheres;
         typename Rays::SeenBlock seen[batch];
         std::uint32_t shapes[16 * batch + F::size];
         int shape_count = 0;
-        const float furthest = group.furthest_w(largest_limit);
+        const float furthest = frustum.furthest_w(largest_limit);
         for (int b = 0; b < block_count; ++b) {
             const core::Kind kind = S::kind_of(blocks[b]);
             spheres.enclose(kind, rows_of(blocks[b]));
             for (int from = 0; from < 16; from += static_cast<int>(F::size))
                 shape_count +=
                     list(numbers + from, static_cast<std::uint32_t>(b) << 4,
-                         group.meet(spheres, from, furthest, seen[b]), shapes + shape_count);
+                         frustum.meet(spheres, from, furthest, seen[b]), shapes + shape_count);
         }
 
         std::uint32_t pairs[16 * 16 * batch + F::size], meeting = 0;
@@ -110,10 +111,10 @@ struct GroupWalk : Streams<Arch> {
         for (int k = 0; k < shape_count; ++k) {
             const int lane = static_cast<int>(shapes[k] & 15);
             for (std::size_t from = 0; from < 16; from += F::size) {
-                const std::uint32_t bunches = group.bunches_that_meet(seen[shapes[k] >> 4], lane,
-                                                                      from, S::load(limits + from));
-                count += list(numbers + from, shapes[k] << 4, bunches, pairs + count);
-                meeting |= bunches << from;
+                const std::uint32_t packets = frustum.packets_that_meet(
+                    seen[shapes[k] >> 4], lane, from, S::load(limits + from));
+                count += list(numbers + from, shapes[k] << 4, packets, pairs + count);
+                meeting |= packets << from;
             }
         }
         for (int tested = 0; tested < count;)
@@ -124,9 +125,9 @@ struct GroupWalk : Streams<Arch> {
     }
 
     template <class Found>
-    void update_limits(std::uint32_t of_bunches, const Found& found) {
-        for (; of_bunches != 0; of_bunches &= of_bunches - 1) {
-            const int which = __builtin_ctz(of_bunches);
+    void update_limits(std::uint32_t of_packets, const Found& found) {
+        for (; of_packets != 0; of_packets &= of_packets - 1) {
+            const int which = __builtin_ctz(of_packets);
             limits[which] = found.limit_of(static_cast<std::size_t>(which));
         }
         largest_limit = S::greatest_of_16(limits);

@@ -38,7 +38,7 @@ struct InFlight : Streams<Arch> {
     [[gnu::always_inline]] static void go(const SceneView& scene, Traveller* travellers,
                                           Travels& travels, TraceCounters& counters) {
         int at_nodes[2 * in_flight], at_blocks[in_flight], done[in_flight];
-        const Places<Arch> places(scene);
+        const Prefetcher<Arch> prefetcher(scene);
         int under_way = 0;
         while (under_way < in_flight && travels.start(travellers[under_way])) {
             at_nodes[under_way] = under_way;
@@ -63,7 +63,7 @@ struct InFlight : Streams<Arch> {
                 const int which = at_nodes[k];
                 const std::uint32_t child = travels.next(travellers[which]);
                 travellers[which].child = child;
-                if (scene.large) places.fetch(child);
+                if (scene.large) prefetcher.fetch(child);
                 at_nodes[node_count] = at_blocks[block_count] = done[done_count] = which;
                 node_count += static_cast<int>((child & child_is_block) == 0);
                 block_count += static_cast<int>((child & child_is_block) != 0 && child != no_child);
@@ -119,7 +119,7 @@ struct InFlight : Streams<Arch> {
                 pairs.template gather<Filter>(table, ray.child & child_index, stream, ray.i,
                                               which[k], take);
             }
-            pairs.finish(take);
+            pairs.flush(take);
         } else {
             int some[in_flight], found = 0;
             for (int k = 0; k < count; ++k) {

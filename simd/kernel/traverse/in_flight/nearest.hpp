@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/traverse/in_flight/in_flight.hpp"
-#include "simd/kernel/traverse/queue.hpp"
+#include "simd/kernel/traverse/traversal_queue.hpp"
 
 namespace raylane::simd {
 
@@ -12,7 +12,7 @@ class TraceTree : InFlight<Arch, Method> {
     using Base = InFlight<Arch, Method>;
 
     struct Flight : Base::Traveller {
-        Queue<Arch> queue;
+        TraversalQueue<Arch> queue;
         Best best;
         LeafHits hits;
     };

@@ -40,7 +40,7 @@ class TraceStream : Streams<Arch> {
         for (std::size_t i = 0; i < count; ++i)
             stream.records_[i].best = Leaf<Arch, Method>::best_of(candidates, i);
         stream.descend(count);
-        stream.finish_pairs();
+        stream.flush_pairs();
         for (std::size_t i = 0; i < count; ++i)
             Leaf<Arch, Method>::store(stream.records_[i].best, candidates, i);
     }
@@ -156,8 +156,8 @@ class TraceStream : Streams<Arch> {
     }
 
     /// Those that wait for others to be tested with.
-    void finish_pairs() {
-        pairs_.finish([&]<class Filter>(const Pairs<Arch, Method>& pairs) { take<Filter>(pairs); });
+    void flush_pairs() {
+        pairs_.flush([&]<class Filter>(const Pairs<Arch, Method>& pairs) { take<Filter>(pairs); });
     }
 
     /// A function to itself: in one for all kinds, compilers run out of patience for inlining.

@@ -9,7 +9,7 @@ namespace raylane::simd {
 /// last 16 that it enters first. Where it enters is held in 16 bits, which is as much as order
 /// needs: of two that it enters within 1/256 of each other, any may be the next.
 template <class Arch>
-struct Queue {
+struct TraversalQueue {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
     static constexpr int window = 16;

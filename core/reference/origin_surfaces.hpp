@@ -28,11 +28,11 @@ struct Contact {
 /// cross it crosses at t = 0. Those of one material that lie in each other, and are entered or left
 /// together, are one surface: it is seen once, however often it is there.
 template <class Real>
-class Departure {
+class OriginSurfaces {
   public:
-    Departure() = default;
+    OriginSurfaces() = default;
     /// Of shapes that are all others.
-    explicit Departure(std::span<const Contact<Real>> contacts) {
+    explicit OriginSurfaces(std::span<const Contact<Real>> contacts) {
         contacts_.reset(contacts.size());
         std::copy(contacts.begin(), contacts.end(), contacts_.begin());
         std::sort(contacts_.begin(), contacts_.end(),
@@ -68,9 +68,9 @@ class Departure {
 
     /// For a ray in another direction from the same point, which is one of the contacts' `hit`. It
     /// either goes through that surface, or stays on the side from which it was hit.
-    Departure turned(const Hit<Real>& hit, bool through, const Vec3<Real>& direction) const {
+    OriginSurfaces turned(const Hit<Real>& hit, bool through, const Vec3<Real>& direction) const {
         const Contact<Real>& surface = *find(hit.shape);
-        Departure result = *this;
+        OriginSurfaces result = *this;
         const bool goes_inside = through == hit.entering;
         for (Contact<Real>& contact : result.contacts_) {
             if (are_one(contact, surface))
@@ -107,7 +107,7 @@ class Departure {
 template <class Real>
 struct Encounter {
     Hit<Real> hit;
-    Departure<Real> contacts;
+    OriginSurfaces<Real> contacts;
 };
 
 } // namespace raylane::core

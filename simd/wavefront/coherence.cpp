@@ -1,4 +1,4 @@
-#include "simd/wavefront/bundles.hpp"
+#include "simd/wavefront/coherence.hpp"
 
 #include "core/numbers/vector.hpp"
 
@@ -6,26 +6,26 @@
 
 namespace raylane::simd {
 
-Bundle bundle_of(const CameraView& camera) {
-    Bundle bundle{};
+Coherence coherence_of(const CameraView& camera) {
+    Coherence coherence{};
     for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(camera.from[axis]);
-    bundle.parallel = camera.orthographic;
-    return bundle;
+        coherence.apex[axis] = static_cast<float>(camera.from[axis]);
+    coherence.parallel = camera.orthographic;
+    return coherence;
 }
 
-Bundle bundle_of(const LightView& light) {
-    Bundle bundle{};
+Coherence coherence_of(const LightView& light) {
+    Coherence coherence{};
     for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(light.position[axis]);
-    bundle.towards = light.is_point;
-    bundle.parallel = !light.is_point;
-    return bundle;
+        coherence.apex[axis] = static_cast<float>(light.position[axis]);
+    coherence.converging = light.is_point;
+    coherence.parallel = !light.is_point;
+    return coherence;
 }
 
-Bundle bundle_off_mirror(const CameraView& camera, const SceneData& scene, const Surfaces& surfaces,
-                         const std::uint32_t* order, const std::uint32_t* slots,
-                         const SpawnedRays& reflected) {
+Coherence coherence_off_mirror(const CameraView& camera, const SceneData& scene,
+                               const Surfaces& surfaces, const std::uint32_t* order,
+                               const std::uint32_t* slots, const SpawnedRays& reflected) {
     if (camera.orthographic || reflected.count == 0) return neighbours;
     const auto vector_at = [](double* const(&columns)[3], std::size_t position) {
         return core::Vec3d(columns[0][position], columns[1][position], columns[2][position]);
@@ -46,11 +46,11 @@ Bundle bundle_off_mirror(const CameraView& camera, const SceneData& scene, const
             return neighbours;
     }
     const core::Vec3d image = from + 2.0 * height * normal;
-    Bundle bundle{};
+    Coherence coherence{};
     for (int axis = 0; axis < 3; ++axis)
-        bundle.apex[axis] = static_cast<float>(image[axis]);
-    bundle.beyond = true;
-    return bundle;
+        coherence.apex[axis] = static_cast<float>(image[axis]);
+    coherence.beyond = true;
+    return coherence;
 }
 
 } // namespace raylane::simd

@@ -1,18 +1,18 @@
 #pragma once
 
 #include "simd/kernel/lanes/short_lanes.hpp"
-#include "simd/kernel/traverse/packet.hpp"
+#include "simd/kernel/traverse/ray_lanes.hpp"
 
 namespace raylane::simd {
 
-/// Sixteen rays of a group, side by side: in streams, each value has an address to be looked up.
+/// Sixteen rays of a frustum, side by side: in streams, each value has an address to be looked up.
 template <class Arch, class Method>
-struct alignas(64) Bunch : Streams<Arch> {
+struct alignas(64) Packet : Streams<Arch> {
     using S = Streams<Arch>;
     static constexpr std::size_t size = 16;
 
     float origin[3][size], direction[3][size], slack[size];
-    std::uint32_t departed_first[size], departed_last[size];
+    std::uint32_t origin_first[size], origin_last[size];
 
     void gather(const RoundedRays& rays, std::size_t i) {
         for (std::size_t k = 0; k < size; k += S::lanes, i += S::lanes) {
@@ -21,25 +21,25 @@ struct alignas(64) Bunch : Streams<Arch> {
                 S::load(rays.direction[axis] + i).store_unaligned(direction[axis] + k);
             }
             S::load(rays.slack + i).store_unaligned(slack + k);
-            S::store_bits(S::load_bits(rays.departed_first + i), departed_first + k);
-            S::store_bits(S::load_bits(rays.departed_last + i), departed_last + k);
+            S::store_bits(S::load_bits(rays.origin_first + i), origin_first + k);
+            S::store_bits(S::load_bits(rays.origin_last + i), origin_last + k);
         }
     }
 
     /// Those from one on, one per lane.
-    [[gnu::always_inline]] Packet<Arch, Method> packet(std::size_t k) const {
+    [[gnu::always_inline]] RayLanes<Arch, Method> packet(std::size_t k) const {
         const auto load = [&](const float(&rows)[3][size]) {
             return Vectors<Arch>{S::load(rows[0] + k), S::load(rows[1] + k), S::load(rows[2] + k)};
         };
         return {{load(origin), load(direction), S::load(slack + k)},
-                S::load_bits(departed_first + k),
-                S::load_bits(departed_last + k)};
+                S::load_bits(origin_first + k),
+                S::load_bits(origin_last + k)};
     }
 };
 
 /// For methods that ask for more than this, where they are in the stream.
 template <class Arch, class Method>
-requires(!Method::rounded_alone) struct alignas(64) Bunch<Arch, Method> {
+requires(!Method::rounded_alone) struct alignas(64) Packet<Arch, Method> {
     static constexpr std::size_t size = 16;
 
     const RoundedRays* stream;
@@ -49,109 +49,109 @@ requires(!Method::rounded_alone) struct alignas(64) Bunch<Arch, Method> {
         stream = &rays;
         begin = i;
     }
-    Packet<Arch, Method> packet(std::size_t k) const { return {*stream, begin + k}; }
+    RayLanes<Arch, Method> packet(std::size_t k) const { return {*stream, begin + k}; }
 };
 
-/// What a group looks for: the nearest hits. As GroupWalk asks for.
+/// What a frustum looks for: the nearest hits. As FrustumWalk asks for.
 template <class Arch, class Method>
-class GroupCandidates : Streams<Arch> {
+class FrustumCandidates : Streams<Arch> {
     using S = Streams<Arch>;
 
-    struct Rays : Bunch<Arch, Method> {
+    struct Rays : Packet<Arch, Method> {
         float first[16], second[16];
         std::uint32_t slot[16];
 
         Candidates found() { return {first, second, slot}; }
     };
-    Rays bunches_[16];
+    Rays packets_[16];
 
   public:
-    GroupCandidates(const RoundedRays& rays, const Candidates& candidates, std::size_t begin,
-                    std::size_t end) {
+    FrustumCandidates(const RoundedRays& rays, const Candidates& candidates, std::size_t begin,
+                      std::size_t end) {
         for (std::size_t i = begin; i < end; i += 16) {
-            Rays& bunch = bunches_[(i - begin) / 16];
-            bunch.gather(rays, i);
+            Rays& packet = packets_[(i - begin) / 16];
+            packet.gather(rays, i);
             for (std::size_t k = 0; k < 16; k += S::lanes) {
-                PacketCandidates<Arch> found(candidates, i + k);
+                LaneCandidates<Arch> found(candidates, i + k);
                 // Rays that are not there have hit at 0.
                 const std::size_t here = i + k < end ? end - i - k : 0;
                 found.first = select(S::first_lanes(here), found.first, zero<Arch>());
-                found.store(bunch.found(), k);
+                found.store(packet.found(), k);
             }
         }
     }
 
-    /// One shape against one bunch.
+    /// One shape against one packet.
     template <class Filter>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
                                      std::size_t which) {
-        Rays& bunch = bunches_[which];
+        Rays& packet = packets_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {
-            PacketCandidates<Arch> found(bunch.found(), k);
-            found.test(filter, id, slot, bunch.packet(k));
-            found.store(bunch.found(), k);
+            LaneCandidates<Arch> found(packet.found(), k);
+            found.test(filter, id, slot, packet.packet(k));
+            found.store(packet.found(), k);
         }
     }
 
-    /// The t from which on nothing matters to a bunch.
+    /// The t from which on nothing matters to a packet.
     float limit_of(std::size_t which) const {
-        return S::greatest_of_16(bunches_[which].first) * culling_slack;
+        return S::greatest_of_16(packets_[which].first) * culling_slack;
     }
 
     void hand_back(const Candidates& candidates, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; i += S::lanes) {
-            Rays& bunch = bunches_[(i - begin) / 16];
-            PacketCandidates<Arch>(bunch.found(), (i - begin) % 16).store(candidates, i);
+            Rays& packet = packets_[(i - begin) / 16];
+            LaneCandidates<Arch>(packet.found(), (i - begin) % 16).store(candidates, i);
         }
     }
 };
 
-/// What a group looks for: whether something is in the way. As GroupWalk asks for.
+/// What a frustum looks for: whether something is in the way. As FrustumWalk asks for.
 template <class Arch, class Method>
-class GroupOcclusions : Streams<Arch> {
+class FrustumOcclusions : Streams<Arch> {
     using S = Streams<Arch>;
 
-    struct Rays : Bunch<Arch, Method> {
+    struct Rays : Packet<Arch, Method> {
         float t_most[16];
     };
     const SceneView& scene_;
-    Rays bunches_[16];
-    /// By bunch, of rays as bits.
+    Rays packets_[16];
+    /// By packet, of rays as bits.
     std::uint32_t blocked_[16], doubtful_[16] = {};
 
   public:
-    GroupOcclusions(const SceneView& scene, const RoundedRays& rays, const Occlusions& occlusions,
-                    std::size_t begin, std::size_t end)
+    FrustumOcclusions(const SceneView& scene, const RoundedRays& rays, const Occlusions& occlusions,
+                      std::size_t begin, std::size_t end)
         : scene_(scene) {
         for (std::size_t which = 0; which < 16; ++which) {
             const std::size_t i = begin + 16 * which;
             blocked_[which] = 0xFFFF; // what is not there
             if (i >= end) continue;
-            bunches_[which].gather(rays, i);
+            packets_[which].gather(rays, i);
             for (std::size_t k = 0; k < 16; k += S::lanes)
-                S::load(occlusions.t_most + i + k).store_unaligned(bunches_[which].t_most + k);
+                S::load(occlusions.t_most + i + k).store_unaligned(packets_[which].t_most + k);
             with_states(occlusions.state + i, end - i, [&](const std::uint8_t* states) {
                 blocked_[which] = ShortLanes<Arch>::equal_16(states, blocked);
             });
         }
     }
 
-    /// One shape against one bunch.
+    /// One shape against one packet.
     template <class Filter>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
                                      std::size_t which) {
         if (blocked_[which] == 0xFFFF) return;
         const bool plain = S::is_plain(scene_, slot);
-        const Rays& bunch = bunches_[which];
+        const Rays& packet = packets_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {
-            PacketOcclusions<Arch> found({bunch.t_most, nullptr}, k);
-            found.test(filter, id, plain, bunch.packet(k), ~blocked_[which] >> k);
+            LaneOcclusions<Arch> found({packet.t_most, nullptr}, k);
+            found.test(filter, id, plain, packet.packet(k), ~blocked_[which] >> k);
             blocked_[which] |= found.sure << k;
             doubtful_[which] |= found.some << k;
         }
     }
 
-    /// To a bunch of which all rays are blocked nothing matters.
+    /// To a packet of which all rays are blocked nothing matters.
     float limit_of(std::size_t which) const {
         return blocked_[which] == 0xFFFF ? -1.0F : __builtin_inff();
     }

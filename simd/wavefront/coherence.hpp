@@ -7,14 +7,14 @@
 namespace raylane::simd {
 
 /// What a camera's rays have in common, and what those to a light do.
-Bundle bundle_of(const CameraView& camera);
-Bundle bundle_of(const LightView& light);
+Coherence coherence_of(const CameraView& camera);
+Coherence coherence_of(const LightView& light);
 
 /// Rays from the camera that one flat shape has reflected seem to come from its mirror image. Of
 /// others it says that they are neighbours. `surfaces` and `order`, the lanes that have hit them,
 /// are by position, which is what the rays' parents are; `slots` are by lane.
-Bundle bundle_off_mirror(const CameraView& camera, const SceneData& scene, const Surfaces& surfaces,
-                         const std::uint32_t* order, const std::uint32_t* slots,
-                         const SpawnedRays& reflected);
+Coherence coherence_off_mirror(const CameraView& camera, const SceneData& scene,
+                               const Surfaces& surfaces, const std::uint32_t* order,
+                               const std::uint32_t* slots, const SpawnedRays& reflected);
 
 } // namespace raylane::simd

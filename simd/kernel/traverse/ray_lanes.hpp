@@ -6,34 +6,34 @@ namespace raylane::simd {
 
 /// Rays of a stream, one per lane.
 template <class Arch, class Method>
-struct Packet {
+struct RayLanes {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
 
     typename Method::Rays rays;
-    F departed_first, departed_last;
+    F origin_first, origin_last;
 
-    Packet(const typename Method::Rays& rays_there, const F& first, const F& last)
-        : rays(rays_there), departed_first(first), departed_last(last) {}
-    Packet(const RoundedRays& stream, std::size_t i)
-        : rays(Method::packet(stream, i)), departed_first(S::load_bits(stream.departed_first + i)),
-          departed_last(S::load_bits(stream.departed_last + i)) {}
+    RayLanes(const typename Method::Rays& rays_there, const F& first, const F& last)
+        : rays(rays_there), origin_first(first), origin_last(last) {}
+    RayLanes(const RoundedRays& stream, std::size_t i)
+        : rays(Method::packet(stream, i)), origin_first(S::load_bits(stream.origin_first + i)),
+          origin_last(S::load_bits(stream.origin_last + i)) {}
 
     /// Those that do not leave the shape.
     Mask<Arch> elsewhere(std::uint32_t id) const {
-        return ~Lanes<Arch>::in_range(S::broadcast_bits(id), departed_first, departed_last);
+        return ~Lanes<Arch>::in_range(S::broadcast_bits(id), origin_first, origin_last);
     }
 };
 
 /// Candidates of a packet's rays.
 template <class Arch>
-struct PacketCandidates {
+struct LaneCandidates {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
 
     F first, second, slot;
 
-    PacketCandidates(const Candidates& candidates, std::size_t i)
+    LaneCandidates(const Candidates& candidates, std::size_t i)
         : first(S::load(candidates.first + i)), second(S::load(candidates.second + i)),
           slot(S::load_bits(candidates.slot + i)) {}
 
@@ -46,7 +46,8 @@ struct PacketCandidates {
     /// Takes account of one shape.
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id,
-                                     std::uint32_t this_slot, const Packet<Arch, Method>& packet) {
+                                     std::uint32_t this_slot,
+                                     const RayLanes<Arch, Method>& packet) {
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
         take(filter.bounds(packet.rays), packet.elsewhere(id), this_slot);
@@ -64,7 +65,7 @@ struct PacketCandidates {
 
 /// Occlusions of a packet's rays.
 template <class Arch>
-struct PacketOcclusions {
+struct LaneOcclusions {
     using S = Streams<Arch>;
     using F = Floats<Arch>;
 
@@ -72,14 +73,14 @@ struct PacketOcclusions {
     std::uint32_t some = 0; ///< rays that something may be in the way of, as bits
     std::uint32_t sure = 0; ///< and those that are blocked
 
-    PacketOcclusions(const Occlusions& occlusions, std::size_t i)
+    LaneOcclusions(const Occlusions& occlusions, std::size_t i)
         : t_most(S::load(occlusions.t_most + i)), perhaps_before(t_most * F(perhaps_within)),
           surely_before(t_most * F(surely_within)) {}
 
     /// Takes account of one shape, for those of the rays that are `asked` about.
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
-                                     const Packet<Arch, Method>& packet,
+                                     const RayLanes<Arch, Method>& packet,
                                      std::uint32_t asked = ~0U) {
         asked &= Lanes<Arch>::bits(packet.elsewhere(id));
         if (asked == 0) return;
@@ -97,7 +98,7 @@ struct PacketOcclusions {
         for (std::size_t lane = 0; lane < count && lane < F::size; ++lane) {
             if ((sure >> lane & 1) != 0)
                 state[lane] = blocked;
-            else if ((some >> lane & 1) != 0 && state[lane] == open)
+            else if ((some >> lane & 1) != 0 && state[lane] == unblocked)
                 state[lane] = doubtful;
             all_blocked = all_blocked && state[lane] == blocked;
         }

@@ -9,9 +9,9 @@ namespace raylane::core {
 /// after the other. What is left is where the line enters and where it leaves: always both or
 /// neither, so each ray that enters a solid leaves it.
 template <class Real>
-class Span {
+class ClipInterval {
   public:
-    explicit Span(Judge<Real>& judge) : judge_(judge) {}
+    explicit ClipInterval(Judge<Real>& judge) : judge_(judge) {}
 
     /// The line is inside only for t >= `t`.
     void clip_front(const Real& t, Face face) {

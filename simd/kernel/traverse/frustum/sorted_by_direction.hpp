@@ -4,12 +4,12 @@
 
 namespace raylane::simd {
 
-/// Rays that end at one point, in an order in which those of a bunch come there from nearly the
-/// same direction, however far apart they start, as far as that is worth the work. Bunches of which
+/// Rays that end at one point, in an order in which those of a packet come there from nearly the
+/// same direction, however far apart they start, as far as that is worth the work. Packets of which
 /// that is so already may stay what they are; the rays of the others come behind them, in the order
 /// of their directions along a Morton curve.
 template <class Arch>
-struct SortedTowards : Streams<Arch> {
+struct SortedByDirection : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
@@ -27,8 +27,8 @@ struct SortedTowards : Streams<Arch> {
                    workspace.capacity * stream_record_bytes;
     }
 
-    SortedTowards(const RoundedRays& from, const Occlusions& asked, std::size_t count,
-                  const Workspace& workspace)
+    SortedByDirection(const RoundedRays& from, const Occlusions& asked, std::size_t count,
+                      const Workspace& workspace)
         : rays(from), occlusions(asked), keys_(workspace.lists), others_(keys_ + column_of(count)) {
         const std::size_t room = column_of(count);
         auto* const column = reinterpret_cast<float*>(workspace.records);
@@ -49,8 +49,8 @@ struct SortedTowards : Streams<Arch> {
         }
         rays.slack = column + 6 * room;
         std::uint32_t *const first = ids(7), *const last = ids(8);
-        rays.departed_first = first;
-        rays.departed_last = last;
+        rays.origin_first = first;
+        rays.origin_last = last;
         float* const t_most = column + 9 * room;
         occlusions = {t_most, reinterpret_cast<std::uint8_t*>(column + columns * room)};
         for (int axis = 0; axis < 3; ++axis) {
@@ -58,8 +58,8 @@ struct SortedTowards : Streams<Arch> {
             gather(from.direction[axis], count, rays.direction[axis]);
         }
         gather(from.slack, count, rays.slack);
-        gather(from.departed_first, count, first);
-        gather(from.departed_last, count, last);
+        gather(from.origin_first, count, first);
+        gather(from.origin_last, count, last);
         gather(asked.t_most, count, t_most);
         gather(asked.state, count, occlusions.state);
     }
@@ -85,8 +85,8 @@ struct SortedTowards : Streams<Arch> {
     }
 
     static constexpr unsigned cells = 32; ///< a side
-    /// Steeper rays are no part of a group.
-    static constexpr float steepest = Group<Arch>::steepest;
+    /// Steeper rays are no part of a frustum.
+    static constexpr float steepest = Frustum<Arch>::steepest;
 
     /// Bits of x with one between each.
     static unsigned spread(unsigned x) {
@@ -120,29 +120,29 @@ struct SortedTowards : Streams<Arch> {
         }
     }
 
-    /// Whether some ray of a bunch is so far from the first.
-    bool is_wide(std::size_t bunch, float most) const {
-        const F u(u_[bunch]), v(v_[bunch]);
+    /// Whether some ray of a packet is so far from the first.
+    bool is_wide(std::size_t packet, float most) const {
+        const F u(u_[packet]), v(v_[packet]);
         std::uint32_t apart = 0;
-        for (std::size_t i = bunch; i < bunch + 16; i += F::size)
+        for (std::size_t i = packet; i < packet + 16; i += F::size)
             apart |=
                 Lanes<Arch>::bits(abs(S::load(u_ + i) - u) + abs(S::load(v_ + i) - v) > F(most));
         return apart != 0;
     }
 
-    /// Numbers the rays of whole bunches that are no wider than `wide` times what they would be if
+    /// Numbers the rays of whole packets that are no wider than `wide` times what they would be if
     /// all together filled a rectangle without overlapping, and lists the others. Returns how many
     /// rays these are: all if nearly all are, and none if too few are.
     std::size_t keep_narrow(std::size_t count) {
-        const float bunches = static_cast<float>((count + 15) / 16);
-        const float most = wide * (extent_[0] + extent_[1]) / __builtin_sqrtf(bunches);
+        const float packets = static_cast<float>((count + 15) / 16);
+        const float most = wide * (extent_[0] + extent_[1]) / __builtin_sqrtf(packets);
         std::size_t kept = 0;
         others_count_ = 0;
-        for (std::size_t bunch = 0; bunch < count; bunch += 16) {
+        for (std::size_t packet = 0; packet < count; packet += 16) {
             for (std::size_t lane = 0; lane < 16; ++lane)
-                number_[kept + lane] = static_cast<std::uint32_t>(bunch + lane);
-            others_[others_count_] = static_cast<std::uint16_t>(bunch);
-            const bool keeps = bunch + 16 <= count && !is_wide(bunch, most);
+                number_[kept + lane] = static_cast<std::uint32_t>(packet + lane);
+            others_[others_count_] = static_cast<std::uint16_t>(packet);
+            const bool keeps = packet + 16 <= count && !is_wide(packet, most);
             kept += keeps ? 16 : 0;
             others_count_ += keeps ? 0 : 1;
         }
@@ -177,8 +177,8 @@ struct SortedTowards : Streams<Arch> {
                 number_[ends[keys[i]]++] = static_cast<std::uint32_t>(i);
     }
 
-    static std::size_t end_of(std::size_t bunch, std::size_t count) {
-        return bunch + 16 < count ? bunch + 16 : count;
+    static std::size_t end_of(std::size_t packet, std::size_t count) {
+        return packet + 16 < count ? packet + 16 : count;
     }
 
     static constexpr float wide = 1.5F, nearly_all = 0.85F, enough = 0.75F;
