@@ -11,8 +11,8 @@ namespace raylane::bench {
 /// Where the shapes of a table are, in the order in which they were added to the scene. The table
 /// itself has them in that of the hierarchy, which would help whoever else gets them.
 template <class Shape>
-std::vector<std::pair<core::ShapeId, core::Slot>> slots_by_id(const core::Table<Shape>& table) {
-    std::vector<std::pair<core::ShapeId, core::Slot>> slots;
+std::vector<std::pair<core::ShapeId, core::Place>> slots_by_id(const core::Table<Shape>& table) {
+    std::vector<std::pair<core::ShapeId, core::Place>> slots;
     slots.reserve(table.size());
     for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
         for (std::uint8_t lane = 0; lane < core::block_size; ++lane)

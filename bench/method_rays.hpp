@@ -77,7 +77,7 @@ struct MethodRays {
             }
             const Hit<double> hit =
                 searcher.nearest(ray, {}, [](const Hit<double>&) { return true; }).hit;
-            truths.push_back({hit.any() ? data.slot_of(hit.kind, hit.slot) : simd::no_slot,
+            truths.push_back({hit.any() ? data.slot_of(hit.kind, hit.place) : simd::no_slot,
                               hit.entering, hit.t});
         }
     }

@@ -227,13 +227,13 @@ SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
             static_cast<core::Kind>(kind)};
 }
 
-core::Slot SceneData::place_of(std::uint32_t slot) const {
+core::Place SceneData::place_of(std::uint32_t slot) const {
     const auto kind = static_cast<int>(occupant_of(slot).kind);
     const std::uint32_t place = slot - view_.tables[kind].first_slot;
     return {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)};
 }
 
-std::uint32_t SceneData::slot_of(core::Kind kind, core::Slot place) const {
+std::uint32_t SceneData::slot_of(core::Kind kind, core::Place place) const {
     return view_.tables[static_cast<int>(kind)].first_slot + core::block_size * place.block +
            place.lane;
 }

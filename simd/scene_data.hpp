@@ -58,8 +58,8 @@ class SceneData {
         return occupants_[slot];
     }
     core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
-    core::Slot place_of(std::uint32_t slot) const;
-    std::uint32_t slot_of(core::Kind kind, core::Slot place) const;
+    core::Place place_of(std::uint32_t slot) const;
+    std::uint32_t slot_of(core::Kind kind, core::Place place) const;
 
   private:
     void view_surroundings();

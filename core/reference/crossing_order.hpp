@@ -49,7 +49,7 @@ class SharpHit {
         t_ = hit_.t;
         t_error_ = hit_.error;
         with_table(scene.shapes(), hit_.kind,
-                   [&](const auto& table) { widen(table.get(hit_.slot), from); });
+                   [&](const auto& table) { widen(table.get(hit_.place), from); });
     }
     /// With a t that is off by no more than double cannot help, if it has been widened.
     Hit<double> sharpened() const {
@@ -69,7 +69,7 @@ class SharpHit {
     const ExactRoot& root(const Scene& scene, const LeavingRay& from) const {
         if (!root_)
             with_table(scene.shapes(), hit_.kind, [&](const auto& table) {
-                root_ = root_of(table.get(hit_.slot), from, hit_);
+                root_ = root_of(table.get(hit_.place), from, hit_);
             });
         return *root_;
     }

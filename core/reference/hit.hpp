@@ -18,7 +18,7 @@ struct Hit {
     Face face = body;
     bool entering = false;
     Kind kind{};
-    Slot slot{};
+    Place place{};
     bool joins = false; ///< of several in order: at the same t as the one before
 
     bool any() const { return shape != no_shape; }

@@ -30,7 +30,7 @@ double above(double value, double error) {
 template <class Visit>
 decltype(auto) with_shape(const Scene& scene, const Hit<double>& hit, const Visit& visit) {
     return with_table(scene.shapes(), hit.kind,
-                      [&](const auto& table) { return visit(table.get(hit.slot)); });
+                      [&](const auto& table) { return visit(table.get(hit.place)); });
 }
 
 template <class To>

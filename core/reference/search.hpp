@@ -73,7 +73,7 @@ class Searcher {
             if (is_exact()) return surface_point(scene_, {ray, origins}, hit);
         const Vec3<Real> point = mul_add(hit.t, ray.direction, ray.origin);
         return with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-            return SurfacePoint<Real>{point, outward_normal(table.get(hit.slot), point, hit.face)};
+            return SurfacePoint<Real>{point, outward_normal(table.get(hit.place), point, hit.face)};
         });
     }
 
@@ -290,7 +290,7 @@ class Searcher {
                     if (crossing.t > Real(0) || (start.on_surface && crossing.t == Real(0)))
                         visit(Hit<Real>{crossing.t, crossing.error, false, id, crossing.face,
                                         crossing.entering, kind,
-                                        Slot{index, static_cast<std::uint8_t>(lane)}});
+                                        Place{index, static_cast<std::uint8_t>(lane)}});
             }
         });
     }

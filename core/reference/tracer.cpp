@@ -108,7 +108,7 @@ ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encou
     const Hit<Real>& hit = encounter.hit;
     auto [point, flat] = searcher_.surface_at(path.ray, path.origins, hit);
     Vector normal = with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-        return shading_normal_at(table.get(hit.slot), point, flat);
+        return shading_normal_at(table.get(hit.place), point, flat);
     });
     if (dot(normal, flat) < Real(0)) normal = -normal;
     if (!hit.entering) {

@@ -45,7 +45,7 @@ struct alignas(64) Block {
 };
 
 /// Where a shape is in the table of its kind.
-struct Slot {
+struct Place {
     std::uint32_t block;
     std::uint8_t lane;
 };
@@ -73,8 +73,8 @@ class Table {
     /// With duplicates, of which the blocks have one each.
     std::size_t size() const { return size_; }
     const BigArray<Block<Shape>>& blocks() const { return blocks_; }
-    Shape get(Slot slot) const { return blocks_[slot.block].get(slot.lane); }
-    ShapeId id(Slot slot) const { return blocks_[slot.block].ids[slot.lane]; }
+    Shape get(Place place) const { return blocks_[place.block].get(place.lane); }
+    ShapeId id(Place place) const { return blocks_[place.block].ids[place.lane]; }
     std::size_t bytes() const { return blocks_.bytes(); }
 
   private:

@@ -22,7 +22,7 @@ void write_pov(TextFile& file, const core::Scene& scene, LeftOut& left_out);
 template <class Visit>
 void for_each_by_id(const core::Scene& scene, const Visit& visit) {
     struct Place {
-        core::Slot slot;
+        core::Place slot;
         core::Kind kind;
         bool exists;
     };
@@ -30,7 +30,7 @@ void for_each_by_id(const core::Scene& scene, const Visit& visit) {
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
             for (std::uint8_t lane = 0; lane < core::block_size; ++lane) {
-                const core::Slot slot{block, lane};
+                const core::Place slot{block, lane};
                 if (const core::ShapeId id = table.id(slot); id != core::no_shape)
                     places[id] = {slot, core::kind_of<Shape>, true};
             }

@@ -31,7 +31,7 @@ inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, cons
     hit.face = static_cast<core::Face>(hits.hit[lane] & hit_face);
     hit.entering = (hits.hit[lane] & hit_entering) != 0;
     hit.kind = shape.kind;
-    hit.slot = scene.place_of(slot);
+    hit.place = scene.place_of(slot);
     return hit;
 }
 
@@ -45,7 +45,7 @@ core::OriginSurfaces<Real> origin_surfaces_of(const SceneData& scene, const Path
     hit.shape = shape.id;
     hit.face = static_cast<core::Face>(paths.origin_bits[lane] & origin_face);
     hit.kind = shape.kind;
-    hit.slot = scene.place_of(slot);
+    hit.place = scene.place_of(slot);
     const bool inward = (paths.origin_bits[lane] & origin_inward) != 0;
     const core::Contact<Real> surface{hit,
                                       {paths.origin_first[lane], paths.origin_last[lane]},

@@ -117,7 +117,7 @@ void Certifier::compare_in_double(const Paths& paths, std::span<const std::uint3
         }
         if (!first.is_alone) at_contacts_[contact_count_++] = lane;
         gathered_.copy_ray(paths, lane, 0);
-        gathered_hits_.slot[0] = scene_.slot_of(first.hit.kind, first.hit.slot);
+        gathered_hits_.slot[0] = scene_.slot_of(first.hit.kind, first.hit.place);
         finish(gathered_hits_.found(gathered_, 0, 1));
         hits.copy(gathered_hits_, 0, lane);
     }

@@ -281,7 +281,7 @@ void Refinery::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t 
         hits_.set_normals(
             candidate, normal,
             core::with_table(scene_.scene().shapes(), hit.kind, [&](const auto& table) {
-                return core::shading_normal_at(table.get(hit.slot), point, normal);
+                return core::shading_normal_at(table.get(hit.place), point, normal);
             }));
     }
     // Of points, floats are none of their concern.

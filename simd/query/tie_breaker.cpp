@@ -23,7 +23,7 @@ std::uint32_t TieBreaker::first_at(float t, const Paths& paths, std::size_t lane
                         if (hit.t == t && (!first.any() || hit.precedes(first))) first = hit;
                         return true;
                     });
-    return first.any() ? scene_.slot_of(first.kind, first.slot) : found;
+    return first.any() ? scene_.slot_of(first.kind, first.place) : found;
 }
 
 TieBreaker::First TieBreaker::first_of(const Paths& paths, std::size_t lane) {

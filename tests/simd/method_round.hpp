@@ -39,7 +39,7 @@ class MethodRound {
 
     explicit MethodRound(const Shape& shape)
         : shape_(shape), scene_(scene_of(shape)), data_(scene_),
-          slot_(data_.slot_of(core::kind_of<Shape>, core::Slot{0, 0})) {
+          slot_(data_.slot_of(core::kind_of<Shape>, core::Place{0, 0})) {
         arena_ = simd::arena_for([&](simd::Arena& a) { paths_.take_from(a, capacity, false); });
         paths_.start_nowhere(0, capacity);
     }

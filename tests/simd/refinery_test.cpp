@@ -106,7 +106,7 @@ class Round {
         const Encounter<double> there = reference_.nearest(ray, {});
         if (there.hit.any() && random.integer(0, 1) == 0) {
             ray = {mul_add(there.hit.t, ray.direction, ray.origin), random.direction()};
-            const std::uint32_t slot = data_.slot_of(there.hit.kind, there.hit.slot);
+            const std::uint32_t slot = data_.slot_of(there.hit.kind, there.hit.place);
             const bool inward = dot(ray.direction, there.contacts.begin()->normal) < 0.0;
             const std::uint32_t bits = there.hit.face | (inward ? hit_entering : 0);
             paths.start_on(lane, slot, data_.occupant_of(slot), bits, /*through=*/true);

@@ -179,7 +179,7 @@ struct Traced {
             static_cast<double>(std::min(answers.second[i], answers.first[i] * culling_slack));
         CAPTURE(i, hit.t, first, seen_to);
         if (hit.any() && !(first <= hit.t * (1 + 1e-12))) FAIL("passed the nearest by");
-        if (hit.any() && hit.t < seen_to && answers.slot[i] != data.slot_of(hit.kind, hit.slot))
+        if (hit.any() && hit.t < seen_to && answers.slot[i] != data.slot_of(hit.kind, hit.place))
             FAIL("another shape");
     }
 
