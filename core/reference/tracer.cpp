@@ -107,9 +107,10 @@ typename ReferenceTracer<Real>::Surface
 ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encounter) const {
     const Hit<Real>& hit = encounter.hit;
     auto [point, flat] = searcher_.surface_at(path.ray, path.origins, hit);
-    Vector normal = with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-        return shading_normal_at(table.get(hit.place), point, flat);
-    });
+    Vector normal =
+        with_table(scene_.shapes(), hit.kind, [&, &at = point, &there = flat](const auto& table) {
+            return shading_normal_at(table.get(hit.place), at, there);
+        });
     if (dot(normal, flat) < Real(0)) normal = -normal;
     if (!hit.entering) {
         flat = -flat;

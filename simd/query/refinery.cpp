@@ -278,11 +278,12 @@ void Refinery::hand_over(std::size_t candidate, const Hits& hits, std::uint32_t 
         const auto [point, normal] = core::surface_point(scene_.scene(), {ray, origins}, hit);
         if (point != core::mul_add(hit.t, ray.direction, ray.origin))
             points_.push_back({lane, point});
-        hits_.set_normals(
-            candidate, normal,
-            core::with_table(scene_.scene().shapes(), hit.kind, [&](const auto& table) {
-                return core::shading_normal_at(table.get(hit.place), point, normal);
-            }));
+        hits_.set_normals(candidate, normal,
+                          core::with_table(scene_.scene().shapes(), hit.kind,
+                                           [&, &at = point, &flat = normal](const auto& table) {
+                                               return core::shading_normal_at(table.get(hit.place),
+                                                                              at, flat);
+                                           }));
     }
     // Of points, floats are none of their concern.
     if (for_points_) hits_.hit[candidate] &= ~(hit_normal_unknown | hit_normal_doubtful);

@@ -23,7 +23,7 @@ TEST_CASE("each shape is the floats of its file") {
     core::for_each_shape_type([]<class Shape>(std::type_identity<Shape>) {
         CAPTURE(core::name_of(core::kind_of<Shape>));
         const core::Scene scene =
-            scene_of(with_objects(object(Written<Shape>::text, R"("glass")")));
+            scene_of(with_objects(object_text(Written<Shape>::text, R"("glass")")));
         REQUIRE(scene.shape_count() == 1);
         CHECK(core::floats_of(shape<Shape>(scene, 0)) ==
               core::floats_of(Written<Shape>::template by_name<Shape>()));

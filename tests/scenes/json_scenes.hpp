@@ -43,7 +43,7 @@ inline std::string with_objects(const std::string& objects) {
 }
 
 /// What makes up a shape, with a material, as one of the objects.
-inline std::string object(const std::string& shape, const std::string& material) {
+inline std::string object_text(const std::string& shape, const std::string& material) {
     return "{" + shape + R"(, "material": )" + material + "}";
 }
 

@@ -17,7 +17,7 @@ using ray_sets::rounded;
 namespace {
 
 using Ray = core::Ray<float>;
-using Shapes = std::vector<AnyShape>;
+using Shapes = std::vector<tests::AnyShape>;
 
 /// The oracle agrees with all answers, whatever the limits and whoever is asked. Returns the hits.
 long check(const Shapes& shapes, std::span<const Ray> rays, double least_hits = 0.25) {
