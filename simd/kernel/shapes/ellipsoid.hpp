@@ -32,16 +32,16 @@ struct EllipsoidNumbers {
 ///
 /// All but t is in units of a power of two, in which the axes' components add up to less than 2,
 /// and to 1 or more. L is the length of all axes together: as p = b_u u + b_v v + b_w w, it is |p|
-/// <= L |b|, and 1 <= L |a|. The volume errs by 6 u of the sum S of the absolute products; so a row
-/// errs by E = u (8 + 8 S / |volume|) of its part of absolute_cross() / |volume|; sigma is the
-/// length of all these parts.
+/// <= L |b|, and 1 <= L |a|. A row errs by 3 u of its part of absolute_cross() / |volume|, sigma
+/// being the length of all these parts; and all rows as the volume does, by r = u (8 S / |volume| +
+/// 4), S being the sum of the absolute products, which makes the ball as much larger or smaller.
 ///
-/// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b by sigma (|p| (E + 6 u) + eta), and a by
-/// sigma (E + 5 u). Where |b + s a| is X, |p| <= L X and |s| <= 2 X L, as b is next to the centre:
-/// so the true position is within sigma (3 X L (E + 6 u) + eta) of it. Of two such X, one of which
-/// is 1, neither then is further from the other than
-///   e = 8 L sigma (E + 8 u) + 1.5 sigma eta,
-/// as long as the first term is below 1/4. The roots of |b + s a| = 1 +- e bound s, but for the
+/// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b by sigma (8 u |p| + eta), and a by 7 u
+/// sigma. Where |b + s a| is X, |p| <= L X and |s| <= 2 X L, as b is next to the centre: so the
+/// true position is within sigma (22 u X L + eta) of it. Of two such X, one of which is 1, neither
+/// then is further from the other than
+///   e = 32 u L sigma + r + 1.5 sigma eta,
+/// as long as the first terms are below 1/4. The roots of |b + s a| = 1 +- e bound s, but for the
 /// rounding of what they are made of: 8 u of 1 +- e, and 16 u (|tau| + L (1 + e)) of t.
 template <class Arch>
 struct EllipsoidFilter {
@@ -51,7 +51,7 @@ struct EllipsoidFilter {
 
     V center, rows[3];
     F unit, per_unit;
-    F error, sigma, size; ///< 8 L sigma (E + 8 u), sigma, L
+    F error, sigma, size; ///< 32 u L sigma + r, sigma, L
     Mask<Arch> ordinary;  ///< the error is small, and no number is 0 for being so
 
     template <class Reader>
@@ -78,8 +78,8 @@ struct EllipsoidFilter {
         }
         sigma = root_above<Arch>(squares) * per_volume;
         size = root_above<Arch>(fast_dot(u, u) + fast_dot(v, v) + fast_dot(w, w));
-        const F of_row = F(8 * half_ulp) * fast_mul_add<Arch>(products, per_volume, F(1.0F));
-        error = F(8.0F) * size * sigma * (of_row + F(8 * half_ulp));
+        error = F(32 * half_ulp) * size * sigma +
+                F(8 * half_ulp) * fast_mul_add<Arch>(products, per_volume, F(1.0F));
         ordinary = (abs(volume) > F(0x1p-40F)) & (error < F(0.25F));
     }
 
