@@ -5,7 +5,7 @@
 
 using namespace raylane::simd;
 
-TEST_CASE("native and generic lanes do the same") {
+TEST_CASE("lanes do what loops over numbers do") {
     CHECK(lanes_failures_portable() == 0);
     if (is_available(Isa::sse42)) CHECK(lanes_failures_sse42() == 0);
     if (is_available(Isa::avx2)) CHECK(lanes_failures_avx2() == 0);

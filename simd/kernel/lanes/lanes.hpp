@@ -79,84 +79,6 @@ max(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
 }
 #endif
 
-/// By loops over memory: what the native forms below are tested against, and some of what any
-/// processor uses.
-namespace generic {
-
-template <class Arch>
-std::uint32_t bits(const Mask<Arch>& mask) {
-    bool lanes[Mask<Arch>::size];
-    mask.store_unaligned(lanes);
-    std::uint32_t result = 0;
-    for (std::size_t i = 0; i < Mask<Arch>::size; ++i)
-        result |= static_cast<std::uint32_t>(lanes[i]) << i;
-    return result;
-}
-
-template <class Arch>
-void compress_store(float* out, const Floats<Arch>& values, std::uint32_t wanted) {
-    float lanes[Floats<Arch>::size];
-    values.store_unaligned(lanes);
-    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
-        if ((wanted >> i & 1) != 0) *out++ = lanes[i];
-}
-
-template <class Arch>
-Floats<Arch> mul_add(const Floats<Arch>& a, const Floats<Arch>& b, const Floats<Arch>& c) {
-    float x[Floats<Arch>::size], y[Floats<Arch>::size], z[Floats<Arch>::size];
-    a.store_unaligned(x);
-    b.store_unaligned(y);
-    c.store_unaligned(z);
-    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
-        x[i] = __builtin_fmaf(x[i], y[i], z[i]);
-    return Floats<Arch>::load_unaligned(x);
-}
-
-template <class Arch>
-float least(const Floats<Arch>& values) {
-    float lanes[Floats<Arch>::size];
-    values.store_unaligned(lanes);
-    float result = lanes[0];
-    for (const float lane : lanes)
-        result = lane < result ? lane : result;
-    return result;
-}
-
-template <class Arch>
-float greatest(const Floats<Arch>& values) {
-    float lanes[Floats<Arch>::size];
-    values.store_unaligned(lanes);
-    float result = lanes[0];
-    for (const float lane : lanes)
-        result = lane > result ? lane : result;
-    return result;
-}
-
-template <class Arch>
-Floats<Arch> narrow(const double* from) {
-    float lanes[Floats<Arch>::size];
-    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
-        lanes[i] = static_cast<float>(from[i]);
-    return Floats<Arch>::load_unaligned(lanes);
-}
-
-template <class Arch>
-Mask<Arch> in_range(const Floats<Arch>& id, const Floats<Arch>& first, const Floats<Arch>& last) {
-    float i[Floats<Arch>::size], f[Floats<Arch>::size], l[Floats<Arch>::size];
-    bool result[Floats<Arch>::size];
-    id.store_unaligned(i);
-    first.store_unaligned(f);
-    last.store_unaligned(l);
-    for (std::size_t k = 0; k < Floats<Arch>::size; ++k) {
-        const auto from = __builtin_bit_cast(std::uint32_t, f[k]);
-        result[k] = __builtin_bit_cast(std::uint32_t, i[k]) - from <=
-                    __builtin_bit_cast(std::uint32_t, l[k]) - from;
-    }
-    return Mask<Arch>::load_unaligned(result);
-}
-
-} // namespace generic
-
 /// bits: lane i of a mask as bit i.
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
 /// has_mul_add: whether the next is one instruction.
@@ -207,13 +129,27 @@ struct Lanes<Portable> {
         }
         return narrow(sums);
     }
-    static float least(const F& values) { return generic::least<Portable>(values); }
-    static float greatest(const F& values) { return generic::greatest<Portable>(values); }
-    static F narrow(const double* from) { return generic::narrow<Portable>(from); }
+    static float least(const F& values) { return most<true>(values.lanes()); }
+    static float greatest(const F& values) { return most<false>(values.lanes()); }
+    static F narrow(const double* from) {
+        F::Lanes lanes;
+        for (std::size_t i = 0; i < F::size; ++i)
+            lanes[i] = static_cast<float>(from[i]);
+        return F(lanes);
+    }
     static M in_range(const F& id, const F& first, const F& last) {
         const auto from = bits_as<std::uint32_t>(first);
         return M(
             (bits_as<std::uint32_t>(id) - from <= bits_as<std::uint32_t>(last) - from).lanes());
+    }
+
+  private:
+    template <bool is_least>
+    static float most(const F::Lanes& lanes) {
+        float result = lanes[0];
+        for (std::size_t i = 1; i < F::size; ++i)
+            result = (is_least ? lanes[i] < result : lanes[i] > result) ? lanes[i] : result;
+        return result;
     }
 };
 

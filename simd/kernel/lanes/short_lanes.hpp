@@ -5,53 +5,6 @@
 /// Lanes of 16 and of 8 bits: ray numbers, sets of children, distances for order, states.
 namespace raylane::simd {
 
-/// By loops over memory, as in lanes.hpp.
-namespace generic {
-
-template <class Arch>
-int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count, unsigned bit,
-         std::uint16_t* out) {
-    int picked = 0;
-    for (int k = 0; k < count; ++k) {
-        out[picked] = numbers[k];
-        picked += masks[k] >> bit & 1;
-    }
-    return picked;
-}
-
-template <class Arch>
-void compress_keys(std::uint16_t* out, const Floats<Arch>& values, std::uint32_t wanted) {
-    float lanes[Floats<Arch>::size];
-    values.store_unaligned(lanes);
-    for (std::size_t i = 0; i < Floats<Arch>::size; ++i)
-        if ((wanted >> i & 1) != 0)
-            *out++ = static_cast<std::uint16_t>(__builtin_bit_cast(std::uint32_t, lanes[i]) >> 15);
-}
-
-template <class Arch>
-std::uint32_t least_of_16(const std::uint16_t* keys) {
-    std::uint32_t least = 0;
-    for (std::uint32_t i = 1; i < 16; ++i)
-        least = keys[i] < keys[least] ? i : least;
-    return std::uint32_t{keys[least]} << 16 | least;
-}
-
-template <class Arch>
-std::uint32_t equal_16(const std::uint8_t* bytes, std::uint8_t value) {
-    std::uint32_t equal = 0;
-    for (std::uint32_t i = 0; i < 16; ++i)
-        equal |= static_cast<std::uint32_t>(bytes[i] == value) << i;
-    return equal;
-}
-
-template <class Arch>
-void raise_16(std::uint8_t* bytes, std::uint32_t which, std::uint8_t least) {
-    for (std::uint32_t i = 0; i < 16; ++i)
-        if ((which >> i & 1) != 0 && bytes[i] < least) bytes[i] = least;
-}
-
-} // namespace generic
-
 /// pick: those of `count` numbers whose masks have a bit, in their order, to `out`. Returns how
 /// many. May read and write 16 more.
 /// compress_keys: bits 15 to 30 of the wanted lanes, which are in the order of the values where
@@ -60,23 +13,41 @@ void raise_16(std::uint8_t* bytes, std::uint32_t which, std::uint8_t least) {
 /// equal_16: which of 16 bytes have a value, as bits.
 /// raise_16: raises those of 16 bytes, by bits, that are less than a value to it.
 template <class Arch>
-struct ShortLanes {
+struct ShortLanes;
+
+/// By loops over memory.
+template <>
+struct ShortLanes<Portable> {
     static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,
                     unsigned bit, std::uint16_t* out) {
-        return generic::pick<Arch>(numbers, masks, count, bit, out);
+        int picked = 0;
+        for (int k = 0; k < count; ++k) {
+            out[picked] = numbers[k];
+            picked += masks[k] >> bit & 1;
+        }
+        return picked;
     }
-    static void compress_keys(std::uint16_t* out, const Floats<Arch>& values,
+    static void compress_keys(std::uint16_t* out, const Floats<Portable>& values,
                               std::uint32_t wanted) {
-        generic::compress_keys<Arch>(out, values, wanted);
+        const auto keys = bits_as<std::uint32_t>(values) >> 15;
+        for (std::size_t i = 0; i < keys.size; ++i)
+            if ((wanted >> i & 1) != 0) *out++ = static_cast<std::uint16_t>(keys.lanes()[i]);
     }
     static std::uint32_t least_of_16(const std::uint16_t* keys) {
-        return generic::least_of_16<Arch>(keys);
+        std::uint32_t least = 0;
+        for (std::uint32_t i = 1; i < 16; ++i)
+            least = keys[i] < keys[least] ? i : least;
+        return std::uint32_t{keys[least]} << 16 | least;
     }
     static std::uint32_t equal_16(const std::uint8_t* bytes, std::uint8_t value) {
-        return generic::equal_16<Arch>(bytes, value);
+        std::uint32_t equal = 0;
+        for (std::uint32_t i = 0; i < 16; ++i)
+            equal |= static_cast<std::uint32_t>(bytes[i] == value) << i;
+        return equal;
     }
     static void raise_16(std::uint8_t* bytes, std::uint32_t which, std::uint8_t least) {
-        generic::raise_16<Arch>(bytes, which, least);
+        for (std::uint32_t i = 0; i < 16; ++i)
+            if ((which >> i & 1) != 0 && bytes[i] < least) bytes[i] = least;
     }
 };
 

@@ -3,8 +3,29 @@
 #include "simd/kernel/shapes/crossings.hpp"
 #include "simd/kernel/shapes/enclosing.hpp"
 
-/// What the solvers of cylinders and cones have in common: core/shapes/axial.hpp
+/// Shared parts of cylinders and cones: core/shapes/axial.hpp
 namespace raylane::simd {
+
+/// A cone where it `tapers`, else a cylinder, whose radii are one number.
+template <class Arch, bool tapers>
+struct AxialNumbers {
+    Vectors<Arch> base, axis;
+    Floats<Arch> base_radius, top_radius;
+
+    template <class Reader>
+    explicit AxialNumbers(Reader reader)
+        : base(next_vector<Arch>(reader)), axis(next_vector<Arch>(reader)),
+          base_radius(reader.next()), top_radius(base_radius) {
+        if constexpr (tapers) top_radius = reader.next();
+    }
+
+    static constexpr int ends = 2;
+    /// Around one end of the body, which is between both.
+    SphereAround<Arch> enclosing(int end) const {
+        return end == 0 ? rounded_up<Arch>(base, base_radius)
+                        : rounded_up<Arch>(base + axis, top_radius);
+    }
+};
 
 template <class Arch>
 struct AxialRays {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/shapes/axial.hpp"
 #include "simd/kernel/shapes/first_crossing.hpp"
 
 /// Cylinders and cones. Each ray is first moved to t = `start`, where it enters the slab between
@@ -24,9 +25,11 @@ namespace raylane::simd {
 /// = (1 + 2.5 k) e + 16 u r0. It bounds the errors of m and W with their squares' too, so that
 /// those of C are below 2 error (|m| + |W| + error). B is off by |m| 11 u + |n| (error of m) +
 /// |M| (error of W) + |W| 17 u k < (1 + 2 k^2) e + (22 k + 4) u r0.
-template <class Arch, bool cone>
+template <class Arch, bool tapers, bool capped>
 struct AxialFilter {
     using F = Floats<Arch>;
+    static constexpr bool is_costly = true;
+    static constexpr int values = tapers ? 8 : 7;
 
     Vectors<Arch> base, axis; ///< of length 1
     Vectors<Arch> whole_axis;
@@ -36,17 +39,21 @@ struct AxialFilter {
     Mask<Arch> ordinary; ///< |axis|^2 neither overflows nor underflows
     F body_factor, body_error, slope_factor, slope_error;
 
-    AxialFilter(const Vectors<Arch>& base_, const Vectors<Arch>& axis_, const F& r0, const F& r1)
-        : base(base_), whole_axis(axis_), largest_radius(cone ? max(r0, r1) : r0), base_radius(r0),
-          narrowing(zero<Arch>()) {
-        const F axis_squared = fast_dot(axis_, axis_);
+    template <class Reader>
+    explicit AxialFilter(Reader reader) : AxialFilter(AxialNumbers<Arch, tapers>(reader)) {}
+    explicit AxialFilter(const AxialNumbers<Arch, tapers>& shape)
+        : base(shape.base), whole_axis(shape.axis), largest_radius(shape.base_radius),
+          base_radius(shape.base_radius), narrowing(zero<Arch>()) {
+        const F r0 = shape.base_radius, r1 = shape.top_radius;
+        if constexpr (tapers) largest_radius = max(r0, r1);
+        const F axis_squared = fast_dot(whole_axis, whole_axis);
         const F length = sqrt(axis_squared);
         const F inverse = F(1.0F) / length;
-        axis = {axis_.x * inverse, axis_.y * inverse, axis_.z * inverse};
+        axis = scaled<Arch>(inverse, whole_axis);
         half_length = F(0.5F) * length;
         ordinary = (axis_squared > F(0x1p-90F)) & (axis_squared < F(0x1p+120F));
         reach = (length + largest_radius) * F(1 + 0x1p-10F);
-        if constexpr (cone) {
+        if constexpr (tapers) {
             narrowing = (r1 - r0) * inverse;
             const F k = abs(narrowing);
             body_factor = fast_mul_add<Arch>(F(2.5F), k, F(1.0F));
@@ -98,6 +105,14 @@ struct AxialFilter {
         return is_number<Arch>(f.x) & ~(missed & known);
     }
 
+    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
+        if constexpr (capped)
+            return capped_bounds(rays);
+        else
+            return open_bounds(rays);
+    }
+
+  private:
     struct Crossing {
         Stay<Arch> between_ends;
         F start;
@@ -134,7 +149,7 @@ struct AxialFilter {
 
         F W = base_radius, B = fast_dot(m, n), B_error = error + slope_error,
           body = error + body_error, g_squared, g_length;
-        if constexpr (cone) {
+        if constexpr (tapers) {
             const F M = narrowing * rise;
             W = fast_mul_add<Arch>(narrowing, fast_dot(f, axis), base_radius);
             B = fast_mul_add<Arch>(negated(M), W, B);
@@ -198,7 +213,6 @@ struct AxialFilter {
                      select(inside, exit_high, select(body.outside, body_high, ends.in_high))});
     }
 
-  private:
     [[gnu::always_inline]] Bounds<Arch> sure(const Crossing& crossing,
                                              const Bounds<Arch>& bounds) const {
         return {crossing.is_shape & (bounds.possible | ~ordinary),

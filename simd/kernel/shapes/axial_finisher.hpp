@@ -1,9 +1,9 @@
 #pragma once
 
+#include "simd/kernel/shapes/axial.hpp"
 #include "simd/kernel/shapes/root.hpp"
 
-/// The finishers of cylinders and cones. A Profile is what they differ in: base, axis,
-/// base_width(), top_width(), and whether it `tapers`.
+/// The finishers of cylinders and cones.
 namespace raylane::simd {
 
 /// A ray along and across the axis, as in axial.hpp: F(s) = |across|^2 - width^2 is 0 on
@@ -24,7 +24,7 @@ namespace raylane::simd {
 /// By component, with P_i >= 8 u (|start_i| + |s direction_i|) for the position: across_i errs by
 /// P_i and, as taking the axis out errs along the axis, by |axis_i| / |axis|^2 times 2 |axis| . P;
 /// half the gradient of F by |slope axis_i| times what width errs by more.
-template <class Arch, class Profile, Wanted wanted>
+template <class Arch, bool tapers, Wanted wanted>
 struct AxialLine {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
@@ -40,9 +40,10 @@ struct AxialLine {
     F spread;
     Quadratic<Arch> quadratic;
 
-    [[gnu::always_inline]] AxialLine(const Profile& shape, const Rays<Arch>& rays)
-        : local(rays, shape.base), axis(shape.axis), base_width(shape.base_width()),
-          top_width(shape.top_width()) {
+    [[gnu::always_inline]] AxialLine(const AxialNumbers<Arch, tapers>& shape,
+                                     const Rays<Arch>& rays)
+        : local(rays, shape.base), axis(shape.axis), base_width(shape.base_radius),
+          top_width(shape.top_radius) {
         axis_size = sum_of_sizes(axis);
         axis_squared = squared_length(axis);
         const F inverse = F(1.0) / axis_squared;
@@ -53,7 +54,7 @@ struct AxialLine {
         quadratic.A = squared_length(across_direction);
         quadratic.B = dot(across_start, across_direction);
         quadratic.C = squared_length(across_start);
-        if constexpr (Profile::tapers) {
+        if constexpr (tapers) {
             widest = select(base_width < top_width, top_width, base_width);
             slope = (top_width - base_width) * inverse;
             width_start = base_width + slope * height_start;
@@ -94,9 +95,8 @@ struct AxialLine {
     /// where the last is for the tapering alone.
     [[gnu::noinline]] Passage<Arch> from_surface(const Starts<Arch>& starts) const {
         const F vertex = negated(quadratic.B) / quadratic.A;
-        F rise_error = local.error_at(vertex, Profile::tapers ? 32.0 : 16.0);
-        if constexpr (Profile::tapers)
-            rise_error = (spread * spread) * (rise_error + F(0x1p-48) * widest);
+        F rise_error = local.error_at(vertex, tapers ? 32.0 : 16.0);
+        if constexpr (tapers) rise_error = (spread * spread) * (rise_error + F(0x1p-48) * widest);
         const F rise_there = rise(across_at(vertex), width_at(vertex));
         const F vertex_error = F(1.25) * (abs(rise_there) + rise_error) / quadratic.A;
         Passage<Arch> result = Passage<Arch>::opposite(vertex, vertex_error, local);
@@ -128,7 +128,7 @@ struct AxialLine {
 
   private:
     F width_at(const F& s) const {
-        if constexpr (Profile::tapers)
+        if constexpr (tapers)
             return mul_add<Arch>(s, width_slope, width_start);
         else
             return base_width;
@@ -137,7 +137,7 @@ struct AxialLine {
     /// T
     F together(const F& s) const {
         const F across_error = local.error_at(s, 6.0);
-        if constexpr (Profile::tapers)
+        if constexpr (tapers)
             return across_error + (spread - F(1.0)) * (across_error + local.rounding(8.0, s)) +
                    F(0x1p-50) * widest;
         else
@@ -145,7 +145,7 @@ struct AxialLine {
     }
 
     F rise(const V& across, const F& width) const {
-        if constexpr (Profile::tapers)
+        if constexpr (tapers)
             return dot(across, across_direction) - width * width_slope;
         else
             return dot(across, across_direction);
@@ -160,7 +160,7 @@ struct AxialLine {
         passage.outside = (height < negated(margin)) | (above < negated(margin));
         passage.normal = across_at(s);
         const F width = width_at(s);
-        if constexpr (Profile::tapers)
+        if constexpr (tapers)
             passage.normal = mul_add<Arch>(negated(width * slope), axis, passage.normal);
         const F error = passage.root.error;
         passage.steady = spread * (together(s) + error) < F(0x1p-14) * abs(width);
@@ -172,13 +172,13 @@ struct AxialLine {
         const V off = local.off_at(s, passage.root.error);
         const V sizes = {abs(axis.x), abs(axis.y), abs(axis.z)};
         F along = F(2.125) * dot(sizes, off) / axis_squared;
-        if constexpr (Profile::tapers)
+        if constexpr (tapers)
             along = along + F(1.0625) * abs(slope) *
                                 (together(s) + (spread - F(1.0)) * passage.root.error +
                                  F(0x1p-50) * abs(width));
         passage.normal_error = {off.x + along * sizes.x, off.y + along * sizes.y,
                                 off.z + along * sizes.z};
-        if constexpr (Profile::tapers) return;
+        if constexpr (tapers) return;
         // Nothing of a cylinder's normal is along its axis, if that is one of the coordinates'.
         const F o = zero<Arch>();
         const M has_x = sizes.x > o, has_y = sizes.y > o, has_z = sizes.z > o;
@@ -193,9 +193,9 @@ struct AxialLine {
 };
 
 /// Without caps, the ray may have come in, or gone, through an end.
-template <class Arch, class Profile>
+template <class Arch, bool tapers>
 struct OpenFinisher {
-    Profile shape;
+    AxialNumbers<Arch, tapers> shape;
 
     template <class Reader>
     explicit OpenFinisher(Reader reader) : shape(reader) {}
@@ -203,9 +203,9 @@ struct OpenFinisher {
     template <Wanted wanted>
     [[gnu::always_inline]] Finished<Arch> finish(const Rays<Arch>& rays,
                                                  const Starts<Arch>& starts) const {
-        const AxialLine<Arch, Profile, wanted> line(shape, rays);
+        const AxialLine<Arch, tapers, wanted> line(shape, rays);
         Finished<Arch> result = first_passage<wanted, Arch>(line, starts);
-        if constexpr (wanted == Wanted::all && !Profile::tapers)
+        if constexpr (wanted == Wanted::all && !tapers)
             result.misses = result.misses | (~result.certain & is_along_axis(rays.direction));
         make_unit<wanted>(result);
         return result;
@@ -230,9 +230,9 @@ struct OpenFinisher {
 /// The body bounds a convex solid together with its caps. So where a ray crosses the body in one
 /// direction, certainly between the ends, or a cap, certainly inside its rim, that is where it
 /// enters the solid, or leaves it.
-template <class Arch, class Profile>
+template <class Arch, bool tapers>
 struct CappedFinisher {
-    Profile shape;
+    AxialNumbers<Arch, tapers> shape;
 
     template <class Reader>
     explicit CappedFinisher(Reader reader) : shape(reader) {}
@@ -258,7 +258,7 @@ struct CappedFinisher {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
     template <Wanted wanted>
-    using Line = AxialLine<Arch, Profile, wanted>;
+    using Line = AxialLine<Arch, tapers, wanted>;
 
     /// Whether the line surely passes the solid: it is nowhere within the body, or only beyond one
     /// end, or behind the start.

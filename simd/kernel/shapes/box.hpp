@@ -82,7 +82,7 @@ struct BoxFilter {
 };
 
 /// core/shapes/box.hpp
-template <class Arch>
+template <class Arch, bool>
 struct BoxSolver : BoxNumbers<Arch> {
     using Numbers = BoxNumbers<Arch>;
     using Numbers::Numbers, Numbers::corner, Numbers::edge_u, Numbers::edge_v, Numbers::edge_w;
@@ -250,15 +250,6 @@ struct BoxFinisher {
 };
 
 template <>
-struct ShapeKernels<core::Box> {
-    template <class Arch>
-    using Numbers = BoxNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = BoxSolver<Arch>;
-    template <class Arch>
-    using Filter = BoxFilter<Arch>;
-    template <class D>
-    using Finisher = BoxFinisher<D>;
-};
+struct ShapeKernels<core::Box> : ShapeKernelsOf<BoxNumbers, BoxFilter, BoxSolver, BoxFinisher> {};
 
 } // namespace raylane::simd

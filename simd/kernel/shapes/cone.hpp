@@ -1,66 +1,14 @@
 #pragma once
 
-#include "simd/kernel/shapes/axial.hpp"
-#include "simd/kernel/shapes/axial_filter.hpp"
-#include "simd/kernel/shapes/axial_finisher.hpp"
+#include "simd/kernel/shapes/axial_kernels.hpp"
 #include "simd/kernel/shapes/quadratic.hpp"
 
 namespace raylane::simd {
 
-template <class Arch>
-struct ConeNumbers {
-    Vectors<Arch> base, axis;
-    Floats<Arch> base_radius, top_radius;
-
-    template <class Reader>
-    explicit ConeNumbers(Reader reader)
-        : base(next_vector<Arch>(reader)), axis(next_vector<Arch>(reader)),
-          base_radius(reader.next()), top_radius(reader.next()) {}
-
-    static constexpr int ends = 2;
-    /// Around one end of the body, which is between both.
-    SphereAround<Arch> enclosing(int end) const {
-        return end == 0 ? rounded_up<Arch>(base, base_radius)
-                        : rounded_up<Arch>(base + axis, top_radius);
-    }
-
-    Floats<Arch> base_width() const { return base_radius; }
-    Floats<Arch> top_width() const { return top_radius; }
-};
-
-template <class Arch, bool capped>
-struct ConeFilter {
-    static constexpr bool is_costly = true;
-    static constexpr int values = 8;
-    AxialFilter<Arch, true> axial;
-
-    template <class Reader>
-    explicit ConeFilter(Reader reader) : axial(read(reader)) {}
-
-    [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
-        return axial.may_meet(rays);
-    }
-
-    [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
-        if constexpr (capped)
-            return axial.capped_bounds(rays);
-        else
-            return axial.open_bounds(rays);
-    }
-
-  private:
-    template <class Reader>
-    static AxialFilter<Arch, true> read(Reader& reader) {
-        const Vectors<Arch> base = next_vector<Arch>(reader), axis = next_vector<Arch>(reader);
-        const Floats<Arch> base_radius = reader.next(), top_radius = reader.next();
-        return {base, axis, base_radius, top_radius};
-    }
-};
-
 /// core/shapes/cone.hpp
 template <class Arch, bool capped, bool textbook>
-struct ConeSolver : ConeNumbers<Arch> {
-    using Numbers = ConeNumbers<Arch>;
+struct ConeSolver : AxialNumbers<Arch, true> {
+    using Numbers = AxialNumbers<Arch, true>;
     using Numbers::Numbers, Numbers::base, Numbers::axis, Numbers::base_radius, Numbers::top_radius;
     Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         const Floats<Arch> o = zero<Arch>();
@@ -135,34 +83,9 @@ struct ConeSolver : ConeNumbers<Arch> {
     }
 };
 
-template <class Arch>
-struct ConeProfile : ConeNumbers<Arch> {
-    static constexpr bool tapers = true;
-    using ConeNumbers<Arch>::ConeNumbers;
-};
-
 template <>
-struct ShapeKernels<core::OpenCone> {
-    template <class Arch>
-    using Numbers = ConeNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = ConeSolver<Arch, false, textbook>;
-    template <class Arch>
-    using Filter = ConeFilter<Arch, false>;
-    template <class D>
-    using Finisher = OpenFinisher<D, ConeProfile<D>>;
-};
-
+struct ShapeKernels<core::OpenCone> : AxialKernels<true, false, ConeSolver> {};
 template <>
-struct ShapeKernels<core::CappedCone> {
-    template <class Arch>
-    using Numbers = ConeNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = ConeSolver<Arch, true, textbook>;
-    template <class Arch>
-    using Filter = ConeFilter<Arch, true>;
-    template <class D>
-    using Finisher = CappedFinisher<D, ConeProfile<D>>;
-};
+struct ShapeKernels<core::CappedCone> : AxialKernels<true, true, ConeSolver> {};
 
 } // namespace raylane::simd

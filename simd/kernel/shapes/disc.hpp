@@ -42,7 +42,7 @@ struct DiscFilter : DiscNumbers<Arch> {
     }
 };
 
-template <class Arch>
+template <class Arch, bool>
 struct DiscSolver : DiscNumbers<Arch> {
     using Numbers = DiscNumbers<Arch>;
     using Numbers::Numbers, Numbers::center, Numbers::normal, Numbers::radius;
@@ -98,15 +98,7 @@ struct DiscFinisher {
 };
 
 template <>
-struct ShapeKernels<core::Disc> {
-    template <class Arch>
-    using Numbers = DiscNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = DiscSolver<Arch>;
-    template <class Arch>
-    using Filter = DiscFilter<Arch>;
-    template <class D>
-    using Finisher = DiscFinisher<D>;
-};
+struct ShapeKernels<core::Disc>
+    : ShapeKernelsOf<DiscNumbers, DiscFilter, DiscSolver, DiscFinisher> {};
 
 } // namespace raylane::simd

@@ -308,15 +308,7 @@ struct EllipsoidFinisher {
 };
 
 template <>
-struct ShapeKernels<core::Ellipsoid> {
-    template <class Arch>
-    using Numbers = EllipsoidNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = EllipsoidSolver<Arch, textbook>;
-    template <class Arch>
-    using Filter = EllipsoidFilter<Arch>;
-    template <class D>
-    using Finisher = EllipsoidFinisher<D>;
-};
+struct ShapeKernels<core::Ellipsoid>
+    : ShapeKernelsOf<EllipsoidNumbers, EllipsoidFilter, EllipsoidSolver, EllipsoidFinisher> {};
 
 } // namespace raylane::simd

@@ -32,7 +32,7 @@ struct PlaneFilter : PlaneNumbers<Arch> {
     }
 };
 
-template <class Arch>
+template <class Arch, bool>
 struct PlaneSolver : PlaneNumbers<Arch> {
     using Numbers = PlaneNumbers<Arch>;
     using Numbers::Numbers, Numbers::point, Numbers::normal;
@@ -80,15 +80,7 @@ struct PlaneFinisher {
 };
 
 template <>
-struct ShapeKernels<core::Plane> {
-    template <class Arch>
-    using Numbers = PlaneNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = PlaneSolver<Arch>;
-    template <class Arch>
-    using Filter = PlaneFilter<Arch>;
-    template <class D>
-    using Finisher = PlaneFinisher<D>;
-};
+struct ShapeKernels<core::Plane>
+    : ShapeKernelsOf<PlaneNumbers, PlaneFilter, PlaneSolver, PlaneFinisher> {};
 
 } // namespace raylane::simd

@@ -319,15 +319,7 @@ struct QuadricFinisher {
 };
 
 template <>
-struct ShapeKernels<core::Quadric> {
-    template <class Arch>
-    using Numbers = QuadricNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = QuadricSolver<Arch, textbook>;
-    template <class Arch>
-    using Filter = QuadricFilter<Arch>;
-    template <class D>
-    using Finisher = QuadricFinisher<D>;
-};
+struct ShapeKernels<core::Quadric>
+    : ShapeKernelsOf<QuadricNumbers, QuadricFilter, QuadricSolver, QuadricFinisher> {};
 
 } // namespace raylane::simd

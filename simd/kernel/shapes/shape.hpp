@@ -21,6 +21,20 @@ namespace raylane::simd {
 template <class Shape>
 struct ShapeKernels;
 
+/// ShapeKernels by its parts.
+template <template <class> class NumbersOf, template <class> class FilterOf,
+          template <class, bool> class SolverOf, template <class> class FinisherOf>
+struct ShapeKernelsOf {
+    template <class Arch>
+    using Numbers = NumbersOf<Arch>;
+    template <class Arch>
+    using Filter = FilterOf<Arch>;
+    template <class Arch, bool textbook>
+    using Solver = SolverOf<Arch, textbook>;
+    template <class D>
+    using Finisher = FinisherOf<D>;
+};
+
 /// Reads the floats of one shape after the other from a block: row k, from `lane` on.
 template <class Arch>
 class BlockReader {

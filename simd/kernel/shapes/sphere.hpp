@@ -221,15 +221,7 @@ struct SphereFinisher {
 };
 
 template <>
-struct ShapeKernels<core::Sphere> {
-    template <class Arch>
-    using Numbers = SphereNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = SphereSolver<Arch, textbook>;
-    template <class Arch>
-    using Filter = SphereFilter<Arch>;
-    template <class D>
-    using Finisher = SphereFinisher<D>;
-};
+struct ShapeKernels<core::Sphere>
+    : ShapeKernelsOf<SphereNumbers, SphereFilter, SphereSolver, SphereFinisher> {};
 
 } // namespace raylane::simd

@@ -108,7 +108,7 @@ struct TriangleFilter {
     }
 };
 
-template <class Arch>
+template <class Arch, bool>
 struct TriangleSolver : TriangleNumbers<Arch> {
     using Numbers = TriangleNumbers<Arch>;
     using Numbers::Numbers, Numbers::a, Numbers::b, Numbers::c;
@@ -133,13 +133,13 @@ struct TriangleSolver : TriangleNumbers<Arch> {
     }
 };
 
-template <class Arch>
-struct SmoothTriangleSolver : TriangleSolver<Arch> {
+template <class Arch, bool>
+struct SmoothTriangleSolver : TriangleSolver<Arch, false> {
     CornerNormals<Arch> normals;
 
     template <class Reader>
     explicit SmoothTriangleSolver(Reader reader)
-        : TriangleSolver<Arch>(PassOn<Arch, Reader>{reader}), normals(reader) {}
+        : TriangleSolver<Arch, false>(PassOn<Arch, Reader>{reader}), normals(reader) {}
 
     Vectors<Arch> shading_normal(const Vectors<Arch>& point, const Vectors<Arch>& unit_flat) const {
         return normals.interpolated(*this, point, unit_flat);
@@ -257,27 +257,12 @@ struct SmoothTriangleFinisher : TriangleFinisher<Arch> {
 };
 
 template <>
-struct ShapeKernels<core::Triangle> {
-    template <class Arch>
-    using Numbers = TriangleNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = TriangleSolver<Arch>;
-    template <class Arch>
-    using Filter = TriangleFilter<Arch>;
-    template <class D>
-    using Finisher = TriangleFinisher<D>;
-};
+struct ShapeKernels<core::Triangle>
+    : ShapeKernelsOf<TriangleNumbers, TriangleFilter, TriangleSolver, TriangleFinisher> {};
 
 template <>
-struct ShapeKernels<core::SmoothTriangle> {
-    template <class Arch>
-    using Numbers = TriangleNumbers<Arch>;
-    template <class Arch, bool textbook>
-    using Solver = SmoothTriangleSolver<Arch>;
-    template <class Arch>
-    using Filter = TriangleFilter<Arch>;
-    template <class D>
-    using Finisher = SmoothTriangleFinisher<D>;
-};
+struct ShapeKernels<core::SmoothTriangle>
+    : ShapeKernelsOf<TriangleNumbers, TriangleFilter, SmoothTriangleSolver,
+                     SmoothTriangleFinisher> {};
 
 } // namespace raylane::simd

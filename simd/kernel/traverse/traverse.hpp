@@ -44,7 +44,8 @@ struct Trace : Streams<Arch> {
             return;
         }
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
-            const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
+            const std::size_t end =
+                count - begin < Rays::most_rays ? count : begin + Rays::most_rays;
             Rays frustum;
             if (!frustum.enclose(rays, begin, end, *coherence, nullptr)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, end, rays, candidates,
@@ -86,7 +87,8 @@ struct Trace : Streams<Arch> {
                                 const RoundedRays& rays, const Occlusions& occlusions,
                                 const Workspace& workspace, TraceCounters& counters) {
         for (std::size_t begin = 0; begin < count; begin += Rays::most_rays) {
-            const std::size_t end = Rays::lesser(begin + Rays::most_rays, count);
+            const std::size_t end =
+                count - begin < Rays::most_rays ? count : begin + Rays::most_rays;
             Rays frustum;
             if (!frustum.enclose(rays, begin, end, coherence, occlusions.t_most)) {
                 occluded_of_any(scene, kind_bits, begin, end, rays, occlusions, workspace,

@@ -5,7 +5,7 @@
 
 namespace raylane::simd {
 
-/// Up to 256 rays through one point, or in one direction, and what surely misses all of them.
+/// Frustum: bounds of up to 256 rays through one point, or in one direction.
 ///
 /// One coordinate k counts along the rays. With w = p - apex, a point on a ray has w_a - u w_k =
 /// offset, for each other coordinate a, with slopes u and offsets of the ray's: through a point,
@@ -48,136 +48,24 @@ struct Frustum : Streams<Arch> {
     bool enclose(const RoundedRays& rays, std::size_t begin, std::size_t end, Coherence coherence,
                  const float* t_most) {
         packets = (end - begin + 15) / 16;
-        for (int axis = 0; axis < 3; ++axis)
-            apex[axis] = coherence.parallel ? rays.origin[axis][begin] : coherence.apex[axis];
-        slack = half_ulp * (size(apex[0]) + size(apex[1]) + size(apex[2]));
+        choose_apex(rays, begin, coherence);
         choose_axes(rays, begin, end, coherence.converging);
-
-        least_w = coherence.converging ? 0.0F : __builtin_inff();
-        greatest_w = coherence.converging && t_most != nullptr ? 0.0F : __builtin_inff();
-        // Towards the apex, what is far from it is near.
-        const bool anywhere = coherence.parallel || coherence.beyond; // they start
-        latest_start = anywhere               ? -__builtin_inff()
-                       : coherence.converging ? __builtin_inff()
-                                              : 0.0F;
-        if (!coherence.converging && !anywhere) least_w = 0.0F;
         pad(rays, end);
-        F speeds_low = S::infinity(), speeds_high = zero<Arch>(), ends_high = zero<Arch>();
-        F starts_low = S::infinity(), starts_high = negated(S::infinity());
-        F most_slack = zero<Arch>();
-        for (std::size_t packet = 0; packet < packets; ++packet) {
-            const std::size_t from = begin + 16 * packet;
-            F low_slope[2] = {S::infinity(), S::infinity()}, high_slope[2];
-            F low_offset[2] = {S::infinity(), S::infinity()}, high_offset[2];
-            for (int side = 0; side < 2; ++side)
-                high_slope[side] = high_offset[side] = negated(S::infinity());
-            for (std::size_t i = from; i < from + 16; i += F::size) {
-                most_slack = max(most_slack, S::load(rays.slack + i));
-                const F direction = S::load(rays.direction[along] + i);
-                const F d = F(coherence.converging ? -sense : sense) * direction;
-                speeds_low = min(speeds_low, d);
-                speeds_high = max(speeds_high, d);
-                const F w = S::load(rays.origin[along] + i) - F(apex[along]);
-                if (anywhere) {
-                    starts_low = min(starts_low, F(sense) * w);
-                    starts_high = max(starts_high, F(sense) * w);
-                }
-                if (t_most != nullptr && coherence.converging && i < end)
-                    ends_high = max(ends_high, select(S::first_lanes(end - i),
-                                                      d * S::load(t_most + i), zero<Arch>()));
-                for (int side = 0; side < 2; ++side) {
-                    const int a = across[side];
-                    const F slope = S::load(rays.direction[a] + i) / direction;
-                    low_slope[side] = min(low_slope[side], slope);
-                    high_slope[side] = max(high_slope[side], slope);
-                    if (!coherence.parallel) continue;
-                    const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) - slope * w;
-                    low_offset[side] = min(low_offset[side], offset);
-                    high_offset[side] = max(high_offset[side], offset);
-                }
-            }
-            for (int side = 0; side < 2; ++side) {
-                const float low = Lanes<Arch>::least(low_slope[side]);
-                const float high = Lanes<Arch>::greatest(high_slope[side]);
-                // Seen against the coordinate's sense the greater slope bounds from below.
-                set(above[side], packet, sense > 0.0F ? high : low,
-                    coherence.parallel ? Lanes<Arch>::greatest(high_offset[side]) : 0.0F);
-                set(below[side], packet, sense > 0.0F ? low : high,
-                    coherence.parallel ? Lanes<Arch>::least(low_offset[side]) : 0.0F);
-            }
-        }
+
+        Extent extent;
+        for (std::size_t packet = 0; packet < packets; ++packet)
+            enclose_packet(rays, packet, begin, end, coherence, t_most, extent);
         for (std::size_t packet = packets; packet < 16; ++packet)
-            for (int side = 0; side < 2; ++side) { // outside, unless it is infinite
-                set(above[side], packet, above[side].slopes[0], -__builtin_inff());
-                set(below[side], packet, below[side].slopes[0], __builtin_inff());
-            }
-        fastest = Lanes<Arch>::greatest(speeds_high);
-        t_per_w = (1 - 8 * half_ulp) / fastest;
-        if (anywhere) {
-            least_w = least(least_w, Lanes<Arch>::least(starts_low));
-            latest_start = greatest(latest_start, Lanes<Arch>::greatest(starts_high));
-        }
-        if (coherence.converging && t_most != nullptr)
-            greatest_w = greatest(greatest_w, Lanes<Arch>::greatest(ends_high));
-        slack += Lanes<Arch>::greatest(most_slack);
+            leave_out(packet);
+
+        bound_along(extent, coherence, t_most != nullptr);
+        slack += Lanes<Arch>::greatest(extent.slack);
         for (int side = 0; side < 2; ++side)
             enclose_packets(side);
-        bool coherent = Lanes<Arch>::least(speeds_low) > 0.0F;
-        for (int side = 0; side < 2; ++side)
-            coherent = coherent && size(above[side].slope) < steepest &&
-                       size(below[side].slope) < steepest;
-        return coherent;
+        return Lanes<Arch>::least(extent.slowest) > 0.0F && is_slender();
     }
 
-    /// The last packet's lanes that are no ray's become like the last ray.
-    static void pad(const RoundedRays& rays, std::size_t end) {
-        for (std::size_t i = end; i % 16 != 0; ++i) {
-            for (int axis = 0; axis < 3; ++axis) {
-                rays.origin[axis][i] = rays.origin[axis][end - 1];
-                rays.direction[axis][i] = rays.direction[axis][end - 1];
-            }
-            rays.slack[i] = rays.slack[end - 1];
-        }
-    }
-
-    static std::size_t lesser(std::size_t a, std::size_t b) { return a < b ? a : b; }
-    static float least(float a, float b) { return a < b ? a : b; }
-    static float greatest(float a, float b) { return a > b ? a : b; }
-    static float size(float a) { return __builtin_fabsf(a); }
-
-    /// The largest component of the first direction that all rays share.
-    void choose_axes(const RoundedRays& rays, std::size_t begin, std::size_t end, bool towards) {
-        const std::size_t middle = begin + (end - begin) / 2;
-        along = 0;
-        for (int axis = 1; axis < 3; ++axis)
-            if (size(rays.direction[axis][middle]) > size(rays.direction[along][middle]))
-                along = axis;
-        across[0] = (along + 1) % 3;
-        across[1] = (along + 2) % 3;
-        sense = (rays.direction[along][middle] > 0.0F) != towards ? 1.0F : -1.0F;
-    }
-
-    static void set(Side& side, std::size_t packet, float slope, float offset) {
-        side.slopes[packet] = slope;
-        side.offsets[packet] = offset;
-        side.norms[packet] = norm_above(slope);
-    }
-
-    /// At least sqrt(1 + slope^2).
-    static float norm_above(float slope) { return 1.0F + 0.5F * slope * slope; }
-
-    void enclose_packets(int side) {
-        Side &high = above[side], &low = below[side];
-        const bool forwards = sense > 0.0F;
-        high.slope = forwards ? S::greatest_of_16(high.slopes) : S::least_of_16(high.slopes);
-        low.slope = forwards ? S::least_of_16(low.slopes) : S::greatest_of_16(low.slopes);
-        high.offset = S::greatest_of_16(high.offsets);
-        low.offset = S::least_of_16(low.offsets);
-        high.norm = norm_above(high.slope);
-        low.norm = norm_above(low.slope);
-    }
-
-    /// What roundings may add up to at a distance of w along and across.
+    /// Roundings, added up, at a distance of w along and across.
     F grace(const F& w_along, const F& w_across) const {
         return F(grace_factor) * (abs(w_along) + abs(w_across)) + F(8 * steepest * slack);
     }
@@ -259,7 +147,7 @@ struct Frustum : Streams<Arch> {
         int ends;
     };
 
-    /// What is inside of the sides: of spheres and all rays, or of one and the rays of packets.
+    /// The inside of the sides: of spheres and all rays, or of one and the rays of packets.
     template <class Load, class PlaneOf>
     [[gnu::always_inline]] void reach_sides(const Seen& seen, const Load& load,
                                             const PlaneOf& plane_of, Reach& reach) const {
@@ -273,7 +161,7 @@ struct Frustum : Streams<Arch> {
         }
     }
 
-    /// What has a part everywhere, as bits, by the Reach of each end.
+    /// Shapes with a part everywhere, as bits, by the Reach of each end.
     template <class ReachOf>
     [[gnu::always_inline]] static std::uint32_t reached(int ends, const ReachOf& reach_of) {
         Reach reach = reach_of(0);
@@ -283,7 +171,7 @@ struct Frustum : Streams<Arch> {
         return reach.all();
     }
 
-    /// How far along a ray can be at t_most: near_t's inverse.
+    /// The furthest w of a ray at t_most: near_t's inverse.
     float furthest_w(float t_most) const {
         const float way = t_most * fastest;
         const float w = latest_start + way + 16 * half_ulp * (size(latest_start) + way);
@@ -336,6 +224,158 @@ struct Frustum : Streams<Arch> {
             return reach;
         };
         return reached(seen.ends, reach_of);
+    }
+
+  private:
+    /// Of all rays, as they are read, along k: in each lane's share of them.
+    struct Extent {
+        F slowest = S::infinity(),
+          fastest = zero<Arch>(); ///< sense * d_k, towards the apex or away
+        F first_start = S::infinity(), last_start = negated(S::infinity()); ///< sense * w_k
+        F last_end = zero<Arch>();                                          ///< of rays with limits
+        F slack = zero<Arch>();
+    };
+
+    /// Rays that converge on the apex, or go by it in one direction, start anywhere.
+    static bool start_anywhere(const Coherence& coherence) {
+        return coherence.parallel || coherence.beyond;
+    }
+
+    void choose_apex(const RoundedRays& rays, std::size_t begin, const Coherence& coherence) {
+        for (int axis = 0; axis < 3; ++axis)
+            apex[axis] = coherence.parallel ? rays.origin[axis][begin] : coherence.apex[axis];
+        slack = half_ulp * (size(apex[0]) + size(apex[1]) + size(apex[2]));
+    }
+
+    [[gnu::always_inline]] void enclose_packet(const RoundedRays& rays, std::size_t packet,
+                                               std::size_t begin, std::size_t end,
+                                               const Coherence& coherence, const float* t_most,
+                                               Extent& extent) {
+        const std::size_t from = begin + 16 * packet;
+        F low_slope[2] = {S::infinity(), S::infinity()}, high_slope[2];
+        F low_offset[2] = {S::infinity(), S::infinity()}, high_offset[2];
+        for (int side = 0; side < 2; ++side)
+            high_slope[side] = high_offset[side] = negated(S::infinity());
+        for (std::size_t i = from; i < from + 16; i += F::size) {
+            const F direction = S::load(rays.direction[along] + i);
+            const F w = S::load(rays.origin[along] + i) - F(apex[along]);
+            extend(extent, rays, i, end, coherence, t_most, direction, w);
+            for (int side = 0; side < 2; ++side) {
+                const int a = across[side];
+                const F slope = S::load(rays.direction[a] + i) / direction;
+                low_slope[side] = min(low_slope[side], slope);
+                high_slope[side] = max(high_slope[side], slope);
+                if (!coherence.parallel) continue;
+                const F offset = (S::load(rays.origin[a] + i) - F(apex[a])) - slope * w;
+                low_offset[side] = min(low_offset[side], offset);
+                high_offset[side] = max(high_offset[side], offset);
+            }
+        }
+        for (int side = 0; side < 2; ++side) {
+            const float low = Lanes<Arch>::least(low_slope[side]);
+            const float high = Lanes<Arch>::greatest(high_slope[side]);
+            // Seen against the coordinate's sense the greater slope bounds from below.
+            set(above[side], packet, sense > 0.0F ? high : low,
+                coherence.parallel ? Lanes<Arch>::greatest(high_offset[side]) : 0.0F);
+            set(below[side], packet, sense > 0.0F ? low : high,
+                coherence.parallel ? Lanes<Arch>::least(low_offset[side]) : 0.0F);
+        }
+    }
+
+    /// By the lanes from ray i on.
+    [[gnu::always_inline]] void extend(Extent& extent, const RoundedRays& rays, std::size_t i,
+                                       std::size_t end, const Coherence& coherence,
+                                       const float* t_most, const F& direction, const F& w) const {
+        extent.slack = max(extent.slack, S::load(rays.slack + i));
+        const F d = F(coherence.converging ? -sense : sense) * direction;
+        extent.slowest = min(extent.slowest, d);
+        extent.fastest = max(extent.fastest, d);
+        if (start_anywhere(coherence)) {
+            extent.first_start = min(extent.first_start, F(sense) * w);
+            extent.last_start = max(extent.last_start, F(sense) * w);
+        }
+        if (t_most != nullptr && coherence.converging && i < end)
+            extent.last_end = max(extent.last_end, select(S::first_lanes(end - i),
+                                                          d * S::load(t_most + i), zero<Arch>()));
+    }
+
+    /// A packet without rays is outside of all, unless that is infinite.
+    void leave_out(std::size_t packet) {
+        for (int side = 0; side < 2; ++side) {
+            set(above[side], packet, above[side].slopes[0], -__builtin_inff());
+            set(below[side], packet, below[side].slopes[0], __builtin_inff());
+        }
+    }
+
+    /// From the first start to the last end, as far as these are known. Towards the apex, what is
+    /// far from it is near.
+    void bound_along(const Extent& extent, const Coherence& coherence, bool have_limits) {
+        const bool anywhere = start_anywhere(coherence);
+        least_w = coherence.converging || !anywhere ? 0.0F : __builtin_inff();
+        latest_start = coherence.converging && !anywhere ? __builtin_inff() : 0.0F;
+        if (anywhere) {
+            least_w = least(least_w, Lanes<Arch>::least(extent.first_start));
+            latest_start = Lanes<Arch>::greatest(extent.last_start);
+        }
+        greatest_w = coherence.converging && have_limits ? Lanes<Arch>::greatest(extent.last_end)
+                                                         : __builtin_inff();
+        fastest = Lanes<Arch>::greatest(extent.fastest);
+        t_per_w = (1 - 8 * half_ulp) / fastest;
+    }
+
+    bool is_slender() const {
+        bool slender = true;
+        for (int side = 0; side < 2; ++side)
+            slender =
+                slender && size(above[side].slope) < steepest && size(below[side].slope) < steepest;
+        return slender;
+    }
+
+    /// The last packet's lanes that are no ray's become like the last ray.
+    static void pad(const RoundedRays& rays, std::size_t end) {
+        for (std::size_t i = end; i % 16 != 0; ++i) {
+            for (int axis = 0; axis < 3; ++axis) {
+                rays.origin[axis][i] = rays.origin[axis][end - 1];
+                rays.direction[axis][i] = rays.direction[axis][end - 1];
+            }
+            rays.slack[i] = rays.slack[end - 1];
+        }
+    }
+
+    static float least(float a, float b) { return a < b ? a : b; }
+    static float greatest(float a, float b) { return a > b ? a : b; }
+    static float size(float a) { return __builtin_fabsf(a); }
+
+    /// The largest component of the first direction that all rays share.
+    void choose_axes(const RoundedRays& rays, std::size_t begin, std::size_t end, bool towards) {
+        const std::size_t middle = begin + (end - begin) / 2;
+        along = 0;
+        for (int axis = 1; axis < 3; ++axis)
+            if (size(rays.direction[axis][middle]) > size(rays.direction[along][middle]))
+                along = axis;
+        across[0] = (along + 1) % 3;
+        across[1] = (along + 2) % 3;
+        sense = (rays.direction[along][middle] > 0.0F) != towards ? 1.0F : -1.0F;
+    }
+
+    static void set(Side& side, std::size_t packet, float slope, float offset) {
+        side.slopes[packet] = slope;
+        side.offsets[packet] = offset;
+        side.norms[packet] = norm_above(slope);
+    }
+
+    /// At least sqrt(1 + slope^2).
+    static float norm_above(float slope) { return 1.0F + 0.5F * slope * slope; }
+
+    void enclose_packets(int side) {
+        Side &high = above[side], &low = below[side];
+        const bool forwards = sense > 0.0F;
+        high.slope = forwards ? S::greatest_of_16(high.slopes) : S::least_of_16(high.slopes);
+        low.slope = forwards ? S::least_of_16(low.slopes) : S::greatest_of_16(low.slopes);
+        high.offset = S::greatest_of_16(high.offsets);
+        low.offset = S::least_of_16(low.offsets);
+        high.norm = norm_above(high.slope);
+        low.norm = norm_above(low.slope);
     }
 
     static constexpr float grace_factor = 2 * steepest * 16 * half_ulp;
