@@ -75,7 +75,7 @@ void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Ve
     require_direction(field.at(1), v);
     require_direction(field.at(2), w);
     if (vanishes(dot(cross(wide(u), wide(v)), wide(w))))
-        throw InvalidValue(name, "must interval a volume, got " + text_of(u) + ", " + text_of(v) +
+        throw InvalidValue(name, "must span a volume, got " + text_of(u) + ", " + text_of(v) +
                                      ", " + text_of(w));
 }
 

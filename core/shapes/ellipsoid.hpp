@@ -11,7 +11,7 @@
 namespace raylane::core {
 
 /// The points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1, solid. The
-/// semi-axes interval a volume; they need not be perpendicular to each other.
+/// semi-axes span a volume; they need not be perpendicular to each other.
 struct Ellipsoid {
     Vec3f center;
     Vec3f axis_u, axis_v, axis_w;

@@ -137,7 +137,7 @@ TEST_CASE("complaints about types") {
 TEST_CASE("complaints about words") {
     check({
         {object("spher", ""),
-         R"(/objects/1/type: must be "sphere", "plane", "disc", "triangle", "box", "cylinder", "cone", "quadric", "sphereflake" or "lattice", got "spher", did you mean "sphere"?)"},
+         R"(/objects/1/type: must be "sphere", "plane", "disc", "triangle", "box", "cylinder", "cone", "quadric", "ellipsoid", "sphereflake" or "lattice", got "spher", did you mean "sphere"?)"},
         {with_objects(
              R"({"type": "sphere", "material": "caly", "center": [0, 0, 0], "radius": 1})"),
          R"(/objects/0/material: must be the name of a material, got "caly", did you mean "clay"?)"},

@@ -126,7 +126,7 @@ TEST_CASE("what is no JSON, or not a scene's, is told in one line") {
                   "/center: must be an array of 3 numbers, got 2"),
         in_object("unknown type", R"("type": "cylindre")",
                   R"(/type: must be "sphere", "plane", "disc", "triangle", "box", "cylinder", )"
-                  R"("cone", "quadric", "sphereflake" or "lattice", got "cylindre", )"
+                  R"("cone", "quadric", "ellipsoid", "sphereflake" or "lattice", got "cylindre", )"
                   R"(did you mean "cylinder"?)"),
     });
 }
