@@ -70,14 +70,14 @@ Finish finish(const Kernels& kernels, const Shape& shape, const Ray<double>& ray
                                                      sizeof(block) / sizeof(float),
                                                      float_count<Shape>, 0};
     double rays[6][16], normal[3][16], t[16], error[16];
-    std::uint32_t departed[16], origin_bits[16], slot[16], hit[16];
+    std::uint32_t departed[16], origins[16], slot[16], hit[16];
     for (int lane = 0; lane < 16; ++lane) {
         for (int axis = 0; axis < 3; ++axis) {
             rays[axis][lane] = ray.origin[axis];
             rays[3 + axis][lane] = ray.direction[axis];
         }
         departed[lane] = start.on_surface ? id : no_shape;
-        origin_bits[lane] = start.face | (start.inward ? origin_inward : 0);
+        origins[lane] = start.face | (start.inward ? origin_inward : 0);
         slot[lane] = 0;
     }
     const Found found = {1,

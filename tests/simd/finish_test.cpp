@@ -164,15 +164,15 @@ void add_rays(Rays& rays, const Tables& tables, bool lattice, bool adverse, int 
                 static_cast<std::uint32_t>(random.integer(0, static_cast<int>(table.size()) - 1));
         else if (random.integer(0, 1) == 0)
             place = (place + 1) % static_cast<std::uint32_t>(table.size());
-        const Slot slot = {place / 16, static_cast<std::uint8_t>(place % 16)};
+        const Place at = {place / 16, static_cast<std::uint8_t>(place % 16)};
         const Set set =
             lattice ? Set::lattice
             : !adverse
                 ? (!tests::is_flat<Shape> && random.integer(0, 2) == 0 ? Set::inside : Set::random)
                 : ray_sets::any_set(random);
-        add_ray(rays, table.get(slot),
-                view.tables[static_cast<int>(kind_of<Shape>)].first_slot + place, table.id(slot),
-                set, adverse, random);
+        add_ray(rays, table.get(at),
+                view.tables[static_cast<int>(kind_of<Shape>)].first_slot + place, table.id(at), set,
+                adverse, random);
     }
 }
 
@@ -207,8 +207,8 @@ void check(const Rays& rays, std::size_t i, bool adverse, Share& share) {
         if ((hit & hit_doubtful) != 0) ++share.doubtful_elsewhere;
     }
     if ((hit & hit_doubtful) != 0) return;
-    CAPTURE(i, rays.slot[i], rays.origin_bits[i], rays.first[i] != no_shape, rays.t[i],
-            rays.error[i], hit);
+    CAPTURE(i, rays.slot[i], rays.origins[i], rays.first[i] != no_shape, rays.t[i], rays.error[i],
+            hit);
     if (hit == hit_none) {
         if (truth.crossing) FAIL("certain of a miss where there is a hit");
         return;
@@ -345,8 +345,8 @@ TEST_CASE("the finish sorts out packets of many kinds, and leaves lanes without 
             const std::size_t from = static_cast<std::size_t>(
                 random.integer(0, static_cast<int>(by_kind.rays.size()) - 1));
             const Start start = {by_kind.first[from] != no_shape,
-                                 static_cast<Face>(by_kind.origin_bits[from] & origin_face),
-                                 (by_kind.origin_bits[from] & origin_inward) != 0};
+                                 static_cast<Face>(by_kind.origins[from] & origin_face),
+                                 (by_kind.origins[from] & origin_inward) != 0};
             const bool idle = random.integer(0, 5) == 0;
             rays.add(by_kind.rays[from], idle ? no_slot : by_kind.slot[from], by_kind.first[from],
                      start, by_kind.truth[from]);

@@ -141,7 +141,7 @@ void check_truth(const Round& round, const LookThrough& finder) {
             if (hits.slot[lane] != no_slot) FAIL("a hit for a miss");
             continue;
         }
-        if (hits.slot[lane] != round.data().slot_of(truth.kind, truth.slot)) FAIL("another shape");
+        if (hits.slot[lane] != round.data().slot_of(truth.kind, truth.place)) FAIL("another shape");
         CAPTURE(hits.t[lane], hits.error[lane], hits.hit[lane]);
         if (((hits.hit[lane] & hit_entering) != 0) != truth.entering) FAIL("the other side");
         if (!(std::abs(hits.t[lane] - truth.t) <= 0x1p-25 * truth.t)) FAIL("another t");

@@ -44,7 +44,7 @@ Scene scene_of(const std::vector<AnyShape>& shapes) {
 /// Spawned rays from a shape, with what is true of them.
 class Spawning {
   public:
-    Spawning(const Nest& nest, const Place& place, const Kernels& kernels, Random& random,
+    Spawning(const Nest& nest, const tests::Place& place, const Kernels& kernels, Random& random,
              Tally& tally)
         : random_(random), tally_(tally), nest_(nest), place_(place),
           placing_(place.offset, place.factor), shapes_{placing_(nest.shape), placing_(nest.outer),
@@ -349,7 +349,7 @@ class Spawning {
     Random& random_;
     Tally& tally_;
     const Nest& nest_;
-    const Place& place_;
+    const tests::Place& place_;
     Placing placing_;
     std::vector<AnyShape> shapes_; // by id
     SpawnTruth truth_;
@@ -379,7 +379,7 @@ TEMPLATE_TEST_CASE("spawned rays meet what is next, and not what they leave", "[
     Random random(20261100 + static_cast<int>(kind));
     Tally tally;
     for (int round = 0; round < rounds(); ++round) {
-        const Place place(random);
+        const tests::Place place(random);
         const Nest nest = NestOf<TestType>::make(place.size, random);
         const Kernels& kernels = kernels_of(isas[static_cast<std::size_t>(round) % isas.size()]);
         Spawning(nest, place, kernels, random, tally).check();
