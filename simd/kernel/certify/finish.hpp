@@ -117,7 +117,7 @@ class Finish {
         }
     }
 
-    /// Whether all of some lanes of packet i found one shape.
+    /// True if all of some lanes of packet i found one shape.
     bool is_in(std::uint32_t active, std::size_t i, std::uint32_t slot) const {
         return (active & ~in_range(found_.slot + i, slot, slot)) == 0;
     }
@@ -190,7 +190,7 @@ class Finish {
             if ((active >> lane & 1) != 0) found_.hit[i + lane] = numbers[lane];
     }
 
-    /// Whether each component of the normal is one float, wherever it is.
+    /// True where each component of the normal rounds to one float, whatever its error.
     static M is_rounded(const Finished<D>& finished) {
         const auto alike = [](const F& value, const F& error) {
             return Lanes<D>::round_alike(value - error, value + error);

@@ -10,8 +10,8 @@
 
 namespace raylane::simd {
 
-/// What the finishers have left in doubt: most of it rays that just miss a shape, that start beside
-/// its surface or touch it. Here the solvers' formulas themselves are asked, in numbers with
+/// Rays that the finishers have left in doubt, most of them rays that just miss a shape, that start
+/// beside its surface or touch it. Here the solvers' formulas themselves are asked, in numbers with
 /// bounds, which takes several times as long: in double, and then with twice as many digits.
 ///
 /// Rays are what their doubles say, or those that they stand for. (The finishers' bounds grant
@@ -54,7 +54,7 @@ class FinishAgain {
     /// Rays that found shapes of one kind.
     struct Packet {
         std::size_t rays[width];
-        std::size_t of[width]; ///< what they are to whoever asks
+        std::size_t of[width]; ///< their index to the caller
         std::size_t count = 0;
     };
 
@@ -208,7 +208,7 @@ class FinishAgain {
         }
     }
 
-    /// Where rays that do not start on it first cross a shape. The normal is not known.
+    /// First crossing of rays that do not start on the shape. The normal is not known.
     template <class Solver, class Number>
     [[gnu::noinline]] static Finished<D> first_crossing(const Reader& reader, const Rays<D>& rays,
                                                         const F& length, bool holds_points) {

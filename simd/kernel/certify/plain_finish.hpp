@@ -10,7 +10,7 @@
 
 namespace raylane::simd {
 
-/// What overflows is no crossing.
+/// The crossing, which is none if its t overflows.
 template <class Number>
 Crossing<Number> at_finite_t(Crossing<Number> crossing) {
     crossing.exists = crossing.exists & (crossing.t < constant<Number>(__builtin_inff()));

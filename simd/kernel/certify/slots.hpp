@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// Where in the tables slots are. A template, as all in kernel/.
+/// Slots in the tables. A template, as all in kernel/.
 template <class Arch>
 struct Slots {
     static bool holds(const TableView& table, std::uint32_t slot) {

@@ -15,14 +15,14 @@ struct Certified {};
 template <class D>
 struct Wide {};
 
-/// What one operation gives, and what rounding may have made of it (core::Rounded).
+/// Result of one operation, and its roundoff (core::Rounded).
 template <class Number>
 struct RoundedLanes {
     typename Number::Value value;
     Floats<typename Number::D> error;
 };
 
-/// What Certified<Number> computes in.
+/// Arithmetic of Certified<Number>.
 template <class Number>
 struct Digits;
 
@@ -52,7 +52,7 @@ struct Digits<Wide<Lesser>> {
     using Value = DoubleDoubles<D>;
     using Rounded = RoundedLanes<Digits>;
     static F in_double(const Value& value) { return value.high + value.low; }
-    /// What in_double() is off by.
+    /// Error of in_double().
     static F lost_in_double(const Value& value) {
         return abs(Value::two_sum(value.high, value.low).low);
     }
@@ -109,7 +109,7 @@ struct Answers {
     Answers operator|(const Answers& b) const {
         return {answer | b.answer, (known & b.known) | surely() | b.surely()};
     }
-    /// Where either answer will do.
+    /// Known everywhere, where either answer will do.
     friend Answers either_way(const Answers& a) { return {a.answer, M(true)}; }
 };
 
@@ -176,7 +176,7 @@ struct BoundedLanes {
     friend BoundedLanes abs(const BoundedLanes& a) {
         return {select(a.in_double() < zero<D>(), -a.value, a.value), a.error};
     }
-    /// Where the answer is not known: one of both, and so within their difference of either.
+    /// One of both where the answer is not known, and so within their difference of either.
     friend BoundedLanes select(const A& mask, const BoundedLanes& a, const BoundedLanes& b) {
         const BoundedLanes difference = a - b;
         const F either = difference.magnitude() + difference.error;

@@ -16,7 +16,7 @@
 #include <immintrin.h>
 #endif
 
-/// What raylane needs of vector registers and xsimd does not give, or not in all of its versions.
+/// Vector registers: what xsimd does not give, or not in all of its versions.
 /// Everything in kernel/ is a template over the instruction set, so that no two kernel units share
 /// an inline function: the linker could keep the one that an older processor cannot run.
 namespace raylane::simd {

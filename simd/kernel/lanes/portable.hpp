@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What the kernels use of xsimd, by vectors of 16 bytes that compilers know without being told of
-/// an instruction set. Each operation gives the bits that SSE's gives.
+/// The part of xsimd that kernels use, by vectors of 16 bytes that compilers know without being
+/// told of an instruction set. Each operation gives the bits that SSE's gives.
 namespace raylane::simd {
 
 /// Stands where xsimd's architectures do.

@@ -52,7 +52,7 @@ struct ShortLanes<Portable> {
 };
 
 #ifdef __SSE4_2__
-/// What SSE4 has for eight lanes is what all its successors have.
+/// Eight lanes by SSE4's instructions, which all its successors have.
 template <class Arch>
 struct EightLanes {
     static __m128i load(const std::uint16_t* from) {

@@ -65,7 +65,7 @@ struct AxialFilter {
         body_error = r0 * F(16 * half_ulp);
     }
 
-    /// Whether a ray may meet the shape, for less than its bounds.
+    /// True where a ray may meet the shape, for less than its bounds.
     ///
     /// With the axis a as given, c = d x a and R the largest radius, the ray passes the line
     /// through the axis at a distance of |f . c| / |c|, nearest to base + s a where
@@ -118,7 +118,7 @@ struct AxialFilter {
         F start;
         FirstCrossing<Arch> body;
         Mask<Arch> is_shape;
-        Mask<Arch> near;  ///< what the errors in between_ends assume of a ray that hits is so
+        Mask<Arch> near;  ///< as the errors in between_ends assume of a ray that hits
         Mask<Arch> nappe; ///< W > 0
     };
 

@@ -71,7 +71,7 @@ struct AxialLine {
         quadratic.A_error = F(0x1p-47) * (spread * spread);
     }
 
-    /// Where F rises, or else falls.
+    /// Passage where F rises, or else falls.
     [[gnu::always_inline]] Passage<Arch> passage(const M& leaves) const {
         const F s = quadratic.root_where(leaves);
         const V across = across_at(s);
@@ -121,7 +121,7 @@ struct AxialLine {
 
     F height_at(const F& s) const { return mul_add<Arch>(s, height_slope, height_start); }
     V across_at(const F& s) const { return mul_add<Arch>(s, across_direction, across_start); }
-    /// How far the height is off at an s that is off by `error_s`.
+    /// Error of the height at an s that is off by `error_s`.
     F height_error(const F& s, const F& error_s) const {
         return F(2.0) * axis_size * (local.error_at(s, 10.0) + error_s) + F(0x1p-49) * axis_squared;
     }
@@ -212,7 +212,7 @@ struct OpenFinisher {
     }
 
   private:
-    /// Where that shows: each term of direction x axis has a factor 0. Such a line is nowhere
+    /// True where that shows: each term of direction x axis has a factor 0. Such a line is nowhere
     /// across the body.
     Mask<Arch> is_along_axis(const Vectors<Arch>& direction) const {
         const auto o = zero<Arch>();
@@ -260,8 +260,8 @@ struct CappedFinisher {
     template <Wanted wanted>
     using Line = AxialLine<Arch, tapers, wanted>;
 
-    /// Whether the line surely passes the solid: it is nowhere within the body, or only beyond one
-    /// end, or behind the start.
+    /// True where the line surely passes the solid: it is nowhere within the body, or only beyond
+    /// one end, or behind the start.
     template <Wanted wanted>
     static M passed(const Line<wanted>& line) {
         const Passage<Arch> in = line.passage(none<Arch>()), out = line.passage(all<Arch>());
@@ -283,7 +283,7 @@ struct CappedFinisher {
         result = select<Arch>(lanes, pass(line, starts.on_surface | lanes, starts), result);
     }
 
-    /// Where the ray leaves the solid, or else enters it.
+    /// Crossing where the ray leaves the solid, or else enters it.
     template <Wanted wanted>
     [[gnu::always_inline]] static Finished<Arch> pass(const Line<wanted>& line, const M& leaves,
                                                       const Starts<Arch>& starts) {
@@ -334,7 +334,7 @@ struct CappedFinisher {
         return result;
     }
 
-    /// Whether what is outside of both ends is so at the end that the ray goes to.
+    /// True where what is outside of both ends is so at the end that the ray goes to.
     template <Wanted wanted>
     static M passes(const Line<wanted>& line, const Passage<Arch>& passage, const M& at_top) {
         const F height = line.height_at(passage.root.s);

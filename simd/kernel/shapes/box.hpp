@@ -191,8 +191,8 @@ struct BoxFinisher {
             }
         }
 
-        /// Whether the line surely leaves one slab before it enters another, or all of them before
-        /// it starts.
+        /// True where the line surely leaves one slab before it enters another, or all of them
+        /// before it starts.
         M passed(const Starts<Arch>& starts) const {
             M in_known, out_known;
             const Finished<Arch> in = pass(none<Arch>(), starts, &in_known),
@@ -201,9 +201,9 @@ struct BoxFinisher {
                    (out_known & (out.t < negated(out.error)));
         }
 
-        /// Where the ray leaves, or else enters. `known`: where its t is that of the slab which is
-        /// the last to be entered, or the first to be left, whether or not it is inside of the
-        /// others.
+        /// Crossing where the ray leaves, or else enters. `known`: where its t is that of the slab
+        /// which is the last to be entered, or the first to be left, whether or not it is inside of
+        /// the others.
         Finished<Arch> pass(const M& leaves, const Starts<Arch>& starts, M* known = nullptr) const {
             // The last plane to be entered, or the first to be left.
             F s(0.0), face(0.0);

@@ -54,7 +54,7 @@ Starts<Arch> starts_nowhere() {
     return {none<Arch>(), none<Arch>(), zero<Arch>()};
 }
 
-/// Where a crossing counts: ahead of the ray or, where that starts on the surface, at t = 0.
+/// True where a crossing counts: ahead of the ray or, where that starts on the surface, at t = 0.
 template <class Arch>
 Mask<Arch> ahead(const Crossing<Arch>& crossing, const Mask<Arch>& on_surface) {
     return crossing.exists &

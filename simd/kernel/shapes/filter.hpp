@@ -35,8 +35,8 @@ struct FilterRays {
 
 inline constexpr float slack_floor = 0x1p-68F;
 
-/// What is certain of a ray's crossings with one shape, of those with t > 0, per lane. What a
-/// caller does not use of it costs nothing.
+/// Bounds on a ray's first crossing with one shape, of those with t > 0, per lane. What a caller
+/// does not use of them costs nothing.
 template <class Arch>
 struct Bounds {
     Mask<Arch> possible; ///< false: there is none
@@ -45,7 +45,7 @@ struct Bounds {
     Floats<Arch> upper;  ///< where certain: the first is not behind this
 };
 
-/// Whether a shape is in the way of rays, per lane.
+/// Any-hit: a shape in the way of rays, per lane.
 template <class Arch>
 struct Obstacle {
     Mask<Arch> possible; ///< false: it is not
@@ -67,13 +67,13 @@ obstacle_of(const Filter& filter, const Rays& rays, std::uint32_t asked,
     }
 }
 
-/// Whether a filter can tell for less than its bounds cost that there are none.
+/// True of a filter that can tell for less than its bounds cost that there are none.
 template <class Filter, class Rays>
 inline constexpr bool has_may_meet = requires(const Filter& filter, const Rays& rays) {
     filter.may_meet(rays);
 };
 
-/// Whether that is worth it for a packet of rays, a few of which meet the shape as a rule.
+/// True if that is worth it for a packet of rays, a few of which meet the shape as a rule.
 template <class Filter, class Rays>
 inline constexpr bool sifts_packets = has_may_meet<Filter, Rays>&& requires {
     Filter::is_costly;
@@ -152,7 +152,7 @@ Floats<Arch> positive_part(const Floats<Arch>& a) {
     return select(a > zero<Arch>(), a, zero<Arch>());
 }
 
-/// Where the input was numbers. Differences of coordinates, which are at most 1e30, are then
+/// True where the input was numbers. Differences of coordinates, which are at most 1e30, are then
 /// numbers as well.
 template <class Arch>
 Mask<Arch> is_number(const Floats<Arch>& difference) {

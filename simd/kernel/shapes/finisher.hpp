@@ -20,10 +20,10 @@
 /// NaN is not certain. Underflow is outside of it, as in core/numbers/bounded.hpp.
 namespace raylane::simd {
 
-/// What a caller asks of a finisher.
+/// Wishes of a caller of a finisher.
 enum class Wanted {
     crossings, ///< certain ones
-    all,       ///< what certainly crosses nowhere, and how far normals are off, as well
+    all,       ///< certain misses, and the error of normals, as well
 };
 
 /// The first crossing per lane, as core::Searcher counts them.
@@ -69,8 +69,8 @@ Floats<Arch> sum_of_sizes(const Vectors<Arch>& v) {
     return abs(v.x) + abs(v.y) + abs(v.z);
 }
 
-/// Whether a t that is off by `error`, and what double makes of the point there, is off by no more
-/// than an ulp of float of its largest coordinate.
+/// True where a t that is off by `error`, and what double makes of the point there, is off by no
+/// more than an ulp of float of its largest coordinate.
 template <class Arch>
 [[gnu::always_inline]] inline Mask<Arch> holds_point(const Rays<Arch>& rays, const Floats<Arch>& t,
                                                      const Floats<Arch>& error) {
@@ -111,7 +111,7 @@ Vectors<Arch> negated_where(const Mask<Arch>& mask, const Vectors<Arch>& v) {
     return {v.x ^ sign, v.y ^ sign, v.z ^ sign};
 }
 
-/// Whether each term of a . b has a factor 0: all of it is 0 then, whatever rounding does.
+/// True where each term of a . b has a factor 0: all of it is 0 then, whatever rounding does.
 template <class Arch>
 Mask<Arch> have_no_product(const Vectors<Arch>& a, const Vectors<Arch>& b) {
     const Floats<Arch> o = zero<Arch>();
@@ -148,12 +148,12 @@ struct LocalRays {
         return Floats<Arch>(count * 0x1.2p-53) * (size + abs(s));
     }
 
-    /// What the position at(s) errs by, and `count` roundings.
+    /// Error of the position at(s), and `count` roundings.
     Floats<Arch> error_at(const Floats<Arch>& s, double count = 2.0) const {
         return error + rounding(count, s);
     }
 
-    /// What the position at(s) errs by for an s that is off by `error_s`, by component: where
+    /// Error of the position at(s) for an s that is off by `error_s`, by component: where
     /// neither origin nor direction have one, it has none.
     Vectors<Arch> off_at(const Floats<Arch>& s, const Floats<Arch>& error_s) const {
         using F = Floats<Arch>;

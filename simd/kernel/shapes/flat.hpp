@@ -3,7 +3,7 @@
 #include "simd/kernel/shapes/filter.hpp"
 #include "simd/kernel/shapes/finisher.hpp"
 
-/// What flat shapes have in common.
+/// Shared parts of flat shapes.
 namespace raylane::simd {
 
 /// t = height / approach for height = n . (p - origin) and approach = n . d, given what these two

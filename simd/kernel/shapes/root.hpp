@@ -29,7 +29,7 @@ struct Quadratic {
     Mask<Arch> opens_down() const { return A < negated(A_error); }
     Floats<Arch> most_A() const { return abs(A) + A_error; }
 
-    /// Where F rises (the ray leaves), or else falls. Neither form cancels.
+    /// The root where F rises (the ray leaves), or else falls. Neither form cancels.
     [[gnu::always_inline]] Floats<Arch> root_where(const Mask<Arch>& rises) const {
         const Floats<Arch> root = sqrt(B * B - A * C);
         const Mask<Arch> falling = B < zero<Arch>();
@@ -58,7 +58,7 @@ struct Quadratic {
                 s - step, F(1.5) * value * abs(inverse), rise_size};
     }
 
-    /// Whether the other root is further than `reach` from s = 0, going by this one: they are
+    /// True where the other root is further than `reach` from s = 0, going by this one: they are
     /// F' / A apart.
     Mask<Arch> other_is_beyond(const Floats<Arch>& reach, const Root<Arch>& root) const {
         return root.certain & (root.rise > most_A() * (abs(root.s) + reach));

@@ -7,7 +7,7 @@
 /// lanes, or from a block of shapes, structure of arrays.
 namespace raylane::simd {
 
-/// What the kernels have for a kind of shape: from its own file, where it is specialised.
+/// Parts of the kernels for a kind of shape: from its own file, where it is specialised.
 ///   Numbers<Arch>           its floats; and, for what no ray of a group meets, spheres around it:
 ///       enclosing() is one, or enclosing(end) one around each of its `ends`, which it is between;
 ///       or it `encloses_itself`

@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// When a ray enters and leaves a convex set, between bounds.
+/// Stay of a ray in a convex set: bounds on where it enters and leaves.
 template <class Arch>
 struct Stay {
     Floats<Arch> in_low;   ///< not inside before, for t > 0; may be < 0

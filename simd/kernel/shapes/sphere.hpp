@@ -15,7 +15,7 @@ struct SphereNumbers {
     explicit SphereNumbers(Reader reader)
         : center(next_vector<Arch>(reader)), radius(reader.next()) {}
 
-    /// What encloses it are the numbers themselves.
+    /// The enclosing sphere is the numbers themselves.
     static constexpr bool encloses_itself = true;
 };
 
@@ -33,7 +33,7 @@ template <class Arch>
 struct SphereFilter : SphereNumbers<Arch> {
     using Numbers = SphereNumbers<Arch>;
     using Numbers::Numbers, Numbers::center, Numbers::radius;
-    /// Whether a ray may meet the sphere, for less than its bounds.
+    /// True where a ray may meet the sphere, for less than its bounds.
     [[gnu::always_inline]] Mask<Arch> may_meet(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;
         const Vectors<Arch> from_center = rays.origin - center;
@@ -211,7 +211,7 @@ struct SphereFinisher {
   private:
     using F = Floats<Arch>;
 
-    /// Whether the line surely does not come near enough: as above, with |foot| in place of the
+    /// True where the line surely does not come near enough: as above, with |foot| in place of the
     /// radius, which is less.
     Mask<Arch> passes(const F& shift, const Vectors<Arch>& foot) const {
         const F size = sum_of_sizes(foot), H = abs(shift) + (size + size);

@@ -202,8 +202,8 @@ struct TriangleFinisher {
     using F = Floats<Arch>;
     using M = Mask<Arch>;
 
-    /// Where that shows: of direction . (to_b x to_c), each term has a factor 0. Differences of
-    /// floats are 0 only where they are so truly.
+    /// True where that shows: of direction . (to_b x to_c), each term has a factor 0. Differences
+    /// of floats are 0 only where they are so truly.
     static M is_parallel(const Vectors<Arch>& direction, const Vectors<Arch>& to_b,
                          const Vectors<Arch>& to_c) {
         const F o = zero<Arch>();
