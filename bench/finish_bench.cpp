@@ -1,5 +1,5 @@
 #include "bench/random_shapes.hpp"
-#include "core/scene/shape_table.hpp"
+#include "core/shapes/shape_table.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
 

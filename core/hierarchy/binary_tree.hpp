@@ -4,7 +4,7 @@
 #include "core/hierarchy/duplicates.hpp"
 #include "core/hierarchy/item.hpp"
 #include "core/hierarchy/workers.hpp"
-#include "core/scene/big_array.hpp"
+#include "core/shapes/big_array.hpp"
 
 #include <array>
 #include <cstdint>

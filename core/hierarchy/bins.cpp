@@ -1,6 +1,6 @@
 #include "core/hierarchy/bins.hpp"
 
-#include "core/scene/shape_table.hpp"
+#include "core/shapes/shape_table.hpp"
 
 #include <algorithm>
 #include <array>

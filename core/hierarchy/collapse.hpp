@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/shape_table.hpp"
+#include "core/shapes/shape_table.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "core/hierarchy/item.hpp"
-#include "core/scene/material.hpp"
-#include "core/scene/shape_list.hpp"
+#include "core/shapes/shape_list.hpp"
 
 #include <algorithm>
 #include <cstddef>

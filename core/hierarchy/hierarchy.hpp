@@ -2,9 +2,9 @@
 
 #include "core/hierarchy/duplicates.hpp"
 #include "core/hierarchy/workers.hpp"
-#include "core/scene/shape_list.hpp"
-#include "core/scene/shape_table.hpp"
 #include "core/shapes/bounds.hpp"
+#include "core/shapes/shape_list.hpp"
+#include "core/shapes/shape_table.hpp"
 
 #include <cstdint>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/material.hpp"
+#include "core/shapes/shape.hpp"
 
 #include <cstdint>
 #include <limits>

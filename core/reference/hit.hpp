@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/scene/shape_table.hpp"
 #include "core/shapes/ray.hpp"
+#include "core/shapes/shape_table.hpp"
 
 #include <cmath>
 #include <limits>

@@ -67,6 +67,4 @@ struct Material {
     }
 };
 
-using MaterialIndex = std::uint32_t;
-
 } // namespace raylane::core

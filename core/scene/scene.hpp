@@ -1,10 +1,10 @@
 #pragma once
 
 #include "core/hierarchy/hierarchy.hpp"
-#include "core/scene/invalid_value.hpp"
 #include "core/scene/material.hpp"
-#include "core/scene/shape_table.hpp"
 #include "core/scene/surroundings.hpp"
+#include "core/shapes/invalid_value.hpp"
+#include "core/shapes/shape_table.hpp"
 
 #include <cstddef>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/scene/invalid_value.hpp"
 #include "core/scene/surroundings.hpp"
+#include "core/shapes/invalid_value.hpp"
 
 /// What makes a value that is no shape one that a scene may hold. All functions throw InvalidValue.
 namespace raylane::core {

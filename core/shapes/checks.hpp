@@ -2,7 +2,7 @@
 
 #include "core/numbers/bounded.hpp"
 #include "core/numbers/vector.hpp"
-#include "core/scene/invalid_value.hpp"
+#include "core/shapes/invalid_value.hpp"
 
 #include <string>
 

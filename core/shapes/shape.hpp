@@ -58,6 +58,9 @@ Shape shape_of(const Floats<Shape>& floats) {
 using ShapeId = std::uint32_t;
 inline constexpr ShapeId no_shape = std::numeric_limits<ShapeId>::max();
 
+/// The number of a material in its scene; by shape ids, of what each shape is made of.
+using MaterialIndex = std::uint32_t;
+
 /// A range of shape ids, first to last.
 struct IdRange {
     ShapeId first;

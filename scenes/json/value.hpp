@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/scene/invalid_value.hpp"
 #include "core/scene/material.hpp"
+#include "core/shapes/invalid_value.hpp"
 #include "scenes/errors.hpp"
 
 #include <cstdint>

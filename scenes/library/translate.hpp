@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/invalid_value.hpp"
+#include "core/shapes/invalid_value.hpp"
 #include "core/shapes/precision.hpp"
 #include "raylane/errors.hpp"
 #include "raylane/precision.hpp"

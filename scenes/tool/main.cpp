@@ -1,4 +1,4 @@
-#include "core/scene/invalid_value.hpp"
+#include "core/shapes/invalid_value.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/tool/command.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/shape_table.hpp"
+#include "core/shapes/shape_table.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
 #include "tests/random.hpp"

@@ -1,4 +1,4 @@
-#include "core/scene/shape_table.hpp"
+#include "core/shapes/shape_table.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
 #include "simd/tracing.hpp"

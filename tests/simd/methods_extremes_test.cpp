@@ -1,4 +1,4 @@
-#include "core/scene/invalid_value.hpp"
+#include "core/shapes/invalid_value.hpp"
 #include "simd/isa.hpp"
 #include "tests/placing.hpp"
 #include "tests/shapes/shapes.hpp"

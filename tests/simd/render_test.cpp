@@ -1,4 +1,4 @@
-#include "core/scene/invalid_value.hpp"
+#include "core/shapes/invalid_value.hpp"
 #include "simd/render.hpp"
 #include "simd/tiles.hpp"
 #include "tests/catch.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/scene/big_array.hpp"
-#include "core/scene/shape_list.hpp"
+#include "core/shapes/big_array.hpp"
+#include "core/shapes/shape_list.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "core/scene/big_array.hpp"
+#include "core/shapes/big_array.hpp"
 
 #if __has_include(<sys/mman.h>)
 #include <sys/mman.h>

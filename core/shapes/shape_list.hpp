@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/big_array.hpp"
+#include "core/shapes/big_array.hpp"
 #include "core/shapes/shapes.hpp"
 
 #include <algorithm>

@@ -1,0 +1,26 @@
+#!/bin/sh
+# usage: floors_test.sh SOURCE_DIRECTORY
+# Holds #includes to the floors and arrows of ARCHITECTURE.md.
+cd "$1" || exit 1
+failed=0
+forbid() { # folder, those that it must not include from, as grep -E has them
+    if grep -rnE "^#include \"($2)/" "$1" --include='*.hpp' --include='*.cpp'; then
+        echo "$1 must not include from $2"
+        failed=1
+    fi
+}
+
+forbid core 'simd|scenes|bench|tests'
+above=
+for folder in reference optics scene hierarchy shapes numbers; do
+    [ -z "$above" ] || forbid "core/$folder" "core/($above)"
+    above="$above${above:+|}$folder"
+done
+forbid simd 'scenes|bench|tests'
+forbid simd/kernel 'simd/(query|wavefront)'
+forbid simd/query 'simd/wavefront'
+forbid scenes 'bench|tests'
+for folder in json nff export image; do
+    forbid "scenes/$folder" 'simd|scenes/(library|tool)'
+done
+exit $failed
