@@ -98,7 +98,7 @@ constexpr std::string_view name_of(Kind kind) {
     return kind_names[static_cast<std::size_t>(kind)];
 }
 
-/// What kinds that differ in a detail have in common: JSON's "type".
+/// Type name, which kinds that differ in a detail have in common: JSON's "type".
 constexpr std::string_view type_name_of(Kind kind) {
     const std::string_view name = name_of(kind);
     return name.substr(name.rfind(' ') + 1);

@@ -24,7 +24,7 @@ struct BinaryNode {
     bool is_leaf() const { return count != 0; }
 };
 
-/// How much of everything a subtree comes to.
+/// Size of a subtree: its slots, nodes and blocks.
 struct Tally {
     int slots = 0; ///< of the wide node that its parent is in
     std::uint32_t nodes = 0;

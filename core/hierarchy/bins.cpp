@@ -21,7 +21,7 @@ std::size_t strips_of(std::size_t count) {
     return (count + strip_size - 1) / strip_size;
 }
 
-/// Which bin a centre is in, for all axes at once.
+/// Bin of a centre, for all axes at once.
 class Grid {
   public:
     Grid(const Box4& centers, int bins) : lower_(centers.lower), last_(all4(float(bins - 1))) {

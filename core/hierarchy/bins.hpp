@@ -20,7 +20,7 @@ struct Halves {
     Range left, right;
 };
 
-/// What bounds all items and their centres.
+/// Bounds of all items, and of their centres.
 Range whole_range(std::span<const Item> items, Workers& workers);
 
 /// Parts a range of more than one block by the surface-area heuristic over bins of centres (Wald,

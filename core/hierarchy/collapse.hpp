@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdint>
 
-/// How a binary tree is collapsed into wide nodes at the least expected cost, by dynamic
-/// programming (Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through
-/// Compressed Wide BVHs", 2017).
+/// Collapse of a binary tree into wide nodes at the least expected cost, by dynamic programming
+/// (Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
+/// BVHs", 2017).
 namespace raylane::core {
 
 /// For one binary subtree: the least cost of representing it by at most i + 1 slots of a wide node.
@@ -18,7 +18,7 @@ struct SlotCosts {
     double of(int slots) const { return cost[std::min(slots, useful_slots) - 1]; }
 };
 
-/// What one inner node of the binary tree decides: how many of n slots go to the left child.
+/// Decision at an inner node of the binary tree: how many of n slots go to the left child.
 class SlotShares {
   public:
     /// 1 <= slots <= 16. 0: the subtree takes one slot, or no more than slots - 1.

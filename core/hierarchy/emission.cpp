@@ -15,13 +15,13 @@ class Cursor {
 
     const BinaryNode& node() const { return part_->nodes[index_]; }
     bool is_leaf() const { return node().is_leaf(); }
-    /// Whether the children are parts of their own.
+    /// True if the children are parts of their own.
     bool forks() const { return part_->left != nullptr; }
     Cursor left() const { return forks() ? Cursor(*part_->left) : Cursor(*part_, node().first); }
     Cursor right() const {
         return forks() ? Cursor(*part_->right) : Cursor(*part_, node().first + 1);
     }
-    /// What the left child comes to, once it has been counted, where this forks.
+    /// Size of the left child, once it has been counted, where this forks.
     Tally& left_tally() const { return part_->left_tally; }
 
   private:
@@ -29,12 +29,12 @@ class Cursor {
     std::uint32_t index_;
 };
 
-/// How many slots go to each child.
+/// Slots for each child.
 struct Shares {
     int left, right;
 };
 
-/// What becomes of `slots` slots for a subtree: nothing for the children if it takes one itself.
+/// Shares of the children in a subtree's `slots` slots: nothing if it takes one itself.
 Shares shares_of(const Cursor& at, int slots) {
     if (at.is_leaf()) return {0, 0};
     for (; slots > 1; --slots)
@@ -48,8 +48,8 @@ Shares own_shares_of(const Cursor& at) {
     return {left, block_size - left};
 }
 
-/// What a subtree comes to that may fill `slots` slots of a wide node. Where it forks, remembers
-/// the left child's part.
+/// Size of a subtree that may fill `slots` slots of a wide node. Where it forks, remembers the left
+/// child's part.
 Tally count(const Cursor& at, int slots, Workers& workers);
 
 Tally count_children(const Cursor& at, const Shares& shares, Workers& workers) {

@@ -10,7 +10,7 @@
 
 namespace raylane::core {
 
-/// What a node's slot refers to: nothing, another node, or a block of shapes of one kind.
+/// Reference in a node's slot: to nothing, another node, or a block of shapes of one kind.
 class Child {
   public:
     static constexpr std::uint32_t max_index = (1U << 27) - 1;

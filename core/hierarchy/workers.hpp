@@ -5,7 +5,7 @@
 
 namespace raylane::core {
 
-/// Who does the work of a build: here, the caller's thread alone, and nobody is told how far it is.
+/// Threads that do the work of a build: here, the caller's alone, and nobody is told how far it is.
 /// Whoever has threads, or somebody to tell, overrides this. Nothing that is built depends on it.
 class Workers {
   public:

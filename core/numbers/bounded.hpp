@@ -9,7 +9,7 @@
 
 namespace raylane::core {
 
-/// What one operation gives, and what rounding may have made of it.
+/// Result of one operation, and a bound on its roundoff.
 template <class T>
 struct Rounded {
     T value;
@@ -56,7 +56,7 @@ inline Rounded<DoubleDouble> sum(const DoubleDouble& a, const DoubleDouble& b) {
 inline Rounded<DoubleDouble> product(const DoubleDouble& a, const DoubleDouble& b) {
     return with_roundoff(a * b, a.low == 0.0 && b.low == 0.0);
 }
-/// Whether quotient * divisor, each of one double, is just that.
+/// True if quotient * divisor, each of one double, is just the dividend.
 inline bool divides(const DoubleDouble& quotient, const DoubleDouble& divisor,
                     const DoubleDouble& dividend) {
     const DoubleDouble product = double_double::two_product(quotient.high, divisor.high);

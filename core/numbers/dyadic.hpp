@@ -13,7 +13,7 @@ struct Scaled {
     std::int64_t exponent = 0;
 
     static Scaled of(double value, std::int64_t exponent);
-    /// What overflows is the largest double, what underflows the smallest: the sign stays.
+    /// Overflow gives the largest double, underflow the smallest: the sign stays.
     double to_double() const;
 };
 

@@ -10,7 +10,7 @@
 /// same on every processor.
 namespace raylane::core {
 
-/// What `Elementary` needs of double, or a register of them, besides + - * / < > ==:
+/// Operations that `Elementary` needs of double, or a register of them, besides + - * / < > ==:
 /// Bits: as many unsigned 64-bit integers, with + - & ^ << >>. Mask: what comparisons give.
 template <class Number>
 struct Primitives;

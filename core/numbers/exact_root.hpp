@@ -25,7 +25,7 @@ struct ExactQuadratic {
 class ExactRoot {
   public:
     /// The root where F rises, or else falls; of a linear F, which is not constant, its only one.
-    /// Where both are the same it rises and falls.
+    /// A double root is both.
     ExactRoot(ExactQuadratic F, bool rises) : F_(std::move(F)), rises_(rises) {}
     static ExactRoot at(double t) { return {ExactQuadratic::minus(t), true}; }
 
@@ -33,7 +33,7 @@ class ExactRoot {
     int sign_of(const ExactQuadratic& G) const;
     /// Of the root itself.
     int sign() const { return sign_of(ExactQuadratic::minus(0.0)); }
-    /// Which is less: -1 if a is, 0 if they are the same.
+    /// Order of two roots: -1 if a is less, 0 if they are the same.
     friend int compare(const ExactRoot& a, const ExactRoot& b);
     /// The float that root * 2^exponent is nearest to, ties to even, of those from low to high,
     /// which are >= 0. It must not be nearer to another.

@@ -59,8 +59,8 @@ class MediaStacks {
         return entering ? entered(media, material) : left(media, material);
     }
 
-    /// What a ray is inside of that meets a surface of this material. One that leaves a body which
-    /// it never entered has been inside from its start.
+    /// Medium of a ray before it meets a surface of this material. One that leaves a body which it
+    /// never entered has been inside from its start.
     MaterialIndex before(Media media, MaterialIndex material, bool transmits, bool entering) const {
         return media == empty_space && !entering && transmits ? material : top(media);
     }

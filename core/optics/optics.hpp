@@ -11,7 +11,7 @@
 /// [0, 1].
 namespace raylane::core {
 
-/// What becomes of a ray at the surface between two indices of refraction.
+/// Refraction of a ray at the surface between two indices of refraction.
 template <class Real>
 struct Refraction {
     bool total; ///< total internal reflection: nothing is transmitted

@@ -4,7 +4,7 @@
 
 namespace raylane::core {
 
-/// What a rendering has done.
+/// Counts of the work of a rendering.
 struct Counters {
     std::uint64_t primary = 0;   ///< rays from the camera
     std::uint64_t reflected = 0; ///< rays

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-/// Which of a ray's crossings comes first, whatever they are crossings with: as real arithmetic
-/// says. Two are at the same t where that says so, and nowhere else.
+/// Order of a ray's crossings, whatever they are crossings with: as real arithmetic says. Two are
+/// at the same t where that says so, and nowhere else.
 namespace raylane::core {
 
 /// A ray that starts on no surface, or on known ones.
@@ -125,7 +125,7 @@ class CrossingOrder {
         if (a.is_surely_at(b)) return 0;
         return core::compare(a.root(scene_, from_), b.root(scene_, from_));
     }
-    /// Where they are at the same t, what is entered comes before what is left, then the lower
+    /// Order of two hits. At the same t, what is entered comes before what is left, then the lower
     /// shape.
     bool is_before(const SharpHit& a, const SharpHit& b) const {
         const int order = compare(a, b);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-/// What a point is inside of: where a camera may stand.
+/// Media that enclose a point, such as a camera's place.
 namespace raylane::core {
 
 /// The transmissive materials that a ray leaves without having entered them, those left first in

@@ -12,7 +12,7 @@ namespace raylane::core {
 template <class Real>
 struct Hit {
     Real t = std::numeric_limits<Real>::infinity();
-    double error = 0.0;    ///< what t may be off by
+    double error = 0.0;    ///< bound on the error of t
     bool at_start = false; ///< a contact of the start, t = 0
     ShapeId shape = no_shape;
     Face face = body;
@@ -23,14 +23,14 @@ struct Hit {
 
     bool any() const { return shape != no_shape; }
 
-    /// Which of two at the same t comes first: what is at the start, then what is entered, then the
-    /// lower shape.
+    /// Order of two at the same t: first what is at the start, then what is entered, then the lower
+    /// shape.
     bool precedes(const Hit& other) const {
         if (at_start != other.at_start) return at_start;
         if (entering != other.entering) return entering;
         return shape < other.shape;
     }
-    /// Whether t alone says that it is nearer.
+    /// True if t alone shows that it is nearer.
     bool is_surely_before(const Hit& other) const {
         return static_cast<double>(other.t) - static_cast<double>(t) >
                (error + other.error) * (1.0 + 0x1p-50);

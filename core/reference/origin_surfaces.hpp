@@ -16,13 +16,13 @@ struct Contact {
     IdRange shapes; ///< its shape and what lies in one plane with it
     MaterialIndex material;
     Vec3<Real> normal; ///< unit, outward
-    bool inside;       ///< whether the ray is on its inside now
-    bool goes_inside;  ///< and where it goes
+    bool inside;       ///< true if the ray is on its inside now
+    bool goes_inside;  ///< true if it goes to its inside
 
     bool is_crossed() const { return inside != goes_inside; }
 };
 
-/// What a secondary ray knows of the surfaces that it leaves: which they are, on which side it is,
+/// Origin surfaces, those that a secondary ray leaves: which they are, on which side of each it is,
 /// and to which it goes. No arithmetic has to find that again. It is more than one surface where a
 /// block stands on a table, or at an edge; any number of them. Those which the ray is still to
 /// cross it crosses at t = 0. Those of one material that lie in each other, and are entered or left
@@ -51,13 +51,13 @@ class OriginSurfaces {
         return after != begin() && after[-1].shapes.contains(id) ? after - 1 : nullptr;
     }
 
-    /// How a shape's solver has to see the start: as if the ray were already where it goes.
+    /// Start as a shape's solver has to see it: as if the ray were already where it goes.
     Start start_on(ShapeId id) const {
         const Contact<Real>* contact = find(id);
         return contact != nullptr ? Start{true, contact->hit.face, contact->goes_inside} : Start{};
     }
 
-    /// How many of the contacts are one surface with that of a hit.
+    /// Number of contacts that are one surface with that of a hit.
     int count_as_one(const Hit<Real>& hit) const {
         const Contact<Real>& surface = *find(hit.shape);
         int count = 0;

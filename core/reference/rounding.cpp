@@ -116,7 +116,7 @@ class ExactDirection {
     }
 
   private:
-    /// Whether the component's size is less (-1), or more than this.
+    /// Order of the component's size and this: -1 if it is less, 1 if it is more.
     int compare_square(int axis, double size) const {
         const Dyadic &v = along_.v[axis], &slope = along_.slope[axis];
         const Dyadic factor = Dyadic(size) * size;

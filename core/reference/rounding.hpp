@@ -2,16 +2,15 @@
 
 #include "core/reference/crossing_order.hpp"
 
-/// What is answered of a crossing: the floats next to the truth, and doubles as near as double can
-/// be.
+/// Answers about a crossing: the floats next to the truth, and doubles as near as double can be.
 namespace raylane::core {
 
 /// t * 2^exponent, rounded to the nearest float, ties to even, but never to 0 or infinity. For what
 /// is not sure from t and its error alone it is decided exactly.
 float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent);
 
-/// Whether a t that is off by no more than `error` rounds to one float as above, whatever it is.
-/// That is then `t_rounded`.
+/// True if every t within `error` of this one rounds to one float as above. That is then
+/// `t_rounded`.
 bool rounds_surely(double t, double error, float& t_rounded);
 
 /// The unit normal outside (in front) of the surface at the true point of a crossing, each

@@ -252,13 +252,13 @@ class Searcher {
         }
     }
 
-    /// What bounds may be missed by, relative to t: the solvers' error, which is 2^-27 in double,
+    /// Tolerance for missing bounds, relative to t: the solvers' error, which is 2^-27 in double,
     /// and that of the quotients here, 3 half ulps (Ize, "Robust BVH Ray Traversal", 2013). In
     /// float, and in plain double, the solvers promise nothing.
     static constexpr Real allowance =
         Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
-    /// Where a ray enters a slot's bounds, t >= 0; -1 if it misses them between 0 and t_most. A
+    /// Entry of a ray into a slot's bounds, t >= 0; -1 if it misses them between 0 and t_most. A
     /// component of 0 makes 0 * inf only if the origin is in a plane of the bounds; either answer
     /// is then right, as no shape touches them.
     static Real entry(const WideNode& node, int slot, const Ray<Real>& ray,

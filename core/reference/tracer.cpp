@@ -63,7 +63,7 @@ Media ReferenceTracer<Real>::media_around(const Vector& origin) {
     return *start_media_;
 }
 
-/// What a path spawns waits here, not on the stack: the last that was spawned goes on first.
+/// Paths that a path spawns wait here, not on the stack: the last that was spawned goes on first.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
     Vector light(0);

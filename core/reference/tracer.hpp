@@ -28,7 +28,7 @@ class ReferenceTracer {
     /// The linear RGB colour seen along a ray; its direction is a unit vector.
     Vec3<Real> trace(const Ray<Real>& ray);
 
-    /// What all calls so far have done.
+    /// Counts of the work of all calls so far.
     const Counters& counters() const { return searcher_.counters; }
 
     using Vector = Vec3<Real>;
@@ -37,13 +37,13 @@ class ReferenceTracer {
     struct Path {
         Ray<Real> ray;
         OriginSurfaces<Real> origins;
-        Media media;       ///< what it is inside of
-        Vector throughput; ///< what of its colour reaches the pixel
+        Media media;       ///< media that it is inside of
+        Vector throughput; ///< share of its colour that reaches the pixel
         int depth;         ///< reflections and refractions so far
         int crossings = 0; ///< of surfaces where it starts that it may cross for nothing
     };
 
-    /// What a path brings to the pixel, with all that follows from it: linear RGB.
+    /// Light that a path, with all that follows from it, brings to the pixel: linear RGB.
     Vector light_along(Path path);
 
     /// The first surface along a ray, whether it can be seen or not, and what it touches there.
@@ -51,12 +51,13 @@ class ReferenceTracer {
         return searcher_.nearest(ray, origins, [](const Hit<Real>&) { return true; });
     }
 
-    /// What of a light reaches the origin of a ray towards it: nothing through an opaque surface;
-    /// through transmissive ones, on a straight line, what they transmit and do not absorb.
+    /// Share of a light that reaches the origin of a ray towards it: nothing through an opaque
+    /// surface; through transmissive ones, on a straight line, what they transmit and do not
+    /// absorb.
     Vector light_let_through(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Media media,
                              Real distance);
 
-    /// What a ray from the camera starts in.
+    /// Media that a ray from the camera starts in.
     Media media_around(const Vector& origin);
     /// Those that paths are inside of.
     MediaStacks& media() { return media_; }

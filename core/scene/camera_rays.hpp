@@ -8,7 +8,7 @@
 
 namespace raylane::core {
 
-/// Where in its cell of the grid a sample lies, in [0, 1)^2.
+/// Place of a sample in its cell of the grid, in [0, 1)^2.
 struct SamplePoint {
     float x;
     float y;
@@ -55,7 +55,7 @@ class CameraRays {
         up_ = convert<Real>(up * per_half_pixel);
     }
 
-    /// Where a sample lies in its pixel, from its upper left corner, in [0, 1)^2.
+    /// Place of a sample in its pixel, from its upper left corner, in [0, 1)^2.
     struct InPixel {
         Real column;
         Real row;
@@ -70,8 +70,7 @@ class CameraRays {
                 (Real(sample / grid_) + Real(point.y)) / Real(grid_)};
     }
 
-    /// Where that is in the picture, from its middle to the right and upwards, in halves of a
-    /// pixel.
+    /// Its place in the picture, from its middle to the right and upwards, in halves of a pixel.
     struct Place {
         Real across;
         Real upward;

@@ -8,7 +8,7 @@
 
 namespace raylane::core {
 
-/// What a scene needs of a renderer. What is false here need not exist in its loop.
+/// Features that a scene needs of a renderer. Those that are false need not exist in its loop.
 struct Features {
     bool bounded_shapes = false; ///< so a hierarchy to walk
     bool planes = false;

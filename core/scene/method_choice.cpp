@@ -69,7 +69,7 @@ class PixelSize {
     double size_;
 };
 
-/// What a method of floats may displace, in a scene without reflections.
+/// Displacement of surfaces and shadows by a method of floats, in a scene without reflections.
 class FloatMethod {
   public:
     FloatMethod(const Scene& scene, const Settings& settings, bool shadows, Precision precision)
@@ -84,7 +84,7 @@ class FloatMethod {
 
     double pixels() const { return pixels_; }
 
-    /// Whether two surfaces may be closer than what they are displaced by.
+    /// True if two surfaces may be closer than the sum of their displacements.
     bool confuses_surfaces() const {
         for (std::size_t i = 0; i < places_.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)

@@ -8,12 +8,12 @@
 
 namespace raylane::core {
 
-/// What a method would do to a picture.
+/// Estimate of a method's cost and of its effect on a picture.
 struct MethodEstimate {
     Precision precision;
     double cost;           ///< time of finding what rays hit, relative to exact's
     double pixels;         ///< by which a surface or a shadow may be displaced; infinity: unbounded
-    std::string objection; ///< why it will not do, in words; empty if it will
+    std::string objection; ///< reason why it will not do, in words; empty if it will
 };
 
 /// The cheapest method whose pictures cannot be told from the right one: whose surfaces and shadows

@@ -18,7 +18,7 @@ namespace raylane::core {
 /// If `groups`, ascending, were one shape each, as which one would shape `id` be counted?
 std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id);
 
-/// What a message calls a shape; empty where that is unknown.
+/// Name of a shape in messages; empty where that is unknown.
 using NameOfShape = std::function<std::string(ShapeId)>;
 
 /// A validated scene that no longer changes. Copying it is expensive, moving it is not.
@@ -67,8 +67,8 @@ class SceneBuilder {
     Color background{0.0F};     ///< checked by build(), field "background"
     Fog fog;                    ///< checked by build(), field "fog/..."
     Settings settings;          ///< checked by build(), field "settings/..."
-    bool wants_light = true;    ///< whether build() refuses shapes without a light
-    Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
+    bool wants_light = true;    ///< true if build() refuses shapes without a light
+    Workers* workers = nullptr; ///< that build the hierarchy; default: the caller's thread
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
@@ -99,7 +99,7 @@ class SceneBuilder {
   private:
     void require_material(MaterialIndex material) const;
     void require_room(std::size_t count) const;
-    /// What add does with a shape that is valid.
+    /// The part of add() that is left for a valid shape.
     template <class Shape>
     ShapeId append(const Shape& shape, MaterialIndex material);
 

@@ -3,7 +3,7 @@
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
 
-/// What makes a value that is no shape one that a scene may hold. All functions throw InvalidValue.
+/// Checks of the values other than shapes that a scene may hold. All functions throw InvalidValue.
 namespace raylane::core {
 
 void validate(const Material& material);

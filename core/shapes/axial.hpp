@@ -4,10 +4,10 @@
 #include "core/shapes/form.hpp"
 #include "core/shapes/judge.hpp"
 
-/// What cylinders and cones have in common.
+/// Shared parts of cylinders and cones.
 namespace raylane::core {
 
-/// What is between two discs at right angles to the axis.
+/// Bounds of the frustum between two discs at right angles to the axis.
 Bounds frustum_bounds(const Vec3f& base, const Vec3f& axis, double base_radius, double top_radius);
 
 /// A ray taken apart along and across the axis of a cylinder or cone: with f = origin - base,
@@ -33,7 +33,7 @@ struct AxialRay {
         across_direction = mul_add(Real(-(height_direction / axis_squared)), a, ray.direction);
     }
 
-    /// Whether the crossing lies between the ends, the rims included.
+    /// True if the crossing lies between the ends, the rims included.
     bool between_ends(const Real& t, Judge<Real>& judge) const {
         const Real height = mul_add(t, height_direction, height_origin);
         return !judge.negative(height) && !judge.less(axis_squared, height);

@@ -6,8 +6,7 @@
 
 #include <string>
 
-/// What makes numbers such that a scene may hold them. All functions named require_ throw
-/// InvalidValue.
+/// Checks of the numbers that a scene may hold. All functions named require_ throw InvalidValue.
 namespace raylane::core {
 
 /// Coordinates and lengths are at most this large, so that no product in the solvers can overflow.
@@ -54,7 +53,7 @@ void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Ve
 
 using Wide = Bounded<DoubleDouble>;
 
-/// Whether an exact product of float coordinates is 0, or cannot be told from it in 106 bits.
+/// True if an exact product of float coordinates is 0, or cannot be told from it in 106 bits.
 bool vanishes(const Wide& a);
 Vec3<Wide> wide(const Vec3f& v);
 bool parallel(const Vec3<Wide>& a, const Vec3<Wide>& b);

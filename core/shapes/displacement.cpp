@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What eight roundings to float may be off by, relative to their largest operand.
+/// Error bound of eight roundings to float, relative to their largest operand.
 constexpr double roundings = 8 * 0x1p-24;
 
 /// A cell of a quadric's box, or of one of its faces, which is flat and sees the gradient within
@@ -122,7 +122,7 @@ double displacement(const Disc& disc, Precision, double reach) {
 /// own roundings, along the ray. The other root is half a chord h from the vertex, with |A| h <= G,
 /// and |A| >= s / 16 or the vertex is not used: h <= 16 G / s. There Q is off by roundings of T(R)
 /// and of 2 G h + m h^2, which is an error of h, along the ray, of 16 G / s (1 + 3 * 8) at most.
-/// What moves along the ray moves by half of that across, as the surface is slanted.
+/// A crossing that moves along the ray moves by half of that across, as the surface is slanted.
 ///
 /// Fast: the discriminant is off by roundings of B^2 and A C, and Q by that divided by A.
 double displacement(const Quadric& quadric, Precision precision, double reach) {

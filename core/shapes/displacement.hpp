@@ -7,11 +7,11 @@
 
 namespace raylane::core {
 
-/// How far the surface that a method of floats (fast or robust) draws may be from the one meant, in
-/// units of length across the line of sight, for rays that start no further than `reach` from any
-/// point of the shape: where such a ray hits (misses), it does so with the shape meant, once it is
-/// moved sideways by no more than this. Infinite where there is no such bound, or the error is no
-/// longer small beside the shape.
+/// Displacement: how far the surface that a method of floats (fast or robust) draws may be from the
+/// one meant, in units of length across the line of sight, for rays that start no further than
+/// `reach` from any point of the shape: where such a ray hits (misses), it does so with the shape
+/// meant, once it is moved sideways by no more than this. Infinite where there is no such bound, or
+/// the error is no longer small beside the shape.
 double displacement(const Sphere& sphere, Precision precision, double reach);
 double displacement(const Disc& disc, Precision precision, double reach);
 double displacement(const Quadric& quadric, Precision precision, double reach);

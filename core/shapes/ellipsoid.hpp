@@ -35,7 +35,7 @@ inline Bounds bounds_of(const Ellipsoid& e) {
     return bounds_around(center, extent, absolute(center) + extent);
 }
 
-/// What makes of the ellipsoid a ball about the origin: the coordinate a of p, relative to the
+/// Linear map of the ellipsoid to a ball about the origin: the coordinate a of p, relative to the
 /// centre, is ((v x w) . p) / ((v x w) . u), likewise b and c. A ray goes through the ball where it
 /// goes through the ellipsoid.
 template <class Real>

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-/// What flat shapes have in common. A ray that starts on one does not meet it again; one inside its
+/// Shared parts of flat shapes. A ray that starts on one does not meet it again; one inside its
 /// plane does not hit it.
 namespace raylane::core {
 

@@ -20,7 +20,7 @@ class Judge {
     Judge() = default;
     explicit Judge(Precision precision) : textbook_(precision == Precision::fast) {}
 
-    /// Whether to use the textbooks' formulas.
+    /// True if the textbooks' formulas are to be used.
     bool textbook() const { return textbook_; }
 
     int sign(const Real& a) {

@@ -7,7 +7,7 @@
 
 namespace raylane::core {
 
-/// How what rays hit is worked out.
+/// Method by which the hits of rays are found.
 enum class Precision : std::uint8_t {
     fast,         ///< float, the textbooks' formulas: for previews, and to compare with
     robust,       ///< float, the best formulas that float has
@@ -18,7 +18,7 @@ enum class Precision : std::uint8_t {
 inline constexpr Precision all_precisions[] = {Precision::fast, Precision::robust, Precision::exact,
                                                Precision::plain_double};
 
-/// What people call it.
+/// Name for people.
 constexpr std::string_view name_of(Precision precision) {
     constexpr std::string_view names[] = {"fast", "robust", "exact", "double"};
     return names[static_cast<std::size_t>(precision)];
@@ -28,7 +28,7 @@ constexpr bool is_single(Precision precision) {
     return precision == Precision::fast || precision == Precision::robust;
 }
 
-/// What a tracer of these numbers does unless told otherwise.
+/// Default precision of a tracer of these numbers.
 template <class Real>
 inline constexpr Precision precision_of =
     std::is_same_v<Real, float> ? Precision::robust : Precision::exact;

@@ -14,31 +14,30 @@ struct Ray {
     Vec3<Real> direction;
 };
 
-/// Which part of a shape's surface. Quadratic surfaces and flat shapes have one (`body`); caps come
-/// on top of it; a box has two per edge: 2 i through the corner, 2 i + 1 opposite, for edges i = 0,
-/// 1, 2.
+/// Part of a shape's surface. Quadratic surfaces and flat shapes have one (`body`); caps come on
+/// top of it; a box has two per edge: 2 i through the corner, 2 i + 1 opposite, for edges i = 0, 1,
+/// 2.
 using Face = std::uint8_t;
 inline constexpr Face body = 0;
 inline constexpr Face base_cap = 1;
 inline constexpr Face top_cap = 2;
 
-/// Where a ray starts, seen by one shape. A ray that starts on the shape has t = 0 as a root that
-/// no arithmetic must find again: the solvers leave it out instead of testing for it with an
-/// epsilon.
+/// Start of a ray, seen by one shape. A ray that starts on the shape has t = 0 as a root that no
+/// arithmetic must find again: the solvers leave it out instead of testing for it with an epsilon.
 struct Start {
     bool on_surface = false;
-    Face face = body; ///< which it starts on, if on_surface
+    Face face = body; ///< that it starts on, if on_surface
     bool inward =
-        false; ///< and whether it goes to the inside (behind a flat surface) or the outside
+        false; ///< true if it goes to the inside (behind a flat surface), not to the outside
 };
 
-/// Where a line passes through a surface.
+/// Crossing of a line and a surface.
 template <class Real>
 struct Crossing {
     Real t;
     Face face;
     bool entering = false; ///< from the outside (front) to the inside (back)
-    double error = 0.0;    ///< what t may be off by; only solve() in double tells
+    double error = 0.0;    ///< bound on the error of t; only solve() in double tells
 };
 
 /// The crossings of a ray with one shape that may count, in the order of t: t > 0 is for the caller

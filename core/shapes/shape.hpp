@@ -12,12 +12,12 @@
 #include <limits>
 #include <span>
 
-/// What each shape's file says of it, in this order: its numbers and traits, validate(),
-/// bounds_of() if it is bounded, crossings(), outward_direction() (see normal.hpp), and
-/// form_along() and normal_along() (see form.hpp).
+/// Contents of each shape's file, in this order: its numbers and traits, validate(), bounds_of() if
+/// it is bounded, crossings(), outward_direction() (see normal.hpp), and form_along() and
+/// normal_along() (see form.hpp).
 namespace raylane::core {
 
-/// Which rays that leave a shape may meet it again.
+/// Re-entry: which rays that leave a shape may meet it again.
 enum class MeetsAgain : std::uint8_t {
     never,  ///< it is flat
     inward, ///< those that go to the inside of a convex surface
@@ -28,7 +28,7 @@ enum class MeetsAgain : std::uint8_t {
 /// mean of AVX2's and AVX-512's medians, as bench/chart.sh measures them.
 using MethodCosts = std::array<double, std::size(all_precisions)>;
 
-/// What the engine asks of a kind of shape.
+/// Traits of a kind of shape that the engine asks for.
 struct ShapeTraits {
     bool bounded = true; ///< it has bounds, and a place in the hierarchy
     bool flat_faces =
@@ -37,7 +37,7 @@ struct ShapeTraits {
     MethodCosts costs;
 };
 
-/// How many floats a shape is.
+/// Number of floats in a shape.
 template <class Shape>
 inline constexpr int float_count = sizeof(Shape) / sizeof(float);
 

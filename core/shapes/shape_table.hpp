@@ -44,7 +44,7 @@ struct alignas(64) Block {
     }
 };
 
-/// Where a shape is in the table of its kind.
+/// Place of a shape in the table of its kind.
 struct Place {
     std::uint32_t block;
     std::uint8_t lane;

@@ -29,13 +29,13 @@ constexpr const ShapeTraits& traits_of(Kind kind) {
     });
 }
 
-/// Whether a ray that leaves a shape may meet it again.
+/// Re-entry: true where a ray that leaves a shape may meet it again.
 constexpr bool may_meet_again(Kind kind, bool inward) {
     const MeetsAgain rays = traits_of(kind).meets_again;
     return rays == MeetsAgain::always || (rays == MeetsAgain::inward && inward);
 }
 
-/// Whether a shape is shaded by other normals than its own.
+/// True if a shape is shaded by other normals than its own.
 template <class Shape>
 inline constexpr bool has_shading_normals = requires(const Shape& shape, const Vec3d& point) {
     shading_normal(shape, point);
