@@ -5,15 +5,15 @@
 
 namespace raylane::simd {
 
-/// What the vector engine has done.
+/// Counts of the vector engine's work.
 struct EngineCounters : core::Counters {
     std::uint64_t walked = 0;   ///< shadow rays that had to be followed from surface to surface
     std::uint64_t deferred = 0; ///< paths put off, as a wave had become too long
     std::uint64_t refined = 0;  ///< rays that have been decided on at second sight
-    /// How it has searched for what rays hit, as often as it did: shape by shape, in frusta, by
-    /// lists, or each by itself with others in flight.
+    /// Rays by the way of their search: shape by shape, in frusta, by lists, or each by itself with
+    /// others in flight.
     std::uint64_t one_by_one = 0, in_frusta = 0, in_lists = 0, in_flight = 0;
-    /// What has been left to the reference:
+    /// Left to the reference:
     std::uint64_t doubtful = 0; ///< rays: to decide which shape is the nearest
     std::uint64_t followed = 0; ///< paths: to follow, where surfaces meet or waves grow too long
 

@@ -11,14 +11,14 @@ enum class Isa : std::uint8_t { portable, sse42, avx2, avx512 };
 
 inline constexpr Isa all_isas[] = {Isa::portable, Isa::sse42, Isa::avx2, Isa::avx512};
 
-/// Whether this processor, and the system on it, can run it: portable on any. avx2 stands for AVX2
+/// True if this processor, and the system on it, can run it: portable on any. avx2 stands for AVX2
 /// and FMA, avx512 for the F, CD, BW, DQ and VL parts.
 bool is_available(Isa isa);
 
 /// The widest that is available.
 Isa best_isa();
 
-/// What people call it.
+/// Name for people.
 inline constexpr std::string_view name_of(Isa isa) {
     constexpr std::string_view names[] = {"portable", "sse4.2", "avx2", "avx512"};
     return names[static_cast<std::size_t>(isa)];

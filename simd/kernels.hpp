@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What a kernel unit offers: one per instruction set, all alike. Plain data only, so that nothing
+/// Interface of a kernel unit: one per instruction set, all alike. Plain data only, so that nothing
 /// inline is shared with the units that are built for newer processors.
 namespace raylane::simd {
 
@@ -31,11 +31,11 @@ struct Found {
     double* shading_normal[3]; ///< interpolated on smooth triangles, else the same; may be null
     std::uint32_t* hit;        ///< hit_bits
 
-    /// Where directions are what others are when brought to length 1: those, and their lengths.
-    /// What is certain is so of these rays. Null: directions are exact.
+    /// Directions meant, of any length, and their lengths, where `direction` is these brought to
+    /// length 1. What is certain is so of the rays meant. Null: directions are exact.
     const double* meant_direction[3] = {};
     const double* meant_length = nullptr;
-    /// Whether points are wanted, so that t has to hold one.
+    /// True if points are wanted, so that t has to hold one.
     bool holds_points = true;
 };
 
@@ -51,10 +51,11 @@ inline constexpr std::uint32_t hit_none = 0x400;     ///< certainly none; the re
 inline constexpr std::uint32_t hit_normal_doubtful = 0x800; ///< too little known for a float
 inline constexpr std::uint32_t hit_normal_unknown = 0x1000;
 
-/// How one core::Precision traces.
+/// Kernels that trace by one core::Precision.
 struct MethodKernels {
     TraceKernels trace;
-    /// Where rays first cross the shapes that were found for them. The same bits in every unit.
+    /// First crossings of rays with the shapes that were found for them. The same bits in every
+    /// unit.
     void (*finish)(const SceneView& scene, const Found& found);
     /// The same, and more: what is certain to be missed is said to be, and hit_normal_doubtful.
     void (*finish_all)(const SceneView& scene, const Found& found);

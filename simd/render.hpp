@@ -20,7 +20,7 @@ enum class Engine : std::uint8_t {
     reference, ///< core::ReferenceTracer
 };
 
-/// How far a rendering has come, for any thread to read while it runs; and to end it.
+/// Progress of a rendering, for any thread to read while it runs; and to end it.
 struct Progress {
     std::atomic<std::int64_t> pixels = 0;
     std::atomic<std::uint64_t> rays = 0;

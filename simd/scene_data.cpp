@@ -18,7 +18,7 @@ constexpr std::size_t few_shapes = 24;
 /// tile needs little.
 constexpr std::uint32_t table_slots = 1U << 16;
 
-/// What a core's own cache holds. Where the tree has more, it is fetched ahead of the rays, which
+/// Size of a core's own cache. Where the tree has more, it is fetched ahead of the rays, which
 /// gains there (5 to 15 % at a million spheres, measured on a noisy machine) and costs where it
 /// fits. A thousand rays that are nowhere near each other go by lists in trees of a sixteenth of
 /// that, and each by itself in others: lists gain 1.1 times at 1,000 balls, lose as much at 3,000,

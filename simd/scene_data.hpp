@@ -9,7 +9,7 @@
 
 namespace raylane::simd {
 
-/// What the kernels need of a scene, in their terms. The scene must outlive it.
+/// Data that the kernels need of a scene, in their terms. The scene must outlive it.
 class SceneData {
   public:
     explicit SceneData(const core::Scene& scene);
@@ -24,17 +24,17 @@ class SceneData {
     std::uint32_t listed_kinds() const {
         return unbounded_kinds_ | (has_tree() ? 0 : bounded_kinds_);
     }
-    /// Whether the others are found by way of the hierarchy.
+    /// True if the others are found by way of the hierarchy.
     bool has_tree() const { return view_.tree_depth != 0; }
-    /// How many rays that have nothing in common are best asked at a time what is nearest to them,
+    /// Number of rays without coherence that are best asked at a time what is nearest to them,
     /// exactly: where that makes lists, these should be long; else what belongs to the rays should
     /// be in the cache.
     std::size_t best_stream() const { return has_tree() && !view_.large ? 2 * long_list : 1024; }
-    /// Whether some surface is visible from one side only.
+    /// True if some surface is visible from one side only.
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }
 
-    /// What a ray is inside of; core::no_medium is empty space.
+    /// Medium that a ray is inside of; core::no_medium is empty space.
     struct Medium {
         double inside; ///< 1, in empty space 0
         double index;

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// How the kernel units shade: plain data only. Arrays have `count` values and are readable and
+/// Shading by the kernel units: plain data only. Arrays have `count` values and are readable and
 /// writable up to whole packets of 16; colours are linear RGB, vectors x, y, z.
 namespace raylane::simd {
 
@@ -41,7 +41,7 @@ struct HitPaths {
     const double* origin[3];
     const double* direction[3];
     const double* throughput[3];
-    const double* t;         ///< how far they have gone
+    const double* t;         ///< distance that they have gone
     const double* way;       ///< from the origin to the hit point: t, unless that is where it is
     const double* normal[3]; ///< unit, outward
     const double* shading_normal[3];
@@ -65,7 +65,7 @@ struct Surfaces {
     double* direction[3];   ///< of the ray
     double* throughput[3];  ///< behind the segment's fog or absorption
     double* own[3];         ///< the material's colour here
-    double* radiance[3];    ///< what is seen, times throughput, without lights and further rays
+    double* radiance[3];    ///< light seen, times throughput, without lights and further rays
 };
 
 /// Positions `begin` to `end` of a sorted wave have one material.

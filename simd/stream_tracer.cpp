@@ -46,7 +46,7 @@ class LimitedRay {
     bool is_ray() const { return is_ray_; }
     float t_min() const { return t_min_; }
     float t_max() const { return t_max_; }
-    /// What the direction was multiplied by, as a power of two.
+    /// Exponent of the power of two that the direction was multiplied by.
     int exponent() const { return exponent_; }
     double scale() const { return std::ldexp(1.0, exponent_); }
     const core::Ray<double>& ray() const { return ray_; }
@@ -213,7 +213,7 @@ class StreamTracer::Worker {
         store(hits, i, query.t_of(scene_, hit), normal, hit.shape, hit.entering);
     }
 
-    /// Whether the lane's hit can be seen from where the ray comes.
+    /// True if the lane's hit can be seen from where the ray comes.
     bool is_seen(std::size_t lane) const {
         if (!data_.one_sided()) return true;
         const Hits& found = query_.hits();

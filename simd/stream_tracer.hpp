@@ -24,7 +24,7 @@ struct RayStream {
     const float* t_max = nullptr; ///< null: infinity
 };
 
-/// What rays hit, by ray, as far as it is wanted. Null: not wanted.
+/// Hits of rays, by ray, as far as they are wanted. Null: not wanted.
 struct HitStream {
     float* t = nullptr;               ///< infinity: nothing
     float* normal[3] = {};            ///< unit, on the outside (the front); 0: nothing

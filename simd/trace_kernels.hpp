@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What the kernel units offer to the wavefront loop and to streams of rays: plain data only.
+/// Interface of the kernel units to the wavefront loop and to streams of rays: plain data only.
 /// Arrays have `count` values and are readable and writable up to whole packets of 16; what is
 /// behind `count` means nothing, before and after.
 namespace raylane::simd {
@@ -24,7 +24,7 @@ struct RoundedRays {
     const double* meant_direction[3];
 };
 
-/// What may be the nearest crossing of each ray. In and out.
+/// Candidates for the nearest crossing of each ray. In and out.
 struct Candidates {
     float* first;        ///< the smallest lower bound, infinity if there is none
     float* second;       ///< the next smallest of another shape
@@ -39,7 +39,7 @@ inline constexpr std::size_t long_list = 4096;
 /// what lies beyond has not been looked at.
 inline constexpr float culling_slack = 1.0F + 0x1p-10F;
 
-/// What is in a ray's way before t_most.
+/// Occlusion of each ray before t_most.
 struct Occlusions {
     const float* t_most;
     std::uint8_t* state; ///< in and out: Occlusion
@@ -52,11 +52,10 @@ enum Occlusion : std::uint8_t {
     blocked = 2,
 };
 
-/// How many rays are under way in the hierarchy at a time: their state fits in the first-level
-/// cache.
+/// Number of rays under way in the hierarchy at a time: their state fits in the first-level cache.
 inline constexpr int in_flight = 32;
 
-/// Where in the hierarchy rays leave what they are still to visit: for each of those in flight,
+/// Room for what rays are still to visit in the hierarchy: for each of those in flight,
 /// pending_entries(levels).
 struct Pending {
     std::uint16_t* key; ///< null: there is no hierarchy to walk
@@ -68,7 +67,7 @@ constexpr std::size_t pending_entries(std::uint32_t levels) {
     return std::size_t{16} * (2 * levels + 1);
 }
 
-/// What kernels work in: the above, and, if `capacity` is not 0, room for so many rays (less than
+/// Workspace of kernels: the above, and, if `capacity` is not 0, room for so many rays (less than
 /// 65536) at a time that go together.
 struct Workspace : Pending {
     std::size_t capacity;
@@ -104,7 +103,7 @@ struct Coherence {
 };
 constexpr Coherence neighbours{{}, false, false, true, false};
 
-/// What is done to rays before and after they are traced.
+/// Kernels for rays before and after they are traced.
 struct RayKernels {
     void (*camera_rays)(const CameraView& camera, std::size_t count, const double* across,
                         const double* upward, double* const origin[3], double* const direction[3]);
@@ -130,18 +129,18 @@ struct TraceKernels {
                      const Workspace& workspace, TraceCounters& counters);
 };
 
-/// What a ray may cross first, in no order.
+/// Candidates for a ray's first crossing, in no order.
 struct CandidateList {
     std::uint32_t* slot;
     float* lower; ///< bounds
     std::size_t room, count;
     /// In and out: what lies beyond is not listed.
     float limit;
-    /// Whether RoundedRays has the ray as it is: of many, what it surely misses is not listed.
+    /// True if RoundedRays has the ray as it is: of many, what it surely misses is not listed.
     bool sifts;
 };
 
-/// How far the limit of a list is behind the upper bound that it is taken from, so that what is
+/// Factor between the limit of a list and the upper bound that it is taken from, so that what is
 /// nearly as near is listed, too.
 inline constexpr float candidate_grace = 1.0F + 0x1p-18F;
 
@@ -150,7 +149,7 @@ struct WideNumbers {
     double *high, *low, *error;
 };
 
-/// What is done to rays that are left in doubt.
+/// Kernels for rays that are left in doubt.
 struct RefineKernels {
     /// Lists all that ray i may cross before the limit, in the kinds and the hierarchy as
     /// TraceKernels::nearest has them. Returns whether there was room.

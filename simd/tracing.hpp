@@ -7,7 +7,7 @@
 
 namespace raylane::simd {
 
-/// What traces rays: an instruction set's kernels, and which of their methods.
+/// Kernels that trace rays: an instruction set's, and which of their methods.
 struct Tracing {
     const Kernels* kernels;
     core::Precision precision = core::Precision::exact;
@@ -16,7 +16,7 @@ struct Tracing {
         static_assert(method_count == std::size(core::all_precisions));
         return kernels->methods[static_cast<std::size_t>(precision)];
     }
-    /// Whether candidates that cannot be told apart are left to who can.
+    /// True if candidates that cannot be told apart are left to who can.
     bool certifies() const { return !core::is_single(precision); }
 };
 

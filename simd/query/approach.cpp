@@ -10,7 +10,7 @@ namespace {
 /// Radii. Nearer rays are off by less than a thousandth of the scene wherever they go.
 constexpr double far_away = 64.0;
 
-/// Where each term of the product has a factor 0.
+/// True where each term of the product has a factor 0.
 bool is_parallel(const core::Vec3d& normal, const core::Vec3d& direction) {
     bool is = true;
     for (int axis = 0; axis < 3; ++axis)

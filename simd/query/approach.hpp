@@ -23,7 +23,7 @@ class Approach {
 
     /// Of the last paths.
     bool any() const { return any_; }
-    /// What t is more than the t of the rounded ray.
+    /// Excess of t over the t of the rounded ray.
     double before(std::size_t lane) const { return any_ ? before_[lane] : 0.0; }
     /// Each t less that.
     const double* from_there(const double* t);

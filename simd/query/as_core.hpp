@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// How core sees the ray that a lane means, and what it leaves.
+/// Core's view of the ray that a lane means, and of what it leaves.
 template <class Real = double>
 core::Ray<Real> ray_of(const Paths& paths, std::size_t lane) {
     const auto vector = [lane](double* const(&columns)[3]) {
@@ -17,7 +17,7 @@ core::Ray<Real> ray_of(const Paths& paths, std::size_t lane) {
             vector(paths.stand_for_others() ? paths.meant_direction : paths.direction)};
 }
 
-/// What it hits: t is per unit of the direction meant.
+/// Its hit: t is per unit of the direction meant.
 inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, const Hits& hits,
                                 std::size_t lane) {
     core::Hit<double> hit;

@@ -19,8 +19,9 @@ class Certifier {
 
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// What rays that leave a shape which they may cross again cross of it. No filter can tell that
-    /// from where they start, so it is solved before, and bounds what else can be nearest.
+    /// Crossings of rays with the shape that they leave, if they may cross it again. No filter can
+    /// tell these from where the rays start, so they are solved before, and bound what else can be
+    /// nearest.
     void find_own_exits(const Paths& paths, const Candidates& candidates);
     /// Decides on what a search has found; hits.slot are the candidates' slots.
     void certify(const Paths& paths, CandidateSearch& search, const Candidates& candidates,

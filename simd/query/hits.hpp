@@ -7,7 +7,7 @@
 
 namespace raylane::simd {
 
-/// What is asked of hits.
+/// Form in which hits are asked for.
 enum class Asked : std::uint8_t {
     points, ///< for pictures: points and normals, in double
     floats, ///< for the library: the floats nearest to t and normals; rays may stand for others
@@ -20,7 +20,7 @@ struct HitPoint {
     core::Vec3d point;
 };
 
-/// What rays hit, by lane.
+/// Hits of rays, by lane.
 struct Hits {
     std::uint32_t* slot; ///< no_slot: nothing
     double* t;

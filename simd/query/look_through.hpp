@@ -35,7 +35,7 @@ class LookThrough {
     std::vector<std::uint32_t> at_contacts_;
     std::vector<HitPoint> points_;
 
-    // Where surfaces are visible from one side only: what is behind the other.
+    // Search behind surfaces that cannot be seen; null where all can, from both sides.
     std::unique_ptr<Query> onward_;
     Paths onward_paths_{}; // sample: the lane
     double* passed_ = nullptr;

@@ -35,9 +35,9 @@ struct Paths {
     std::uint32_t* origin_last;
     std::uint32_t* origin_slot;
     std::uint32_t* origin_bits;
-    core::Media* media; ///< what it is inside of; null where nothing transmits
-    /// Where directions stand for others, of any length, which were brought to length 1 and so
-    /// rounded: those, and their lengths. The rays meant are theirs. Null: directions are exact.
+    core::Media* media; ///< media that it is inside of; null where nothing transmits
+    /// Directions meant, of any length, and their lengths, where `direction` stands for these:
+    /// brought to length 1 and so rounded. Null: directions are exact.
     double* meant_direction[3];
     double* meant_length;
 

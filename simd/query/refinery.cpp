@@ -19,7 +19,7 @@ constexpr std::size_t beyond = 32;
 /// more.
 constexpr std::size_t at_first = 64;
 
-/// What a list has to be limited by for bounds of 0 to be within.
+/// The least limit of a list that bounds of 0 are within.
 constexpr float least_limit = std::numeric_limits<float>::min();
 
 bool crosses(std::uint32_t hit) {
@@ -126,7 +126,7 @@ void Refinery::take(const CandidateList& list, double before) {
               [](const Listed& a, const Listed& b) { return a.lower < b.lower; });
 }
 
-/// What the first crossing is surely not behind, by the nearest that are listed.
+/// Upper bound of the first crossing's t, by the nearest that are listed.
 double Refinery::end_of_first(const Paths& paths, std::size_t lane, EngineCounters& counters) {
     const std::size_t begin = count_;
     add(paths, lane, std::span(listed_).first(std::min({at_first, listed_.size(), most - begin})));
@@ -168,7 +168,7 @@ std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
     return count_;
 }
 
-/// What the first crossing with some candidates is surely not behind. Solves those in doubt.
+/// Upper bound of t of the first crossing with some candidates. Solves those in doubt.
 double Refinery::end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters) {
     double last = infinity;
     for (std::size_t i = begin; i < end; ++i)
@@ -235,7 +235,7 @@ std::size_t Refinery::first_of_close(std::size_t begin) {
     return 2;
 }
 
-/// Where a ray first crosses one shape, exactly. The normal is left open.
+/// First crossing of a ray with one shape, certified. The normal is left open.
 void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
     ++counters.doubtful;
     const std::uint32_t slot = hits_.slot[candidate];

@@ -22,7 +22,7 @@ class Refinery {
 
     void take_from(Arena& arena);
 
-    /// Whether there is anything to be had of it.
+    /// True if the method has kernels for it.
     bool works() const { return tracing_.method().refine.finish_again != nullptr; }
 
     /// Decides on `lanes`, for which hits has what has been found so far, but for those that are
@@ -73,7 +73,7 @@ class Refinery {
     std::size_t count_ = 0;
     std::vector<Ray> rays_;
 
-    std::vector<std::uint32_t> slots_; ///< what kernels list
+    std::vector<std::uint32_t> slots_; ///< that kernels list
     std::vector<float> bounds_;
     std::vector<Listed> listed_;        ///< of one ray, the nearest first
     std::vector<std::size_t> close_;    ///< candidates that bounds do not tell from the first

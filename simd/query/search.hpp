@@ -20,8 +20,7 @@ class CandidateSearch {
     /// `coherence` may be null: the rays have nothing in common.
     void nearest(const Coherence* coherence, const Candidates& candidates,
                  EngineCounters& counters);
-    /// What is in the way before some distances, which t_most says of the rounded rays: t_most() of
-    /// them.
+    /// Occlusion before some distances, which t_most says of the rounded rays: t_most() of them.
     void occluded(const Coherence* coherence, const Occlusions& occlusions,
                   EngineCounters& counters);
     float t_most(std::size_t lane, double distance) const {
@@ -45,7 +44,7 @@ class CandidateSearch {
     Workspace workspace_{};
 };
 
-/// What kernels work in, for so many rays.
+/// Workspace of kernels, for so many rays.
 Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capacity);
 
 } // namespace raylane::simd

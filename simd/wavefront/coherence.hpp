@@ -6,7 +6,7 @@
 
 namespace raylane::simd {
 
-/// What a camera's rays have in common, and what those to a light do.
+/// Coherence of a camera's rays, and of those to a light.
 Coherence coherence_of(const CameraView& camera);
 Coherence coherence_of(const LightView& light);
 

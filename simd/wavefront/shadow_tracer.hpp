@@ -21,7 +21,7 @@ class ShadowTracer {
     /// To be filled: rays to the light, weighted by what arrives if nothing is in the way.
     SpawnedRays& rays() { return rays_; }
 
-    /// Where they come from: position p of the wave is what lane order[p] has hit.
+    /// Wave that they come from: position p of it is what lane order[p] has hit.
     struct Wave {
         const Paths& paths;
         const Hits& hits;
@@ -50,7 +50,7 @@ class ShadowTracer {
     core::ReferenceTracer<double>& reference_;
 
     std::optional<Wave> wave_;
-    // What rays from each position of the wave leave, and what is known of them.
+    // Shapes that rays from each position of the wave leave, and what is known of the rays.
     std::uint32_t* leave_first_ = nullptr;
     std::uint32_t* leave_last_ = nullptr;
     std::uint8_t* leave_state_ = nullptr;

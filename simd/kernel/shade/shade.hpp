@@ -245,7 +245,7 @@ struct Shading {
         return (most > F(0.0)) & (most >= F(min_weight));
     }
 
-    /// What does not depend on media or fog is made once.
+    /// Kernels that do not depend on media or fog are made once.
     static constexpr ShadeKernels table() {
         return {surfaces, Shading<Arch, false, false>::light,
                 Shading<Arch, with_media, false>::spawn};

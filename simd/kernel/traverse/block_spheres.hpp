@@ -4,8 +4,8 @@
 
 namespace raylane::simd {
 
-/// What each shape of a block is in, where it is in memory: spheres, which are the block's own if
-/// that is what it holds; or, of cylinders and cones, what is between spheres around both ends.
+/// Spheres around the shapes of a block, where they are in memory: the block's own if that is what
+/// it holds; of cylinders and cones, spheres around both ends, with the shape between them.
 template <class Arch>
 class BlockSpheres {
     using F = Floats<Arch>;

@@ -16,13 +16,13 @@ struct BoxRay {
     float near_offset[3], far_offset[3]; ///< -o, or -o / d
     float inverse[3];                    ///< 1 / d
 
-    /// Whether it goes from a box's upper plane to its lower one.
+    /// True if it goes from a box's upper plane to its lower one.
     template <class Arch>
     bool falls(int axis) const {
         return __builtin_bit_cast(std::int32_t, inverse[axis]) < 0;
     }
 
-    /// Where planes are in a node that it meets first, and last, in floats.
+    /// Offsets in a node, in floats, of the planes that it meets first, and last.
     struct Rows {
         std::int32_t near[3], far[3];
     };

@@ -5,20 +5,20 @@
 
 namespace raylane::simd {
 
-/// What may be the nearest crossing of one ray.
+/// Candidate for the nearest crossing of one ray.
 struct Best {
     float first, second;
     std::uint32_t slot;
 };
 
-/// What a list of rays in the hierarchy says of one of them.
+/// Record of one ray that goes through the hierarchy in a list.
 struct alignas(64) StreamRecord {
     BoxRay box;
     Best best;
 };
 static_assert(sizeof(StreamRecord) == stream_record_bytes);
 
-/// Which of a block's shapes may be crossed, and from where on.
+/// Candidates among a block's shapes, and from which t on they may be crossed.
 struct LeafHits {
     std::uint32_t lanes;
     alignas(64) float t[16]; ///< in these lanes
@@ -66,7 +66,7 @@ struct Leaf : Streams<Arch> {
         return some;
     }
 
-    /// What may be crossed before `second`.
+    /// Finds those that may be crossed before `second`.
     template <class Filter>
     [[gnu::always_inline]] static void find(const TableView& table, std::uint32_t number,
                                             const RoundedRays& rays, std::size_t i, float second,

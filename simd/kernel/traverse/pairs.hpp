@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// Whether a filter tells which rays of a packet are worth the cost of its bounds.
+/// True if a filter tells which rays of a packet are worth the cost of its bounds.
 template <class Filter, class Method>
 inline constexpr bool packs_pairs =
     Method::rounded_alone&& sifts_packets<Filter, typename Method::Rays>;

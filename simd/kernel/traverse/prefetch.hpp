@@ -4,16 +4,16 @@
 
 namespace raylane::simd {
 
-/// Where children are in memory: what fetches them ahead without a branch for each ray.
+/// Places of children in memory, to fetch them ahead without a branch for each ray.
 template <class Arch>
 struct Prefetcher {
-    /// What nodes have, and what the smallest of blocks has.
+    /// Cache lines of a node, and of the smallest of blocks.
     static constexpr std::uint32_t most_lines = (sizeof(NodeView) + 63) / 64, least_lines = 5;
     struct Place {
         const char* from;
         std::uint32_t bytes; ///< from one to the next
         std::uint32_t
-            further[most_lines - least_lines]; ///< where other lines start, as far as there are any
+            further[most_lines - least_lines]; ///< starts of other lines, as far as there are any
     } of[32];                                  ///< by the bits of a child above its index
 
     explicit Prefetcher(const SceneView& scene) {

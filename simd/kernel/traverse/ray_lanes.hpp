@@ -53,7 +53,7 @@ struct LaneCandidates {
         take(filter.bounds(packet.rays), packet.elsewhere(id), this_slot);
     }
 
-    /// What bounds say of one shape, where it counts.
+    /// Takes in the bounds of one shape, where it counts.
     [[gnu::always_inline]] void take(const Bounds<Arch>& bounds, const Mask<Arch>& counts,
                                      std::uint32_t this_slot) {
         const F t = select(bounds.possible & counts, bounds.lower, S::infinity());

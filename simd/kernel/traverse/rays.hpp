@@ -93,7 +93,7 @@ struct RaysInFloat : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using Rays = FilterRays<Arch>;
-    static constexpr bool rounded_alone = true; ///< what they were before is not asked for
+    static constexpr bool rounded_alone = true; ///< the rays before rounding are not asked for
 
     /// Those from one on, one per lane.
     static Rays packet(const RoundedRays& rays, std::size_t i) {

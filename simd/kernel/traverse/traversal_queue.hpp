@@ -5,9 +5,9 @@
 
 namespace raylane::simd {
 
-/// What a ray is still to visit: children, and where it enters them. The next is the one of the
-/// last 16 that it enters first. Where it enters is held in 16 bits, which is as much as order
-/// needs: of two that it enters within 1/256 of each other, any may be the next.
+/// Queue of what a ray is still to visit: children, and where it enters them. The next is the one
+/// of the last 16 that it enters first. Where it enters is held in 16 bits, which is as much as
+/// order needs: of two that it enters within 1/256 of each other, any may be the next.
 template <class Arch>
 struct TraversalQueue {
     using S = Streams<Arch>;

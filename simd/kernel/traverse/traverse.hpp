@@ -27,7 +27,7 @@ struct Trace : Streams<Arch> {
     static constexpr int most_occluders = Method::certifies ? 512 : unlimited;
     static constexpr int most_candidates = Method::certifies ? 2048 : unlimited;
 
-    /// Whether rays may go any way, and in another order: what becomes of one does not depend on
+    /// True if rays may go any way, and in another order: what becomes of one does not depend on
     /// that, nor on more than it is in float.
     static constexpr bool any_way = Method::certifies && Method::rounded_alone;
 
@@ -123,7 +123,7 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
-    /// Whether random rays go by lists: where the way matters, whatever their number.
+    /// True if random rays go by lists: where the way matters, whatever their number.
     static bool makes_lists(const SceneView& scene, std::size_t count) {
         return scene.small || (any_way && !scene.large && count >= long_list);
     }

@@ -32,7 +32,7 @@ struct TraceAll : Streams<Arch> {
             });
         }
 
-        /// Whether a ray may meet the sphere before t_most. The roundings are some 20 u of the
+        /// True if a ray may meet the sphere before t_most. The roundings are some 20 u of the
         /// distance, squared or not; `grace` is 32 u.
         bool may_meet(int block, int lane, const FilterRays<Arch>& rays, const F& t_most) const {
             if (block >= blocks) return true;
@@ -52,7 +52,7 @@ struct TraceAll : Streams<Arch> {
         }
     };
 
-    /// Whether a filter is costly, and cannot tell for less that there is nothing to meet.
+    /// True if a filter is costly, and cannot tell for less that there is nothing to meet.
     template <class Filter>
     static constexpr bool is_slow = requires {
         Filter::is_costly;

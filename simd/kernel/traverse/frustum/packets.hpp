@@ -52,7 +52,7 @@ requires(!Method::rounded_alone) struct alignas(64) Packet<Arch, Method> {
     RayLanes<Arch, Method> packet(std::size_t k) const { return {*stream, begin + k}; }
 };
 
-/// What a frustum looks for: the nearest hits. As FrustumWalk asks for.
+/// Candidates for the nearest hits that a frustum looks for, as FrustumWalk asks for them.
 template <class Arch, class Method>
 class FrustumCandidates : Streams<Arch> {
     using S = Streams<Arch>;
@@ -106,7 +106,7 @@ class FrustumCandidates : Streams<Arch> {
     }
 };
 
-/// What a frustum looks for: whether something is in the way. As FrustumWalk asks for.
+/// Occlusions that a frustum looks for, as FrustumWalk asks for them.
 template <class Arch, class Method>
 class FrustumOcclusions : Streams<Arch> {
     using S = Streams<Arch>;

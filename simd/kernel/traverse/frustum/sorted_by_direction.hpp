@@ -64,7 +64,7 @@ struct SortedByDirection : Streams<Arch> {
         gather(asked.state, count, occlusions.state);
     }
 
-    /// What has been found, for who asked.
+    /// Writes what has been found to where it was asked for.
     void hand_back(const Occlusions& asked, std::size_t count) const {
         if (kept_ == count) return;
         for (std::size_t k = 0; k < kept_; k += 16)
@@ -120,7 +120,7 @@ struct SortedByDirection : Streams<Arch> {
         }
     }
 
-    /// Whether some ray of a packet is so far from the first.
+    /// True if some ray of a packet is further than `most` from the first.
     bool is_wide(std::size_t packet, float most) const {
         const F u(u_[packet]), v(v_[packet]);
         std::uint32_t apart = 0;

@@ -158,7 +158,7 @@ struct FrustumWalk : Streams<Arch> {
         return end;
     }
 
-    /// Whether to make a filter again is faster than to ask whether it would be the same.
+    /// True if making a filter again is faster than asking whether it would be the same.
     template <class Filter>
     static constexpr bool is_cheap =
         Method::certifies&& Method::rounded_alone && !sifts_packets<Filter, typename Method::Rays>;

@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// Whether anything is in the way of many rays in flight at a time. One that is blocked is done.
+/// Occlusion of many rays in flight at a time. One that is blocked is done.
 template <class Arch, class Method>
 class TraceShadows : InFlight<Arch, Method> {
     using S = Streams<Arch>;

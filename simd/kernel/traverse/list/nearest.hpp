@@ -23,7 +23,7 @@ class TraceStream : Streams<Arch> {
     const RoundedRays& rays_;
     TraceCounters& counters_;
     Record* records_;
-    Number* free_; ///< where lists have room
+    Number* free_; ///< room for further lists
     int octant_ = 0;
     PairsByKind<Arch, Method> pairs_;
 
