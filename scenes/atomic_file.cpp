@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t buffer_size = 64 << 10;
 constexpr unsigned permission_bits = 07777;
 
-/// Where a chain of symbolic links ends, there or not.
+/// End of a chain of symbolic links, there or not.
 std::filesystem::path followed(std::filesystem::path path) {
     constexpr int longest_chain = 40; // as in Linux, which then says ELOOP
     std::error_code no_link;

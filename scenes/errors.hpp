@@ -9,7 +9,7 @@
 /// with the file.
 namespace raylane::scenes {
 
-/// What was asked cannot be meant: a malformed scene, wrong usage. Exit code 2.
+/// Input that cannot be meant: a malformed scene, wrong usage. Exit code 2.
 class BadInput : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -10,7 +10,7 @@ struct Sphereflake {
     core::Vec3f center;
     float radius;                     ///< of the middle sphere
     int depth;                        ///< 0: that sphere alone; most_depth: 48 million of them
-    core::Vec3f up{0.0F, 0.0F, 1.0F}; ///< where the first three point, any length but zero
+    core::Vec3f up{0.0F, 0.0F, 1.0F}; ///< direction of the first three, any length but zero
 
     static constexpr int most_depth = 8;
 };

@@ -14,7 +14,7 @@ std::string_view without_plus(std::string_view word) {
     return word.substr(plus ? 1 : 0);
 }
 
-/// Whether a decimal number that from_chars calls out of range is so because it is too small: it
+/// Underflow: true if a decimal number that from_chars calls out of range is too small, which it
 /// does not say.
 bool underflows(std::string_view number) {
     const std::size_t e = number.find_first_of("eE");

@@ -155,7 +155,7 @@ class NffWriter {
     const core::Scene& scene_;
     LeftOut& left_out_;
     double reach_;           ///< of what has no end
-    bool is_inside_ = false; ///< what is written is seen from inside alone
+    bool is_inside_ = false; ///< true if the shapes being written are seen from inside alone
 };
 
 } // namespace

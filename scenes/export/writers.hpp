@@ -10,7 +10,7 @@
 
 namespace raylane::scenes {
 
-/// What a format has no word for, in words.
+/// Features that a format has no word for, in words.
 using LeftOut = std::set<std::string>;
 
 void write_json(TextFile& file, const core::Scene& scene);

@@ -7,8 +7,8 @@
 
 namespace raylane::scenes {
 
-/// How two pictures differ. The difference of two components is the absolute one; it is 0 for equal
-/// infinities and for two NaNs, and infinite where just one is NaN or the infinities differ.
+/// Difference of two pictures. The difference of two components is the absolute one; it is 0 for
+/// equal infinities and for two NaNs, and infinite where just one is NaN or the infinities differ.
 struct Comparison {
     double rmse = 0.0;          ///< root of the mean square difference of all components
     double psnr = 0.0;          ///< dB, for a peak of 1; infinite if the pictures are equal

@@ -9,7 +9,7 @@
 /// ends on a file that is cut short.
 namespace raylane::scenes {
 
-/// What is wrong with a picture's file, without the file's name.
+/// Fault of a picture's file, without the file's name.
 class MalformedPicture : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -10,7 +10,7 @@ namespace raylane::scenes {
 struct Image {
     int width = 0;
     int height = 0;
-    /// Whether the components are linear floats (HDR, PFM), or codes divided by the largest code
+    /// True if the components are linear floats (HDR, PFM), not codes divided by the largest code
     /// (PNG).
     bool linear_float = false;
     std::vector<float> rgb; ///< width * height * 3, rows from the top down

@@ -72,7 +72,7 @@ struct Sink {
     }
 };
 
-/// What a shared exponent can hold; its largest power of two is 2^127.
+/// Component as a shared exponent can hold it; its largest power of two is 2^127.
 float radiance_component(float value) {
     constexpr float largest = 0x1.FFFFFEp126F;
     return std::isnan(value) ? 0.0F : std::clamp(value, 0.0F, largest);

@@ -34,7 +34,7 @@ float nearest_float(std::string_view text, double rounded) {
     return std::copysign(limit, static_cast<float>(rounded));
 }
 
-// How the parser words its errors: "... - REASON; last read: '...'" where it could not even make a
+// Wording of the parser's errors: "... - REASON; last read: '...'" where it could not even make a
 // token of what it read, and "; expected ..." behind that.
 constexpr std::string_view before_reason = " - ", behind_reason = "; last read: ";
 
@@ -77,7 +77,7 @@ class ItemParser {
                 fail("", "must have the key \"" + std::string(keys_[i].name) + '"');
     }
 
-    // What nlohmann::json's parser calls. The answer true means: go on.
+    // Calls of nlohmann::json's parser. The answer true means: go on.
     bool null() { return scalar(JsonType::null, "", 0.0F); }
     bool boolean(bool value) { return scalar(JsonType::boolean, "", value ? 1.0F : 0.0F); }
     bool number_integer(json::number_integer_t value) {
@@ -102,7 +102,7 @@ class ItemParser {
     bool close();
     void add(JsonType type, std::string_view text, float number);
     void root_key(std::string_view key);
-    /// What the value that comes next must be, unless that is for the taker to say.
+    /// Type that the value that comes next must have, unless that is for the taker to say.
     std::optional<JsonType> expected_type() const;
     std::string next_pointer() const;
     bool is_named() const { return in_collection_ && root_key_->holds == Holds::named_items; }

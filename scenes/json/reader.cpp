@@ -17,7 +17,7 @@ namespace raylane::scenes {
 
 namespace {
 
-/// What the file calls a field of core::Material: to core a plain colour is a pattern, too.
+/// Key in the file for a field of core::Material: to core a plain colour is a pattern, too.
 std::string key_of_material_field(const std::string& field, core::PatternKind pattern) {
     static constexpr std::string_view first_color = "pattern/colors/0";
     if (pattern == core::PatternKind::solid && field.starts_with(first_color))

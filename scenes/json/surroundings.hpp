@@ -3,7 +3,7 @@
 #include "core/scene/surroundings.hpp"
 #include "scenes/json/value.hpp"
 
-/// What is in a scene file besides materials and objects. These functions do not check what
+/// Contents of a scene file besides materials and objects. These functions do not check what
 /// core::SceneBuilder does.
 namespace raylane::scenes {
 

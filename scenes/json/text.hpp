@@ -32,7 +32,7 @@ class JsonText {
 
     explicit JsonText(InputFile& file);
 
-    /// Whether anything but white space and comments has come so far.
+    /// True if anything but white space and comments has come so far.
     bool has_tokens() const { return token_count_ > 0; }
     bool at_end() const { return current_ < 0; }
     char current() const { return static_cast<char>(current_); }
@@ -42,7 +42,7 @@ class JsonText {
     /// The token that contains the character with this index: one of the latest three that
     /// advance() reached.
     Token token_at(std::size_t index);
-    /// Where the file ends, once it does.
+    /// End of the file, once it is reached.
     Token end() const { return {index_, line_, column_, ""}; }
     /// Throws BadInput whose place is the token's line and column.
     [[noreturn]] void fail(const Token& token, std::string_view message) const;

@@ -38,7 +38,7 @@ class JsonDocument {
     void close();
 
     bool empty() const { return nodes_.empty(); }
-    /// How many arrays and objects are open.
+    /// Number of arrays and objects that are open.
     std::size_t depth() const { return open_.size(); }
     std::size_t values() const { return nodes_.size(); }
     std::size_t text_bytes() const { return text_.size(); }
@@ -119,7 +119,7 @@ class JsonValue {
     template <class Value>
     using Choices = std::span<const std::pair<std::string_view, Value>>;
 
-    /// What belongs to this string.
+    /// The value that belongs to this string.
     template <class Value>
     Value choice(std::initializer_list<std::pair<std::string_view, Value>> choices) const {
         return choice(Choices<Value>(choices.begin(), choices.size()));

@@ -8,7 +8,7 @@
 
 namespace raylane::library {
 
-/// What a Scene hides from its users.
+/// Access to the parts of a Scene that it hides from its users.
 struct Internals {
     static Scene scene(std::shared_ptr<const core::Scene> scene) { return Scene(std::move(scene)); }
     static const core::Scene& of(const Scene& scene) { return *scene.scene_; }

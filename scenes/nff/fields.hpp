@@ -17,7 +17,7 @@ class NffFields {
     /// Goes on to the next entity. False at the end of the file.
     bool next_entity();
     const std::string& entity() const { return entity_; }
-    /// Where the entity begins.
+    /// Line on which the entity begins.
     std::uint64_t line() const { return line_; }
     std::uint64_t bytes_passed() const { return scanner_.bytes_passed(); }
 

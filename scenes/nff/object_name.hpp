@@ -7,7 +7,7 @@
 
 namespace raylane::scenes {
 
-/// What a message calls the object of a well-formed NFF file that has `objects_before` objects
+/// Name in messages for the object of a well-formed NFF file that has `objects_before` objects
 /// before it: "the s of line 12". Empty where the file cannot be read again (a pipe).
 ///
 /// To know the line of each object would take memory for millions, and hardly ever somebody asks.

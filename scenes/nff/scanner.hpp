@@ -20,11 +20,11 @@ class NffScanner {
     /// The next word, on this line or a later one; empty at the end of the file. It is there until
     /// the next call.
     std::string_view word();
-    /// Whether the line has no more words.
+    /// True if the line has no more words.
     bool at_line_end();
-    /// Where the last word is, counted from 1.
+    /// Line of the last word, counted from 1.
     std::uint64_t line() const { return word_line_; }
-    /// How much of the file the words so far are.
+    /// Bytes of the file before the next character.
     std::uint64_t bytes_passed() const { return passed_ + (position_ - buffer_.data()); }
 
     /// Throws BadInput for this file.

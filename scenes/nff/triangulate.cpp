@@ -142,11 +142,12 @@ std::optional<std::uint32_t> Triangulator::take(Queue& queue) const {
     return std::nullopt;
 }
 
-/// Whether the triangle of the convex vertex v and its neighbours can be cut off: whether no other
-/// part of the outline enters it. An outline that does so without a crossing has a reflex vertex in
-/// the triangle, or on its rim with an edge that leads inside. One that is only on the open third
-/// side "touches": where there is another ear, the other is better, because that vertex would then
-/// lie on an edge and not at a corner of a triangle, and rounding could open a crack there.
+/// Test for an ear: the triangle of the convex vertex v and its neighbours can be cut off if no
+/// other part of the outline enters it. An outline that does so without a crossing has a reflex
+/// vertex in the triangle, or on its rim with an edge that leads inside. One that is only on the
+/// open third side "touches": where there is another ear, the other is better, because that vertex
+/// would then lie on an edge and not at a corner of a triangle, and rounding could open a crack
+/// there.
 Triangulator::Ear Triangulator::ear_at(std::uint32_t v) const {
     if (reflex_ == 0) return Ear::clear;
     const PlanePoint& b = vertices_[v].point;
@@ -183,7 +184,7 @@ int Triangulator::turn_at(std::uint32_t v) const {
                        vertices_[vertex.next].point);
 }
 
-/// Whether the outline runs back at v on the line on which it came.
+/// True if the outline runs back at v on the line on which it came.
 bool Triangulator::is_spike(std::uint32_t v) const {
     if (turn_at(v) != 0) return false;
     const PlanePoint& a = vertices_[vertices_[v].previous].point;

@@ -14,7 +14,7 @@ namespace {
     throw BadInput(option, "", "must be " + must + ", got \"" + printable(got) + "\"");
 }
 
-/// Whether both names lead to one file, there or not. Devices can be written twice.
+/// True if both names lead to one file, there or not. Devices can be written twice.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code unknown;
     if (std::filesystem::is_other(a, unknown)) return false;

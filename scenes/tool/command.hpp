@@ -15,7 +15,7 @@ struct Command {
     std::function<int()> run;
 };
 
-/// What the command line says, for the command to judge; nothing if it does not say it.
+/// Value on the command line, for the command to judge; nothing if it is not there.
 using Argument = std::optional<std::string>;
 
 /// Adds an option that has a value; `type` is what the help calls that.

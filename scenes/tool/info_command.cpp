@@ -115,7 +115,7 @@ void print_line(const std::string& name, const std::string& value) {
     std::printf("%-10s %s\n", name.c_str(), value.c_str());
 }
 
-/// What --precision auto takes, and what speaks against what it does not.
+/// Prints the method that --precision auto takes, and the objections to the others.
 void print_methods(const Json& info) {
     const auto& chosen = info["auto_precision"];
     print_line("precision",

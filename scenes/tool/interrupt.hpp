@@ -8,7 +8,7 @@ namespace raylane::scenes {
 /// than kill.
 void catch_signals();
 
-/// Whether a signal is ending the process at this moment, in another thread: nothing shall be shown
+/// True if a signal is ending the process at this moment, in another thread: nothing shall be shown
 /// any more.
 bool is_ending();
 

@@ -51,7 +51,7 @@ int run(int argc, const char* const* argv) {
     return bad_input;
 }
 
-/// What main and the handler below make of the exception that is being handled.
+/// Complains of the exception that is being handled, for main and the handler below.
 int complain_about_exception() {
     try {
         throw;

@@ -41,7 +41,7 @@ class ProgressLine {
     std::jthread thread_; // the last: the others must outlive it
 };
 
-/// How far a rendering is: percentage, rays per second, time left.
+/// Progress of a rendering: percentage, rays per second, time left.
 class ProgressBar {
   public:
     ProgressBar(const simd::Progress& progress, std::int64_t pixels);

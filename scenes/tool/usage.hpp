@@ -6,7 +6,7 @@
 
 namespace raylane::scenes {
 
-/// What is wrong with the command line, in one line and in words that do not depend on CLI11's
+/// Message on the fault of a command line, in one line and in words that do not depend on CLI11's
 /// version.
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error);
 

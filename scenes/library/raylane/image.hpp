@@ -31,7 +31,7 @@ struct RenderOptions {
     Precision precision = Precision::exact;
 };
 
-/// How far a rendering has come.
+/// Progress of a rendering.
 struct Progress {
     std::int64_t pixels = 0;       ///< done
     std::int64_t total_pixels = 0; ///< of the picture

@@ -4,8 +4,9 @@
 
 namespace raylane {
 
-/// How what rays hit is worked out. `exact` decides as real arithmetic does for the numbers given,
-/// and is hardly slower than `robust`: the others are there to compare with, and for previews.
+/// Method by which the hits of rays are found. `exact` decides as real arithmetic does for the
+/// numbers given, and is hardly slower than `robust`: the others are there to compare with, and for
+/// previews.
 enum class Precision : std::uint8_t {
     fast,         ///< float, by the textbooks' formulas: wrong where these cancel
     robust,       ///< float, by the best formulas that float has

@@ -57,7 +57,7 @@ class SceneBuilder {
   public:
     Camera camera; ///< checked by build(), field "camera/..."
     Color
-        background; ///< what rays see that hit nothing; checked by build(), field "background/..."
+        background; ///< colour of rays that hit nothing; checked by build(), field "background/..."
     Fog fog;        ///< checked by build(), field "fog/..."
     Settings settings; ///< checked by build(), field "settings/..."
 

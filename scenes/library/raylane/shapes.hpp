@@ -29,7 +29,7 @@ struct Plane {
 
 struct Disc {
     Vec3 center;
-    Vec3 normal;         ///< where its front is
+    Vec3 normal;         ///< points to its front
     float radius = 0.0F; ///< > 0
 };
 
@@ -102,7 +102,7 @@ struct Ellipsoid {
     Vec3 axis_u, axis_v, axis_w;
 };
 
-/// What a scene can be made of.
+/// Shapes that a scene can be made of.
 template <class Shape>
 concept AnyShape = std::same_as<Shape, Sphere> || std::same_as<Shape, Plane> ||
     std::same_as<Shape, Disc> || std::same_as<Shape, Triangle> ||

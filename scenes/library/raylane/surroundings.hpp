@@ -4,7 +4,8 @@
 
 #include <cstdint>
 
-/// What is in a scene besides its shapes: lights, fog, the camera, and the settings of the picture.
+/// Contents of a scene besides its shapes: lights, fog, the camera, and the settings of the
+/// picture.
 namespace raylane {
 
 enum class LightKind : std::uint8_t { point, directional };
@@ -55,7 +56,7 @@ enum class SamplePattern : std::uint8_t {
     stratified, ///< a point in each cell, by a hash of pixel and sample
 };
 
-/// What a scene wants its picture to be.
+/// Settings that a scene has for its picture.
 struct Settings {
     int width = 512;  ///< pixels, 1 to 65535; the picture has at most 2^28
     int height = 512; ///< pixels, 1 to 65535

@@ -24,7 +24,7 @@ struct RaySpan {
     std::span<const float> t_max{}; ///< empty: infinity
 };
 
-/// What n rays hit, structure of arrays, for the tracer to fill. A span of length 0 is not wanted;
+/// Hits of n rays, structure of arrays, for the tracer to fill. A span of length 0 is not wanted;
 /// the others have length n. None may overlap another or a ray's.
 struct HitSpan {
     std::span<float> t{}; ///< > 0 and finite; infinity where nothing is hit
