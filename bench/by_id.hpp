@@ -8,7 +8,7 @@
 
 namespace raylane::bench {
 
-/// Where the shapes of a table are, in the order in which they were added to the scene. The table
+/// Places of the shapes of a table, in the order in which they were added to the scene. The table
 /// itself has them in that of the hierarchy, which would help whoever else gets them.
 template <class Shape>
 std::vector<std::pair<core::ShapeId, core::Place>> slots_by_id(const core::Table<Shape>& table) {

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-/// Where the time for a ray might fall off a cliff: many shapes that all but meet it, sizes and
+/// Cliffs that the time for a ray might fall off: many shapes that all but meet it, sizes and
 /// distances far from 1. Nanoseconds a ray through the library, one thread: the mean of one call
 /// for all, and the worst of a call each; beside `robust`, which tests in float, and Embree.
 ///

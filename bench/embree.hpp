@@ -6,10 +6,10 @@
 #include <embree3/rtcore.h>
 #endif
 
-/// What differs between Embree 3 and 4.
+/// Differences between Embree 3 and 4.
 namespace raylane::bench {
 
-/// How rays are asked about.
+/// Query for rays.
 class EmbreeQuery {
   public:
     /// `coherent`: that they are near each other, it is told.

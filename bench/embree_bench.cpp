@@ -16,7 +16,7 @@ namespace {
 
 using core::Kind;
 
-/// Whether it has this kind of shape as such, that is not closed where it is open.
+/// True if Embree has this kind of shape as such, that is not closed where it is open.
 template <class Shape>
 constexpr bool has_as_such = embree_has<Shape>;
 template <>

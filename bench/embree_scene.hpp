@@ -31,8 +31,8 @@ class NoDenormals {
     unsigned before_ = _mm_getcsr();
 };
 
-/// What Embree makes of a kind of shape: of those that it has not got, nothing. Cylinders and
-/// cones, open ones too, become curves whose ends are closed.
+/// Embree's geometry for a kind of shape; user geometry stands for none. Cylinders and cones, open
+/// ones too, become curves whose ends are closed.
 template <class Shape>
 inline constexpr RTCGeometryType geometry_type = RTC_GEOMETRY_TYPE_USER;
 template <>
@@ -56,7 +56,7 @@ inline constexpr bool embree_has = geometry_type<Shape> != RTC_GEOMETRY_TYPE_USE
 /// the order of their ids.
 class EmbreeScene {
   public:
-    /// Whether it has all of the scene's shapes. It knows none that are seen from one side only.
+    /// True if it has all of the scene's shapes. It knows none that are seen from one side only.
     static bool can_hold(const core::Scene& scene);
 
     EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFlags flags,
@@ -70,7 +70,7 @@ class EmbreeScene {
     /// The shapes of a geometry, by primitive.
     const std::vector<core::ShapeId>& shapes(unsigned geometry) const { return ids_[geometry]; }
     std::size_t geometry_count() const { return ids_.size(); }
-    /// What has been hit; no_shape: nothing.
+    /// Shape that has been hit; no_shape: none.
     core::ShapeId shape(unsigned geometry, unsigned primitive) const {
         return geometry == RTC_INVALID_GEOMETRY_ID ? core::no_shape : ids_[geometry][primitive];
     }

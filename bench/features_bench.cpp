@@ -2,9 +2,9 @@
 
 #include <string>
 
-/// What each feature costs a scene that has it, and so what its absence saves: a plain scene, and
-/// the same with one feature each. The `unseen` ones have it on a ball behind the camera, which no
-/// ray meets: they cost what the code for it does.
+/// Cost of each feature to a scene that has it, which its absence saves: a plain scene, and the
+/// same with one feature each. The `unseen` ones have it on a ball behind the camera, which no ray
+/// meets: they cost what the code for it does.
 
 namespace {
 

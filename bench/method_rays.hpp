@@ -17,7 +17,7 @@ namespace raylane::bench {
 inline constexpr std::size_t method_ray_count = 4096;
 inline constexpr int method_shape_count = 12;
 
-/// What core::Searcher<double> says, which certifies it; or what somebody else found.
+/// Crossing that core::Searcher<double> finds, which certifies it; or that somebody else found.
 struct Crossed {
     std::uint32_t slot = simd::no_slot; ///< or simd::no_slot
     bool entering = false;

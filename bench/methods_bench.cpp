@@ -9,7 +9,8 @@ namespace raylane::bench {
 
 namespace {
 
-/// What is left open, as surfaces touch there, is the truth: the reference goes on from it.
+/// Crossings found. Those left open, as surfaces touch there, are the truth's: the reference goes
+/// on from it.
 std::vector<Crossed> found_in(const simd::Query& finder, const std::vector<Crossed>& truths) {
     const simd::Hits& hits = finder.hits();
     std::vector<Crossed> found(method_ray_count);

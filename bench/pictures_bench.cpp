@@ -11,9 +11,9 @@
 #include <memory>
 #include <string>
 
-/// What a picture costs, and how far it is from one of 64 samples a pixel, long paths and double
-/// precision: by precision and samples; and, with exact's, by the depth of reflections and
-/// by the throughput below which paths are left.
+/// Cost of a picture, and its distance from one of 64 samples a pixel, long paths and double
+/// precision: by precision and samples; and, with exact's, by the depth of reflections and by the
+/// throughput below which paths are left.
 ///
 /// picture/SCENE/WHAT/PRECISION/VALUE: WHAT is `samples` (a pixel), `depth` or `weight` (per
 /// mille), with counters `seconds` of wall time by one thread and `rmse` of linear light.

@@ -22,7 +22,7 @@ class Random {
     std::mt19937 engine_{1};
 };
 
-/// What shapes are made of: vectors of components up to 1.
+/// Vectors that shapes are made of, of components up to 1.
 struct Vectors {
     core::Vec3f a, b, c, d;
 };

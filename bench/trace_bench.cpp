@@ -24,7 +24,7 @@ using core::Vec3d, core::Vec3f;
 constexpr std::size_t ray_count = std::size_t{1} << 16;
 constexpr std::size_t wave = 4096;
 
-/// What a scene is made of.
+/// Shapes that a scene is made of.
 enum class Mix { spheres, cylinders, cones, mixed };
 constexpr const char* mix_names[] = {"spheres", "cylinders", "cones", "mixed"};
 

@@ -6,14 +6,14 @@
 #include <type_traits>
 #include <vector>
 
-/// What tests ask of shapes of whichever kind.
+/// Questions that tests ask of shapes of whichever kind.
 namespace raylane::tests {
 
 inline core::Kind kind_of(const AnyShape& any) {
     return std::visit([]<class Shape>(const Shape&) { return core::kind_of<Shape>; }, any);
 }
 
-/// Whether it is Solid, Flat or Curved.
+/// True if it is Solid, Flat or Curved.
 template <class Sort>
 bool is_a(const AnyShape& any) {
     return std::visit(

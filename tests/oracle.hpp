@@ -4,7 +4,7 @@
 
 #include <optional>
 
-/// What is true of a ray and a shape, for the floats and doubles given: decided in numbers that are
+/// Truth about a ray and a shape, for the floats and doubles given: decided in numbers that are
 /// never rounded (rationals, and roots of quadratics over them), so that a tie is a tie. Digits
 /// alone cannot tell one. What a shape's crossings and normals are is in its file in tests/shapes/.
 namespace raylane::oracle {

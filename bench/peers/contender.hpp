@@ -7,7 +7,7 @@
 
 namespace raylane::bench {
 
-/// Who answers rays.
+/// Contender that answers rays.
 class Contender {
   public:
     virtual ~Contender() = default;

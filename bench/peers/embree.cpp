@@ -15,7 +15,7 @@ constexpr const char* call_names[] = {"embree 1", "embree 16", "embree 16 cohere
 
 constexpr std::size_t width = 16;
 
-/// What the calls share: a hierarchy.
+/// Hierarchy that the calls share.
 struct Built {
     EmbreeDevice device;
     EmbreeScene scene;

@@ -78,8 +78,8 @@ float t_least(const simd::RoundedRays& rays, std::size_t lane) {
     return 1e-4F * largest;
 }
 
-/// Where a formula in float finds no crossing with what Embree says is hit, there is nowhere to go
-/// on from, and rays are not numbers. Embree does not take such.
+/// True if a ray is numbers. Where a formula in float finds no crossing with what Embree says is
+/// hit, there is nowhere to go on from, and rays are none. Embree does not take such.
 bool is_any(const simd::RoundedRays& rays, std::size_t lane) {
     return std::isfinite(rays.origin[0][lane] + rays.direction[0][lane]);
 }
@@ -181,7 +181,7 @@ void occluded(const simd::SceneView& /*scene*/, std::uint32_t /*kind_bits*/,
     }
 }
 
-/// Whether what is in the way blocks all light.
+/// True if whatever is in the way blocks all light.
 bool is_opaque(const core::Scene& scene) {
     return std::none_of(scene.materials().begin(), scene.materials().end(),
                         [](const core::Material& material) { return material.transmits(); });

@@ -68,7 +68,7 @@ void measure(const std::string& name, const std::vector<std::string>& wanted, co
     if (wants("picture")) report(measure_picture(data, how));
 }
 
-/// Whether raylane is right everywhere.
+/// Measures all. True if raylane is right everywhere.
 bool measure_all(const Arguments& arguments, simd::Isa isa) {
     const char* const embree = embree_version();
     std::printf("Embree %s\n",

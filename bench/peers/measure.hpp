@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-/// What raylane-peers measures: raylane and others in turn, medians of several runs.
+/// Measurements of raylane-peers: raylane and others in turn, medians of several runs.
 namespace raylane::bench {
 
 /// Something to be timed: it says how many seconds it took, by so many threads.
@@ -27,18 +27,18 @@ double seconds_of(const std::function<void()>& run);
 struct Result {
     std::string name;
     double median, least, most;       ///< in the row's unit
-    std::optional<std::size_t> wrong; ///< how many of its answers
+    std::optional<std::size_t> wrong; ///< number of wrong answers
     std::optional<double> alone;      ///< the median by one thread, where there are several
 };
 
 /// One measurement of all contenders, raylane first. What is raylane's is called so.
 struct Row {
     std::string what;
-    std::size_t count = 0; ///< what there is of it
+    std::size_t count = 0; ///< of rays, shapes or pixels
     bool is_speed = true;  ///< millions per second, else seconds
     std::vector<Result> by;
 
-    /// How many times raylane outdoes the best of the others; none if it is alone.
+    /// Ratio by which raylane outdoes the best of the others; none if it is alone.
     std::optional<double> ratio() const;
     nlohmann::ordered_json json() const;
     void print() const;
@@ -62,7 +62,7 @@ std::vector<Result> alternate(const std::vector<TimedRun>& runs, const Measuring
 void measure_rays(const simd::SceneData& scene, const std::vector<std::string>& wanted,
                   const Measuring& how, const std::function<void(const Row&)>& report);
 
-/// What a hierarchy takes to be built, by one thread, until the first ray can be traced.
+/// Time to build a hierarchy, by one thread, until the first ray can be traced.
 Row measure_building(const core::Scene& scene, const Measuring& how);
 /// Embree's part of it, if it is there and has the scene's shapes.
 std::optional<TimedRun> embree_building(const core::Scene& scene, simd::Isa isa);

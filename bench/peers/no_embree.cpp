@@ -1,7 +1,7 @@
 #include "bench/peers/contender.hpp"
 #include "bench/peers/measure.hpp"
 
-/// What stands in for Embree where it is not.
+/// Stand-in for Embree where it is not there.
 namespace raylane::bench {
 
 const char* embree_version() {

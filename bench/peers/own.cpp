@@ -43,7 +43,7 @@ class Worker {
         state_ = arena.take<std::uint8_t>(most_);
     }
 
-    /// What is in doubt is decided by its nearest hit.
+    /// Rays in doubt are decided by their nearest hits.
     void find_blocked(const simd::Paths& paths, const float* t_most,
                       const simd::Coherence* coherence) {
         std::copy_n(t_most, paths.count, distance_);

@@ -88,7 +88,7 @@ simd::Coherence coherence_at(const Vec3f& apex, bool towards) {
     return {{apex.x, apex.y, apex.z}, towards, false, false, false};
 }
 
-/// What the camera's rays hit, and where rays go from there.
+/// Adds the rays that start where the camera's rays hit: mirrored, and to the light.
 void add_secondary(const core::Scene& scene, const simd::SceneData& data, const RaySet& camera,
                    RaySet& mirror, RaySet& shadow) {
     const simd::Tracing tracing{&simd::kernels_of(simd::best_isa())};

@@ -21,8 +21,8 @@ core::Scene make_workload(const std::string& name);
 /// same.
 struct RaySet {
     std::string name;
-    bool occlusion = false; ///< whether anything is hit before t_most; else what is hit first
-    std::optional<simd::Coherence> coherence; ///< what all of them have in common
+    bool occlusion = false; ///< true: any hit before t_most is asked for; false: the first hit
+    std::optional<simd::Coherence> coherence; ///< that all of them have
     std::size_t count = 0;
 
     /// From `begin` on, so many or all that are left.

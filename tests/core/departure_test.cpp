@@ -16,7 +16,7 @@ using ray_sets::Set;
 /// Rays that leave a surface: the solvers leave the start out instead of finding it again.
 namespace {
 
-/// Where a ray has hit a shape, in double: off the surface by `error` at most.
+/// Hit point of a ray on a shape, in double: off the surface by `error` at most.
 struct Hitpoint {
     Vec3d point;
     Vec3d normal;
@@ -68,8 +68,8 @@ double to_double(const oracle::Number& number) {
     return number.template convert_to<double>();
 }
 
-/// What a ray's t may be off by if its origin is off the surface by `at.error`: more where it runs
-/// along the surface.
+/// Tolerance for a ray's t if its origin is off the surface by `at.error`: more where it runs along
+/// the surface.
 double tolerance(const Hitpoint& at, const Vec3d& direction, double t) {
     return 4.0 * at.error / std::abs(dot(at.normal, direction)) + needed_accuracy * t;
 }

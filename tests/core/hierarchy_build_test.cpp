@@ -49,7 +49,7 @@ ShapeLists all_kinds(int of_each, Random& random, bool lattice) {
     return lists;
 }
 
-/// Whether `outer` contains `inner`, which does not touch it.
+/// True if `outer` contains `inner`, which does not touch it.
 bool surrounds(const Bounds& outer, const Bounds& inner) {
     for (int axis = 0; axis < 3; ++axis)
         if (outer.lower[axis] >= inner.lower[axis] || outer.upper[axis] <= inner.upper[axis])

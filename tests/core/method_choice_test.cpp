@@ -45,7 +45,7 @@ double nearest(const Shape& shape, const Ray<Real>& ray, Precision precision) {
     return t;
 }
 
-/// Whether a ray passes a disc that is seen edge on, and no thicker than `off`.
+/// True if a ray passes a disc that is seen edge on, and no thicker than `off`.
 template <class Shape>
 bool is_on_a_line(const Shape& shape, const Ray<double>& ray, double off) {
     if constexpr (kind_of<Shape> == Kind::disc) {
@@ -57,7 +57,7 @@ bool is_on_a_line(const Shape& shape, const Ray<double>& ray, double off) {
     return false;
 }
 
-/// Whether rays beside this one disagree with it on hit or miss.
+/// True if rays beside this one disagree with it on hit or miss.
 template <class Shape>
 bool is_at_an_edge(const Shape& shape, const Ray<double>& ray, bool hits, double off) {
     const Vec3d u = normalized(

@@ -43,7 +43,7 @@ struct Tally {
     std::uint64_t widened = 0;
 };
 
-/// What the double solver says of the first crossing ahead, against the oracle.
+/// First crossing ahead by the double solver, against the oracle.
 template <class Shape>
 void compare(const Shape& shape, const Ray<float>& ray, Tally& tally) {
     const auto truth = oracle::first_hit(shape, ray);
@@ -117,7 +117,8 @@ TEMPLATE_TEST_CASE("the same formulas in the oracle's numbers agree with the ora
     CHECK(compared > 30);
 }
 
-// Why the double reference looks at its own error: without, simple coordinates already mislead it.
+// Reason for the double reference to look at its own error: without, simple coordinates already
+// mislead it.
 TEMPLATE_TEST_CASE("double without error bounds decides wrongly", "", Sphere, CappedCylinder,
                    CappedCone) {
     using Shape = TestType;

@@ -6,7 +6,7 @@
 
 namespace raylane::meetings {
 
-/// Where the frame's origin is in the world, and how long a 1 is there: exact where floats have
+/// Place of the frame's origin in the world, and the length of a 1 there: exact where floats have
 /// room.
 class Place {
   public:

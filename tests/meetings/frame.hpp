@@ -13,9 +13,9 @@ using core::Vec3f;
 using ray_sets::Random;
 using tests::AnyShape;
 
-/// Where a meeting takes place: three vectors at right angles, of one length, all of whole numbers.
-/// What is made of few bits at the meeting's own coordinates, where shapes meet at the origin and z
-/// is up, is exact in the world.
+/// Frame of a meeting: three vectors at right angles, of one length, all of whole numbers. What is
+/// made of few bits at the meeting's own coordinates, where shapes meet at the origin and z is up,
+/// is exact in the world.
 class Frame {
   public:
     explicit Frame(Random& random) {

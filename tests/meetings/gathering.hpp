@@ -121,7 +121,7 @@ inline Meeting terrain(int across, Random& random, int rays) {
 
 using MakeShell = AnyShape (*)(const Frame&, int);
 
-/// What makes shapes about one center that touch at its top, for each kind that there are such of.
+/// Makers of shapes about one center that touch at its top, for each kind that there are such of.
 inline std::vector<MakeShell> all_shells() {
     std::vector<MakeShell> all;
     core::for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {

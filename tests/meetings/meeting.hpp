@@ -20,7 +20,7 @@ using MakeTouching = AnyShape (*)(const Frame&, int, Random&);
 inline constexpr MakeTouching make_touching[] = {RAYLANE_SHAPES(RAYLANE_TOUCHING)};
 #undef RAYLANE_TOUCHING
 
-/// How two shapes meet.
+/// Way in which two shapes meet.
 enum class Way {
     opposite,   ///< from both sides of a plane
     nested,     ///< from the same side: one in the other, or flush

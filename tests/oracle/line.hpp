@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-/// Where a line crosses a shape, in exact numbers, and by other formulas than the solvers use
+/// Crossings of a line and a shape, in exact numbers, and by other formulas than the solvers use
 /// (quadratics in cross products with cleared fractions, Cramer's rule, faces one by one), so that
 /// the two do not share a mistake: what these have in common. Each shape's file has its own
 ///   std::vector<Hit> crossings(shape, ray)
@@ -39,7 +39,7 @@ struct Line {
         : f(vector(ray.origin) - vector(anchor)), d(vector(ray.direction)) {}
 };
 
-/// Whether |f + t d - offset| is at most this.
+/// True if |f + t d - offset| is at most this.
 inline bool is_within(const Line& line, const Root& t, const Vector& offset, const Exact& radius) {
     const Vector f = line.f - offset;
     return sign_at(t, inner(f, f) - radius * radius, Exact(2) * inner(f, line.d),

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-/// Which of many shapes a line may cross: all but those that it surely passes by, so that exact
-/// numbers need not ask each.
+/// Neighbours of a line, the shapes of many that it may cross: all but those that it surely passes
+/// by, so that exact numbers need not ask each.
 namespace raylane::oracle {
 
 using core::Vec3d;

@@ -21,7 +21,7 @@ inline Vector opposite(const Vector& v) {
     return Exact(-1) * v;
 }
 
-/// Which is more: the size of a component of the unit vector, or this.
+/// Order of the size of a component of the unit vector and this: -1 if it is less.
 inline int compare_size(const Normal& n, int axis, const Exact& size) {
     const Exact square = size * size;
     return sign_at(n.t, n.v0[axis] * n.v0[axis] - square * inner(n.v0, n.v0),

@@ -40,7 +40,7 @@ bool is_picture(const std::filesystem::path& path) {
     return scenes::read_image(path).width == 4;
 }
 
-/// Whether `test` is true in a process of its own, whose limits and user it may change.
+/// True if `test` is true in a process of its own, whose limits and user it may change.
 bool holds_in_child(const std::function<bool()>& test) {
     const pid_t child = ::fork();
     if (child == 0) {

@@ -16,7 +16,7 @@ inline core::Scene scene_of(const std::string& text) {
     return scenes::read_json(file);
 }
 
-/// Why the file is no scene, without its name in front; "" if it is one.
+/// Complaint about a file that is no scene, without its name in front; "" if it is one.
 inline std::string complaint_about(const std::filesystem::path& path) {
     try {
         scenes::InputFile file(path);
@@ -42,7 +42,7 @@ inline std::string with_objects(const std::string& objects) {
            objects + "]}";
 }
 
-/// What makes up a shape, with a material, as one of the objects.
+/// Text of an object: of what makes up a shape, with a material.
 inline std::string object_text(const std::string& shape, const std::string& material) {
     return "{" + shape + R"(, "material": )" + material + "}";
 }

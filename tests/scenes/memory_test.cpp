@@ -52,7 +52,7 @@ using namespace raylane;
 
 namespace {
 
-/// What a finished scene may take for each sphere, and what building it may.
+/// Bytes that a finished scene may take for each sphere, and that building it may.
 constexpr double most_bytes = 40.0, most_at_peak = 2.5 * most_bytes;
 
 template <class Fill>

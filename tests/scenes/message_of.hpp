@@ -6,7 +6,7 @@
 
 namespace raylane::tests {
 
-/// What an act is refused with; "no error" if it is not.
+/// Message that an act is refused with; "no error" if it is not.
 template <class Error = std::exception, class Act>
 std::string message_of(const Act& act) {
     try {

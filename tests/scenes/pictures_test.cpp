@@ -39,7 +39,7 @@ int difference(const core::Color& a, const core::Color& b, core::Transfer transf
     return largest;
 }
 
-/// How much a picture varies about a pixel.
+/// Contrast of a picture about a pixel.
 int contrast(const core::Film& film, int x, int y, core::Transfer transfer) {
     int largest = 0;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, film.height() - 1); ++v)

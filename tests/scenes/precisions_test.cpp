@@ -39,8 +39,8 @@ int differing(const core::Film& a, const core::Film& b, core::Transfer transfer)
     return count;
 }
 
-/// How many of 10,000 pixels may differ: about half as many again as were measured at 160 to 200
-/// pixels across. Between mirrors that curve, every rounding grows from one to the next.
+/// Number of pixels in 10,000 that may differ: about half as many again as were measured at 160 to
+/// 200 pixels across. Between mirrors that curve, every rounding grows from one to the next.
 double allowed(const std::string& scene, core::Precision precision) {
     if (precision == core::Precision::plain_double) return 0.0;
     const bool fast = precision == core::Precision::fast;

@@ -34,7 +34,7 @@ int winding_number(const Polygon& polygon, const PlanePoint& p) {
     return winding;
 }
 
-/// How often the triangles, without their edges, contain p; -1 if p is on an edge.
+/// Number of the triangles that, without their edges, contain p; -1 if p is on an edge.
 int coverage(const Polygon& polygon, std::span<const Triangulator::Corners> triangles,
              const PlanePoint& p) {
     int count = 0;
@@ -127,7 +127,7 @@ int turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
 
 using GridTriangle = std::array<GridPoint, 3>;
 
-/// Whether the triangles have no inner point in common: an edge of one separates them.
+/// True if the triangles have no inner point in common: an edge of one separates them.
 bool apart(const GridTriangle& s, const GridTriangle& t) {
     const auto separates = [](const GridTriangle& by, const GridTriangle& other) {
         for (int i = 0; i < 3; ++i)

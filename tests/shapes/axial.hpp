@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-/// What cylinders and cones have in common.
+/// Shared parts of cylinders and cones.
 namespace raylane::ray_sets {
 
 /// A point of the body, of a rim, of a cap or the apex.
@@ -82,7 +82,7 @@ struct Axes {
 
 namespace raylane::oracle {
 
-/// What a cylinder or cone is along a line: with f and d relative to the base, heights h and widths
+/// Form of a cylinder or cone along a line: with f and d relative to the base, heights h and widths
 /// w in units that clear all fractions,
 ///   |f x a + t d x a|^2 a.a = (w0 + t w1)^2
 struct AxialForm {

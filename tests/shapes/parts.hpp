@@ -11,7 +11,7 @@
 
 #include <array>
 
-/// What tests know of a shape, all of it in its own file here:
+/// Parts that tests know of a shape, all of them in its own file here:
 ///   tests::Nature                  what tests choose it by
 ///   ray_sets::Target               how to make it, and where to aim at it
 ///   oracle::crossings, normal      where a line crosses it, in exact numbers
@@ -24,14 +24,14 @@
 ///   tests::Seamed                  solids: where their faces meet
 ///   tests::distance_to_face        solids, and what has_displacement
 ///   hard_cases::scaled, extreme, swap_axes   where they are not the usual ones
-/// What is missing and asked for does not compile.
+/// A part that is missing and asked for does not compile.
 namespace raylane::tests {
 
-/// What a surface is like: each shape's Nature is Solid, Flat or Curved, and may differ from the
-/// usual in what else there is.
+/// Traits of a surface: each shape's Nature is Solid, Flat or Curved, and may differ from the usual
+/// in what else there is.
 struct AnySurface {
     static constexpr bool is_bounded = true;
-    /// What leaves it outward may meet it again.
+    /// Rays that leave it outward may meet it again.
     static constexpr bool may_come_back = false;
     /// There is a bound to how far float may displace it.
     static constexpr bool has_displacement = false;
@@ -42,7 +42,7 @@ struct AnySurface {
 };
 /// Closed: what enters it leaves it.
 struct Solid : AnySurface {};
-/// What leaves it does not meet it again.
+/// Rays that leave it do not meet it again.
 struct Flat : AnySurface {};
 /// It ends at a rim, and what goes inward from it may meet it again.
 struct Curved : AnySurface {};
@@ -60,14 +60,14 @@ struct Restated;
 template <class Shape>
 struct Seamed;
 
-/// What an object of a scene file says of one such shape, `text`, and the same by_name<Shape>() of
+/// Text of one such shape's object in a scene file, `text`, and the same by_name<Shape>() of
 /// fields, which are the library's as they are core's.
 template <class Shape>
 struct Written;
 
 using Seams = std::array<Vec3f, 4>;
 
-/// Which a fifth of makes Pythagorean triples.
+/// Number whose fifths make Pythagorean triples.
 inline float five_times(int least, Random& random) {
     return static_cast<float>(5 * random.integer(least, 2));
 }

@@ -140,7 +140,7 @@ struct Restated<core::Triangle> {
         return {corners[i % 3], corners[(i + 1) % 3], corners[(i + 2) % 3]};
     }
 };
-/// Which says in one way alone how normals go between its corners.
+/// A smooth triangle says in one way alone how normals go between its corners.
 template <>
 struct Restated<core::SmoothTriangle> {
     static core::SmoothTriangle make(int) {

@@ -36,8 +36,8 @@ TEST_CASE("mmp/pbrt-v3 #44: what a cone or paraboloid reflects does not meet it 
 
 namespace {
 
-/// Where a ray through a glass ball meets the plane z = `plane`: Snell's law by hand. Where it
-/// enters, the ray is moved along the normal by `offset`.
+/// Coordinate x at which a ray through a glass ball meets the plane z = `plane`: Snell's law by
+/// hand. Where it enters and leaves, the ray is moved across the surface by `offset`.
 double reached_through_ball(const Sphere& ball, double index, double plane, Ray<double> ray,
                             double offset) {
     const Vec3d center = convert<double>(ball.center);
@@ -180,7 +180,7 @@ TEST_CASE("RenderKit/ospray #279: the inside of a thin cylinder is seen", "[long
     }
 }
 
-// What lies nearer behind a transparent box than the smallest t that counts was not there: black.
+// Surfaces nearer behind a transparent box than the smallest t that counts were not there: black.
 TEST_CASE("POV-Ray #125: a plane 7e-7 below a transparent box is seen through it", "[long]") {
     const float depth = -1.0000007F;
     Builder builder = square(pixels, perspective({1, 2, 3}, {0, 0, 0}, 50));

@@ -55,7 +55,7 @@ struct Seen {
     Vec3d normal; ///< towards the viewer
 };
 
-/// What the oracle sees first of some shapes.
+/// First of some shapes that the oracle sees.
 template <class Shape>
 std::optional<Seen> first_seen(const std::vector<Shape>& shapes, const Ray<double>& ray) {
     std::optional<Seen> first;
@@ -108,7 +108,7 @@ Comparison compare(const Scene& scene, const std::vector<Shape>& shapes, const V
     return result;
 }
 
-/// What textbooks print, in float: b^2 - 4 a c, and both roots from it.
+/// Roots as textbooks print them, in float: b^2 - 4 a c, and both roots from it.
 struct Roots {
     float first, second;
 };

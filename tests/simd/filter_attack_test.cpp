@@ -50,7 +50,7 @@ class Trial {
         view_ = stream_.view();
     }
 
-    /// Whether the filter is wrong when it allows for this part of the rounding.
+    /// True if the filter is wrong when it allows for this part of the rounding.
     bool is_lie(double part) {
         *filters_.half_ulp = static_cast<float>(part * 0x1p-24);
         filters_.checks.bound_rays(kind_of<Shape>, view_of(block_), 0, view_);
@@ -109,7 +109,7 @@ Summit<Shape> climb(const ScaledFilters& filters, bool slack, int steps, Random&
     return summit;
 }
 
-/// Whether the oracle agrees on what is true. Double-double is not enough for all floats.
+/// True if the oracle agrees on what is true. Double-double is not enough for all floats.
 template <class Shape>
 bool is_confirmed(const Attempt<Shape>& attempt) {
     const First truth = first_crossing(attempt.shape, attempt.ray);

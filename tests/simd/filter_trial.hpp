@@ -133,7 +133,7 @@ ShapeBlock view_of(const Block<Shape>& block) {
     return {block.values, reinterpret_cast<const float*>(block.ids)};
 }
 
-/// What is wrong with an answer; null if nothing.
+/// Fault of an answer; null if it has none.
 inline const char* lie(const Answer& answer, const First& truth) {
     if (answer.contradicts) return "what is in the way was not what the bounds say";
     if (!truth.known) return nullptr;

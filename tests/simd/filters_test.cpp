@@ -21,7 +21,7 @@ int rounds() {
     return tests::rounds(500);
 }
 
-/// Whether to say how tight the bounds are.
+/// True if the tightness of the bounds is to be printed.
 bool wants_report() {
     return std::getenv("RAYLANE_TEST_REPORT") != nullptr;
 }
@@ -147,7 +147,7 @@ TEST_CASE("a sphere that rays leave straight out is in doubt by each way alike")
 
 namespace {
 
-/// How tight the bounds are, in t plus the distance of the origin from the shape.
+/// Tightness of the bounds, in t plus the distance of the origin from the shape.
 struct Tightness {
     std::vector<double> gaps;   ///< from lower to t
     std::vector<double> widths; ///< from lower to upper, where certain

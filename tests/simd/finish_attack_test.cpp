@@ -28,7 +28,7 @@ int rounds() {
     return tests::rounds(usual_rounds);
 }
 
-/// What the rays are like.
+/// Kind of rays.
 enum class Aim {
     any,     ///< directions of doubles, of length 1 +- 2^-48
     again,   ///< the same, and what is doubtful is finished again
@@ -170,7 +170,7 @@ std::optional<Started<Shape>> first_attempt(Aim aim, bool lattice, Random& rando
     return attempt;
 }
 
-/// What a start on the surface leaves to change is where the ray goes.
+/// A changed attempt. A start on the surface leaves only the ray's direction to change.
 template <class Shape>
 Started<Shape> changed(Started<Shape> attempt, Aim aim, Random& random) {
     if (aim == Aim::onward)
@@ -206,7 +206,7 @@ Summit<Shape> climb(Aim aim, int steps, Random& random) {
     return highest;
 }
 
-/// Whether the oracle agrees on what is true. Double-double is not enough for all floats. (Of a
+/// True if the oracle agrees on what is true. Double-double is not enough for all floats. (Of a
 /// start on the surface the oracle knows nothing.)
 template <class Shape>
 bool is_confirmed(const Started<Shape>& attempt) {

@@ -20,7 +20,7 @@ using namespace raylane::simd;
 using ray_sets::Random;
 using ray_sets::Set;
 
-/// What the finish is certain of, against the certified scalar solver in double.
+/// Hits that the finish is certain of, against the certified scalar solver in double.
 
 namespace {
 
@@ -46,7 +46,7 @@ SceneView view_of(const Tables& tables) {
 struct Expected {
     std::optional<core::Crossing<double>> crossing;
     Vec3d normal, shading_normal;
-    bool has_normal = false; ///< which an apex has not
+    bool has_normal = false; ///< false at an apex
 };
 
 template <class Shape>
@@ -93,7 +93,7 @@ struct Rays {
         slot.push_back(to);
     }
 
-    /// What is behind the last ray must not matter.
+    /// View of the rays for the finish. Values behind the last ray must not matter.
     Found view(Random& random) {
         const std::size_t room = (rays.size() + 15) / 16 * 16;
         for (std::vector<double>* array : {&ox, &oy, &oz, &dx, &dy, &dz})
@@ -191,7 +191,7 @@ struct Share {
     long elsewhere = 0, doubtful_elsewhere = 0;
 };
 
-/// How the rays are finished.
+/// Way in which the rays are finished.
 enum class Way { once, again };
 
 /// Checks one ray of `rays` after the finish.

@@ -12,7 +12,7 @@ namespace raylane::hard_cases {
 using namespace core;
 using ray_sets::Set;
 
-/// Whether it is a shape at all.
+/// True if all its numbers are finite.
 template <class Shape>
 bool is_shape(const Shape& shape) {
     for (const float value : floats_of(shape))

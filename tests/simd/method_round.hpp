@@ -11,15 +11,15 @@
 #include <optional>
 #include <string>
 
-/// What the engine finds with each precision that promises no more than its formulas, against the
-/// scalar twin of it: core's formulas in numbers that do the same operations.
+/// Hits that the engine finds with each precision that promises no more than its formulas, against
+/// the scalar twin of it: core's formulas in numbers that do the same operations.
 namespace raylane::tests {
 
 /// The numbers of core::Precision::plain_double's twin, and of the others'.
 template <core::Precision precision>
 using Twin = std::conditional_t<core::is_single(precision), float, Separate>;
 
-/// What a ray first crosses, its t infinite if it is nothing.
+/// The first crossing of a ray that crosses nothing: its t is infinite.
 template <class Real>
 core::Crossing<Real> nothing() {
     return {Real(std::numeric_limits<float>::infinity()), core::body, false};
@@ -122,7 +122,7 @@ class MethodRound {
         FAIL_CHECK(what);
     }
 
-    /// Whether the shape is where it was expected. Bounds may keep rays away from one that is not.
+    /// True if the shape is where it was expected. Bounds may keep rays away from one that is not.
     bool is_there(std::size_t lane) const {
         if (paths_.origin_slot[lane] == slot_) return true; // no bounds are asked
         const core::Ray<double> ray = simd::ray_of(paths_, lane);

@@ -50,7 +50,7 @@ inline Vec3f step_across(const Vec3d& normal, double size, Random& r) {
     }
 }
 
-/// How many gaps of this length make up some length: 4 to 2^16.
+/// Number of gaps of this length that make up some length: 4 to 2^16.
 inline float number_of_gaps(double length, double gap) {
     return rounded(std::clamp(std::round(length / gap), 4.0, 0x1p16));
 }

@@ -12,7 +12,7 @@ namespace raylane::tests {
 using namespace core;
 using ray_sets::Set;
 
-/// Where a nest is, and how large.
+/// Place of a nest, and its size.
 struct Place {
     double size; ///< of the nest, about
     Vec3f offset;

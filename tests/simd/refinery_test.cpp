@@ -15,7 +15,7 @@ using namespace raylane::core;
 using namespace raylane::simd;
 using ray_sets::Random;
 
-/// What the engine finds of rays that bounds in float cannot decide on, against the certified
+/// Hits that the engine finds of rays that bounds in float cannot decide on, against the certified
 /// scalar search.
 
 namespace {

@@ -7,14 +7,14 @@
 
 namespace raylane::tests {
 
-/// How often to repeat what is random. RAYLANE_TEST_ROUNDS asks for fewer where a processor is
+/// Number of rounds of what is random. RAYLANE_TEST_ROUNDS asks for fewer where a processor is
 /// emulated; sanitizers allow for a few.
 inline int rounds(int usual, int few = 20) {
     const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
     return wanted != nullptr ? std::atoi(wanted) : sanitized ? few : usual;
 }
 
-/// What to begin random numbers with. RAYLANE_TEST_SEED asks for others than usual.
+/// Seed of random numbers. RAYLANE_TEST_SEED asks for others than usual.
 inline std::uint64_t seed(std::uint64_t usual) {
     const char* const wanted = std::getenv("RAYLANE_TEST_SEED");
     return wanted == nullptr ? usual

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// What a stream of rays is answered is the same, to the bit, by every instruction set.
+/// Answers to a stream of rays are the same, to the bit, by every instruction set.
 using namespace raylane;
 using namespace raylane::core;
 using namespace raylane::simd;

@@ -16,8 +16,8 @@ struct Tally {
     long missed = 0;      ///< neighbours
     long other = 0;       ///< anything else that is wrong
     long by_oracle = 0, by_construction = 0;
-    long doubtful = 0; ///< what the float bounds or the finish left open
-    long followed = 0; ///< what only the reference could go on with
+    long doubtful = 0; ///< left open by the float bounds or the finish
+    long followed = 0; ///< only the reference could go on with them
     long into_the_open = 0, doubtful_in_the_open = 0;
     std::string first_faults;
 

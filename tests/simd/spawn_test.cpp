@@ -84,7 +84,7 @@ class Spawning {
     }
 
   private:
-    /// Where rays hit the shape, as the engine has it.
+    /// Hits of rays on the shape, as the engine has them.
     void hit(LookThrough& finder) {
         paths_.count = rays_per_nest;
         for (std::size_t i = 0; i < paths_.count; ++i) {
@@ -189,7 +189,8 @@ class Spawning {
         }
     }
 
-    /// What the engine has found against the certified search, the oracle and the construction.
+    /// Compares what the engine has found with the certified search, the oracle and the
+    /// construction.
     void compare(const Next& found, const Ray<double>& ray, const OriginSurfaces<double>& origins,
                  bool inward) {
         Searcher<double> searcher(*scene_, Search::every_shape);
@@ -249,7 +250,7 @@ class Spawning {
         return rounded(near.point + near.flat * distance);
     }
 
-    /// Where there is nothing else, the engine needs no help to know that what goes outward meets
+    /// With nothing else there, the engine needs no help to know that rays which go outward meet
     /// nothing.
     void leave_alone(LookThrough& finder) {
         std::size_t kept = 0;

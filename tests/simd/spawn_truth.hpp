@@ -11,28 +11,28 @@ namespace raylane::tests {
 /// The ids of a nest's shapes; what comes after them is far away.
 enum : ShapeId { shape_id, outer_id, inner_id };
 
-/// What is next for a ray.
+/// Next crossing of a ray.
 struct Next {
     ShapeId shape = no_shape;
     double t = std::numeric_limits<double>::infinity();
     bool entering = false;
 };
 
-/// What is true of rays that leave a nest's shape.
+/// Truth about rays that leave a nest's shape.
 class SpawnTruth {
   public:
     /// `shapes`: of the scene, by id.
     SpawnTruth(const Nest& nest, const Place& place, const std::vector<AnyShape>& shapes)
         : nest_(nest), place_(place), shapes_(shapes) {}
 
-    /// How far the start may be from the surface.
+    /// Greatest distance of the start from the surface.
     double slack(const Ray<double>& ray) const {
         const Vec3d o = ray.origin;
         return 0x1p-48 * (std::abs(o.x) + std::abs(o.y) + std::abs(o.z) +
                           place_.size * static_cast<double>(place_.factor));
     }
 
-    /// What a ray from the true surface meets. Its t is not known.
+    /// Next crossing of a ray from the true surface. Its t is not known.
     std::optional<Next> by_construction(const Ray<double>& ray, bool inward) const {
         constexpr double t = std::numeric_limits<double>::quiet_NaN();
         if (shapes_.size() > 3) return std::nullopt; // a sphere may be in between, if far away

@@ -10,7 +10,7 @@ using namespace raylane::tests;
 
 namespace {
 
-/// What rays may hit: shape by shape, in flight, and by lists.
+/// Candidates of rays, found each way: shape by shape, in flight, and by lists.
 struct EachWay {
     Answers by_all, by_tree, by_lists;
 };

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-/// What the kernels that trace rays are asked in tests, and what they answer.
+/// Rays that tests ask the tracing kernels about, and the answers.
 namespace raylane::tests {
 
 using namespace core;
@@ -143,7 +143,7 @@ struct Answers {
           state(padded, unblocked) {}
     Candidates candidates() { return {first.data(), second.data(), slot.data()}; }
 
-    /// Whether both have found the same for a ray, but for what is beyond what is certain.
+    /// True if both have found the same for a ray, but for what is beyond what is certain.
     bool agree(const Answers& other, std::size_t i) const {
         const float beyond = first[i] * culling_slack;
         return first[i] == other.first[i] && (slot[i] == other.slot[i] || second[i] == first[i]) &&
@@ -172,7 +172,7 @@ struct Traced {
         return searcher_.nearest(ray, {}, [](const Hit<double>&) { return true; }).hit;
     }
 
-    /// What was found for a ray does not contradict the nearest hit.
+    /// Checks that the answer for a ray does not contradict the nearest hit.
     void check(const Answers& answers, std::size_t i, const Hit<double>& hit) const {
         const auto first = static_cast<double>(answers.first[i]);
         const auto seen_to =

@@ -11,7 +11,7 @@
 /// Scenes and rays asked of the library in every way there is, against the oracle.
 namespace raylane::tests {
 
-/// Which sides of shapes there are to be seen.
+/// Sides of shapes that can be seen.
 enum class Sides {
     both,
     some, ///< of every third shape the outside, of every third the inside, of the others both
@@ -19,7 +19,7 @@ enum class Sides {
 
 Scene scene_of(std::span<const AnyShape> shapes, Sides sides = Sides::both);
 
-/// What may be wrong with an answer.
+/// Fault that an answer may have.
 enum class Fault {
     shape,
     t,
@@ -30,7 +30,7 @@ enum class Fault {
 };
 inline constexpr const char* fault_names[] = {"shape", "t", "normal", "side", "occlusion", "other"};
 
-/// What was asked, and how many answers were wrong.
+/// Tally of what was asked, and of the wrong answers.
 struct Tally {
     long lines = 0; ///< without their limits
     long rays = 0, hits = 0;

@@ -29,7 +29,7 @@ long check(const Shapes& shapes, std::span<const Ray> rays, double least_hits = 
     return tally.hits;
 }
 
-/// What one ray hits, once the oracle agrees.
+/// Answer to one ray, once the oracle agrees.
 struct Answer {
     float t;
     ShapeId shape;
@@ -413,7 +413,7 @@ TEST_CASE("of a thousand identical spheres the first one is hit", "[known]") {
     CHECK(answer(shapes, rays.back()).shape == 0);
 }
 
-/// What is nearest is behind where double brings such rays, and more than are listed at first may
+/// The nearest shape is behind where double brings such rays, and more than are listed at first may
 /// be.
 TEST_CASE("of many shapes that a ray from afar may hit, it hits the first", "[known]") {
     Shapes balls, cubes;

@@ -7,7 +7,7 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// What the headers say of rays that touch, lie in a surface, start on it, or meet several.
+/// Rules of the headers for rays that touch, lie in a surface, start on it, or meet several.
 
 namespace {
 

@@ -9,21 +9,21 @@
 
 namespace raylane::tests {
 
-/// What became of a program.
+/// Outcome of a program.
 struct Outcome {
     int code;         ///< its exit code, or 128 + the number of the signal that killed it
-    bool exited;      ///< whether by itself
-    std::string out;  ///< what it wrote on standard output
+    bool exited;      ///< true if by itself
+    std::string out;  ///< text that it wrote on standard output
     std::string err;  ///< on standard error
     long peak_memory; ///< MiB
 };
 
-/// How to start a program.
+/// Setup in which a program is started.
 struct Setup {
-    std::filesystem::path directory = "."; ///< where
-    bool terminal = false;                 ///< whether standard error is a terminal
+    std::filesystem::path directory = "."; ///< that it starts in
+    bool terminal = false;                 ///< true if standard error is a terminal
     std::string out;                       ///< a file to be standard output; "" for Outcome::out
-    std::function<void()> in_child;        ///< what to do before: limits, users, signals
+    std::function<void()> in_child;        ///< to be done before: limits, users, signals
 };
 
 /// The raylane tool, running.

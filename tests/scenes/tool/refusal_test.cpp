@@ -13,7 +13,7 @@ using namespace raylane::tests;
 
 namespace {
 
-/// What the system refuses is one line, exit code 3.
+/// A refusal by the system is one line, exit code 3.
 void check(const Outcome& outcome, const std::string& message) {
     CHECK(outcome.code == 3);
     CHECK(outcome.exited);

@@ -14,8 +14,8 @@ Setup on_terminal() {
     return setup;
 }
 
-/// What does not depend on the machine: N for each number and for each bar of # and dots, no more
-/// than one space at a time, and rays without their prefix.
+/// Form of a text, which does not depend on the machine: N for each number and for each bar of #
+/// and dots, no more than one space at a time, and rays without their prefix.
 std::string form_of(const std::string& text) {
     std::string form;
     for (const char c : text) {

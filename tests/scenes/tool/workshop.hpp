@@ -18,7 +18,7 @@ inline const std::string ball = R"({
     "objects": [{"type": "sphere", "material": "red", "center": [0, 0, 0], "radius": 1}]
 })";
 
-/// What makes a picture of any scene take hours.
+/// Options that make a picture of any scene take hours.
 inline const std::vector<std::string> hours = {"--size", "4000x4000", "--spp", "65536"};
 
 inline std::vector<std::string> joined(std::vector<std::string> a,
