@@ -85,7 +85,7 @@ struct EllipsoidFilter {
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const F o = zero<Arch>(), one(1.0F);
-        const V from_center = scaled<Arch>(per_unit, rays.origin - center);
+        const V offset = rays.origin - center, from_center = scaled<Arch>(per_unit, offset);
         const V a = to_ball(rays.direction);
         const F a_squared = fast_dot(a, a), per_a = one / a_squared;
         const F tau = negated(fast_dot(a, to_ball(from_center)) * per_a);
@@ -115,7 +115,7 @@ struct EllipsoidFilter {
         const Mask<Arch> inside =
             known & (fast_mul_add<Arch>(foot * foot, a_squared, foot_squared) < inner * inner);
         const F last = foot + inner_half - rounding, first = foot - inner_half + rounding;
-        return {is_number<Arch>(from_center.x) & ~(missed & ordinary),
+        return {is_number<Arch>(offset.x) & ~(missed & ordinary),
                 select(ordinary, unit * positive_part<Arch>(select(inside, last, entry)), o),
                 known & (ahead | inside), unit * select(inside, exit, first)};
     }
