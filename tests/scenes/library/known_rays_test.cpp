@@ -432,3 +432,12 @@ TEST_CASE("of many shapes that a ray from afar may hit, it hits the first", "[kn
     check(balls, at_balls, 0.1);
     check(cubes, at_cubes, 0.1);
 }
+
+TEST_CASE("ellipsoids of denormal size are hit", "[known]") {
+    for (const float size : {0x1p-127F, 0x1p-138F, 0x1p-149F}) {
+        const Shapes shapes = {
+            core::Ellipsoid{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {size, 0, -size}}};
+        CHECK(answer(shapes, {{0, 0, 4 * size}, {0, 0, -1}}).shape == 0);
+        CHECK(answer(shapes, {{0, 0, 0}, {0, 1, 0}}).shape == 0);
+    }
+}
