@@ -34,7 +34,7 @@ struct EllipsoidNumbers {
 /// and to 1 or more. L is the length of all axes together: as p = b_u u + b_v v + b_w w, it is |p|
 /// <= L |b|, and 1 <= L |a|. A row errs by 3 u of its part of absolute_cross() / |volume|, sigma
 /// being the length of all these parts; and all rows as the volume does, by r = u (8 S / |volume| +
-/// 4), S being the sum of the absolute products, which makes the ball as much larger or smaller.
+/// 8), S being the sum of the absolute products, which makes the ball as much larger or smaller.
 ///
 /// p errs by eta = slack + 4 u |tau| and 2 u |p|, so b by sigma (8 u |p| + eta), and a by 7 u
 /// sigma. Where |b + s a| is X, |p| <= L X and |s| <= 2 X L, as b is next to the centre: so the
