@@ -124,10 +124,9 @@ TEST_CASE("what is no JSON, or not a scene's, is told in one line") {
                   R"(/radius: must be a number, got "1")"),
         in_object("too few numbers", R"("type": "sphere", "center": [0, 0], "radius": 1)",
                   "/center: must be an array of 3 numbers, got 2"),
-        in_object("unknown type", R"("type": "cylindre")",
-                  R"(/type: must be "sphere", "plane", "disc", "triangle", "box", "cylinder", )"
-                  R"("cone", "quadric", "ellipsoid", "sphereflake" or "lattice", got "cylindre", )"
-                  R"(did you mean "cylinder"?)"),
+        in_scene("unknown type", R"("lights": [{"type": "pint"}])",
+                 R"(/lights/0/type: must be "point" or "directional", got "pint", )"
+                 R"(did you mean "point"?)"),
     });
 }
 
