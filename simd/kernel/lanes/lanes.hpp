@@ -117,7 +117,8 @@ struct Lanes<Portable> {
     static std::uint32_t bits(const M& mask) { return mask.bits(); }
     static void compress_store(float* out, const F& values, std::uint32_t wanted) {
         for (std::size_t i = 0; i < F::size; ++i) {
-            *out = values.lanes()[i];
+            const float lane = values.lanes()[i];
+            __builtin_memcpy(out, &lane, sizeof(lane)); // there may be integers at `out`
             out += wanted >> i & 1;
         }
     }
