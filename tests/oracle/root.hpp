@@ -22,36 +22,18 @@ struct Root {
 };
 
 /// The sign of a + b t + c t^2 at a root.
-inline int sign_at(const Root& t, const Exact& a, const Exact& b, const Exact& c = {}) {
-    const Exact V(t.V);
-    return sign({c * (t.U * t.U + V * V * t.D) + b * t.W * t.U + a * t.W * t.W,
-                 V * (Exact(2) * c * t.U + b * t.W)},
-                t.D);
-}
+int sign_at(const Root& t, const Exact& a, const Exact& b, const Exact& c = {});
 
 /// a + b t at a root, to all digits.
-inline Number value_at(const Root& t, const Exact& a, const Exact& b) {
-    return value({a * t.W + b * t.U, b * Exact(t.V)}, t.D) / Number(t.W);
-}
+Number value_at(const Root& t, const Exact& a, const Exact& b);
 
 /// -1 or 1 where the first digits say which is less, 0 where they do not: those of a value above
 /// come without cancellation.
-inline int compare_digits(const Number& a, const Number& b) {
-    static const Number unclear("1e-80");
-    const Number difference = a - b;
-    if (abs(difference) <= (abs(a) + abs(b)) * unclear) return 0;
-    return difference > 0 ? 1 : -1;
-}
+int compare_digits(const Number& a, const Number& b);
 
 /// -1, 0, 1: a is less, the same, more. What differs in the first digits needs no more of them.
-inline int compare(const Root& a, const Number& a_value, const Root& b, const Number& b_value) {
-    const int order = compare_digits(a_value, b_value);
-    if (order != 0) return order;
-    return sign({a.U * b.W - b.U * a.W, Exact(a.V) * b.W}, a.D, Exact(-b.V) * a.W, b.D);
-}
-inline int compare(const Root& a, const Root& b) {
-    return compare(a, Number(a), b, Number(b));
-}
+int compare(const Root& a, const Number& a_value, const Root& b, const Number& b_value);
+int compare(const Root& a, const Root& b);
 
 /// The roots of A t^2 + 2 B t + C in ascending order, two where they are the same, with whether the
 /// polynomial falls there.
@@ -59,18 +41,7 @@ struct FoundRoot {
     Root t;
     bool falling;
 };
-inline std::vector<FoundRoot> roots(const Exact& A, const Exact& B, const Exact& C) {
-    if (A.sign() == 0) {
-        if (B.sign() == 0) return {};
-        return {{Root::quotient(-C, Exact(2) * B), B.sign() < 0}};
-    }
-    const Exact D = B * B - A * C;
-    if (D.sign() < 0) return {};
-    const bool opens_up = A.sign() > 0;
-    const Exact U = opens_up ? -B : B, W = opens_up ? A : -A;
-    const int V = D.sign() == 0 ? 0 : 1;
-    return {{Root{U, W, -V, D}, opens_up}, {Root{U, W, V, D}, !opens_up}};
-}
+std::vector<FoundRoot> roots(const Exact& A, const Exact& B, const Exact& C);
 
 /// The float nearest to what is not negative and has these first digits, ties to even.
 /// compare(middle) says on which side of the middle between two floats it is, where digits do not.
@@ -94,13 +65,7 @@ float nearest_float(const Number& digits, const Compare& compare) {
 }
 
 /// The float that is nearest to a positive root, ties to even, but never 0 or infinite.
-inline float rounded(const Root& root, const Number& digits) {
-    const float nearest = nearest_float(
-        digits, [&](double middle) { return sign_at(root, Exact(-middle), Exact(1)); });
-    return nearest == 0.0F ? std::numeric_limits<float>::denorm_min() : nearest;
-}
-inline float rounded(const Root& root) {
-    return rounded(root, Number(root));
-}
+float rounded(const Root& root, const Number& digits);
+float rounded(const Root& root);
 
 } // namespace raylane::oracle
