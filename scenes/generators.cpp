@@ -143,7 +143,7 @@ void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialInde
                 for (int x = 0; x < end.x; ++x)
                     visit(node(x, y, z));
     };
-    const std::size_t count = static_cast<std::size_t>(n);
+    const auto count = static_cast<std::size_t>(n);
     reserve(builder, count * count * count + 3 * count * count * (count - 1));
     for_each_node(Vec3i(n), [&](const Vec3f& center) {
         builder.add(core::Sphere{center, lattice.sphere_radius}, material);

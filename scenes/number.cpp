@@ -91,7 +91,7 @@ std::string to_text(float value) {
 
 double as_printed(float value) {
     const std::string text = to_text(value);
-    double number = static_cast<double>(value);
+    auto number = static_cast<double>(value);
     std::from_chars(text.data(), text.data() + text.size(), number);
     return number;
 }

@@ -72,7 +72,7 @@ struct Plane3 {
 };
 
 float blocks_for(std::uint32_t count) {
-    return float((count + block_size - 1) / block_size);
+    return float((count + block_size - 1) / block_size); // NOLINT: whole ones
 }
 
 /// A factor that brings all sizes within the box into the range of 0 to 1.

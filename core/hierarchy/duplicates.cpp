@@ -15,7 +15,7 @@ std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
 }
 
 std::uint64_t hash_of_bounds(const Item& item) {
-    std::uint64_t hash = static_cast<std::uint64_t>(item.kind());
+    auto hash = static_cast<std::uint64_t>(item.kind());
     for (int axis = 0; axis < 3; ++axis)
         hash =
             mixed(hash, std::uint64_t{std::bit_cast<std::uint32_t>(float(item.lower[axis]))} << 32 |
@@ -55,7 +55,7 @@ bool Duplicates::are_duplicates(const Item& a, const Item& b) const {
     return with_shape_type(a.kind(), [&]<class Shape>(std::type_identity<Shape>) {
         const auto& list = std::get<ShapeList<Shape>>(lists_);
         const Listed<Shape>&one = list[a.position()], &other = list[b.position()];
-        return std::memcmp(&one.shape, &other.shape, sizeof(Shape)) == 0 &&
+        return std::memcmp(&one.shape, &other.shape, sizeof(Shape)) == 0 && // NOLINT: their bits
                material_of_[one.id] == material_of_[other.id] && !is_in_polygon(one.id) &&
                !is_in_polygon(other.id);
     });

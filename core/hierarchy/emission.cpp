@@ -180,7 +180,7 @@ class Emitter {
     /// Leaves come in the order of their items. What a later one asks for is all over the list.
     template <class Shape>
     void fetch_ahead(const ShapeList<Shape>& list, std::size_t at) const {
-        constexpr std::size_t ahead = 4 * block_size;
+        constexpr auto ahead = std::size_t{4} * block_size;
         if (at + ahead >= positions_.size()) return;
         const std::uint32_t position = positions_[at + ahead];
         if (position < list.size()) __builtin_prefetch(&list[position]); // it may be another kind's

@@ -67,7 +67,7 @@ class CameraRays {
             sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                          static_cast<std::uint32_t>(sample));
         return {(Real(sample % grid_) + Real(point.x)) / Real(grid_),
-                (Real(sample / grid_) + Real(point.y)) / Real(grid_)};
+                (Real(sample / grid_) + Real(point.y)) / Real(grid_)}; // NOLINT: whole rows
     }
 
     /// Its place in the picture, from its middle to the right and upwards, in halves of a pixel.

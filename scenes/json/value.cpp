@@ -24,6 +24,7 @@ std::string in_quotes(std::string_view text) {
 /// `"a", "b" or "c"`
 std::string quoted_alternatives(const std::vector<std::string_view>& names) {
     std::vector<std::string> quoted;
+    quoted.reserve(names.size());
     for (const std::string_view name : names)
         quoted.push_back(in_quotes(name));
     return alternatives(quoted);

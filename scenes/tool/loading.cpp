@@ -43,7 +43,7 @@ class Loader : public simd::ParallelWorkers {
         if (to_place_ > 0)
             return bar_text(share(placed_.load(), to_place_.load())) + "  of " +
                    millions(to_place_) + " placed";
-        const std::string read = millions(added_) + " read";
+        std::string read = millions(added_) + " read";
         // A pipe has no end in sight, and a few bytes may stand for many shapes.
         if (bytes_ >= all_bytes_) return read;
         return bar_text(share(bytes_.load(), all_bytes_.load())) + "  " + read;

@@ -38,7 +38,7 @@ void Refinery::take_from(Arena& arena) {
     rays_.reserve(most);
     close_.reserve(most);
     sharp_.reserve(64);
-    wide_.reserve(3 * 64);
+    wide_.reserve(std::size_t{3} * 64);
     points_.reserve(64);
 }
 

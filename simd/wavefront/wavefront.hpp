@@ -35,7 +35,7 @@ class Wavefront {
     /// many take as long.
     static constexpr std::size_t chunk_samples = 1024;
     static constexpr std::size_t wave_rays = chunk_samples;
-    static constexpr std::size_t deferred_rays = 12 * 2 * wave_rays;
+    static constexpr std::size_t deferred_rays = wave_rays * 12 * 2;
 
     /// Consecutive samples of a pixel.
     struct Samples {
