@@ -85,7 +85,7 @@ struct CameraView {
 };
 
 struct TraceCounters {
-    std::uint64_t nodes;  ///< visited by a ray or a group of rays
+    std::uint64_t nodes;  ///< visited by a ray, a list or a frustum
     std::uint64_t shapes; ///< tests of a ray against a shape
     std::uint64_t one_by_one, in_frusta, in_streams,
         in_flight; ///< rays, as EngineCounters has them

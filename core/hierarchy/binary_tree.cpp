@@ -30,15 +30,15 @@ class PartBuilder {
                 std::span<std::uint32_t> positions)
         : items_(items), duplicates_(duplicates), positions_(positions) {}
 
-    SlotCosts build(const Range& range, TreePart& part) {
+    EntryCosts build(const Range& range, TreePart& part) {
         nodes_.assign(1, {range.box.bounds(), 0, 0, {}, {}});
-        const SlotCosts costs = grow(range, 0);
+        const EntryCosts costs = grow(range, 0);
         part.nodes.assign(nodes_.begin(), nodes_.end()); // exactly as many
         return costs;
     }
 
   private:
-    SlotCosts grow(Range range, std::uint32_t node) {
+    EntryCosts grow(Range range, std::uint32_t node) {
         drop_duplicates(items_, duplicates_, room_, range);
         if (range.size() <= Sweep::most_items)
             return sweep_.build(items_.subspan(range.first, range.size()), range.first,
@@ -47,8 +47,8 @@ class PartBuilder {
         const auto left = static_cast<std::uint32_t>(nodes_.size());
         nodes_.push_back({halves.left.box.bounds(), 0, 0, {}, {}});
         nodes_.push_back({halves.right.box.bounds(), 0, 0, {}, {}});
-        const SlotCosts left_costs = grow(halves.left, left);
-        const SlotCosts right_costs = grow(halves.right, left + 1);
+        const EntryCosts left_costs = grow(halves.left, left);
+        const EntryCosts right_costs = grow(halves.right, left + 1);
         BinaryNode& parent = nodes_[node];
         parent.first = left;
         return collapse(parent.bounds.half_area(), left_costs, right_costs, parent.shares);
@@ -69,7 +69,7 @@ class TreeBuilder {
                 std::span<std::uint32_t> positions, Workers& workers)
         : items_(items), duplicates_(duplicates), positions_(positions), workers_(workers) {}
 
-    SlotCosts build(Range range, TreePart& part) {
+    EntryCosts build(Range range, TreePart& part) {
         if (range.size() > most_in_a_part) {
             std::vector<std::uint32_t> room;
             const std::size_t before = range.size();
@@ -77,14 +77,15 @@ class TreeBuilder {
             if (range.size() < before) workers_.placed(before - range.size(), items_.size());
         }
         if (range.size() <= most_in_a_part) {
-            const SlotCosts costs = PartBuilder(items_, duplicates_, positions_).build(range, part);
+            const EntryCosts costs =
+                PartBuilder(items_, duplicates_, positions_).build(range, part);
             workers_.placed(range.size(), items_.size());
             return costs;
         }
         const Halves halves = split_by_bins(items_, range, workers_);
         part.left = std::make_unique<TreePart>();
         part.right = std::make_unique<TreePart>();
-        SlotCosts left, right;
+        EntryCosts left, right;
         workers_.both([&] { left = build(halves.left, *part.left); },
                       [&] { right = build(halves.right, *part.right); });
         BinaryNode& node = part.nodes.emplace_back(BinaryNode{range.box.bounds(), 0, 0, {}, {}});

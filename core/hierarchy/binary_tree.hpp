@@ -19,19 +19,19 @@ struct BinaryNode {
     std::uint32_t first; ///< leaf: of its items; inner: the left child, the right one is first + 1
     std::uint8_t count;  ///< leaf: how many items; inner: 0
     Kind kind;           ///< leaf: of all its items
-    SlotShares shares;   ///< inner
+    EntryShares shares;  ///< inner
 
     bool is_leaf() const { return count != 0; }
 };
 
-/// Size of a subtree: its slots, nodes and blocks.
+/// Size of a subtree: its entries, nodes and blocks.
 struct Tally {
-    int slots = 0; ///< of the wide node that its parent is in
+    int entries = 0; ///< of the wide node that its parent is in
     std::uint32_t nodes = 0;
     std::array<std::uint32_t, kind_count> blocks{};
 
     Tally& operator+=(const Tally& other) {
-        slots += other.slots;
+        entries += other.entries;
         nodes += other.nodes;
         for (int kind = 0; kind < kind_count; ++kind)
             blocks[kind] += other.blocks[kind];

@@ -16,14 +16,14 @@ struct Share {
     int left;
 };
 
-/// By `slots` slots shared out among both children, 2 or more.
-Share best_share(int slots, const SlotCosts& left, const SlotCosts& right) {
+/// By `entries` shared out among both children, 2 or more.
+Share best_share(int entries, const EntryCosts& left, const EntryCosts& right) {
     Share best{std::numeric_limits<double>::infinity(), 1};
     // Neither gets more than it can use, as far as the other can use the rest.
-    const int least = std::clamp(slots - right.useful_slots, 1, left.useful_slots);
-    const int most = std::min(slots - 1, left.useful_slots);
+    const int least = std::clamp(entries - right.useful_entries, 1, left.useful_entries);
+    const int most = std::min(entries - 1, left.useful_entries);
     for (int k = least; k <= most; ++k) {
-        const double cost = left.of(k) + right.of(slots - k);
+        const double cost = left.of(k) + right.of(entries - k);
         if (cost < best.cost) best = {cost, k};
     }
     return best;
@@ -31,26 +31,26 @@ Share best_share(int slots, const SlotCosts& left, const SlotCosts& right) {
 
 } // namespace
 
-SlotCosts leaf_costs(double half_area) {
-    SlotCosts costs;
+EntryCosts leaf_costs(double half_area) {
+    EntryCosts costs;
     costs.cost[0] = half_area * block_cost;
-    costs.useful_slots = 1;
+    costs.useful_entries = 1;
     return costs;
 }
 
-SlotCosts collapse(double half_area, const SlotCosts& left, const SlotCosts& right,
-                   SlotShares& shares) {
-    SlotCosts costs;
+EntryCosts collapse(double half_area, const EntryCosts& left, const EntryCosts& right,
+                    EntryShares& shares) {
+    EntryCosts costs;
     const Share own = best_share(block_size, left, right);
     shares = {};
     shares.set(1, own.left);
     costs.cost[0] = own.cost + half_area * node_cost;
-    costs.useful_slots = std::min(block_size, left.useful_slots + right.useful_slots);
-    for (int slots = 2; slots <= costs.useful_slots; ++slots) {
-        const Share share = best_share(slots, left, right);
-        const bool better = share.cost < costs.cost[slots - 2];
-        costs.cost[slots - 1] = better ? share.cost : costs.cost[slots - 2];
-        if (better) shares.set(slots, share.left);
+    costs.useful_entries = std::min(block_size, left.useful_entries + right.useful_entries);
+    for (int entries = 2; entries <= costs.useful_entries; ++entries) {
+        const Share share = best_share(entries, left, right);
+        const bool better = share.cost < costs.cost[entries - 2];
+        costs.cost[entries - 1] = better ? share.cost : costs.cost[entries - 2];
+        if (better) shares.set(entries, share.left);
     }
     return costs;
 }

@@ -29,17 +29,17 @@ class Cursor {
     std::uint32_t index_;
 };
 
-/// Slots for each child.
+/// Entries for each child.
 struct Shares {
     int left, right;
 };
 
-/// Shares of the children in a subtree's `slots` slots: nothing if it takes one itself.
-Shares shares_of(const Cursor& at, int slots) {
+/// Shares of the children in `entries` of a subtree: nothing if it takes one itself.
+Shares shares_of(const Cursor& at, int entries) {
     if (at.is_leaf()) return {0, 0};
-    for (; slots > 1; --slots)
-        if (const int left = at.node().shares.left_of(slots); left != 0)
-            return {left, slots - left};
+    for (; entries > 1; --entries)
+        if (const int left = at.node().shares.left_of(entries); left != 0)
+            return {left, entries - left};
     return {0, 0};
 }
 
@@ -48,9 +48,9 @@ Shares own_shares_of(const Cursor& at) {
     return {left, block_size - left};
 }
 
-/// Size of a subtree that may fill `slots` slots of a wide node. Where it forks, remembers the left
+/// Size of a subtree that may fill `entries` of a wide node. Where it forks, remembers the left
 /// child's part.
-Tally count(const Cursor& at, int slots, Workers& workers);
+Tally count(const Cursor& at, int entries, Workers& workers);
 
 Tally count_children(const Cursor& at, const Shares& shares, Workers& workers) {
     Tally left, right;
@@ -66,8 +66,8 @@ Tally count_children(const Cursor& at, const Shares& shares, Workers& workers) {
     return left;
 }
 
-Tally count(const Cursor& at, int slots, Workers& workers) {
-    const Shares shares = shares_of(at, slots);
+Tally count(const Cursor& at, int entries, Workers& workers) {
+    const Shares shares = shares_of(at, entries);
     if (shares.left > 0) return count_children(at, shares, workers);
     Tally tally;
     if (at.is_leaf()) {
@@ -76,7 +76,7 @@ Tally count(const Cursor& at, int slots, Workers& workers) {
         tally = count_children(at, own_shares_of(at), workers);
         ++tally.nodes;
     }
-    tally.slots = 1;
+    tally.entries = 1;
     return tally;
 }
 
@@ -109,13 +109,13 @@ class Emitter {
             blocks_of<Shape>() =
                 BigArray<Block<Shape>>(whole.blocks[static_cast<std::size_t>(kind_of<Shape>)]);
         });
-        Tally places;
+        Tally next;
         if (root.is_leaf()) {
-            places.nodes = 1;
+            next.nodes = 1;
             nodes_[0] = WideNode();
-            emit(root, 1, 0, places);
+            emit(root, 1, 0, next);
         } else {
-            emit_node(root, places);
+            emit_node(root, next);
         }
     }
 
@@ -132,38 +132,38 @@ class Emitter {
         return std::get<BigArray<Block<Shape>>>(blocks_);
     }
 
-    /// `places`, here and below: where the next of everything goes; `slots` counts in `wide`.
-    void emit_children(const Cursor& at, const Shares& shares, std::uint32_t wide, Tally& places) {
+    /// `next`, here and below: how many of everything there are so far; `entries` counts in `wide`.
+    void emit_children(const Cursor& at, const Shares& shares, std::uint32_t wide, Tally& next) {
         if (!at.forks()) {
-            emit(at.left(), shares.left, wide, places);
-            emit(at.right(), shares.right, wide, places);
+            emit(at.left(), shares.left, wide, next);
+            emit(at.right(), shares.right, wide, next);
             return;
         }
-        Tally left = places;
-        places += at.left_tally();
+        Tally left = next;
+        next += at.left_tally();
         workers_.both([&] { emit(at.left(), shares.left, wide, left); },
-                      [&] { emit(at.right(), shares.right, wide, places); });
+                      [&] { emit(at.right(), shares.right, wide, next); });
     }
 
-    void emit(const Cursor& at, int slots, std::uint32_t wide, Tally& places) {
-        const Shares shares = shares_of(at, slots);
-        if (shares.left > 0) return emit_children(at, shares, wide, places);
-        const int slot = places.slots++;
-        const Child child = at.is_leaf() ? emit_block(at.node(), places) : emit_node(at, places);
-        nodes_[wide].set(slot, padded(at.node().bounds), child);
+    void emit(const Cursor& at, int entries, std::uint32_t wide, Tally& next) {
+        const Shares shares = shares_of(at, entries);
+        if (shares.left > 0) return emit_children(at, shares, wide, next);
+        const int entry = next.entries++;
+        const Child child = at.is_leaf() ? emit_block(at.node(), next) : emit_node(at, next);
+        nodes_[wide].set(entry, padded(at.node().bounds), child);
     }
 
-    Child emit_node(const Cursor& at, Tally& places) {
-        const std::uint32_t own = places.nodes++;
+    Child emit_node(const Cursor& at, Tally& next) {
+        const std::uint32_t own = next.nodes++;
         nodes_[own] = WideNode();
-        const int slots = std::exchange(places.slots, 0);
-        emit_children(at, own_shares_of(at), own, places);
-        places.slots = slots;
+        const int entries = std::exchange(next.entries, 0);
+        emit_children(at, own_shares_of(at), own, next);
+        next.entries = entries;
         return Child::node(own);
     }
 
-    Child emit_block(const BinaryNode& leaf, Tally& places) {
-        const std::uint32_t index = places.blocks[static_cast<std::size_t>(leaf.kind)]++;
+    Child emit_block(const BinaryNode& leaf, Tally& next) {
+        const std::uint32_t index = next.blocks[static_cast<std::size_t>(leaf.kind)]++;
         with_shape_type(leaf.kind, [&]<class Shape>(std::type_identity<Shape>) {
             const auto& list = std::get<ShapeList<Shape>>(lists_);
             Block<Shape> block;

@@ -10,23 +10,22 @@ namespace raylane::core {
 
 WideNode::WideNode() {
     for (int axis = 0; axis < 3; ++axis)
-        for (int slot = 0; slot < block_size; ++slot) {
-            lower[axis][slot] = std::numeric_limits<float>::infinity();
-            upper[axis][slot] = -std::numeric_limits<float>::infinity();
+        for (int i = 0; i < block_size; ++i) {
+            lower[axis][i] = std::numeric_limits<float>::infinity();
+            upper[axis][i] = -std::numeric_limits<float>::infinity();
         }
 }
 
-Bounds WideNode::bounds(int slot) const {
-    return {{lower[0][slot], lower[1][slot], lower[2][slot]},
-            {upper[0][slot], upper[1][slot], upper[2][slot]}};
+Bounds WideNode::bounds(int i) const {
+    return {{lower[0][i], lower[1][i], lower[2][i]}, {upper[0][i], upper[1][i], upper[2][i]}};
 }
 
-void WideNode::set(int slot, const Bounds& bounds, Child child) {
+void WideNode::set(int i, const Bounds& bounds, Child child) {
     for (int axis = 0; axis < 3; ++axis) {
-        lower[axis][slot] = bounds.lower[axis];
-        upper[axis][slot] = bounds.upper[axis];
+        lower[axis][i] = bounds.lower[axis];
+        upper[axis][i] = bounds.upper[axis];
     }
-    children[slot] = child;
+    children[i] = child;
 }
 
 namespace {

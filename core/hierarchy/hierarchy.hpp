@@ -10,7 +10,7 @@
 
 namespace raylane::core {
 
-/// Reference in a node's slot: to nothing, another node, or a block of shapes of one kind.
+/// Reference in a node's entry: to nothing, another node, or a block of shapes of one kind.
 class Child {
   public:
     static constexpr std::uint32_t max_index = (1U << 27) - 1;
@@ -34,8 +34,8 @@ class Child {
     std::uint32_t bits_ = none;
 };
 
-/// Up to 16 children with their bounds, structure of arrays: axis a of slot i is lower[a][i]. The
-/// bounds are closed and contain all of the child's shapes. Filled slots come first; an empty one
+/// Up to 16 children with their bounds, structure of arrays: axis a of entry i is lower[a][i]. The
+/// bounds are closed and contain all of the child's shapes. Filled entries come first; an empty one
 /// has lower > upper.
 struct alignas(64) WideNode {
     float lower[3][block_size];
@@ -43,8 +43,8 @@ struct alignas(64) WideNode {
     Child children[block_size];
 
     WideNode();
-    Bounds bounds(int slot) const;
-    void set(int slot, const Bounds& bounds, Child child);
+    Bounds bounds(int entry) const;
+    void set(int entry, const Bounds& bounds, Child child);
 };
 
 /// Bounding volume hierarchy over the bounded shapes of a scene. Its leaves are the blocks of the

@@ -21,9 +21,9 @@ float unit_of(const Bounds& bounds) {
 
 } // namespace
 
-SlotCosts Sweep::build(std::span<const Item> items, std::size_t first,
-                       std::span<std::uint32_t> positions, std::vector<BinaryNode>& nodes,
-                       std::uint32_t root) {
+EntryCosts Sweep::build(std::span<const Item> items, std::size_t first,
+                        std::span<std::uint32_t> positions, std::vector<BinaryNode>& nodes,
+                        std::uint32_t root) {
     items_ = items;
     first_ = first;
     nodes_ = &nodes;
@@ -39,7 +39,7 @@ SlotCosts Sweep::build(std::span<const Item> items, std::size_t first,
             order_[axis][i] = static_cast<Index>(i);
         if (mixed_ || count > block_size) sort(axis, centers);
     }
-    const SlotCosts costs = grow(0, count, root);
+    const EntryCosts costs = grow(0, count, root);
     for (int i = 0; i < count; ++i)
         positions[i] = items[order_[0][i]].position();
     return costs;
@@ -74,7 +74,7 @@ void Sweep::sort(int axis, const Box4& centers) {
     }
 }
 
-SlotCosts Sweep::leaf(int first, int last, std::uint32_t node) {
+EntryCosts Sweep::leaf(int first, int last, std::uint32_t node) {
     BinaryNode& leaf = (*nodes_)[node];
     leaf.first = static_cast<std::uint32_t>(first_ + first);
     leaf.count = static_cast<std::uint8_t>(last - first);
@@ -82,7 +82,7 @@ SlotCosts Sweep::leaf(int first, int last, std::uint32_t node) {
     return leaf_costs(leaf.bounds.half_area());
 }
 
-SlotCosts Sweep::grow(int first, int last, std::uint32_t node) {
+EntryCosts Sweep::grow(int first, int last, std::uint32_t node) {
     const bool several_kinds = mixed_ && has_several_kinds(first, last);
     if (!several_kinds && last - first <= block_size) return leaf(first, last, node);
     const float unit = unit_of((*nodes_)[node].bounds);
@@ -97,8 +97,8 @@ SlotCosts Sweep::grow(int first, int last, std::uint32_t node) {
     const auto left = static_cast<std::uint32_t>(nodes_->size());
     nodes_->push_back({split.left.bounds(), 0, 0, {}, {}});
     nodes_->push_back({split.right.bounds(), 0, 0, {}, {}});
-    const SlotCosts left_costs = grow(first, split.middle, left);
-    const SlotCosts right_costs = grow(split.middle, last, left + 1);
+    const EntryCosts left_costs = grow(first, split.middle, left);
+    const EntryCosts right_costs = grow(split.middle, last, left + 1);
     BinaryNode& parent = (*nodes_)[node];
     parent.first = left;
     parent.count = 0;

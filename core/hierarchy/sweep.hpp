@@ -20,9 +20,9 @@ class Sweep {
 
     /// Below node `root` of `nodes`, whose bounds are set. `first` is that of the leaves' items,
     /// and `positions` takes their positions.
-    SlotCosts build(std::span<const Item> items, std::size_t first,
-                    std::span<std::uint32_t> positions, std::vector<BinaryNode>& nodes,
-                    std::uint32_t root);
+    EntryCosts build(std::span<const Item> items, std::size_t first,
+                     std::span<std::uint32_t> positions, std::vector<BinaryNode>& nodes,
+                     std::uint32_t root);
 
   private:
     using Index = std::uint8_t;
@@ -38,8 +38,8 @@ class Sweep {
     };
 
     void sort(int axis, const Box4& centers);
-    SlotCosts grow(int first, int last, std::uint32_t node);
-    SlotCosts leaf(int first, int last, std::uint32_t node);
+    EntryCosts grow(int first, int last, std::uint32_t node);
+    EntryCosts leaf(int first, int last, std::uint32_t node);
     Split best_split(int first, int last, float unit);
     Split best_split_by_kind(int first, int last, float unit);
     bool has_several_kinds(int first, int last) const;

@@ -243,9 +243,9 @@ class Searcher {
             ++counters.nodes;
             const WideNode& node = scene_.hierarchy().nodes[next.child.index()];
             const auto first = static_cast<std::ptrdiff_t>(pending_.size());
-            for (int slot = 0; slot < block_size && !node.children[slot].empty(); ++slot) {
-                const Real t = entry(node, slot, ray, inverse, t_most());
-                if (t >= Real(0)) pending_.push_back({t, node.children[slot]});
+            for (int i = 0; i < block_size && !node.children[i].empty(); ++i) {
+                const Real t = entry_t(node, i, ray, inverse, t_most());
+                if (t >= Real(0)) pending_.push_back({t, node.children[i]});
             }
             std::sort(pending_.begin() + first, pending_.end(),
                       [](const Pending& a, const Pending& b) { return a.t > b.t; });
@@ -258,15 +258,15 @@ class Searcher {
     static constexpr Real allowance =
         Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
-    /// Entry of a ray into a slot's bounds, t >= 0; -1 if it misses them between 0 and t_most. A
-    /// component of 0 makes 0 * inf only if the origin is in a plane of the bounds; either answer
+    /// Where a ray enters the bounds of entry i, t >= 0; -1 if it misses them between 0 and t_most.
+    /// A component of 0 makes 0 * inf only if the origin is in a plane of the bounds; either answer
     /// is then right, as no shape touches them.
-    static Real entry(const WideNode& node, int slot, const Ray<Real>& ray,
-                      const Vec3<Real>& inverse, Real t_most) {
+    static Real entry_t(const WideNode& node, int i, const Ray<Real>& ray,
+                        const Vec3<Real>& inverse, Real t_most) {
         Real near = 0, far = t_most;
         for (int axis = 0; axis < 3; ++axis) {
-            const Real to_lower = Real(node.lower[axis][slot]) - ray.origin[axis];
-            const Real to_upper = Real(node.upper[axis][slot]) - ray.origin[axis];
+            const Real to_lower = Real(node.lower[axis][i]) - ray.origin[axis];
+            const Real to_upper = Real(node.upper[axis][i]) - ray.origin[axis];
             const Real at_lower = to_lower * inverse[axis];
             const Real at_upper = to_upper * inverse[axis];
             near = std::max(near, std::min(at_lower, at_upper));

@@ -43,9 +43,9 @@ ShapeId surface_through(const Scene& scene, const Vec3f& point) {
     while (!pending.empty()) {
         const WideNode& node = nodes[pending.back().index()];
         pending.pop_back();
-        for (int slot = 0; slot < block_size; ++slot) {
-            const Child child = node.children[slot];
-            if (child.empty() || !node.bounds(slot).contains(point)) continue;
+        for (int i = 0; i < block_size; ++i) {
+            const Child child = node.children[i];
+            if (child.empty() || !node.bounds(i).contains(point)) continue;
             if (!child.is_block()) {
                 pending.push_back(child);
                 continue;

@@ -87,7 +87,7 @@ struct Paths {
                             (core::may_meet_again(shape.kind, inward) ? origin_may_return : 0);
     }
 
-    /// Lanes `begin` to `end` start in the open.
+    /// Lanes `begin` to `end` start on no surface.
     void start_nowhere(std::size_t begin, std::size_t end) const {
         for (std::uint32_t* column : {origin_first, origin_last, origin_slot})
             std::fill(column + begin, column + end, no_slot);

@@ -235,7 +235,7 @@ std::size_t Refinery::first_of_close(std::size_t begin) {
     return 2;
 }
 
-/// First crossing of a ray with one shape, certified. The normal is left open.
+/// First crossing of a ray with one shape, certified, without the normal.
 void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
     ++counters.doubtful;
     const std::uint32_t slot = hits_.slot[candidate];

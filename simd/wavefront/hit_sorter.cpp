@@ -16,15 +16,15 @@ void HitSorter::take_from(Arena& arena, std::size_t capacity) {
 void HitSorter::sort(const std::uint32_t* slots, std::size_t count,
                      std::span<const std::uint32_t> at_contacts) {
     const auto materials = static_cast<std::uint32_t>(scene_.materials().size());
-    const std::uint32_t missed = materials, open = materials + 1;
+    const std::uint32_t missed = materials, left_out = materials + 1;
     for (std::size_t lane = 0; lane < count; ++lane)
         keys_[lane] = slots[lane] == no_slot ? missed : scene_.occupant_of(slots[lane]).material;
     for (const std::uint32_t lane : at_contacts)
-        keys_[lane] = open;
+        keys_[lane] = left_out;
 
     std::iota(order_, order_ + count, 0U);
-    for (int shift = 0; shift < 32 && open >> shift != 0; shift += digit_bits)
-        sort_by_digit(count, shift, std::min<std::size_t>((open >> shift) + 1, digits));
+    for (int shift = 0; shift < 32 && left_out >> shift != 0; shift += digit_bits)
+        sort_by_digit(count, shift, std::min<std::size_t>((left_out >> shift) + 1, digits));
 
     runs_.clear();
     hit_count_ = 0;

@@ -16,7 +16,8 @@ class HitSorter {
 
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// The lanes that have hit these slots (no_slot: nothing), but those that are left open.
+    /// The lanes that have hit these slots (no_slot: nothing), but those at contacts, which
+    /// come last.
     void sort(const std::uint32_t* slots, std::size_t count,
               std::span<const std::uint32_t> at_contacts);
 

@@ -64,8 +64,8 @@ class Audit {
 
     std::map<ShapeId, int> found; // how often each shape
     int loose = 0;                // shapes that stick out of a node above them
-    int wide = 0;                 // slots with more room than an ulp about what they hold
-    int gaps = 0;                 // slots or lanes that are filled behind empty ones
+    int wide = 0;                 // entries with more room than an ulp about what they hold
+    int gaps = 0;                 // entries or lanes that are filled behind empty ones
     std::size_t blocks = 0, nodes = 0;
 
   private:
@@ -75,16 +75,16 @@ class Audit {
         ++nodes;
         const WideNode& node = built_.hierarchy.nodes[index];
         bool ended = false;
-        for (int slot = 0; slot < block_size; ++slot) {
-            const Child child = node.children[slot];
+        for (int entry = 0; entry < block_size; ++entry) {
+            const Child child = node.children[entry];
             if (child.empty()) {
                 ended = true;
                 // Nothing may be found there.
-                if (!(node.lower[0][slot] > node.upper[0][slot])) ++gaps;
+                if (!(node.lower[0][entry] > node.upper[0][entry])) ++gaps;
                 continue;
             }
             if (ended) ++gaps;
-            above.push_back(node.bounds(slot));
+            above.push_back(node.bounds(entry));
             const Bounds inside =
                 child.is_block()
                     ? with_table(built_.tables, child.kind(),

@@ -217,9 +217,9 @@ struct BoxFinisher {
                 const F plane = select(is_far, volume, zero<Arch>());
                 const F at = (plane - position[i]) / slope[i];
                 const F at_face = select(is_far, F(2.0 * i + 1.0), F(2.0 * i));
-                const M departed = starts.on_surface & (at_face == starts.face);
+                const M left_behind = starts.on_surface & (at_face == starts.face);
                 const M sooner = (leaves & (at < s)) | (~leaves & (at > s));
-                chosen[i] = (rises | falls) & ~departed & (sooner | ~any_yet);
+                chosen[i] = (rises | falls) & ~left_behind & (sooner | ~any_yet);
                 any_yet = any_yet | chosen[i];
                 s = select(chosen[i], at, s);
                 face = select(chosen[i], at_face, face);

@@ -8,7 +8,8 @@
 namespace raylane::simd {
 
 /// Parts of the kernels for a kind of shape: from its own file, where it is specialised.
-///   Numbers<Arch>           its floats; and, for what no ray of a group meets, spheres around it:
+///   Numbers<Arch>           its floats; and, for what no ray of a frustum meets, spheres around
+///   it:
 ///       enclosing() is one, or enclosing(end) one around each of its `ends`, which it is between;
 ///       or it `encloses_itself`
 ///   Solver<Arch, textbook>  has crossings(rays, starts) and outward_normal(point, face): core's

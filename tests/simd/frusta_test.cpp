@@ -4,12 +4,12 @@
 using namespace raylane;
 using namespace raylane::tests;
 
-/// Groups of rays that have something in common against the same rays one by one, and against the
+/// Frusta of rays that have something in common against the same rays one by one, and against the
 /// scalar search.
 
 namespace {
 
-/// Rays from anywhere to one light, which groups of them see in another order.
+/// Rays from anywhere to one light, which frusta see in another order.
 /// `strays`: of each hundred packets, those that hold rays from anywhere between the others.
 void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
     CAPTURE(std::string(kernels.name), overlapping, strays);
@@ -30,24 +30,24 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
         CAPTURE(count);
         const RoundedRays rounded = rays.round(kernels); // what is behind them is overwritten
         TraceCounters counters{};
-        Answers alone(rays.padded), grouped(rays.padded);
+        Answers alone(rays.padded), together(rays.padded);
         for (std::size_t i = 0; i < rays.padded; ++i) // what is blocked is not to be looked at
-            alone.state[i] = grouped.state[i] = i % 7 == 0   ? blocked
-                                                : i % 7 == 1 ? doubtful
-                                                             : unblocked;
-        const std::vector<std::uint8_t> before = grouped.state;
+            alone.state[i] = together.state[i] = i % 7 == 0   ? blocked
+                                                 : i % 7 == 1 ? doubtful
+                                                              : unblocked;
+        const std::vector<std::uint8_t> before = together.state;
         trace.occluded(traced.data.view(), 0, nullptr, count, rounded,
                        {rays.t_most.data(), alone.state.data()}, traced.workspace, counters);
         trace.occluded(traced.data.view(), 0, &to_light, count, rounded,
-                       {rays.t_most.data(), grouped.state.data()}, traced.workspace, counters);
+                       {rays.t_most.data(), together.state.data()}, traced.workspace, counters);
         int opposed = 0, different = 0, any = 0, lowered = 0;
         for (std::size_t i = 0; i < rays.padded; ++i) {
-            any += i < count && (before[i] == blocked || grouped.state[i] != before[i]) ? 1 : 0;
+            any += i < count && (before[i] == blocked || together.state[i] != before[i]) ? 1 : 0;
             lowered +=
-                grouped.state[i] < before[i] || (i >= count && grouped.state[i] != before[i]);
-            different += alone.state[i] == grouped.state[i] ? 0 : 1;
-            opposed += static_cast<int>(std::max(alone.state[i], grouped.state[i]) == blocked &&
-                                        std::min(alone.state[i], grouped.state[i]) == unblocked);
+                together.state[i] < before[i] || (i >= count && together.state[i] != before[i]);
+            different += alone.state[i] == together.state[i] ? 0 : 1;
+            opposed += static_cast<int>(std::max(alone.state[i], together.state[i]) == blocked &&
+                                        std::min(alone.state[i], together.state[i]) == unblocked);
         }
         CHECK(lowered == 0);
         CHECK(opposed == 0);
@@ -59,8 +59,8 @@ void check_light(const Kernels& kernels, bool overlapping, std::size_t strays) {
     }
 }
 
-/// Rays that have something in common see as a group what they see one by one.
-void check_bundle(const Kernels& kernels, const Coherence& coherence, int planes) {
+/// Rays that have something in common see in a frustum what they see one by one.
+void check_frustum(const Kernels& kernels, const Coherence& coherence, int planes) {
     CAPTURE(std::string(kernels.name), coherence.converging, coherence.parallel, coherence.beyond,
             planes);
     Rays rays(1000, 12.0);
@@ -85,25 +85,25 @@ void check_bundle(const Kernels& kernels, const Coherence& coherence, int planes
                                     std::size_t{256}, std::size_t{259}, rays.count}) {
         CAPTURE(count);
         const RoundedRays rounded = rays.round(kernels);
-        Answers alone(rays.padded), grouped(rays.padded);
+        Answers alone(rays.padded), together(rays.padded);
         // Some have met something before all else; or all have, just behind what is nearest.
         for (std::size_t i = 0; i < count; ++i) {
             const bool behind = count % 2 == 0 && hits[i].any();
             const float met = behind                         ? 1.01F * static_cast<float>(hits[i].t)
                               : i % 5 == 0 || count % 2 == 0 ? 2.0F
                                                              : Answers::infinity;
-            alone.first[i] = alone.second[i] = grouped.first[i] = grouped.second[i] = met;
+            alone.first[i] = alone.second[i] = together.first[i] = together.second[i] = met;
         }
         TraceCounters counters{};
         trace.nearest(traced.data.view(), all_kinds, nullptr, count, rounded, alone.candidates(),
                       {}, counters);
         trace.nearest(traced.data.view(), traced.data.listed_kinds(), &coherence, count, rounded,
-                      grouped.candidates(), traced.workspace, counters);
+                      together.candidates(), traced.workspace, counters);
         CHECK(counters.in_frusta == count);
         int different = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            traced.check(grouped, i, hits[i]);
-            different += alone.agree(grouped, i) ? 0 : 1;
+            traced.check(together, i, hits[i]);
+            different += alone.agree(together, i) ? 0 : 1;
         }
         CHECK(different <= static_cast<int>(count) / 50); // what only may be there
     }
@@ -120,7 +120,7 @@ TEST_CASE("rays to a light are put in another order for nobody to notice") {
     }
 }
 
-TEST_CASE("rays see as a group what they see alone") {
+TEST_CASE("rays see in a frustum what they see alone") {
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
         for (const Coherence& coherence : {
@@ -130,6 +130,6 @@ TEST_CASE("rays see as a group what they see alone") {
                  Coherence{{0.0F, 0.0F, 0.0F}, false, true, false, false},    // parallel
              })
             for (const int planes : {0, 2}) // which are in no tree, and whose t has no limit
-                check_bundle(kernels_of(isa), coherence, planes);
+                check_frustum(kernels_of(isa), coherence, planes);
     }
 }
