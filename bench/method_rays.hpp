@@ -19,7 +19,7 @@ inline constexpr int method_shape_count = 12;
 
 /// Crossing that core::Searcher<double> finds, which certifies it; or that somebody else found.
 struct Crossed {
-    std::uint32_t slot = simd::no_slot; ///< or simd::no_slot
+    std::uint32_t slot = simd::no_slot;
     bool entering = false;
     double t = 0.0;
 };

@@ -29,7 +29,7 @@ struct Found {
     double* error;     ///< exact: what t may be off by, at most 2^-27 t unless doubtful; others: 0
     double* normal[3]; ///< unit, outward
     double* shading_normal[3]; ///< interpolated on smooth triangles, else the same; may be null
-    std::uint32_t* hit;        ///< hit_bits
+    std::uint32_t* hit;        ///< bits, as below
 
     /// Directions meant, of any length, and their lengths, where `direction` is these brought to
     /// length 1. What is certain is so of the rays meant. Null: directions are exact.
@@ -39,7 +39,7 @@ struct Found {
     bool holds_points = true;
 };
 
-/// Of Found::origins.
+/// Of Found::origin_bits.
 inline constexpr std::uint32_t origin_face = 0xFF;
 inline constexpr std::uint32_t origin_inward = 0x100;
 

@@ -45,7 +45,7 @@ struct HitPaths {
     const double* way;       ///< from the origin to the hit point: t, unless that is where it is
     const double* normal[3]; ///< unit, outward
     const double* shading_normal[3];
-    const std::uint32_t* hit; ///< hit_bits
+    const std::uint32_t* hit; ///< Found::hit's bits
 };
 
 /// Of paths inside of transmissive materials, by position in the sorted wave. Absent where a scene

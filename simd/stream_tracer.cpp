@@ -5,9 +5,6 @@
 #include "simd/query/query.hpp"
 #include "simd/threads.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -343,7 +340,7 @@ void StreamTracer::answer(std::size_t count, std::size_t most, const Answer& ans
         return;
     }
     on_threads(threads_, [&] {
-        tbb::parallel_for(std::size_t{0}, ranges, [&](std::size_t number) {
+        parallel_for(ranges, [&](std::size_t number) {
             const Lease worker(*this);
             answer_range(*worker, number);
         });

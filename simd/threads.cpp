@@ -2,7 +2,13 @@
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
+
+#ifdef RAYLANE_THREAD_SANITIZER
+#include <sanitizer/tsan_interface.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
@@ -28,6 +34,52 @@ void on_threads(int threads, const std::function<void()>& body) {
     const AllowedThreads allowed(threads);
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     arena.execute(body);
+}
+
+namespace {
+
+/// What comes before tasks and after them, for the thread sanitizer.
+class Fork {
+  public:
+    Fork() { release(start_); }
+    ~Fork() { acquire(end_); }
+    Fork(const Fork&) = delete;
+    Fork& operator=(const Fork&) = delete;
+
+    template <class Task, class... Arguments>
+    void run(const Task& task, Arguments... arguments) {
+        acquire(start_);
+        struct End {
+            Fork& fork;
+            ~End() { release(fork.end_); }
+        } const end{*this};
+        task(arguments...);
+    }
+
+  private:
+    static void acquire([[maybe_unused]] char& at) {
+#ifdef RAYLANE_THREAD_SANITIZER
+        __tsan_acquire(&at);
+#endif
+    }
+    static void release([[maybe_unused]] char& at) {
+#ifdef RAYLANE_THREAD_SANITIZER
+        __tsan_release(&at);
+#endif
+    }
+    char start_ = 0, end_ = 0;
+};
+
+} // namespace
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& task) {
+    Fork fork;
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { fork.run(task, i); });
+}
+
+void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other) {
+    Fork fork;
+    tbb::parallel_invoke([&] { fork.run(one); }, [&] { fork.run(other); });
 }
 
 } // namespace raylane::simd

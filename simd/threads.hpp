@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 
@@ -26,5 +27,11 @@ class AllowedThreads {
 /// Calls body(), whose parallel loops then run on `threads` threads (0: default_threads()). An
 /// exception comes out of it.
 void on_threads(int threads, const std::function<void()>& body);
+
+/// Tasks of the arena's threads, as tbb::parallel_for and tbb::parallel_invoke run them; an
+/// exception comes out of it. The thread sanitizer, which cannot look into oneTBB (threads.cpp is
+/// built without it), is told when they start and end.
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& task);
+void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other);
 
 } // namespace raylane::simd

@@ -2,8 +2,6 @@
 
 #include "simd/threads.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 namespace raylane::simd {
@@ -20,12 +18,12 @@ ParallelWorkers::ParallelWorkers(int threads) : arena_(std::make_unique<Arena>(t
 ParallelWorkers::~ParallelWorkers() = default;
 
 void ParallelWorkers::both(const Task& one, const Task& other) {
-    arena_->arena.execute([&] { tbb::parallel_invoke(one, other); });
+    arena_->arena.execute([&] { parallel_invoke(one, other); });
 }
 
 void ParallelWorkers::each(std::size_t count, const std::function<void(std::size_t)>& task) {
     if (count <= 1) return Workers::each(count, task); // wakes nobody up for a small scene
-    arena_->arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, task); });
+    arena_->arena.execute([&] { parallel_for(count, task); });
 }
 
 } // namespace raylane::simd

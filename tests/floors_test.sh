@@ -18,6 +18,7 @@ for folder in reference optics scene hierarchy shapes numbers; do
 done
 forbid simd 'scenes|bench|tests'
 forbid simd/kernel 'simd/(query|wavefront)'
+forbid simd/kernel 'core/(shapes|hierarchy|scene|optics|reference)'
 forbid simd/query 'simd/wavefront'
 forbid scenes 'bench|tests'
 for folder in json nff export image; do

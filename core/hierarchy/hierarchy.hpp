@@ -27,6 +27,7 @@ class Child {
     constexpr std::uint32_t index() const { return bits_ & max_index; }
 
   private:
+    static_assert(kind_count <= 15, "none would be a block of the 16th kind, of four bits");
     static constexpr std::uint32_t leaf_bit = 1U << 31;
     static constexpr std::uint32_t none = 0xFFFFFFFF;
     constexpr explicit Child(std::uint32_t bits) : bits_(bits) {}

@@ -28,10 +28,8 @@ class MediaStacks {
   public:
     MediaStacks() {
         stacks_.reserve(256);
-        clear();
+        stacks_.assign(1, {no_medium, empty_space, none, none});
     }
-    /// Forgets all but empty space.
-    void clear() { stacks_.assign(1, {no_medium, empty_space, none, none}); }
 
     MaterialIndex top(Media media) const { return stacks_[media].material; }
 

@@ -61,11 +61,6 @@ class ReferenceTracer {
     Media media_around(const Vector& origin);
     /// Those that paths are inside of.
     MediaStacks& media() { return media_; }
-    /// Forgets what paths have been inside of, none of which is underway any more.
-    void forget_media() {
-        media_.clear();
-        start_media_.reset();
-    }
 
   private:
     /// The surface that a path has hit, seen from the side that it came from.

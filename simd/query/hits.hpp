@@ -27,7 +27,7 @@ struct Hits {
     double* error;
     double* normal[3];
     double* shading_normal[3]; ///< null where the scene has no smooth triangles
-    std::uint32_t* hit;        ///< hit_bits
+    std::uint32_t* hit;        ///< Found::hit's bits
 
     void take_from(Arena& arena, std::size_t capacity, bool smooth) {
         slot = arena.take<std::uint32_t>(capacity);

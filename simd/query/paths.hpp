@@ -19,7 +19,7 @@ struct RayColumns {
     const std::uint32_t* origin_last;
 };
 
-/// Beside the kernels' origins bits: the ray may cross again the shape that it starts on.
+/// Beside the kernels' origin bits: the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t origin_may_return = 0x10000;
 
 /// Rays underway, structure of arrays: what core::ReferenceTracer::Path holds, but the depth, which

@@ -81,7 +81,7 @@ max(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
 
 /// bits: lane i of a mask as bit i.
 /// compress_store: the wanted lanes, in their order, to `out`. May write a whole register.
-/// has_mul_add: whether the next is one instruction.
+/// has_mul_add: true if the next is one instruction.
 /// mul_add: a * b + c, rounded once.
 /// least, greatest: of all lanes.
 /// narrow: doubles from memory, rounded to float.
