@@ -61,7 +61,7 @@ struct Rays {
     }
 };
 
-struct Place {
+struct Situation {
     std::string name;
     Scene scene;
     Rays rays;
@@ -105,7 +105,7 @@ Times times_of(std::size_t count, const std::function<void(std::size_t, std::siz
     return times;
 }
 
-Times raylane_times(const Place& place, Precision precision) {
+Times raylane_times(const Situation& place, Precision precision) {
     const Tracer tracer(place.scene, {.threads = 1, .precision = precision});
     Hits hits(place.rays.size());
     return times_of(place.rays.size(), [&](std::size_t first, std::size_t count) {
@@ -114,7 +114,7 @@ Times raylane_times(const Place& place, Precision precision) {
 }
 
 #ifdef RAYLANE_EMBREE
-Times embree_times(const Place& place) {
+Times embree_times(const Situation& place) {
     const core::Scene& scene = library::Internals::of(place.scene);
     if (!EmbreeScene::can_hold(scene)) return {};
     const EmbreeDevice device = make_embree_device(simd::best_isa());
@@ -137,7 +137,7 @@ Times embree_times(const Place& place) {
     });
 }
 #else
-Times embree_times(const Place&) {
+Times embree_times(const Situation&) {
     return {};
 }
 #endif
@@ -146,7 +146,7 @@ constexpr int ray_count = 4000;
 
 /// Spheres in a cube of half a side `size` about `middle`; rays any way through it, and from the
 /// surfaces.
-Place heap(const std::string& name, int count, float size, const Vec3& middle, float distance) {
+Situation heap(const std::string& name, int count, float size, const Vec3& middle, float distance) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -174,7 +174,7 @@ Place heap(const std::string& name, int count, float size, const Vec3& middle, f
 }
 
 /// Triangles on the plane y = slope x, and rays along it, so much above.
-Place floor_of(const std::string& name, int side, float slope, float above, bool any_way) {
+Situation floor_of(const std::string& name, int side, float slope, float above, bool any_way) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -198,7 +198,7 @@ Place floor_of(const std::string& name, int side, float slope, float above, bool
 }
 
 /// Open cylinders end to end, and rays along their surface, so much outside.
-Place pipes(const std::string& name, int count, int rows, float outside, bool tilted) {
+Situation pipes(const std::string& name, int count, int rows, float outside, bool tilted) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -219,7 +219,7 @@ Place pipes(const std::string& name, int count, int rows, float outside, bool ti
 }
 
 /// The same sphere, or all but the same, so often.
-Place shells(const std::string& name, int count, bool identical) {
+Situation shells(const std::string& name, int count, bool identical) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -237,7 +237,7 @@ Place shells(const std::string& name, int count, bool identical) {
 }
 
 /// Spheres in a row that touch a line, and rays along it.
-Place row_of_spheres(const std::string& name, int count, float above) {
+Situation row_of_spheres(const std::string& name, int count, float above) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -250,7 +250,7 @@ Place row_of_spheres(const std::string& name, int count, float above) {
 }
 
 /// Shapes whose fronts lie in one plane, on top of each other.
-Place stack(const std::string& name, int count) {
+Situation stack(const std::string& name, int count) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -265,7 +265,7 @@ Place stack(const std::string& name, int count) {
 }
 
 /// Triangles around one corner, and rays at it.
-Place fan(const std::string& name, int count) {
+Situation fan(const std::string& name, int count) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -284,7 +284,7 @@ Place fan(const std::string& name, int count) {
 }
 
 /// Boxes stacked face on face, and rays along faces, edges and any way.
-Place crates(const std::string& name, int side) {
+Situation crates(const std::string& name, int side) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -310,7 +310,7 @@ Place crates(const std::string& name, int side) {
 }
 
 /// Of sizes far apart.
-Place sizes(const std::string& name, float large, float small) {
+Situation sizes(const std::string& name, float large, float small) {
     Random random;
     SceneBuilder builder;
     const MaterialIndex material = builder.add_material({});
@@ -329,7 +329,7 @@ Place sizes(const std::string& name, float large, float small) {
     return {name, builder.build(), rays};
 }
 
-using Make = std::function<Place(const std::string&)>;
+using Make = std::function<Situation(const std::string&)>;
 
 std::vector<std::pair<std::string, Make>> all_places() {
     std::vector<std::pair<std::string, Make>> all;
@@ -403,7 +403,7 @@ int main(int argc, char** argv) {
         for (int i = 1; i < argc; ++i)
             wanted = wanted || name.find(argv[i]) != std::string::npos;
         if (!wanted) continue;
-        const Place place = make(name);
+        const Situation place = make(name);
         const Times exact = raylane_times(place, Precision::exact),
                     robust = raylane_times(place, Precision::robust), embree = embree_times(place);
         std::printf("%-36s %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f\n", name.c_str(), exact.mean,

@@ -104,7 +104,7 @@ EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFla
             RTCGeometry geometry = rtcNewGeometry(device, geometry_type<Shape>);
             const Buffers<Shape> buffers(geometry, table.size());
             std::vector<core::ShapeId>& ids = ids_.emplace_back();
-            for (const auto& [id, slot] : slots_by_id(table)) {
+            for (const auto& [id, slot] : places_by_id(table)) {
                 buffers.set(static_cast<unsigned>(ids.size()), table.get(slot));
                 ids.push_back(id);
             }

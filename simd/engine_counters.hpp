@@ -36,7 +36,7 @@ struct EngineCounters : core::Counters {
         shapes += traced.shapes;
         one_by_one += traced.one_by_one;
         in_frusta += traced.in_frusta;
-        in_lists += traced.in_streams;
+        in_lists += traced.in_lists;
         in_flight += traced.in_flight;
         return *this;
     }

@@ -99,22 +99,23 @@ std::vector<std::uint64_t> orders_of(const core::BigArray<core::WideNode>& nodes
     orders.reserve(8 * nodes.size());
     for (const core::WideNode& node : nodes)
         for (int octant = 0; octant < 8; ++octant) {
-            std::array<std::pair<float, int>, core::block_size> slots;
-            for (int slot = 0; slot < core::block_size; ++slot) {
+            std::array<std::pair<float, int>, core::block_size> entries;
+            for (int entry = 0; entry < core::block_size; ++entry) {
                 float distance = 0.0F;
                 for (int axis = 0; axis < 3; ++axis) {
                     const float center =
-                        0.5F * node.lower[axis][slot] + 0.5F * node.upper[axis][slot];
+                        0.5F * node.lower[axis][entry] + 0.5F * node.upper[axis][entry];
                     distance += (octant >> axis & 1) != 0 ? -center : center;
                 }
-                slots[slot] = {node.children[slot].empty() ? std::numeric_limits<float>::infinity()
-                                                           : distance,
-                               slot};
+                entries[entry] = {node.children[entry].empty()
+                                      ? std::numeric_limits<float>::infinity()
+                                      : distance,
+                                  entry};
             }
-            std::sort(slots.begin(), slots.end());
+            std::sort(entries.begin(), entries.end());
             std::uint64_t order = 0;
             for (int k = core::block_size; k-- > 0;)
-                order = order << 4 | static_cast<unsigned>(slots[k].second);
+                order = order << 4 | static_cast<unsigned>(entries[k].second);
             orders.push_back(order);
         }
     return orders;

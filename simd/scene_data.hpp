@@ -29,7 +29,7 @@ class SceneData {
     /// Number of rays without coherence that are best asked at a time what is nearest to them,
     /// exactly: where that makes lists, these should be long; else what belongs to the rays should
     /// be in the cache.
-    std::size_t best_stream() const { return has_tree() && !view_.large ? 2 * long_list : 1024; }
+    std::size_t best_ray_count() const { return has_tree() && !view_.large ? 2 * long_list : 1024; }
     /// True if some surface is visible from one side only.
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }

@@ -31,7 +31,7 @@ struct SceneView {
     TableView tables[core::kind_count]; ///< by core::Kind
     const NodeView* nodes;              ///< the root first
     /// By 8 times the node and the octant of a ray's direction (bit a: component a is negative):
-    /// the node's slots in the order of their distance, 4 bits each, the nearest lowest.
+    /// the node's entries in the order of their distance, 4 bits each, the nearest lowest.
     const std::uint64_t* orders;
     std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
     float reach;              ///< the largest coordinate of what is in the tree

@@ -146,16 +146,17 @@ class StreamTracer::Worker {
         query_.nearest(paths_, nullptr, counters);
         if (!is_exact()) // else they meet several shapes there, and have the first
             for (const std::uint32_t lane : query_.at_contacts())
-                is_open_[lane] = 1;
+                at_contacts_[lane] = 1;
         const bool with_normals = wants_normals(hits);
         const Hits& found = query_.hits();
         for (std::size_t lane = 0; lane < paths_.count; ++lane) {
             const std::size_t i = first + paths_.sample[lane];
             const LimitedRay query(rays, i);
             const bool any = found.slot[lane] != no_slot;
-            if (!any && is_open_[lane] == 0) continue;
+            if (!any && at_contacts_[lane] == 0) continue;
             float t = 0.0F;
-            if (is_open_[lane] != 0 || !is_seen(lane) || (t = t_at(lane, query)) <= query.t_min()) {
+            if (at_contacts_[lane] != 0 || !is_seen(lane) ||
+                (t = t_at(lane, query)) <= query.t_min()) {
                 search(query, hits, i);
                 continue;
             }
@@ -241,7 +242,7 @@ class StreamTracer::Worker {
     void take_from(Arena& arena, std::size_t capacity) {
         query_.take_from(arena, capacity);
         paths_.take_from(arena, capacity, false, /*for_others=*/true);
-        is_open_ = arena.take<std::uint8_t>(capacity);
+        at_contacts_ = arena.take<std::uint8_t>(capacity);
         distance_ = arena.take<double>(capacity);
         state_ = arena.take<std::uint8_t>(capacity);
     }
@@ -261,7 +262,7 @@ class StreamTracer::Worker {
             }
             paths_.meant_length[lane] = length;
             paths_.sample[lane] = static_cast<std::uint32_t>(i - first);
-            is_open_[lane] = 0;
+            at_contacts_[lane] = 0;
         }
         paths_.start_nowhere(0, paths_.count);
     }
@@ -273,7 +274,7 @@ class StreamTracer::Worker {
     Query query_;
     Arena arena_;
     Paths paths_{}; // sample: the ray's number in the stream
-    std::uint8_t* is_open_ = nullptr;
+    std::uint8_t* at_contacts_ = nullptr;
     double* distance_ = nullptr; // that an occluder must be within
     std::uint8_t* state_ = nullptr;
 };
@@ -318,7 +319,7 @@ StreamTracer::StreamTracer(const core::Scene& scene, int threads, Isa isa,
 StreamTracer::~StreamTracer() = default;
 
 std::size_t StreamTracer::at_a_time() const {
-    return tracing_.precision == core::Precision::exact ? data_->best_stream() : fewest;
+    return tracing_.precision == core::Precision::exact ? data_->best_ray_count() : fewest;
 }
 
 /// Calls answer(worker, first, last) for ranges of at most `most` that together are all rays.

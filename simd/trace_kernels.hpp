@@ -71,10 +71,10 @@ constexpr std::size_t pending_entries(std::uint32_t levels) {
 /// 65536) at a time that go together.
 struct Workspace : Pending {
     std::size_t capacity;
-    std::byte* records;   ///< stream_record_bytes for each ray, aligned to 64
+    std::byte* records;   ///< list_record_bytes for each ray, aligned to 64
     std::uint16_t* lists; ///< list_entries(capacity, levels) ray numbers
 };
-inline constexpr std::size_t stream_record_bytes = 64;
+inline constexpr std::size_t list_record_bytes = 64;
 constexpr std::size_t list_entries(std::size_t rays, std::uint32_t levels) {
     return rays * (2 * std::size_t{levels} + 1) + 64;
 }
@@ -87,7 +87,7 @@ struct CameraView {
 struct TraceCounters {
     std::uint64_t nodes;  ///< visited by a ray, a list or a frustum
     std::uint64_t shapes; ///< tests of a ray against a shape
-    std::uint64_t one_by_one, in_frusta, in_streams,
+    std::uint64_t one_by_one, in_frusta, in_lists,
         in_flight; ///< rays, as EngineCounters has them
 };
 

@@ -40,7 +40,7 @@ struct Traversal {
         std::vector<std::uint32_t> slot_of(data.scene().shape_count());
         core::for_each_table(data.scene().shapes(),
                              [&]<class Shape>(const core::Table<Shape>& table) {
-                                 for (const auto& [id, place] : slots_by_id(table))
+                                 for (const auto& [id, place] : places_by_id(table))
                                      slot_of[id] = data.slot_of(core::kind_of<Shape>, place);
                              });
         for (unsigned geometry = 0; geometry < scene.geometry_count(); ++geometry) {

@@ -12,7 +12,7 @@ namespace {
 class Worker {
   public:
     Worker(const simd::SceneData& scene, simd::Isa isa)
-        : scene_(scene), tracing_{&simd::kernels_of(isa)}, most_(scene.best_stream()),
+        : scene_(scene), tracing_{&simd::kernels_of(isa)}, most_(scene.best_ray_count()),
           query_(scene, tracing_, simd::Asked::points),
           arena_(simd::arena_for([this](simd::Arena& arena) { take_from(arena); })) {}
     Worker(const Worker&) = delete; // parts of it refer to others

@@ -16,9 +16,9 @@ namespace raylane::bench {
 /// the path of a scene file.
 core::Scene make_workload(const std::string& name);
 
-/// Rays, structure of arrays, and what is asked of them. Those in the open have directions of float
-/// precision, brought to unit length in double, so that those who know only floats are asked the
-/// same.
+/// Rays, structure of arrays, and what is asked of them. Those that start on nothing have
+/// directions of float precision, brought to unit length in double, so that those who know only
+/// floats are asked the same.
 struct RaySet {
     std::string name;
     bool occlusion = false; ///< true: any hit before t_most is asked for; false: the first hit

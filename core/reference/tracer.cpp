@@ -248,15 +248,15 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
 template <class Real>
 bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray,
                                            const OriginSurfaces<Real>& origins, Real distance) {
-    bool is_open = true;
+    bool is_unblocked = true;
     crossings_.clear();
     searcher_.each(ray, origins, distance, [&](const Hit<Real>& hit) {
         if (!is_visible(hit)) return true;
-        is_open = scene_.material_of(hit.shape).transmits();
-        if (is_open) crossings_.push_back(hit);
-        return is_open;
+        is_unblocked = scene_.material_of(hit.shape).transmits();
+        if (is_unblocked) crossings_.push_back(hit);
+        return is_unblocked;
     });
-    if (!is_open) return false;
+    if (!is_unblocked) return false;
 
     searcher_.sort(ray, origins, crossings_);
     return true;

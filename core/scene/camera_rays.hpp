@@ -71,17 +71,17 @@ class CameraRays {
     }
 
     /// Its place in the picture, from its middle to the right and upwards, in halves of a pixel.
-    struct Place {
+    struct PicturePoint {
         Real across;
         Real upward;
     };
-    Place place(int x, int y, const InPixel& in_pixel) const {
+    PicturePoint point_at(int x, int y, const InPixel& in_pixel) const {
         return {Real(2) * (Real(x) + in_pixel.column) - Real(width_),
                 Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
     }
 
     Ray<Real> ray(int x, int y, int sample) const {
-        const Place at = place(x, y, in_pixel(x, y, sample));
+        const PicturePoint at = point_at(x, y, in_pixel(x, y, sample));
         const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
         if (orthographic_) return {from_ + offset, forward_};
         return {from_, normalized(Vec3<Real>(forward_ + offset))};

@@ -94,7 +94,7 @@ class FloatMethod {
     }
 
   private:
-    struct Place {
+    struct Drawn {
         Bounds bounds;
         double off;
     };
@@ -149,7 +149,7 @@ class FloatMethod {
     double extent_ = 0.0;  ///< between any two points of the scene, at most
     double largest_ = 0.0; ///< from the origin
     double pixels_ = 0.0;
-    std::vector<Place> places_;
+    std::vector<Drawn> places_;
 };
 
 void consider_floats(MethodEstimate& method, const Scene& scene, const Settings& settings,

@@ -21,24 +21,24 @@ void write_pov(TextFile& file, const core::Scene& scene, LeftOut& left_out);
 /// decides where surfaces coincide.
 template <class Visit>
 void for_each_by_id(const core::Scene& scene, const Visit& visit) {
-    struct Place {
-        core::Place slot;
+    struct Listed {
+        core::Place place;
         core::Kind kind;
         bool exists;
     };
-    std::vector<Place> places(scene.shape_count());
+    std::vector<Listed> shapes(scene.shape_count());
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
             for (std::uint8_t lane = 0; lane < core::block_size; ++lane) {
-                const core::Place slot{block, lane};
-                if (const core::ShapeId id = table.id(slot); id != core::no_shape)
-                    places[id] = {slot, core::kind_of<Shape>, true};
+                const core::Place place{block, lane};
+                if (const core::ShapeId id = table.id(place); id != core::no_shape)
+                    shapes[id] = {place, core::kind_of<Shape>, true};
             }
     });
-    for (core::ShapeId id = 0; id < places.size(); ++id)
-        if (places[id].exists)
-            core::with_table(scene.shapes(), places[id].kind,
-                             [&](const auto& table) { visit(table.get(places[id].slot), id); });
+    for (core::ShapeId id = 0; id < shapes.size(); ++id)
+        if (shapes[id].exists)
+            core::with_table(scene.shapes(), shapes[id].kind,
+                             [&](const auto& table) { visit(table.get(shapes[id].place), id); });
 }
 
 } // namespace raylane::scenes

@@ -12,7 +12,7 @@ Workspace workspace_for(const SceneData& scene, Arena& arena, std::size_t capaci
     workspace.key = arena.take<std::uint16_t>(entries);
     workspace.child = arena.take<std::uint32_t>(entries);
     workspace.capacity = capacity;
-    workspace.records = arena.take<std::byte>(capacity * stream_record_bytes);
+    workspace.records = arena.take<std::byte>(capacity * list_record_bytes);
     workspace.lists = arena.take<std::uint16_t>(list_entries(capacity, levels));
     return workspace;
 }

@@ -74,12 +74,12 @@ class MethodRound {
         simd::EngineCounters counters;
         finder.nearest(paths_, nullptr, counters);
 
-        std::array<bool, capacity> is_open{};
+        std::array<bool, capacity> at_contacts{};
         for (const std::uint32_t lane : finder.at_contacts())
-            is_open[lane] = true;
+            at_contacts[lane] = true;
         int hits = 0;
         for (std::size_t lane = 0; lane < paths_.count; ++lane) {
-            if (is_open[lane])
+            if (at_contacts[lane])
                 check_left_open(kernels, lane);
             else
                 check_lane(kernels, finder.hits(), lane);

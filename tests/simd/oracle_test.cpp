@@ -101,11 +101,11 @@ class Trial {
         }
         ++tally.rays;
         // Where surfaces touch, the engine leaves more than a hit to the reference.
-        const std::span<const std::uint32_t> open = finder.at_contacts();
-        const bool is_open = std::find(open.begin(), open.end(), i) != open.end();
+        const std::span<const std::uint32_t> contacts = finder.at_contacts();
+        const bool at_contacts = std::find(contacts.begin(), contacts.end(), i) != contacts.end();
         const bool hit = hits.slot[i] != no_slot;
         const bool same_side = truth && ((hits.hit[i] & hit_entering) != 0) == truth->entering;
-        if (is_open != touches || hit != truth.has_value() ||
+        if (at_contacts != touches || hit != truth.has_value() ||
             (hit && (!same_side || data.occupant_of(hits.slot[i]).id != id))) {
             ++tally.wrong;
             return;

@@ -125,7 +125,7 @@ class Round {
     std::vector<Encounter<double>> truths_;
 };
 
-bool is_open(const LookThrough& finder, std::size_t lane) {
+bool at_contacts(const LookThrough& finder, std::size_t lane) {
     for (const std::uint32_t open : finder.at_contacts())
         if (open == lane) return true;
     return false;
@@ -135,7 +135,7 @@ void check_truth(const Round& round, const LookThrough& finder) {
     for (std::size_t lane = 0; lane < ray_count; ++lane) {
         const Hit<double>& truth = round.truth(lane).hit;
         CAPTURE(lane, truth.any(), truth.t, round.paths().origin_slot[lane]);
-        if (is_open(finder, lane)) continue;
+        if (at_contacts(finder, lane)) continue;
         const Hits& hits = finder.hits();
         if (!truth.any()) {
             if (hits.slot[lane] != no_slot) FAIL("a hit for a miss");
@@ -156,8 +156,8 @@ void check_same_bits(const LookThrough& one, std::size_t a, const LookThrough& o
     };
     const Hits &x = one.hits(), &y = other.hits();
     CAPTURE(a);
-    if (is_open(one, a) != is_open(other, b)) FAIL("open or not");
-    if (is_open(one, a)) return;
+    if (at_contacts(one, a) != at_contacts(other, b)) FAIL("at contacts or not");
+    if (at_contacts(one, a)) return;
     if (x.slot[a] != y.slot[b]) FAIL("another shape");
     if (x.slot[a] == no_slot) return;
     if (x.hit[a] != y.hit[b] || !same(x.t[a], y.t[b]) || !same(x.normal[0][a], y.normal[0][b]) ||

@@ -34,7 +34,7 @@ inline void print(core::Kind kind, const Tally& tally) {
     std::printf(
         "spawned, %-15s outward %ld reflected %ld refracted %ld shadow, "
         "inward %ld reflected %ld refracted %ld shadow; "
-        "%ld by construction, %ld by the oracle; %ld doubtful, %ld followed; in the open %ld of "
+        "%ld by construction, %ld by the oracle; %ld doubtful, %ld followed; off surfaces %ld of "
         "%ld doubtful\n",
         std::string(core::name_of(kind)).c_str(), tally.rays[0][0], tally.rays[0][1],
         tally.rays[0][2], tally.rays[1][0], tally.rays[1][1], tally.rays[1][2],

@@ -30,7 +30,7 @@ EachWay nearest_each_way(const Kernels& kernels, const Traced& traced, const Ray
     CHECK(counters.in_flight == count);
     trace.nearest(traced.data.view(), 0, &neighbours, count, rounded, ways.by_lists.candidates(),
                   traced.workspace, counters);
-    CHECK(counters.in_streams == count);
+    CHECK(counters.in_lists == count);
     return ways;
 }
 
@@ -178,7 +178,7 @@ TEST_CASE("random rays make lists where these are long and the hierarchy is in t
                     // What a float method makes of a ray may not depend on how many there are.
                     const bool makes_lists =
                         small || (!large && count == 4096 && precision == Precision::exact);
-                    CHECK(counters.in_streams == (makes_lists ? count : 0));
+                    CHECK(counters.in_lists == (makes_lists ? count : 0));
                     CHECK(counters.in_flight == (makes_lists ? 0 : count));
                 }
 }

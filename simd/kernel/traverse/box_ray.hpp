@@ -58,7 +58,7 @@ struct BoxRay {
         return Lanes<Arch>::bits(near <= far * F(allowance));
     }
 
-    /// The same for slots of a node, from one on.
+    /// The same for entries of a node, from one on.
     template <class Arch>
     [[gnu::always_inline]] std::uint32_t enter(const NodeView& node, const Rows& rows, int from,
                                                const Floats<Arch>& t_most,

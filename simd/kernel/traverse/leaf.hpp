@@ -12,11 +12,11 @@ struct Best {
 };
 
 /// Record of one ray that goes through the hierarchy in a list.
-struct alignas(64) StreamRecord {
+struct alignas(64) ListRecord {
     BoxRay box;
     Best best;
 };
-static_assert(sizeof(StreamRecord) == stream_record_bytes);
+static_assert(sizeof(ListRecord) == list_record_bytes);
 
 /// Candidates among a block's shapes, and from which t on they may be crossed.
 struct LeafHits {

@@ -45,7 +45,7 @@ struct Streams {
         return load(numbers) < F(static_cast<float>(count < lanes ? count : lanes));
     }
 
-    /// The slots of a node that are not empty, as bits from `from` on. No comparison of their
+    /// The entries of a node that are not empty, as bits from `from` on. No comparison of their
     /// bounds says so for rays that are infinitely far.
     static std::uint32_t filled(const NodeView& node, int from) {
         static_assert(no_child == no_slot);

@@ -140,16 +140,16 @@ struct Trace : Streams<Arch> {
                                 candidates.slot + begin};
         const std::size_t count = end - begin;
         if (kind_bits != 0)
-            TraceAll<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
+            EveryShape<Arch, Method>::nearest(scene, kind_bits, count, some, theirs, counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += count;
         } else if ((coherence != nullptr || makes_lists(scene, count)) &&
                    count <= workspace.capacity) {
-            counters.in_streams += count;
-            TraceStream<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
+            counters.in_lists += count;
+            ListNearest<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
         } else {
             counters.in_flight += count;
-            TraceTree<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
+            InFlightNearest<Arch, Method>::nearest(scene, count, some, theirs, workspace, counters);
         }
     }
 
@@ -160,13 +160,14 @@ struct Trace : Streams<Arch> {
         const RoundedRays some = from_ray(rays, begin);
         const Occlusions theirs{occlusions.t_most + begin, occlusions.state + begin};
         if (kind_bits != 0)
-            TraceAll<Arch, Method>::occluded(scene, kind_bits, end - begin, some, theirs, counters);
+            EveryShape<Arch, Method>::occluded(scene, kind_bits, end - begin, some, theirs,
+                                               counters);
         if (workspace.key == nullptr) {
             counters.one_by_one += end - begin;
         } else {
             counters.in_flight += end - begin;
-            TraceShadows<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
-                                                 counters);
+            InFlightOccluded<Arch, Method>::occluded(scene, end - begin, some, theirs, workspace,
+                                                     counters);
         }
     }
 

@@ -8,7 +8,7 @@ namespace raylane::simd {
 /// Every shape against packets of rays: for scenes of a few shapes, and for unbounded ones. The
 /// rays stay in registers while the shapes go by.
 template <class Arch, class Method>
-struct TraceAll : Streams<Arch> {
+struct EveryShape : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;

@@ -24,7 +24,7 @@ struct SortedByDirection : Streams<Arch> {
     static bool has_room(std::size_t count, const Workspace& workspace) {
         return count >= least_count && count <= workspace.capacity &&
                column_of(count) * (columns * sizeof(float) + 1) <=
-                   workspace.capacity * stream_record_bytes;
+                   workspace.capacity * list_record_bytes;
     }
 
     SortedByDirection(const RoundedRays& from, const Occlusions& asked, std::size_t count,

@@ -7,7 +7,7 @@ namespace raylane::simd {
 
 /// The nearest hits of many rays in flight at a time.
 template <class Arch, class Method>
-class TraceTree : InFlight<Arch, Method> {
+class InFlightNearest : InFlight<Arch, Method> {
     using S = Streams<Arch>;
     using Base = InFlight<Arch, Method>;
 
@@ -25,8 +25,8 @@ class TraceTree : InFlight<Arch, Method> {
     std::size_t next_ = 0;
     BoxRays<Arch> box_rays_{};
 
-    TraceTree(const SceneView& scene, std::size_t count, const RoundedRays& rays,
-              const Candidates& candidates, const Pending& pending)
+    InFlightNearest(const SceneView& scene, std::size_t count, const RoundedRays& rays,
+                    const Candidates& candidates, const Pending& pending)
         : scene_(scene), rays_(rays), candidates_(candidates), count_(count) {
         for (int which = 0; which < in_flight; ++which)
             flights_[which].queue.place(pending, which, scene.tree_depth);
@@ -36,7 +36,7 @@ class TraceTree : InFlight<Arch, Method> {
     static void nearest(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                         const Candidates& candidates, const Pending& pending,
                         TraceCounters& counters) {
-        TraceTree all(scene, count, rays, candidates, pending);
+        InFlightNearest all(scene, count, rays, candidates, pending);
         Base::go(scene, all.flights_, all, counters);
     }
 

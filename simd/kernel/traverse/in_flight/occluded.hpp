@@ -6,7 +6,7 @@ namespace raylane::simd {
 
 /// Occlusion of many rays in flight at a time. One that is blocked is done.
 template <class Arch, class Method>
-class TraceShadows : InFlight<Arch, Method> {
+class InFlightOccluded : InFlight<Arch, Method> {
     using S = Streams<Arch>;
     using Base = InFlight<Arch, Method>;
     using typename S::F;
@@ -26,8 +26,8 @@ class TraceShadows : InFlight<Arch, Method> {
     std::size_t next_ = 0, loaded_ = ~std::size_t{0};
     BoxRays<Arch> box_rays_{};
 
-    TraceShadows(const SceneView& scene, std::size_t count, const RoundedRays& rays,
-                 const Occlusions& occlusions, const Pending& pending)
+    InFlightOccluded(const SceneView& scene, std::size_t count, const RoundedRays& rays,
+                     const Occlusions& occlusions, const Pending& pending)
         : scene_(scene), rays_(rays), occlusions_(occlusions), count_(count) {
         for (std::size_t which = 0; which < in_flight; ++which) {
             shadows_[which].bottom = pending.child + pending_entries(scene.tree_depth) * which;
@@ -39,7 +39,7 @@ class TraceShadows : InFlight<Arch, Method> {
     static void occluded(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                          const Occlusions& occlusions, const Pending& pending,
                          TraceCounters& counters) {
-        TraceShadows all(scene, count, rays, occlusions, pending);
+        InFlightOccluded all(scene, count, rays, occlusions, pending);
         Base::go(scene, all.shadows_, all, counters);
     }
 

@@ -9,12 +9,12 @@ namespace raylane::simd {
 /// to it, and each of its children gets the list of those that enter it. Rays whose directions have
 /// the same signs go together, so that all in a list see a node's children in one order.
 template <class Arch, class Method>
-class TraceStream : Streams<Arch> {
+class ListNearest : Streams<Arch> {
     using S = Streams<Arch>;
     using typename S::F;
     using typename S::M;
     using Number = std::uint16_t; ///< of a ray
-    using Record = StreamRecord;
+    using Record = ListRecord;
 
     /// Rays whose bounds a block finds at a time.
     static constexpr int batch = 64;
@@ -27,7 +27,7 @@ class TraceStream : Streams<Arch> {
     int octant_ = 0;
     PairsByKind<Arch, Method> pairs_;
 
-    TraceStream(const SceneView& scene, const RoundedRays& rays, const Workspace& workspace,
+    ListNearest(const SceneView& scene, const RoundedRays& rays, const Workspace& workspace,
                 TraceCounters& counters)
         : scene_(scene), rays_(rays), counters_(counters),
           records_(reinterpret_cast<Record*>(workspace.records)), free_(workspace.lists) {}
@@ -36,7 +36,7 @@ class TraceStream : Streams<Arch> {
     static void nearest(const SceneView& scene, std::size_t count, const RoundedRays& rays,
                         const Candidates& candidates, const Workspace& workspace,
                         TraceCounters& counters) {
-        TraceStream stream(scene, rays, workspace, counters);
+        ListNearest lists(scene, rays, workspace, counters);
         for (std::size_t i = 0; i < count; ++i)
             stream.records_[i].best = Leaf<Arch, Method>::best_of(candidates, i);
         stream.descend(count);
@@ -90,12 +90,12 @@ class TraceStream : Streams<Arch> {
         std::uint32_t any = enter(node, list, count, masks);
         std::uint64_t order = scene_.orders[8 * index + static_cast<unsigned>(octant_)];
         for (; any != 0; order >>= 4) {
-            const auto slot = static_cast<unsigned>(order & 15);
-            if ((any >> slot & 1) == 0) continue;
-            any &= ~(1U << slot);
-            const int some = ShortLanes<Arch>::pick(list, masks, count, slot, entered);
+            const auto entry = static_cast<unsigned>(order & 15);
+            if ((any >> entry & 1) == 0) continue;
+            any &= ~(1U << entry);
+            const int some = ShortLanes<Arch>::pick(list, masks, count, entry, entered);
             free_ = entered + some;
-            at_child(node.children[slot], entered, some);
+            at_child(node.children[entry], entered, some);
         }
         free_ = masks;
     }
