@@ -42,12 +42,12 @@ MaterialView view_of(const core::Material& material) {
     view.reflectivity = static_cast<double>(material.reflectivity);
     view.transmission = static_cast<double>(material.transmission);
     view.index = static_cast<double>(material.index);
-    view.reflection = static_cast<std::uint8_t>(material.reflection);
+    view.reflection = material.reflection;
     view.transmits = material.transmits();
     view.reflects = material.reflects();
 
     const core::Pattern& pattern = material.pattern;
-    view.pattern = static_cast<std::uint8_t>(pattern.kind);
+    view.pattern = pattern.kind;
     view.axes = pattern.axes;
     view.size = static_cast<double>(pattern.size);
     const core::Vec3d direction = core::normalized(core::convert<double>(pattern.direction));
@@ -76,7 +76,7 @@ LightView view_of(const core::Light& light) {
 
 FogView view_of(const core::Fog& fog) {
     FogView view{};
-    view.kind = static_cast<std::uint8_t>(fog.kind);
+    view.kind = fog.kind;
     for (int axis = 0; axis < 3; ++axis)
         view.color[axis] = static_cast<double>(fog.color[axis]);
     view.start = static_cast<double>(fog.start);

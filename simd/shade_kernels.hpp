@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/scene/appearance.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -11,10 +13,10 @@ namespace raylane::simd {
 struct MaterialView {
     double ambient, diffuse, specular, exponent;
     double reflectivity, transmission, index;
-    std::uint8_t reflection; ///< core::Reflection
+    core::Reflection reflection;
     bool transmits, reflects;
 
-    std::uint8_t pattern; ///< core::PatternKind
+    core::PatternKind pattern;
     std::uint8_t axes;
     double colors[2][3];
     double size;
@@ -31,7 +33,7 @@ struct LightView {
 };
 
 struct FogView {
-    std::uint8_t kind; ///< core::FogKind
+    core::FogKind kind;
     double color[3];
     double start, end, density;
 };

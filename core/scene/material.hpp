@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
+#include "core/scene/appearance.hpp"
 
 #include <array>
 #include <cstdint>
@@ -9,8 +10,6 @@ namespace raylane::core {
 
 /// Linear RGB. 1 is the film's white.
 using Color = Vec3f;
-
-enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_plane };
 
 /// Colour as a function of the point in space, in world coordinates.
 struct Pattern {
@@ -28,12 +27,6 @@ struct Pattern {
     /// gradient: runs from one point to the other, constant beyond them.
     Vec3f from{0.0F};
     Vec3f to{0.0F, 1.0F, 0.0F};
-};
-
-enum class Reflection : std::uint8_t {
-    constant,   ///< `reflectivity`, whatever the angle
-    schlick,    ///< Schlick's approximation, from `index`
-    dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
 };
 
 /// From which side a surface can be seen. Rays pass the other side as if nothing were there. A

@@ -19,13 +19,6 @@ struct Light {
     Color color{1.0F};     ///< >= 0
 };
 
-enum class FogKind : std::uint8_t {
-    none,
-    linear_z,    ///< by world z: none at z = start, all at z = end
-    linear,      ///< by the distance along the ray: none at `start`, all at `end`
-    exponential, ///< 1 - exp(-density * distance)
-};
-
 /// With f the fraction of fog in [0, 1], a segment shows (1 - f) * colour + f * fog colour. It acts
 /// on every segment outside of a transmissive object, secondary rays included. A ray that hits
 /// nothing is infinitely long.

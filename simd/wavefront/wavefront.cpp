@@ -61,7 +61,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     : scene_(scene), settings_(settings), tracing_(tracing),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_coherence_(coherence_of(camera_)), with_media_(any_transmits(scene.scene())),
-      shade_(tracing.kernels->shade[with_media_ ? 1 : 0][scene.fog().kind != 0 ? 1 : 0]),
+      shade_(tracing.kernels
+                 ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
       finder_(scene, tracing), shadows_(scene, tracing, reference_), sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
@@ -146,7 +147,7 @@ void Wavefront::start(std::size_t count) {
     std::size_t filled = 0;
     for (const Samples& some : samples_)
         for (int number = some.first; number < some.first + some.count; ++number) {
-            const auto place = camera_rays_.place(
+            const auto place = camera_rays_.point_at(
                 some.x, some.y,
                 camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]
                                        : camera_rays_.in_pixel(some.x, some.y, number));

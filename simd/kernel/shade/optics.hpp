@@ -39,9 +39,16 @@ struct Refractions {
 
     F reflectance(const MaterialView& material, const F& n1, const F& n2) const {
         const F one(1.0);
-        if (material.reflection == 0) return select(total, one, F(material.reflectivity));
-        const F share = material.reflection == 1 ? schlick(n1, n2) : dielectric(n1, n2);
-        return select(total, one, select(n1 == n2, F(0.0), share));
+        const F none = select(total, one, F(0.0));
+        switch (material.reflection) {
+        case core::Reflection::constant:
+            return select(total, one, F(material.reflectivity));
+        case core::Reflection::schlick:
+            return select(total | (n1 == n2), none, schlick(n1, n2));
+        case core::Reflection::dielectric:
+            return select(total | (n1 == n2), none, dielectric(n1, n2));
+        }
+        __builtin_unreachable();
     }
 
   private:

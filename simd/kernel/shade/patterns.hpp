@@ -28,7 +28,9 @@ struct Patterns {
         const Vectors<Arch> first = broadcast_vector<Arch>(material.colors[0]);
         const Vectors<Arch> second = broadcast_vector<Arch>(material.colors[1]);
         switch (material.pattern) {
-        case 1: { // checker
+        case core::PatternKind::solid:
+            return first;
+        case core::PatternKind::checker: {
             const F zero(0.0), one(1.0);
             F sum = zero;
             const F* coordinates[3] = {&point.x, &point.y, &point.z};
@@ -37,12 +39,12 @@ struct Patterns {
                     sum = sum + parity(*coordinates[axis] / F(material.size));
             return select<Arch>(parity(sum) < one, first, second);
         }
-        case 2: // stripes
+        case core::PatternKind::stripes:
             return select<Arch>(
                 parity(dot<Arch>(point, broadcast_vector<Arch>(material.direction)) /
                        F(material.size)) < F(1.0),
                 first, second);
-        case 3: { // gradient
+        case core::PatternKind::gradient: {
             const F raw = dot<Arch>(point - broadcast_vector<Arch>(material.from),
                                     broadcast_vector<Arch>(material.run));
             const F fraction = min(max(raw, F(0.0)), F(1.0));
@@ -50,11 +52,10 @@ struct Patterns {
             return {fraction * second.x + rest * first.x, fraction * second.y + rest * first.y,
                     fraction * second.z + rest * first.z};
         }
-        case 4:
+        case core::PatternKind::back_plane:
             return back_plane(point.x, point.y);
-        default:
-            return first;
         }
+        __builtin_unreachable();
     }
 
     static Vectors<Arch> back_plane(const F& x, const F& y) {

@@ -104,13 +104,16 @@ struct Shading {
     static F fog_fraction(const FogView& fog, const F& distance, const F& z) {
         const F start(fog.start), range(fog.end - fog.start);
         switch (fog.kind) {
-        case 1:
+        case core::FogKind::none:
+            return F(0.0);
+        case core::FogKind::linear_z:
             return clamped((z - start) / range);
-        case 2:
+        case core::FogKind::linear:
             return clamped((distance - start) / range);
-        default:
+        case core::FogKind::exponential:
             return negated(core::Elementary<F>::expm1(negated(F(fog.density) * distance)));
         }
+        __builtin_unreachable();
     }
 
     static F clamped(const F& value) { return min(max(value, F(0.0)), F(1.0)); }
@@ -197,7 +200,7 @@ struct Shading {
                       SpawnedRays& reflected, SpawnedRays& transmitted) {
         const MaterialView& material = *run.material;
         const F zero(0.0), one(1.0);
-        const bool fresnel = material.reflection != 0;
+        const bool fresnel = material.reflection != core::Reflection::constant;
         for (std::size_t i = run.begin; i < run.end; i += lanes) {
             const std::uint32_t here = present(i, run.end);
             const V point = load(surfaces.point, i), direction = load(surfaces.direction, i);

@@ -38,11 +38,11 @@ class ListNearest : Streams<Arch> {
                         TraceCounters& counters) {
         ListNearest lists(scene, rays, workspace, counters);
         for (std::size_t i = 0; i < count; ++i)
-            stream.records_[i].best = Leaf<Arch, Method>::best_of(candidates, i);
-        stream.descend(count);
-        stream.flush_pairs();
+            lists.records_[i].best = Leaf<Arch, Method>::best_of(candidates, i);
+        lists.descend(count);
+        lists.flush_pairs();
         for (std::size_t i = 0; i < count; ++i)
-            Leaf<Arch, Method>::store(stream.records_[i].best, candidates, i);
+            Leaf<Arch, Method>::store(lists.records_[i].best, candidates, i);
     }
 
   private:

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+/// Choices that shading makes, for the scalar tracer and the kernels alike: names alone. A switch
+/// over one has no default, so that a new name does not compile until it is drawn.
+namespace raylane::core {
+
+enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_plane };
+
+enum class Reflection : std::uint8_t {
+    constant,   ///< `reflectivity`, whatever the angle
+    schlick,    ///< Schlick's approximation, from `index`
+    dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
+};
+
+enum class FogKind : std::uint8_t {
+    none,
+    linear_z,    ///< by world z: none at z = start, all at z = end
+    linear,      ///< by the distance along the ray: none at `start`, all at `end`
+    exponential, ///< 1 - exp(-density * distance)
+};
+
+} // namespace raylane::core
