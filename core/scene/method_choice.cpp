@@ -176,7 +176,7 @@ double mean_cost(const Scene& scene, Precision precision) {
     double sum = 0.0;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
         sum += static_cast<double>(table.size()) *
-               Shape::traits.costs[static_cast<std::size_t>(precision)];
+               Shape::traits.costs.value[static_cast<std::size_t>(precision)];
     });
     return scene.shape_count() == 0 ? 1.0 : sum / static_cast<double>(scene.shape_count());
 }

@@ -14,8 +14,10 @@ struct Box {
     Vec3f corner;
     Vec3f edge_u, edge_v, edge_w;
 
-    static constexpr ShapeTraits traits{
-        .flat_faces = true, .meets_again = MeetsAgain::inward, .costs = {1.34, 1.31, 1.0, 2.41}};
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = true,
+                                        .meets_again = MeetsAgain::inward,
+                                        .costs = MethodCosts{1.34, 1.31, 1.0, 2.41}};
 };
 
 inline void validate(const Box& box) {

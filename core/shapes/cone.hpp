@@ -17,7 +17,9 @@ struct Cone {
     float base_radius; ///< >= 0
     float top_radius;  ///< >= 0, not both 0
 
-    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::inward,
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = false,
+                                        .meets_again = MeetsAgain::inward,
                                         .costs = ends == Ends::open
                                                      ? MethodCosts{0.92, 1.05, 1.0, 1.72}
                                                      : MethodCosts{1.45, 1.52, 1.0, 2.86}};

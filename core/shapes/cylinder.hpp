@@ -15,7 +15,9 @@ struct Cylinder {
     Vec3f axis;
     float radius; ///< > 0
 
-    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::inward,
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = false,
+                                        .meets_again = MeetsAgain::inward,
                                         .costs = ends == Ends::open
                                                      ? MethodCosts{1.10, 1.08, 1.0, 1.72}
                                                      : MethodCosts{1.40, 1.31, 1.0, 2.31}};

@@ -11,7 +11,10 @@ struct Disc {
     Vec3f normal;
     float radius; ///< > 0
 
-    static constexpr ShapeTraits traits{.flat_faces = true, .costs = {1.07, 1.18, 1.0, 2.15}};
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = true,
+                                        .meets_again = MeetsAgain::never,
+                                        .costs = MethodCosts{1.07, 1.18, 1.0, 2.15}};
 };
 
 inline void validate(const Disc& disc) {

@@ -16,8 +16,10 @@ struct Ellipsoid {
     Vec3f center;
     Vec3f axis_u, axis_v, axis_w;
 
-    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::inward,
-                                        .costs = {1.0, 1.0, 1.0, 2.0}};
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = false,
+                                        .meets_again = MeetsAgain::inward,
+                                        .costs = MethodCosts{1.0, 1.0, 1.0, 2.0}};
 };
 
 inline void validate(const Ellipsoid& e) {

@@ -11,8 +11,10 @@ struct Plane {
     Vec3f point;
     Vec3f normal;
 
-    static constexpr ShapeTraits traits{
-        .bounded = false, .flat_faces = true, .costs = {1.43, 1.56, 1.0, 2.78}};
+    static constexpr ShapeTraits traits{.bounded = false,
+                                        .flat_faces = true,
+                                        .meets_again = MeetsAgain::never,
+                                        .costs = MethodCosts{1.43, 1.56, 1.0, 2.78}};
 };
 
 inline void validate(const Plane& plane) {

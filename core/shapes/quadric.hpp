@@ -19,8 +19,10 @@ struct Quadric {
     float xx, yy, zz, xy, xz, yz, x, y, z, one;
     Vec3f lower, upper;
 
-    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::always,
-                                        .costs = {0.87, 1.01, 1.0, 1.77}};
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = false,
+                                        .meets_again = MeetsAgain::always,
+                                        .costs = MethodCosts{0.87, 1.01, 1.0, 1.77}};
 };
 
 inline void validate(const Quadric& q) {

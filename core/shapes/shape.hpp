@@ -28,13 +28,20 @@ enum class MeetsAgain : std::uint8_t {
 /// mean of AVX2's and AVX-512's medians, as bench/chart.sh measures them.
 using MethodCosts = std::array<double, std::size(all_precisions)>;
 
+/// A trait without a default: a shape that does not state it does not compile.
+template <class Value>
+struct Stated {
+    constexpr Stated(Value stated) : value(stated) {} // NOLINT: `.bounded = true` is to be written
+    constexpr operator const Value&() const { return value; } // NOLINT
+    Value value;
+};
+
 /// Traits of a kind of shape that the engine asks for.
 struct ShapeTraits {
-    bool bounded = true; ///< it has bounds, and a place in the hierarchy
-    bool flat_faces =
-        false; ///< its normals, those for shading included, are the same all over a face
-    MeetsAgain meets_again = MeetsAgain::never;
-    MethodCosts costs;
+    Stated<bool> bounded;    ///< it has bounds, and a place in the hierarchy
+    Stated<bool> flat_faces; ///< its normals, those for shading too, are the same all over a face
+    Stated<MeetsAgain> meets_again;
+    Stated<MethodCosts> costs;
 };
 
 /// Number of floats in a shape.

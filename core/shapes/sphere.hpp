@@ -10,8 +10,10 @@ struct Sphere {
     Vec3f center;
     float radius; ///< > 0
 
-    static constexpr ShapeTraits traits{.meets_again = MeetsAgain::inward,
-                                        .costs = {2.29, 1.70, 1.0, 3.37}};
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = false,
+                                        .meets_again = MeetsAgain::inward,
+                                        .costs = MethodCosts{2.29, 1.70, 1.0, 3.37}};
 };
 
 inline void validate(const Sphere& sphere) {

@@ -13,7 +13,10 @@ namespace raylane::core {
 struct Triangle {
     Vec3f a, b, c;
 
-    static constexpr ShapeTraits traits{.flat_faces = true, .costs = {1.19, 1.18, 1.0, 2.35}};
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = true,
+                                        .meets_again = MeetsAgain::never,
+                                        .costs = MethodCosts{1.19, 1.18, 1.0, 2.35}};
 };
 
 /// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat
@@ -22,7 +25,10 @@ struct SmoothTriangle {
     Vec3f a, b, c;
     Vec3f normal_a, normal_b, normal_c;
 
-    static constexpr ShapeTraits traits{.costs = {1.03, 0.98, 1.0, 2.32}};
+    static constexpr ShapeTraits traits{.bounded = true,
+                                        .flat_faces = false,
+                                        .meets_again = MeetsAgain::never,
+                                        .costs = MethodCosts{1.03, 0.98, 1.0, 2.32}};
 };
 
 template <class Shape>
