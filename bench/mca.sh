@@ -1,6 +1,6 @@
 #!/bin/sh
 # How near the AVX-512 filters come to what the processor could do with their code: one shape's bounds
-# for packet after packet of rays, as all traversals ask for them, by llvm-mca's model of a
+# for packet after packet of rays, as frusta and lists ask for them, by llvm-mca's model of a
 # processor, against raylane-bench on this one.
 #
 #   bench/mca.sh [BUILD]   BUILD: a Release build with raylane-bench; default build/release

@@ -2,7 +2,6 @@
 
 #include "core/kinds.hpp"
 
-#include <cstddef>
 #include <cstdint>
 
 /// A scene as the kernel units see it: plain data, so that nothing inline is shared with the units

@@ -2,6 +2,7 @@
 
 #include "core/shapes/shape_table.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 

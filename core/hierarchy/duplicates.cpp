@@ -2,7 +2,6 @@
 
 #include "core/shapes/shape_table.hpp"
 
-#include <algorithm>
 #include <cstring>
 
 namespace raylane::core {

@@ -3,7 +3,6 @@
 #include "core/hierarchy/binary_tree.hpp"
 #include "core/hierarchy/emission.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace raylane::core {

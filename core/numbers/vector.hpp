@@ -3,7 +3,6 @@
 #include <glm/vec3.hpp>
 
 #include <cmath>
-#include <cstdint>
 
 /// Three-component vectors. GLM holds the components; the products are ours, because the order of
 /// the operations and every fused multiply-add in them is part of what raylane promises.

@@ -4,7 +4,6 @@
 #include "core/reference/rounding.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <type_traits>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "core/scene/features.hpp"
 
-#include <algorithm>
 
 namespace raylane::core {
 

@@ -2,7 +2,6 @@
 
 #include "core/shapes/checks.hpp"
 
-#include <cmath>
 
 namespace raylane::core {
 

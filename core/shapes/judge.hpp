@@ -5,7 +5,6 @@
 #include "core/shapes/precision.hpp"
 #include "core/shapes/ray.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 

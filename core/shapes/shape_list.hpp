@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <tuple>
 
 namespace raylane::core {
 

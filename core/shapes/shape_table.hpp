@@ -5,6 +5,7 @@
 #include "core/shapes/shapes.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>

@@ -1,3 +1,4 @@
+#include "core/kinds.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
@@ -30,6 +31,17 @@ std::string with(const std::string& member) {
 
 std::string with_camera(const std::string& keys) {
     return R"({"objects": [], "camera": {)" + keys + "}}";
+}
+
+/// Names of all types of objects, as a complaint lists them.
+std::string type_names() {
+    std::string names;
+    for (int kind = 0; kind < core::kind_count; ++kind) {
+        std::string name("\"");
+        name.append(core::type_name_of(static_cast<core::Kind>(kind))).append("\", ");
+        if (names.find(name) == std::string::npos) names += name;
+    }
+    return names + R"("sphereflake" or "lattice")";
 }
 
 /// A clay object of this type at /objects/1.
@@ -137,7 +149,7 @@ TEST_CASE("complaints about types") {
 TEST_CASE("complaints about words") {
     check({
         {object("spher", ""),
-         R"(/objects/1/type: must be "sphere", "plane", "disc", "triangle", "box", "cylinder", "cone", "quadric", "ellipsoid", "sphereflake" or "lattice", got "spher", did you mean "sphere"?)"},
+         "/objects/1/type: must be " + type_names() + R"(, got "spher", did you mean "sphere"?)"},
         {with_objects(
              R"({"type": "sphere", "material": "caly", "center": [0, 0, 0], "radius": 1})"),
          R"(/objects/0/material: must be the name of a material, got "caly", did you mean "clay"?)"},

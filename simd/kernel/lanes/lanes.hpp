@@ -9,7 +9,6 @@
 #include <xsimd/xsimd.hpp>
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <type_traits>
 #ifdef __x86_64__
