@@ -1,6 +1,5 @@
 #include "core/scene/features.hpp"
 
-
 namespace raylane::core {
 
 std::array<std::pair<std::string_view, bool>, 13> Features::named() const {

@@ -2,7 +2,6 @@
 
 #include "core/shapes/checks.hpp"
 
-
 namespace raylane::core {
 
 using namespace checks;
