@@ -58,7 +58,7 @@ bool same(const Hit<double>& a, const Hit<double>& b) {
 
 TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
     for (const bool lattice : {false, true})
-        for (const int of_each_kind : {1, 40, 150}) {
+        for (const int of_each_kind : {1, 40, 100}) {
             const Aimed aimed = heap(lattice, of_each_kind, 20 + of_each_kind);
             Searcher<double> by_hierarchy(aimed.scene, Search::hierarchy);
             Searcher<double> by_trying(aimed.scene, Search::every_shape);

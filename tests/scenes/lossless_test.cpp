@@ -37,7 +37,7 @@ void check(const std::filesystem::path& path) {
 #ifdef RAYLANE_FEW_RAYS
     constexpr int size = 8;
 #else
-    constexpr int size = 40;
+    constexpr int size = 28;
 #endif
     check_crop<double>(path, size);
     check_crop<float>(path, size / 4);

@@ -50,7 +50,7 @@ TEST_CASE("many shapes that meet are hit in the order of real arithmetic", "[mee
     ray_sets::Random random(seed(20261123));
     for (const meetings::Kind& kind : meetings::gatherings) {
         Tally tally;
-        for (int round = 0; round < rounds(4, 1); ++round) {
+        for (int round = 0; round < rounds(2, 1); ++round) {
             const int size = random.integer(kind.least, kind.most);
             ask(kind.make(size, random, 200), Limits::none, Sides::both, Ways::one, tally);
             ask(kind.make(size, random, 100), Limits::at_crossings, sides_of(round), Ways::all,
