@@ -41,11 +41,7 @@ void Approach::take_from(Arena& arena, std::size_t capacity) {
 void Approach::bring_near(std::size_t count, RoundedRays& rays) {
     any_ = false;
     if (radius_ < 0.0) return;
-    double farthest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-        for (std::size_t lane = 0; lane < count; ++lane)
-            farthest = std::max(farthest, std::abs(rays.meant_origin[axis][lane] - center_[axis]));
-    if (!(farthest > far_away * radius_)) return;
+    if (!are_far(count, rays)) return;
     any_ = true;
     count_ = count;
     for (std::size_t lane = 0; lane < count_; ++lane) {
@@ -63,6 +59,14 @@ void Approach::bring_near(std::size_t count, RoundedRays& rays) {
     }
     for (int axis = 0; axis < 3; ++axis)
         rays.meant_origin[axis] = origin_[axis];
+}
+
+bool Approach::are_far(std::size_t count, const RoundedRays& rays) const {
+    std::uint64_t any = 0; // as compilers do it in lanes, unlike a maximum
+    for (int axis = 0; axis < 3; ++axis)
+        for (std::size_t lane = 0; lane < count; ++lane)
+            any |= std::abs(rays.meant_origin[axis][lane] - center_[axis]) > far_away * radius_;
+    return any != 0;
 }
 
 /// No further than to a radius before the sphere about all that is bounded, and before any plane

@@ -29,6 +29,7 @@ class Approach {
     const double* from_there(const double* t);
 
   private:
+    bool are_far(std::size_t count, const RoundedRays& rays) const;
     double before_of(const core::Ray<double>& ray) const;
 
     const SceneData& scene_;

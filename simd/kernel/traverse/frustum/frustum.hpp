@@ -184,7 +184,7 @@ struct Frustum : Streams<Arch> {
                                               float furthest, SeenBlock& seen) const {
         const F grace_apart(8 * steepest * slack), factor(grace_factor);
         seen.ends = spheres.ends;
-        const auto reach_of = [&](int end) {
+        const auto reach_of = [&](int end) __attribute__((always_inline)) {
             Seen& to = seen.end[end];
             const auto& center = spheres.center[end];
             const F radius = S::load(spheres.radius[end] + from);
@@ -215,7 +215,7 @@ struct Frustum : Streams<Arch> {
     /// The packets, from one on, that one shape may meet before t_most, as bits.
     [[gnu::always_inline]] std::uint32_t
     packets_that_meet(const SeenBlock& seen, int lane, std::size_t from, const F& t_most) const {
-        const auto reach_of = [&](int end) {
+        const auto reach_of = [&](int end) __attribute__((always_inline)) {
             Reach reach;
             reach.along[0] = reach.along[1] = F(seen.end[end].near[lane]) <= t_most;
             reach_sides(
