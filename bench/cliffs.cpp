@@ -309,7 +309,7 @@ Situation crates(const std::string& name, int side) {
     return {name, builder.build(), rays};
 }
 
-/// Of sizes far apart.
+/// Shapes and rays of sizes far apart.
 Situation sizes(const std::string& name, float large, float small) {
     Random random;
     SceneBuilder builder;

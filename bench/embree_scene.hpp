@@ -16,7 +16,7 @@ struct DeviceDeleter {
 };
 using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceDeleter>;
 
-/// For one thread, held to an instruction set.
+/// Device for one thread, held to an instruction set.
 EmbreeDevice make_embree_device(simd::Isa isa);
 
 /// Embree wants numbers too small to be normal taken for 0, by the calling thread.

@@ -69,7 +69,7 @@ void make_glass(Material& material) {
     material.transmission = 1;
 }
 
-/// On the balls, and unseen.
+/// Adds a feature of a material: on the balls, and unseen.
 template <class Change>
 void add_material_feature(const std::string& name, const Change& change) {
     add_feature(name, [change](Plan& plan) { change(plan.ball); });

@@ -22,7 +22,7 @@ class AtomicFile {
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
 
-    /// As the user wrote it, for messages.
+    /// Name as the user wrote it, for messages.
     const std::string& name() const { return name_; }
     /// Claims room on the disk, where the file system can tell.
     void reserve(std::int64_t bytes);

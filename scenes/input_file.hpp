@@ -27,7 +27,7 @@ class InputFile {
 
     OnRead on_read; ///< called whenever bytes of a file have been read
 
-    /// As the user wrote it, for messages.
+    /// Name as the user wrote it, for messages.
     const std::string& name() const { return name_; }
     /// Bytes in all, or 0 where that is unknown (a pipe).
     std::uint64_t size() const { return size_; }

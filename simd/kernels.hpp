@@ -39,11 +39,11 @@ struct Found {
     bool holds_points = true;
 };
 
-/// Of Found::origin_bits.
+/// Bits of Found::origin_bits.
 inline constexpr std::uint32_t origin_face = 0xFF;
 inline constexpr std::uint32_t origin_inward = 0x100;
 
-/// Of Found::hit.
+/// Bits of Found::hit.
 inline constexpr std::uint32_t hit_face = 0xFF;
 inline constexpr std::uint32_t hit_entering = 0x100;
 inline constexpr std::uint32_t hit_doubtful = 0x200; ///< not certain; the rest means nothing

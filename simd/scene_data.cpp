@@ -11,7 +11,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// With so many shapes or fewer, testing all of them costs less than the hierarchy.
+/// Number of shapes up to which testing all of them costs less than the hierarchy.
 constexpr std::size_t few_shapes = 24;
 
 /// Up to so many slots, what is in them is looked up rather than found: that is 1.3 MB, of which a

@@ -29,15 +29,15 @@ struct NodeView {
 struct SceneView {
     TableView tables[core::kind_count]; ///< by core::Kind
     const NodeView* nodes;              ///< the root first
-    /// By 8 times the node and the octant of a ray's direction (bit a: component a is negative):
+    /// Orders by 8 times the node and a ray direction's octant (bit a: component a is negative):
     /// the node's entries in the order of their distance, 4 bits each, the nearest lowest.
     const std::uint64_t* orders;
     std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
     float reach;              ///< the largest coordinate of what is in the tree
     bool large;               ///< nodes and shapes do not fit in the cache of a core
     bool small;               ///< they take no more than a sixteenth of it
-    /// By slot / 16: which lanes of a block are opaque and seen from both sides, so that whatever
-    /// hits them is blocked. Null: all are.
+    /// Plain lanes by slot / 16: which of a block are opaque and seen from both sides, so that
+    /// whatever hits them is blocked. Null: all are.
     const std::uint16_t* plain_lanes;
 };
 

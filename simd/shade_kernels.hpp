@@ -50,8 +50,8 @@ struct HitPaths {
     const std::uint32_t* hit; ///< Found::hit's bits
 };
 
-/// Of paths inside of transmissive materials, by position in the sorted wave. Absent where a scene
-/// has none.
+/// Columns of paths inside of transmissive materials, by position in the sorted wave. Absent where
+/// a scene has none.
 struct MediumColumns {
     double* index_before;
     double* index_behind;

@@ -109,7 +109,7 @@ bool wants_normals(const HitStream& hits) {
     return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
 }
 
-/// In float, where 0 has one sign.
+/// Normal in float, where 0 has one sign.
 core::Vec3f in_float(const Vec3d& normal) {
     return core::convert<float>(normal) + core::Vec3f(0.0F);
 }
@@ -219,7 +219,7 @@ class StreamTracer::Worker {
         return scene_.materials()[material].is_seen((found.hit[lane] & hit_entering) != 0);
     }
 
-    /// Of the lane's hit, for the caller.
+    /// t of the lane's hit, for the caller.
     float t_at(std::size_t lane, const LimitedRay& query) const {
         const Hits& found = query_.hits();
         const double per_unit = query.scale() / paths_.length_of(lane);

@@ -9,7 +9,7 @@ namespace raylane::simd {
 /// More than any machine has of use.
 inline constexpr int max_threads = 4096;
 
-/// As many as the machine has for this process.
+/// Number of threads that the machine has for this process.
 int default_threads();
 
 /// While it lives, so many threads are allowed even where there are fewer processors: oneTBB would

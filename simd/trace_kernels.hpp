@@ -31,8 +31,8 @@ struct Candidates {
     std::uint32_t* slot; ///< the shape that has the smallest; no_slot if there is none
 };
 
-/// As many random rays as this, or more, are better off as one list where the hierarchy is in the
-/// cache.
+/// Number of random rays from which on they are better off as one list where the hierarchy is in
+/// the cache.
 inline constexpr std::size_t long_list = 4096;
 
 /// A candidate's t is within this factor of its lower bound, or not certain to be the nearest:
@@ -134,7 +134,7 @@ struct CandidateList {
     std::uint32_t* slot;
     float* lower; ///< bounds
     std::size_t room, count;
-    /// In and out: what lies beyond is not listed.
+    /// Limit, in and out: what lies beyond is not listed.
     float limit;
     /// True if RoundedRays has the ray as it is: of many, what it surely misses is not listed.
     bool sifts;

@@ -17,8 +17,8 @@ class Contender {
     /// Answers rays begin to end; begin is a multiple of RaySet::wave. This is what is timed. Of
     /// several threads each has its own number, from 0 on, and its own rays.
     virtual void run(std::size_t begin, std::size_t end, int thread) = 0;
-    /// By ray, after all have been answered: the id of the shape hit or no_shape; or, of occlusion,
-    /// 1 or 0.
+    /// Answers by ray, after all have been answered: the id of the shape hit or no_shape; or, of
+    /// occlusion, 1 or 0.
     virtual std::vector<std::uint32_t> answers() = 0;
 
     const std::string& name() const { return name_; }

@@ -44,7 +44,7 @@ struct Row {
     void print() const;
 };
 
-/// Of Embree; null if it was not there when this was built.
+/// Version of Embree; null if it was not there when this was built.
 const char* embree_version();
 
 struct Measuring {

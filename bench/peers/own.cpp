@@ -18,7 +18,7 @@ class Worker {
     Worker(const Worker&) = delete; // parts of it refer to others
     Worker& operator=(const Worker&) = delete;
 
-    /// Of some rays: slots, or, of occlusion, simd::Occlusion. Returns how many these are.
+    /// Answers some rays: slots, or, of occlusion, simd::Occlusion. Returns how many these are.
     std::size_t answer(const RaySet& rays, std::size_t begin, std::size_t end,
                        std::uint32_t* answers) {
         const simd::Coherence* const coherence = rays.coherence ? &*rays.coherence : nullptr;

@@ -47,7 +47,7 @@ class Judge {
             encounter_.hit.any() && encounter_.hit.t < static_cast<double>(*rays_.t_most(ray));
     }
 
-    /// Of surfaces that meet in one point, each will do.
+    /// True for a right answer: of surfaces that meet in one point, each will do.
     bool is_right(std::uint32_t answer) const {
         if (rays_.occlusion) return (answer != 0) == blocked_;
         if (!encounter_.hit.any()) return answer == core::no_shape;

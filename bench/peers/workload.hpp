@@ -25,22 +25,22 @@ struct RaySet {
     std::optional<simd::Coherence> coherence; ///< that all of them have
     std::size_t count = 0;
 
-    /// From `begin` on, so many or all that are left.
+    /// Paths from `begin` on, so many or all that are left.
     simd::Paths paths(std::size_t begin, std::size_t most) const;
-    /// As many as a tile has at a time.
+    /// Rays of a wave: as many as a tile has at a time.
     static constexpr std::size_t wave = 1024;
     const float* t_most(std::size_t begin) const { return t_most_.data() + begin; }
 
     core::Ray<double> ray(std::size_t i) const;
     core::Ray<float> ray_in_float(std::size_t i) const;
-    /// For those who know of no departures: how far ahead a ray has to start lest it hits what it
-    /// leaves.
+    /// Least t for those who know of no departures: how far ahead a ray has to start lest it hits
+    /// what it leaves.
     float t_least(std::size_t i) const { return t_least_[i]; }
 
     void reserve(std::size_t rays);
-    /// In the open.
+    /// Adds a ray in the open.
     void add(const core::Ray<double>& ray, float t_most);
-    /// From what another ray has hit after a length of t.
+    /// Adds a ray from what another has hit after a length of t.
     void add_from(const core::Ray<double>& ray, float t_most, const simd::SceneData& scene,
                   std::uint32_t slot, std::uint32_t hit, double t);
     /// All rays are there: makes room to read whole packets.

@@ -16,7 +16,7 @@ struct Share {
     int left;
 };
 
-/// By `entries` shared out among both children, 2 or more.
+/// Best share of `entries`, 2 or more, among both children.
 Share best_share(int entries, const EntryCosts& left, const EntryCosts& right) {
     Share best{std::numeric_limits<double>::infinity(), 1};
     // Neither gets more than it can use, as far as the other can use the rest.

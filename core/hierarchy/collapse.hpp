@@ -11,8 +11,8 @@
 /// BVHs", 2017).
 namespace raylane::core {
 
-/// For one binary subtree: the least cost of representing it by at most i + 1 entries of a wide
-/// node. It does not get less beyond as many entries as there are leaves.
+/// Least costs of representing one binary subtree by at most i + 1 entries of a wide node. They do
+/// not get less beyond as many entries as there are leaves.
 struct EntryCosts {
     std::array<double, block_size> cost;
     int useful_entries; ///< that many are filled in
@@ -24,7 +24,7 @@ class EntryShares {
   public:
     /// 1 <= entries <= 16. 0: the subtree takes one entry, or no more than entries - 1.
     int left_of(int entries) const { return static_cast<int>(bits_ >> 4 * (entries - 1) & 0xF); }
-    /// If the subtree becomes a wide node of its own, with all 16 entries.
+    /// Entries of the left child if the subtree becomes a wide node of its own, with all 16.
     int left_of_own() const { return static_cast<int>(bits_ & 0xF); }
 
   private:
@@ -36,7 +36,7 @@ class EntryShares {
 };
 
 EntryCosts leaf_costs(double half_area);
-/// Of an inner node, by its children's.
+/// Costs of an inner node, by its children's.
 EntryCosts collapse(double half_area, const EntryCosts& left, const EntryCosts& right,
                     EntryShares& shares);
 

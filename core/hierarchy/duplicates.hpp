@@ -26,7 +26,7 @@ class Duplicates {
     /// `room` is worked in.
     std::size_t drop_from(std::span<Item> items, std::vector<std::uint32_t>& room, bool deep) const;
 
-    /// Of unbounded shapes.
+    /// Unbounded shapes of a list, each once.
     template <class Shape>
     ShapeList<Shape> without_duplicates(const ShapeList<Shape>& list) const {
         std::vector<Item> items;

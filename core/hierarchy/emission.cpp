@@ -80,7 +80,7 @@ Tally count(const Cursor& at, int entries, Workers& workers) {
     return tally;
 }
 
-/// By an ulp, so that nothing touches them.
+/// Bounds wider by an ulp, so that nothing touches them.
 Bounds padded(Bounds bounds) {
     for (int axis = 0; axis < 3; ++axis) {
         bounds.lower[axis] = std::nextafter(bounds.lower[axis], -std::numeric_limits<float>::max());

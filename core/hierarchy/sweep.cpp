@@ -45,8 +45,8 @@ EntryCosts Sweep::build(std::span<const Item> items, std::size_t first,
     return costs;
 }
 
-/// By the centres' first twelve bits between the least and the greatest: what is nearer to each
-/// other than that stays in the order in which it was.
+/// Sorts by the centres' first twelve bits between the least and the greatest: what is nearer to
+/// each other than that stays in the order in which it was.
 void Sweep::sort(int axis, const Box4& centers) {
     constexpr int digit_bits = 6, digits = 1 << digit_bits;
     constexpr float last_key = digits * digits - 1;

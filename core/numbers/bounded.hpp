@@ -18,8 +18,8 @@ struct Rounded {
 
 namespace rounding {
 
-/// In double: twice what one operation is off by, relative to its result, so that the rounding of
-/// the errors themselves is paid for.
+/// Roundoff in double: twice what one operation is off by, relative to its result, so that the
+/// rounding of the errors themselves is paid for.
 inline Rounded<double> with_roundoff(double value) {
     return {value, 0x1p-52 * std::abs(value)};
 }
@@ -36,9 +36,10 @@ inline Rounded<double> root(double a) {
     return with_roundoff(std::sqrt(a));
 }
 
-/// In double-double: twice what its authors prove, where its lower part does not underflow. Or
-/// nothing: where no digit is lost, that is found out. Numbers of few digits, as people put them
-/// into scenes, are then as good as exact ones: a tie or a tangent among them is known for one.
+/// Roundoff in double-double: twice what its authors prove, where its lower part does not
+/// underflow. Or nothing: where no digit is lost, that is found out. Numbers of few digits, as
+/// people put them into scenes, are then as good as exact ones: a tie or a tangent among them is
+/// known for one.
 inline Rounded<DoubleDouble> with_roundoff(const DoubleDouble& value, bool is_exact) {
     const double size = std::abs(value.high);
     if (!(size > 0x1p-900)) return {value, std::numeric_limits<double>::infinity()};
@@ -159,7 +160,7 @@ Bounded<T> operator/(const Bounded<T>& a, const Bounded<T>& b) {
     return {quotient.value, bounded::rounded_up(error)};
 }
 
-/// Of a number that is known not to be negative; what rounding makes negative counts as 0.
+/// Root of a number that is known not to be negative; what rounding makes negative counts as 0.
 template <class T>
 Bounded<T> sqrt(const Bounded<T>& a) {
     const double most = std::sqrt(a.error) * 1.0000001;

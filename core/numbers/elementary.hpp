@@ -15,10 +15,10 @@ namespace raylane::core {
 template <class Number>
 struct Primitives;
 
-/// Of double, or a register of them. Errors are the largest that tests have seen, in ulps.
+/// Functions of double or a register of them. Errors are the largest that tests have seen, in ulps.
 template <class Number>
 struct Elementary {
-    /// For all x. 0 below ln 2^-1021, infinity beyond the largest double. 0.9 ulp.
+    /// e^x for all x. 0 below ln 2^-1021, infinity beyond the largest double. 0.9 ulp.
     static Number exp(const Number& x);
 
     /// e^x - 1. For all x, but infinity from 709 on. 0.9 ulp for x < 0, else 1.7.
@@ -32,7 +32,7 @@ struct Elementary {
         Number sine, cosine;
     };
 
-    /// For all finite x, in radians. 0.8 ulp. Beyond 2^20 lane by lane.
+    /// Sine and cosine for all finite x, in radians. 0.8 ulp. Beyond 2^20 lane by lane.
     static SineCosine sin_cos(const Number& x);
     static Number sin(const Number& x) { return sin_cos(x).sine; }
     static Number cos(const Number& x) { return sin_cos(x).cosine; }
@@ -71,7 +71,7 @@ struct Elementary {
     [[gnu::always_inline]] static inline ReducedAngle<Number> reduced(const Number& x);
 };
 
-/// Of a float: computed in double and rounded.
+/// Functions; those of a float are computed in double and rounded.
 double exp(double x);
 float exp(float x);
 double expm1(double x);
@@ -85,7 +85,7 @@ float cos(float x);
 
 // Steps that they share.
 
-/// For |x| < 2^51; the even one of two that are as near.
+/// Whole number nearest to x, for |x| < 2^51; the even one of two that are as near.
 template <class Number>
 typename Elementary<Number>::Whole Elementary<Number>::nearest_whole(const Number& x) {
     const Number shifted = x + Number(0x1.8p52);

@@ -28,7 +28,7 @@ Scaled sum(const Scaled& a, const Scaled& b) {
                       a.exponent);
 }
 
-/// Of numbers that are 1 where they are 0: denominators.
+/// Product of numbers that are 1 where they are 0: denominators.
 Dyadic multiplied(const Dyadic& a, const Dyadic& b) {
     return a.sign() == 0 ? b : b.sign() == 0 ? a : a * b;
 }

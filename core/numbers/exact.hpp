@@ -44,7 +44,7 @@ class Exact {
     friend Exact operator*(const Exact& a, const Exact& b);
     /// 0 if `b` is 0.
     friend Exact operator/(const Exact& a, const Exact& b);
-    /// Of a number >= 0 without a root of its own.
+    /// Root of a number >= 0 without a root of its own.
     friend Exact sqrt(const Exact& a);
 
     friend bool operator<(const Exact& a, const Exact& b) { return (a - b).sign() < 0; }

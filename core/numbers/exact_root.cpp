@@ -14,7 +14,7 @@ Dyadic doubled(const Dyadic& a) {
 
 } // namespace
 
-/// With t = (-B + s sqrt(D)) / A for D = B^2 - A C, s = 1 where F rises, and
+/// Sign of G at the root. With t = (-B + s sqrt(D)) / A for D = B^2 - A C, s = 1 where F rises, and
 ///   J = A B' - A' B,  K = A C' - A' C,  L = B C' - B' C
 /// for G = A' t^2 + 2 B' t + C', it is
 ///   A^2 G(t) = X + Y sqrt(D),  X = A K - 2 J B,  Y = 2 s J.

@@ -31,7 +31,7 @@ class ExactRoot {
 
     /// The sign of another quadratic there.
     int sign_of(const ExactQuadratic& G) const;
-    /// Of the root itself.
+    /// Sign of the root itself.
     int sign() const { return sign_of(ExactQuadratic::minus(0.0)); }
     /// Order of two roots: -1 if a is less, 0 if they are the same.
     friend int compare(const ExactRoot& a, const ExactRoot& b);

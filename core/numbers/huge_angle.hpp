@@ -13,11 +13,12 @@ struct ReducedAngle {
     Number correction;
 };
 
-/// For |x| > 1, finite, however large: exact but for a relative error of 2^-61 in remainder +
-/// correction. x is whole times a power of two, so only 192 binary digits of 2/pi decide where in
-/// its turn it ends: those before count whole turns, those behind are too small. No double comes
-/// nearer to a multiple of pi/2 than 2^-62. Source: Payne and Hanek, "Radian reduction for
-/// trigonometric functions" (1983). `User` keeps apart the copies of units that must share none.
+/// Reduced angle for |x| > 1, finite, however large: exact but for a relative error of 2^-61 in
+/// remainder + correction. x is whole times a power of two, so only 192 binary digits of 2/pi
+/// decide where in its turn it ends: those before count whole turns, those behind are too small. No
+/// double comes nearer to a multiple of pi/2 than 2^-62. Source: Payne and Hanek, "Radian reduction
+/// for trigonometric functions" (1983). `User` keeps apart the copies of units that must share
+/// none.
 template <class User>
 ReducedAngle<double> reduced_huge_angle(double x) {
     // 2/pi, behind 64 zeros before the point.

@@ -12,7 +12,7 @@ namespace raylane::core {
 /// Empty space, among materials.
 inline constexpr MaterialIndex no_medium = std::numeric_limits<MaterialIndex>::max();
 
-/// Of a medium; of empty space 1.
+/// Refractive index of a medium; of empty space 1.
 inline float index_of(const std::vector<Material>& materials, MaterialIndex medium) {
     return medium == no_medium ? 1.0F : materials[medium].index;
 }

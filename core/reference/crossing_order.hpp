@@ -34,7 +34,7 @@ ExactRoot root_of(const Shape& shape, const LeavingRay& from, const Hit<double>&
 class SharpHit {
   public:
     SharpHit(const Hit<double>& hit) : hit_(hit) {} // NOLINT: implicit
-    /// Of which t has been found out in 106 bits, if its error is less.
+    /// Hit of which t has been found out in 106 bits, if its error is less.
     SharpHit(const Hit<double>& hit, const DoubleDouble& t, double error) : hit_(hit) {
         if (!(error < hit.error)) return;
         is_wide_ = true;
@@ -43,7 +43,7 @@ class SharpHit {
     }
 
     const Hit<double>& hit() const { return hit_; }
-    /// In 106 bits, if that is more.
+    /// Finds out t in 106 bits, if that is more.
     void widen(const Scene& scene, const LeavingRay& from) const {
         if (std::exchange(is_wide_, true) || hit_.at_start) return;
         t_ = hit_.t;
@@ -51,7 +51,7 @@ class SharpHit {
         with_table(scene.shapes(), hit_.kind,
                    [&](const auto& table) { widen(table.get(hit_.place), from); });
     }
-    /// With a t that is off by no more than double cannot help, if it has been widened.
+    /// Hit with a t that is off by no more than double cannot help, if it has been widened.
     Hit<double> sharpened() const {
         const Bounded<double> t = in_double(wide_t());
         Hit<double> result = hit_;
@@ -60,7 +60,7 @@ class SharpHit {
         result.error = t.error;
         return result;
     }
-    /// As well as it is known.
+    /// t as well as it is known.
     Bounded<DoubleDouble> wide_t() const {
         return is_wide_ ? Bounded<DoubleDouble>(t_, t_error_)
                         : Bounded<DoubleDouble>(hit_.t, hit_.error);
@@ -74,7 +74,7 @@ class SharpHit {
         return *root_;
     }
 
-    /// Of two that have been widened.
+    /// True if it surely comes before; both have been widened.
     bool is_surely_before(const SharpHit& other) const {
         const Bounded<DoubleDouble> difference =
             Bounded<DoubleDouble>(other.t_, other.t_error_) - Bounded<DoubleDouble>(t_, t_error_);

@@ -31,7 +31,7 @@ template <class Real>
 class OriginSurfaces {
   public:
     OriginSurfaces() = default;
-    /// Of shapes that are all others.
+    /// Surfaces, each of another shape.
     explicit OriginSurfaces(std::span<const Contact<Real>> contacts) {
         contacts_.reset(contacts.size());
         std::copy(contacts.begin(), contacts.end(), contacts_.begin());
@@ -66,8 +66,8 @@ class OriginSurfaces {
         return count;
     }
 
-    /// For a ray in another direction from the same point, which is one of the contacts' `hit`. It
-    /// either goes through that surface, or stays on the side from which it was hit.
+    /// Surfaces for a ray in another direction from the same point, which is one of the contacts'
+    /// `hit`. It either goes through that surface, or stays on the side from which it was hit.
     OriginSurfaces turned(const Hit<Real>& hit, bool through, const Vec3<Real>& direction) const {
         const Contact<Real>& surface = *find(hit.shape);
         OriginSurfaces result = *this;
@@ -94,7 +94,7 @@ class OriginSurfaces {
                 dot(contact.normal, surface.normal) > Real(0) &&
                 parallel(contact.normal, surface.normal));
     }
-    /// As far as directions of float precision can tell.
+    /// True if parallel, as far as directions of float precision can tell.
     static bool parallel(const Vec3<Real>& a, const Vec3<Real>& b) {
         constexpr Real largest_sine = Real(0x1p-24);
         return squared_length(cross(a, b)) <= largest_sine * largest_sine;

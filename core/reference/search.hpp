@@ -141,7 +141,7 @@ class Searcher {
         return best;
     }
 
-    /// Of the candidates, among which is `best`; `whole`: with its contacts.
+    /// Encounter with the candidates, among which is `best`; `whole`: with its contacts.
     Encounter<Real> encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                               const Hit<Real>& best, bool whole) {
         std::erase_if(candidates_, [&](const Candidate& candidate) {
@@ -171,7 +171,8 @@ class Searcher {
     static Hit<Real> sharpened(const Candidate& candidate) { return candidate.hit; }
     static Hit<Real> sharpened(const SharpHit& sharp) { return sharp.sharpened(); }
 
-    /// Of hits that belong to the candidates: the first that counts, and all that are where it is.
+    /// Encounter with hits that belong to the candidates: the first that counts, and all that are
+    /// where it is.
     template <class AnyHit, class Compare>
     Encounter<Real> first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
                              const OriginSurfaces<Real>& origins, const Compare& compare,
@@ -257,9 +258,9 @@ class Searcher {
     static constexpr Real allowance =
         Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
-    /// Where a ray enters the bounds of entry i, t >= 0; -1 if it misses them between 0 and t_most.
-    /// A component of 0 makes 0 * inf only if the origin is in a plane of the bounds; either answer
-    /// is then right, as no shape touches them.
+    /// t at which a ray enters the bounds of entry i, >= 0; -1 if it misses them between 0 and
+    /// t_most. A component of 0 makes 0 * inf only if the origin is in a plane of the bounds;
+    /// either answer is then right, as no shape touches them.
     static Real entry_t(const WideNode& node, int i, const Ray<Real>& ray,
                         const Vec3<Real>& inverse, Real t_most) {
         Real near = 0, far = t_most;

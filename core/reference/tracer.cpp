@@ -296,7 +296,7 @@ ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, Media media, Media media
     return {before, static_cast<Real>(index_of(scene_.materials(), behind))};
 }
 
-/// Behind so many surfaces of its material.
+/// Media behind so many surfaces of the hit's material.
 template <class Real>
 Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media, int count) {
     for (; count > 0; --count)

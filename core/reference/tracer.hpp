@@ -72,7 +72,7 @@ class ReferenceTracer {
         Vector flat_normal; ///< unit, perpendicular to the surface
         Vector normal;      ///< unit, to shade with: differs for smooth triangles
 
-        /// For a ray from here.
+        /// Origin surfaces for a ray from here.
         OriginSurfaces<Real> origins(bool through, const Vector& direction) const {
             return contacts.turned(hit, through, direction);
         }

@@ -29,7 +29,7 @@ struct Pattern {
     Vec3f to{0.0F, 1.0F, 0.0F};
 };
 
-/// From which side a surface can be seen. Rays pass the other side as if nothing were there. A
+/// Sides from which a surface can be seen. Rays pass the other side as if nothing were there. A
 /// shadow ray looks from a surface to the light.
 enum class Visible : std::uint8_t { both, outside, inside };
 
@@ -54,7 +54,7 @@ struct Material {
 
     bool transmits() const { return transmission > 0.0F; }
     bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
-    /// By a ray that enters there, or leaves.
+    /// True if a ray that enters there, or leaves, sees it.
     bool is_seen(bool entering) const {
         return visible == Visible::both || (visible == Visible::outside) == entering;
     }

@@ -17,7 +17,7 @@ constexpr double good_enough = 0.1; ///< pixels
 /// All pairs of shapes are compared.
 constexpr std::size_t most_shapes = 1000;
 
-/// From the box's nearest and to its farthest point.
+/// Distances to a box's nearest and farthest points.
 struct Distances {
     double nearest, farthest;
 };

@@ -15,7 +15,7 @@
 
 namespace raylane::core {
 
-/// If `groups`, ascending, were one shape each, as which one would shape `id` be counted?
+/// Rank of shape `id` if `groups`, ascending, were one shape each.
 std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id);
 
 /// Name of a shape in messages; empty where that is unknown.
@@ -24,7 +24,7 @@ using NameOfShape = std::function<std::string(ShapeId)>;
 /// A validated scene that no longer changes. Copying it is expensive, moving it is not.
 class Scene {
   public:
-    /// Of shapes that are the same, of one material, the first alone.
+    /// Shapes; of those that are the same, of one material, the first alone.
     const Tables& shapes() const { return shapes_; }
     std::size_t shape_count() const { return material_of_.size(); }
     const Hierarchy& hierarchy() const { return hierarchy_; }

@@ -19,9 +19,9 @@ struct Light {
     Color color{1.0F};     ///< >= 0
 };
 
-/// With f the fraction of fog in [0, 1], a segment shows (1 - f) * colour + f * fog colour. It acts
-/// on every segment outside of a transmissive object, secondary rays included. A ray that hits
-/// nothing is infinitely long.
+/// Fog of fraction f in [0, 1]: a segment shows (1 - f) * colour + f * fog colour. It acts on every
+/// segment outside of a transmissive object, secondary rays included. A ray that hits nothing is
+/// infinitely long.
 struct Fog {
     FogKind kind = FogKind::none;
     Color color{1.0F};

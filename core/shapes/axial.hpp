@@ -68,7 +68,7 @@ Crossings<Real> keep_between_ends(const Crossings<Real>& crossings, const AxialR
     return kept;
 }
 
-/// From the axis to a point, at right angles to the axis.
+/// Offset from the axis to a point, at right angles to the axis.
 template <class Real>
 Vec3<Real> offset_from_axis(const Vec3f& base, const Vec3f& axis, const Vec3<Real>& point) {
     const Vec3<Real> a = convert<Real>(axis);

@@ -40,7 +40,7 @@ inline Vec3d absolute(const Vec3d& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-/// Of the disc about base + at * axis, at right angles to the axis.
+/// Bounds of the disc about base + at * axis, at right angles to the axis.
 Bounds disc_bounds(const Vec3f& base, const Vec3f& axis, double at, double radius);
 
 } // namespace raylane::core

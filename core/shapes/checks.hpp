@@ -48,7 +48,7 @@ void require_not_negative(const Field& field, float value);
 void require_fraction(const Field& field, float value);
 void require_count(const char* field, int value, int least, int most);
 
-/// Of three vectors, fields name/0 to name/2.
+/// Requires three vectors, fields name/0 to name/2, to span a volume.
 void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Vec3f& w);
 
 using Wide = Bounded<DoubleDouble>;

@@ -48,7 +48,7 @@ double least_gradient(const Quadric& quadric, double norm, double error, const C
     return least;
 }
 
-/// In the box, and within its faces, where the surface is cut off.
+/// Least half gradient in the box, and within its faces, where the surface is cut off.
 double least_gradient(const Quadric& quadric, double norm, double error) {
     constexpr int depth = 6;
     const Vec3d lower = convert<double>(quadric.lower), upper = convert<double>(quadric.upper);
@@ -64,7 +64,7 @@ double least_gradient(const Quadric& quadric, double norm, double error) {
     return least;
 }
 
-/// Of the matrix, the diagonal and what the rest of each row adds up to.
+/// Rows of the matrix: the diagonal, and what the rest of each adds up to.
 struct Rows {
     Vec3d diagonal, rest;
 
@@ -75,7 +75,7 @@ struct Rows {
         rest = {xy + xz, xy + yz, xz + yz};
     }
 
-    /// Of the matrix, or more.
+    /// Norm of the matrix, or more.
     double norm() const {
         double norm = 0.0;
         for (int row = 0; row < 3; ++row)
@@ -93,9 +93,9 @@ struct Rows {
 
 } // namespace
 
-/// With D the largest distance from a start to the centre's far side. Robust: the foot of the
-/// perpendicular is off by roundings of D, and with it the radius. Fast: the discriminant B^2 - A C
-/// is off by roundings of D^2, that is the square of the radius is.
+/// Displacement, with D the largest distance from a start to the centre's far side. Robust: the
+/// foot of the perpendicular is off by roundings of D, and with it the radius. Fast: the
+/// discriminant B^2 - A C is off by roundings of D^2, that is the square of the radius is.
 double displacement(const Sphere& sphere, Precision precision, double reach) {
     const double r = static_cast<double>(sphere.radius), D = reach + r;
     const double off =

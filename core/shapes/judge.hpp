@@ -41,8 +41,8 @@ class Judge {
 /// to the right float or to a neighbour.
 inline constexpr double needed_accuracy = 0x1p-27;
 
-/// With bounds: an answer within the error, or a t that is not accurate enough, is a doubt, and the
-/// question has to be asked again in a wider type.
+/// Judge with bounds: an answer within the error, or a t that is not accurate enough, is a doubt,
+/// and the question has to be asked again in a wider type.
 template <class T>
 class Judge<Bounded<T>> {
   public:
@@ -58,7 +58,7 @@ class Judge<Bounded<T>> {
     bool negative(const Real& a) { return sign(a) < 0; }
     bool positive(const Real& a) { return sign(a) > 0; }
     bool less(const Real& a, const Real& b) { return negative(a - b); }
-    /// To be called of every t that is a result.
+    /// Judges a t; to be called of every one that is a result.
     void result(const Bounded<double>& t) {
         doubt_ |= !(t.error <= needed_accuracy * t.magnitude());
     }

@@ -10,7 +10,7 @@
 /// which stands in for it.
 namespace raylane::core {
 
-/// Of length 1.
+/// Outward normal of length 1.
 template <class Real, class Shape>
 Vec3<Real> outward_normal(const Shape& shape, const Vec3<Real>& point, Face face) {
     const Vec3<Real> direction = outward_direction(shape, point, face);

@@ -60,7 +60,7 @@ class Table {
     /// `size` shapes in all, with duplicates.
     Table(BigArray<Block<Shape>> blocks, std::size_t size)
         : blocks_(std::move(blocks)), size_(size) {}
-    /// In the list's order.
+    /// Table in the list's order.
     explicit Table(const ShapeList<Shape>& list) : Table(list, list.size()) {}
     Table(const ShapeList<Shape>& list, std::size_t size)
         : blocks_((list.size() + block_size - 1) / block_size), size_(size) {
@@ -71,7 +71,7 @@ class Table {
         }
     }
 
-    /// With duplicates, of which the blocks have one each.
+    /// Number of shapes with duplicates, of which the blocks have one each.
     std::size_t size() const { return size_; }
     const BigArray<Block<Shape>>& blocks() const { return blocks_; }
     Shape get(Place place) const { return blocks_[place.block].get(place.lane); }

@@ -21,8 +21,8 @@ inline void validate(const Sphere& sphere) {
     checks::require_positive("radius", sphere.radius);
 }
 
-/// In float, as there may be millions: a sum is off by half an ulp, or exact where it underflows,
-/// and 2^-23 of it is an ulp at least.
+/// Bounds in float, as there may be millions: a sum is off by half an ulp, or exact where it
+/// underflows, and 2^-23 of it is an ulp at least.
 inline Bounds bounds_of(const Sphere& sphere) {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {

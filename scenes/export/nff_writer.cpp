@@ -51,7 +51,7 @@ class NffWriter {
         return size;
     }
 
-    /// From the middle of the first row to the middle of the last.
+    /// Writes the view, its angle from the middle of the first row to the middle of the last.
     void write_view() {
         const core::Camera& camera = scene_.camera();
         if (camera.projection != core::Projection::perspective)

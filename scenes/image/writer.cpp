@@ -13,9 +13,9 @@
 
 namespace {
 
-/// As stb_image_write calls it: the memory is to be freed, and null if there is none. Of what a
-/// PNG's filter leaves, zlib finds runs as good as all that it would find at its lowest level, in
-/// three quarters of the time.
+/// Compressor that stb_image_write calls: the memory is to be freed, and null if there is none. Of
+/// what a PNG's filter leaves, zlib finds runs as good as all that it would find at its lowest
+/// level, in three quarters of the time.
 unsigned char* compress_for_stb(unsigned char* data, int size, int* compressed_size, int) {
     constexpr int window_bits = 15, memory_level = 9;
     z_stream stream{};

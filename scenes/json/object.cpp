@@ -209,7 +209,7 @@ void ObjectReader::lattice() {
 
 using Read = void (*)(ObjectReader&);
 
-/// By JSON's "type".
+/// Readers by JSON's "type".
 const std::vector<std::pair<std::string_view, Read>>& readers() {
     static const auto all = [] {
         std::vector<std::pair<std::string_view, Read>> readers;

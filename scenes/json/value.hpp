@@ -95,7 +95,7 @@ class JsonValue {
     /// "must be `expected`, got ..."
     [[noreturn]] void fail_expecting(std::string_view expected) const;
 
-    /// For objects: refuses every key but these.
+    /// Refuses every key of an object but these.
     void allow_only(std::initializer_list<std::string_view> keys) const;
     std::optional<JsonValue> find(std::string_view key) const;
     JsonValue at(std::string_view key) const;
@@ -103,7 +103,7 @@ class JsonValue {
     /// Refuses both at once.
     void exclude(std::string_view key, std::string_view other) const;
 
-    /// For arrays: the elements, of which there must be `count`; `elements` is what they should be
+    /// Elements of an array, of which there must be `count`; `elements` is what they should be
     /// ("numbers").
     std::vector<JsonValue> array(std::size_t count, std::string_view elements) const;
 

@@ -25,7 +25,7 @@ class NffFields {
     float number(std::string_view field);
     int whole_number(std::string_view field, int least, int most);
     core::Vec3f vector(std::string_view field);
-    /// As above, all on the line that has been begun.
+    /// Vector, all on the line that has been begun.
     core::Vec3f vector_on_line(std::string_view field);
     bool at_line_end() { return scanner_.at_line_end(); }
 

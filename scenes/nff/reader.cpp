@@ -121,7 +121,7 @@ void Reader::read_view() {
     has_view_ = true;
 }
 
-/// As with the view, the last counts; it may come anywhere.
+/// Reads the background. As with the view, the last counts; it may come anywhere.
 void Reader::read_background() {
     builder_.background = fields_.vector("color");
     core::validate_color("color", builder_.background);

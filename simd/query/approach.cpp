@@ -20,7 +20,7 @@ bool is_parallel(const core::Vec3d& normal, const core::Vec3d& direction) {
 
 } // namespace
 
-/// In a scene without a tree there is little to tell apart.
+/// Finds the sphere about the tree. Without one there is little to tell apart.
 Approach::Approach(const SceneData& scene) : scene_(scene) {
     if (!scene.has_tree()) return;
     const core::Bounds& bounds = scene.scene().hierarchy().bounds;

@@ -21,7 +21,7 @@ class Approach {
     void bring_near(std::size_t count, RoundedRays& rays);
     void widen(const RoundedRays& rays) const;
 
-    /// Of the last paths.
+    /// True if any of the last rays is far.
     bool any() const { return any_; }
     /// Excess of t over the t of the rounded ray.
     double before(std::size_t lane) const { return any_ ? before_[lane] : 0.0; }

@@ -27,7 +27,7 @@ class Certifier {
     void certify(const Paths& paths, CandidateSearch& search, const Candidates& candidates,
                  const Hits& hits, EngineCounters& counters);
 
-    /// Of the last rays; see Query.
+    /// Lanes of the last rays; see Query.
     std::span<const std::uint32_t> at_contacts() const { return {at_contacts_, contact_count_}; }
     std::span<const HitPoint> points() const { return refinery_.points(); }
 

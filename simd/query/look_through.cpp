@@ -8,7 +8,7 @@ namespace raylane::simd {
 
 namespace {
 
-/// Of the points that are known; else where the ray and its t lead to.
+/// Point of the lane among those that are known; else where the ray and its t lead to.
 core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, const Paths& paths,
                         std::size_t lane) {
     for (const HitPoint& known : points)

@@ -15,7 +15,7 @@ class LookThrough {
 
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// As Query has it.
+    /// Finds the nearest hits, as Query does.
     void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
     const Hits& hits() const { return query_.hits(); }
     std::span<const std::uint32_t> at_contacts() const { return at_contacts_; }

@@ -19,7 +19,7 @@ struct RayColumns {
     const std::uint32_t* origin_last;
 };
 
-/// Beside the kernels' origin bits: the ray may cross again the shape that it starts on.
+/// Origin bit beside the kernels': the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t origin_may_return = 0x10000;
 
 /// Rays underway, structure of arrays: what core::ReferenceTracer::Path holds, but the depth, which
@@ -57,7 +57,7 @@ struct Paths {
     }
 
     bool stand_for_others() const { return meant_length != nullptr; }
-    /// Of the direction meant.
+    /// Length of the direction meant.
     double length_of(std::size_t lane) const {
         return stand_for_others() ? meant_length[lane] : 1.0;
     }

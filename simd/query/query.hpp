@@ -20,7 +20,7 @@ class Query {
 
     /// `coherence` may be null: the rays have nothing in common.
     void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
-    /// Of the last rays: what they hit.
+    /// Hits of the last rays.
     const Hits& hits() const { return hits_; }
     /// Lanes that meet several surfaces at one point, where only the reference can go on. They have
     /// the one that comes first.

@@ -115,7 +115,7 @@ void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size
     }
 }
 
-/// In the order of their bounds.
+/// Takes candidates in the order of their bounds.
 void Refinery::take(const CandidateList& list, double before) {
     listed_.clear();
     for (std::size_t i = 0; i < list.count; ++i)
@@ -144,7 +144,7 @@ void Refinery::add(const Paths& paths, std::size_t lane, std::span<const Listed>
     }
 }
 
-/// From one candidate on.
+/// Finishes candidates, from one on.
 void Refinery::finish(std::size_t begin) {
     Found found = hits_.found(paths_, begin, count_ - begin);
     found.holds_points = for_points_;
@@ -207,7 +207,7 @@ void Refinery::widen_close() {
         sharp_.emplace_back(hit_of(close_[k]), core::DoubleDouble(t.high[k], t.low[k]), t.error[k]);
 }
 
-/// By core's order.
+/// first_of() of what is close, by core's order.
 std::size_t Refinery::first_of_close(std::size_t begin) {
     const core::Ray<double> ray = ray_of(paths_, begin);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, begin);

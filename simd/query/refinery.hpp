@@ -32,7 +32,7 @@ class Refinery {
                        const std::uint8_t* doubtful, std::span<std::uint32_t> lanes,
                        const Hits& hits, EngineCounters& counters);
 
-    /// Of the lanes that the last call has decided on.
+    /// Points of the lanes that the last call has decided on.
     std::span<const HitPoint> points() const { return points_; }
 
   private:

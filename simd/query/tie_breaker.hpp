@@ -15,12 +15,12 @@ class TieBreaker {
   public:
     TieBreaker(const SceneData& scene, const Tracing& tracing);
 
-    /// In float: the slot of the first shape of all that the lane's ray crosses at t; `found` if
-    /// there is none.
+    /// Slot of the first shape of all that the lane's ray crosses at t, in float; `found` if there
+    /// is none.
     std::uint32_t first_at(float t, const Paths& paths, std::size_t lane, std::uint32_t found);
 
-    /// In double, where candidates in float are too close: the first crossing of all, and whether
-    /// there are others at the same t.
+    /// First crossing of all, in double, where candidates in float are too close, and whether there
+    /// are others at the same t.
     struct First {
         core::Hit<double> hit;
         bool is_alone;

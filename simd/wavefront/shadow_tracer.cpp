@@ -105,7 +105,7 @@ void ShadowTracer::start_walk(std::size_t ray) {
     walk_distance_[to] = rays_.distance[ray];
 }
 
-/// From surface to surface, until the light or something opaque. As
+/// Walks from surface to surface, until the light or something opaque. As
 /// core::ReferenceTracer::light_let_through has it.
 void ShadowTracer::walk(const Coherence& coherence, EngineCounters& counters) {
     counters.walked += walk_.count;

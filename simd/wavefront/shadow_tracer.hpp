@@ -18,7 +18,7 @@ class ShadowTracer {
 
     void take_from(Arena& arena, std::size_t capacity, bool with_media);
 
-    /// To be filled: rays to the light, weighted by what arrives if nothing is in the way.
+    /// Rays to the light, to be filled, weighted by what arrives if nothing is in the way.
     SpawnedRays& rays() { return rays_; }
 
     /// Wave that they come from: position p of it is what lane order[p] has hit.

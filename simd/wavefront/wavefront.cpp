@@ -239,7 +239,7 @@ void Wavefront::see_background() {
     }
 }
 
-/// As core::ReferenceTracer has it at `indices_at`.
+/// Fills in media as core::ReferenceTracer has them at `indices_at`.
 void Wavefront::fill_media() {
     core::MediaStacks& stacks = reference_.media();
     for (const Run& run : sorted_.runs()) {

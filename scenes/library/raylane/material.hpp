@@ -32,7 +32,7 @@ enum class Reflection : std::uint8_t {
     dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
 };
 
-/// From which side a surface can be seen. Rays pass the other side as if nothing were there; so do
+/// Sides from which a surface can be seen. Rays pass the other side as if nothing were there; so do
 /// Tracer's. A shadow ray looks from a surface to the light.
 enum class Visible : std::uint8_t { both, outside, inside };
 

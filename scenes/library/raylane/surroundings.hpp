@@ -25,9 +25,9 @@ enum class FogKind : std::uint8_t {
     exponential, ///< 1 - exp(-density * distance)
 };
 
-/// With f the fraction of fog in [0, 1], a segment shows (1 - f) * colour + f * fog colour. It acts
-/// on every segment outside of a transmissive object, secondary rays included. A ray that hits
-/// nothing is infinitely long.
+/// Fog of fraction f in [0, 1]: a segment shows (1 - f) * colour + f * fog colour. It acts on every
+/// segment outside of a transmissive object, secondary rays included. A ray that hits nothing is
+/// infinitely long.
 struct Fog {
     FogKind kind = FogKind::none;
     Color color{1.0F, 1.0F, 1.0F}; ///< >= 0
@@ -48,7 +48,7 @@ struct Camera {
     float height = 2.0F; ///< orthographic: of the picture, > 0, in units of length
 };
 
-/// From linear RGB to the 8 bits of a PNG file: the curve of IEC 61966-2-1, or none.
+/// Transfer from linear RGB to the 8 bits of a PNG file: the curve of IEC 61966-2-1, or none.
 enum class Transfer : std::uint8_t { srgb, linear };
 
 enum class SamplePattern : std::uint8_t {

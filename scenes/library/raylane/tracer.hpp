@@ -18,7 +18,7 @@ class StreamTracer;
 /// or are empty. The arrays are the caller's and are only read.
 struct RaySpan {
     std::span<const float> origin_x{}, origin_y{}, origin_z{};
-    /// Of any length but zero; t counts in units of that length.
+    /// Directions of any length but zero; t counts in units of that length.
     std::span<const float> direction_x{}, direction_y{}, direction_z{};
     std::span<const float> t_min{}; ///< empty: 0. Less than 0 is 0.
     std::span<const float> t_max{}; ///< empty: infinity
@@ -40,8 +40,8 @@ struct HitSpan {
 
 struct TracerOptions {
     int threads = 0; ///< at most, 1 to 4096; 0: all that the machine has
-    /// With others than exact, `occluded` may say otherwise than `intersect` where that is close,
-    /// and ties may go either way.
+    /// Precision of the answers. With others than exact, `occluded` may say otherwise than
+    /// `intersect` where that is close, and ties may go either way.
     Precision precision = Precision::exact;
 };
 

@@ -181,7 +181,7 @@ class FinishAgain {
         packet.count = 0;
     }
 
-    /// If it is the crossing that was found.
+    /// Stores t if the crossing is the one that was found.
     template <class Solver>
     [[gnu::noinline]] void store(const Loaded& loaded, const Packet& packet,
                                  const WideNumbers& t) const {

@@ -127,7 +127,7 @@ class PlainFinish {
                 F::load_unaligned(inward) > zero<Number>(), F::load_unaligned(face)};
     }
 
-    /// From and to columns of doubles.
+    /// Numbers from and to columns of doubles.
     static F load(const double* from) {
         if constexpr (std::is_same_v<Value, double>)
             return F::load_unaligned(from);

@@ -13,7 +13,7 @@ struct Slots {
         return slot - table.first_slot < 16 * table.block_count;
     }
 
-    /// Of a slot that some table holds.
+    /// Kind of a slot that some table holds.
     static core::Kind kind_of(const SceneView& scene, std::uint32_t slot) {
         int kind = 0;
         while (!holds(scene.tables[kind], slot))
@@ -25,7 +25,7 @@ struct Slots {
         return scene.tables[static_cast<int>(kind)];
     }
 
-    /// From the table's first float to the slot's first one.
+    /// Offset from the table's first float to the slot's first one.
     [[gnu::always_inline]] static long long offset(const TableView& table, std::uint32_t slot) {
         const std::uint32_t place = slot - table.first_slot;
         return static_cast<long long>(place / 16) * table.block_floats + place % 16;

@@ -162,7 +162,7 @@ struct BoundedLanes {
                            select(has_divisor, in_all, unbounded()));
     }
     friend BoundedLanes negated(const BoundedLanes& a) { return {-a.value, a.error}; }
-    /// Of numbers that are known not to be negative; what rounding makes negative counts as 0.
+    /// Roots of numbers known not to be negative; what rounding makes negative counts as 0.
     friend BoundedLanes sqrt(const BoundedLanes& a) {
         const M positive = a.in_double() > zero<D>();
         const auto root = Its::root(select(positive, a.value, Value(F(1.0))));

@@ -47,7 +47,7 @@ struct DoubleDoubles {
         const F last = (rest - b * DoubleDoubles(middle)).high / b.high;
         return fast_two_sum(first, middle) + DoubleDoubles(last);
     }
-    /// Of what is > 0.
+    /// Roots of what is > 0.
     friend DoubleDoubles sqrt(const DoubleDoubles& a) {
         const F root = sqrt(a.high);
         const DoubleDoubles rest = a - two_product(root, root);

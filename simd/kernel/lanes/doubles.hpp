@@ -213,7 +213,7 @@ struct DoubleLanes<Avx2> {
     }
 
   private:
-    /// By pairs of 32 bits.
+    /// Order of lanes, by pairs of 32 bits.
     struct alignas(32) Order {
         std::int32_t lanes[8];
     };

@@ -107,7 +107,7 @@ Number sum_to_odd(const Number& a, const Number& b) {
     return select(inexact, bits_as<double>(odd), sum);
 }
 
-/// On any processor.
+/// Lanes on any processor.
 template <>
 struct Lanes<Portable> {
     using F = Floats<Portable>;

@@ -15,7 +15,7 @@ namespace raylane::simd {
 template <class Arch>
 struct ShortLanes;
 
-/// By loops over memory.
+/// Short lanes by loops over memory.
 template <>
 struct ShortLanes<Portable> {
     static int pick(const std::uint16_t* numbers, const std::uint16_t* masks, int count,

@@ -17,7 +17,7 @@ xsimd::batch<Number, Arch> negated(const xsimd::batch<Number, Arch>& a) {
     return -static_cast<typename xsimd::batch<Number, Arch>::register_type>(a);
 }
 
-/// In all lanes, whether these are float or double.
+/// Constant in all lanes, whether these are float or double.
 template <class Arch>
 Floats<Arch> constant(float value) {
     return Floats<Arch>(static_cast<typename Floats<Arch>::value_type>(value));

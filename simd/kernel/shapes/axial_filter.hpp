@@ -8,8 +8,9 @@
 /// mirror nappe is left behind, and what crosses the body next is the answer.
 namespace raylane::simd {
 
-/// With the unit axis x, f = origin + start d - base, m = f x x, n = d x x, the width W + s M at
-/// s = t - start, where W = r0 + k f . x, M = k d . x and k = (r1 - r0) / |axis|:
+/// Filter of a cylinder or cone. With the unit axis x, f = origin + start d - base, m = f x x,
+/// n = d x x, the width W + s M at s = t - start, where W = r0 + k f . x, M = k d . x and
+/// k = (r1 - r0) / |axis|:
 ///   F(s) = |m + s n|^2 - (W + s M)^2 = (n.n - M^2) s^2 + 2 (m.n - M W) s + (m.m - W^2)
 /// and, as |m x n| = |f . n|, the discriminant is |W n - M m|^2 - (f . n)^2, without the
 /// cancellation in B^2 - A C. For a cylinder k = 0.

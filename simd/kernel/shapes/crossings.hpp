@@ -4,7 +4,7 @@
 
 namespace raylane::simd {
 
-/// Of a question that decides between ways to compute the same: there either answer will do, so
+/// Answer to a question that decides between ways to compute the same: there either will do, so
 /// that numbers with bounds need not be certain of it.
 template <class Number, class Arch>
 xsimd::batch_bool<Number, Arch> either_way(const xsimd::batch_bool<Number, Arch>& a) {
@@ -48,7 +48,7 @@ template <class Arch>
 Mask<Arch> all() {
     return Mask<Arch>(true);
 }
-/// For rays that start on no surface.
+/// Starts of rays that start on no surface.
 template <class Arch>
 Starts<Arch> starts_nowhere() {
     return {none<Arch>(), none<Arch>(), zero<Arch>()};

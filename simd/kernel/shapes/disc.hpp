@@ -60,9 +60,9 @@ struct DiscSolver : DiscNumbers<Arch> {
     }
 };
 
-/// With N >= |normal|, normal . at(s) is off by N times the error of the position and 6 u (|start|
-/// + |s|) for the products; so s errs by that, divided by |approach|, if approach itself is certain
-/// within a fifth: it errs by 5 u N.
+/// Finisher of a disc. With N >= |normal|, normal . at(s) is off by N times the error of the
+/// position and 6 u (|start| + |s|) for the products; so s errs by that, divided by |approach|, if
+/// approach itself is certain within a fifth: it errs by 5 u N.
 template <class Arch>
 struct DiscFinisher {
     DiscNumbers<Arch> disc;

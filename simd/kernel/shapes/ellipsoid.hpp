@@ -26,9 +26,9 @@ struct EllipsoidNumbers {
     }
 };
 
-/// With n_i the rows that make of the ellipsoid the unit ball (core::ToBall), a ray's position at
-/// tau + s, in the ball, is b + s a for a = n d and b = n p, p = origin + tau d - center; tau is
-/// about where |n p| is least. The ray crosses where |b + s a| = 1.
+/// Filter of an ellipsoid. With n_i the rows that make of it the unit ball (core::ToBall), a ray's
+/// position at tau + s, in the ball, is b + s a for a = n d and b = n p, p = origin + tau d -
+/// center; tau is about where |n p| is least. The ray crosses where |b + s a| = 1.
 ///
 /// All but t is in units of a power of two, in which the axes' components add up to less than 2,
 /// and to 1 or more. L is the length of all axes together: as p = b_u u + b_v v + b_w w, it is |p|

@@ -52,8 +52,8 @@ struct Obstacle {
     Mask<Arch> certain;  ///< where possible: it is
 };
 
-/// Of lanes that are asked about, as bits: whether the shape may be entered before one t, and is
-/// before another, which is not later. By the filter's own way, or its bounds.
+/// Obstacle of lanes that are asked about, as bits: whether the shape may be entered before one t,
+/// and is before another, which is not later. By the filter's own way, or its bounds.
 template <class Arch, class Filter, class Rays>
 [[gnu::always_inline]] inline Obstacle<Arch>
 obstacle_of(const Filter& filter, const Rays& rays, std::uint32_t asked,

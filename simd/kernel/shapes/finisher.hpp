@@ -80,15 +80,16 @@ template <class Arch>
     return error + F(0x1p-51) * t <= F(0x1p-24) * largest;
 }
 
-/// Of a vector that is exact: what bringing it to length 1 is off by.
+/// Error of a unit vector made of one that is exact: what bringing it to length 1 is off by.
 template <class Arch>
 [[gnu::always_inline]] inline Vectors<Arch> error_of_unit(const Vectors<Arch>& unit) {
     const Floats<Arch> roundings(0x1p-50);
     return {roundings * abs(unit.x), roundings * abs(unit.y), roundings * abs(unit.z)};
 }
 
-/// Of a vector of length 1 / inverse that is off by `error`: each component errs by its own, and
-/// with the length, which is off by all of them. (If that is not small, nor is the error.)
+/// Error of a unit vector made of one of length 1 / inverse that is off by `error`: each component
+/// errs by its own, and with the length, which is off by all of them. (If that is not small, nor is
+/// the error.)
 template <class Arch>
 [[gnu::always_inline]] inline Vectors<Arch>
 error_of_unit(const Vectors<Arch>& unit, const Vectors<Arch>& error, const Floats<Arch>& inverse) {

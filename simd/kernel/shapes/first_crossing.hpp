@@ -36,8 +36,8 @@ struct FirstCrossing {
     }
 };
 
-/// Of a surface that ends where `ends` does, seen from a point at t = `start` that is not behind
-/// its first crossing.
+/// Bounds of a surface that ends where `ends` does, seen from a point at t = `start` that is not
+/// behind its first crossing.
 template <class Arch>
 [[gnu::always_inline]] inline Bounds<Arch>
 surface_bounds(const Mask<Arch>& is_shape, const Stay<Arch>& ends, const Floats<Arch>& start,

@@ -18,7 +18,8 @@ struct FlatCrossing {
     Mask<Arch> ahead;    ///< clear, and the plane is surely in front
     Mask<Arch> behind;   ///< the plane is surely not in front
 
-    /// With a = |approach|, h = |height| and their errors, h' = h +- e and a' = a +- f are
+    /// Bounds of the crossing. With a = |approach|, h = |height| and their errors, h' = h +- e and
+    /// a' = a +- f are
     ///   (h - e) / (a + f) <= h' / a' <= (h + e) / (a - f),
     /// and one division serves both: (a + f) / (a - f) = 1 / (1 - x) <= 1 + 2 x for
     /// x = 2 f / (a + f) <= 1/2.

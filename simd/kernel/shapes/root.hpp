@@ -76,8 +76,8 @@ struct Passage {
     Vectors<Arch> normal;       ///< of any length
     Vectors<Arch> normal_error; ///< by component, if all is wanted
 
-    /// Of a ray that starts on the surface: t = 0 is one root, so the other is twice the vertex,
-    /// where F' = 0. Not certain as yet.
+    /// Passage opposite the start of a ray on the surface: t = 0 is one root, so the other is twice
+    /// the vertex, where F' = 0. Not certain as yet.
     [[gnu::always_inline]] static Passage opposite(const Floats<Arch>& vertex,
                                                    const Floats<Arch>& vertex_error,
                                                    const LocalRays<Arch>& local) {

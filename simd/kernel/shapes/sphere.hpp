@@ -19,8 +19,8 @@ struct SphereNumbers {
     static constexpr bool encloses_itself = true;
 };
 
-/// With f = origin - center, tau = -f . d and q = f + tau d (the foot of the perpendicular), a ray
-/// with unit d crosses at tau -+ sqrt(r^2 - q^2).
+/// Filter of a sphere. With f = origin - center, tau = -f . d and q = f + tau d (the foot of the
+/// perpendicular), a ray with unit d crosses at tau -+ sqrt(r^2 - q^2).
 ///
 /// The point that the floats mean at t is within e = slack + u |f| + u t of the true one: at a
 /// crossing, |f + t d| = r -+ e. As a polynomial in t - tau this is Q + 2 b (t - tau) +

@@ -21,7 +21,7 @@ struct TriangleNumbers {
     }
 };
 
-/// Of a smooth triangle.
+/// Corner normals of a smooth triangle.
 template <class Arch>
 struct CornerNormals {
     Vectors<Arch> a, b, c;
@@ -47,9 +47,9 @@ struct CornerNormals {
     }
 };
 
-/// With edges e = b - a, g = c - a, normal n = e x g and s = a - origin, the point a + v e + w g is
-/// met at t if t d = s + v e + w g, so that (Moeller and Trumbore, "Fast, Minimum Storage
-/// Ray/Triangle Intersection", 1997)
+/// Filter of a triangle. With edges e = b - a, g = c - a, normal n = e x g and s = a - origin, the
+/// point a + v e + w g is met at t if t d = s + v e + w g, so that (Moeller and Trumbore, "Fast,
+/// Minimum Storage Ray/Triangle Intersection", 1997)
 ///   t (n . d) = n . s,  v (n . d) = g . (s x d),  w (n . d) = -e . (s x d).
 ///
 /// n is off by 4 u of absolute_cross(e, g), so n . s and n . d by 8 u of the sum of the absolute
@@ -215,8 +215,8 @@ struct TriangleFinisher {
                vanishes(direction.z, to_b.x, to_c.y, to_b.y, to_c.x);
     }
 
-    /// Of to_b x to_c: what was lost of the products, and of the edges where these were rounded.
-    /// Corners are floats, so as a rule nothing was.
+    /// Error of to_b x to_c: what was lost of the products, and of the edges where these were
+    /// rounded. Corners are floats, so as a rule nothing was.
     Vectors<Arch> normal_error(const Vectors<Arch>& to_b, const Vectors<Arch>& to_c,
                                const Vectors<Arch>& normal) const {
         // What a difference of floats loses in double is more than the less of them could.

@@ -95,7 +95,7 @@ class Pairs : Streams<Arch> {
     int count_ = 0;
 };
 
-/// Of each kind. They wait for each other across blocks.
+/// Pairs of each kind. They wait for each other across blocks.
 template <class Arch, class Method>
 class PairsByKind {
   public:

@@ -18,7 +18,7 @@ struct TraversalQueue {
     std::uint32_t* child;
     int size;
 
-    /// In the room of one ray.
+    /// Places the queue in the room of one ray.
     void place(const Pending& pending, int ray, std::uint32_t levels) {
         const std::size_t room = pending_entries(levels) * static_cast<std::size_t>(ray);
         key = pending.key + room + window;

@@ -24,7 +24,7 @@ struct Frustum : Streams<Arch> {
     static constexpr std::size_t most_rays = 256;
     static constexpr float steepest = 4.0F;
 
-    /// Of the rays on one side: w_a - slope w_k > offset is outside, or < for the other side.
+    /// Side of the rays: w_a - slope w_k > offset is outside, or < for the other side.
     struct Side {
         float slope, offset, norm;
         alignas(64) float slopes[16], offsets[16], norms[16]; // of the packets
@@ -43,7 +43,7 @@ struct Frustum : Streams<Arch> {
     Side above[2], below[2];
     std::size_t packets;
 
-    /// For rays from or to `apex`; of rays in one direction it is any point near them. Returns
+    /// Encloses rays from or to `apex`; of rays in one direction it is any point near them. Returns
     /// whether the rays are coherent enough.
     bool enclose(const RoundedRays& rays, std::size_t begin, std::size_t end, Coherence coherence,
                  const float* t_most) {
@@ -96,7 +96,7 @@ struct Frustum : Streams<Arch> {
         return Lanes<Arch>::bits(meets & (near <= t_most)) & S::filled(node, from);
     }
 
-    /// From how far along to a lower bound of t.
+    /// Lower bound of t, given how far along.
     F near_t(const F& w) const { return max((w - F(latest_start)) * F(t_per_w), zero<Arch>()); }
 
     /// One side's plane, or as many as there are packets.
@@ -116,8 +116,8 @@ struct Frustum : Streams<Arch> {
         }
     };
 
-    /// Of what is between two spheres a part may be on each side of a plane where one of them has
-    /// some there. Here: in front of the ends, and inside of the four sides.
+    /// Reach of what is between two spheres: a part may be on each side of a plane where one of
+    /// them has some there. Here: in front of the ends, and inside of the four sides.
     struct Reach {
         M along[2], inside_high[2], inside_low[2];
 
@@ -227,7 +227,7 @@ struct Frustum : Streams<Arch> {
     }
 
   private:
-    /// Of all rays, as they are read, along k: in each lane's share of them.
+    /// Extent of all rays, as they are read, along k: in each lane's share of them.
     struct Extent {
         F slowest = S::infinity(),
           fastest = zero<Arch>(); ///< sense * d_k, towards the apex or away
@@ -282,7 +282,7 @@ struct Frustum : Streams<Arch> {
         }
     }
 
-    /// By the lanes from ray i on.
+    /// Extends by the lanes from ray i on.
     [[gnu::always_inline]] void extend(Extent& extent, const RoundedRays& rays, std::size_t i,
                                        std::size_t end, const Coherence& coherence,
                                        const float* t_most, const F& direction, const F& w) const {
@@ -307,8 +307,8 @@ struct Frustum : Streams<Arch> {
         }
     }
 
-    /// From the first start to the last end, as far as these are known. Towards the apex, what is
-    /// far from it is near.
+    /// Bounds the rays along k, from the first start to the last end, as far as these are known.
+    /// Towards the apex, what is far from it is near.
     void bound_along(const Extent& extent, const Coherence& coherence, bool have_limits) {
         const bool anywhere = start_anywhere(coherence);
         least_w = coherence.converging || !anywhere ? 0.0F : __builtin_inff();
@@ -364,7 +364,7 @@ struct Frustum : Streams<Arch> {
         side.norms[packet] = norm_above(slope);
     }
 
-    /// At least sqrt(1 + slope^2).
+    /// Norm, at least sqrt(1 + slope^2).
     static float norm_above(float slope) { return 1.0F + 0.5F * slope * slope; }
 
     void enclose_packets(int side) {

@@ -37,7 +37,7 @@ struct alignas(64) Packet : Streams<Arch> {
     }
 };
 
-/// For methods that ask for more than this, where they are in the stream.
+/// Packet for methods that ask for more than this: where its rays are in the stream.
 template <class Arch, class Method>
 requires(!Method::rounded_alone) struct alignas(64) Packet<Arch, Method> {
     static constexpr std::size_t size = 16;
@@ -116,7 +116,7 @@ class FrustumOcclusions : Streams<Arch> {
     };
     const SceneView& scene_;
     Rays packets_[16];
-    /// By packet, of rays as bits.
+    /// Rays as bits, by packet.
     std::uint32_t blocked_[16], doubtful_[16] = {};
 
   public:
@@ -151,7 +151,7 @@ class FrustumOcclusions : Streams<Arch> {
         }
     }
 
-    /// To a packet of which all rays are blocked nothing matters.
+    /// Limit of t: to a packet of which all rays are blocked nothing matters.
     float limit_of(std::size_t which) const {
         return blocked_[which] == 0xFFFF ? -1.0F : __builtin_inff();
     }

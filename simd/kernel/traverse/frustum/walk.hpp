@@ -30,7 +30,7 @@ struct FrustumWalk : Streams<Arch> {
         : scene(scene_view), frustum(rays), workspace(space), counters(trace_counters),
           most_shapes(shapes) {}
 
-    /// Of each shape that packets may meet, calls
+    /// Calls, for each shape that packets may meet,
     ///   found.test(filter, id, slot, which)  for each of the packets, by number, and now and then
     ///   found.limit_of(which)                the t from which on nothing matters to it
     /// The shapes come in the order of their nodes' distances, as far as that is known. Returns
