@@ -1,7 +1,9 @@
 #include "simd/query/approach.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace raylane::simd {
 
@@ -62,11 +64,15 @@ void Approach::bring_near(std::size_t count, RoundedRays& rays) {
 }
 
 bool Approach::are_far(std::size_t count, const RoundedRays& rays) const {
-    std::uint64_t any = 0; // as compilers do it in lanes, unlike a maximum
-    for (int axis = 0; axis < 3; ++axis)
+    const double most = far_away * radius_;
+    std::uint64_t signs = 0; // in lanes, which a maximum is not
+    for (int axis = 0; axis < 3; ++axis) {
+        const double* const origin = rays.meant_origin[axis];
+        const double center = center_[axis];
         for (std::size_t lane = 0; lane < count; ++lane)
-            any |= std::abs(rays.meant_origin[axis][lane] - center_[axis]) > far_away * radius_;
-    return any != 0;
+            signs |= std::bit_cast<std::uint64_t>(most - std::abs(origin[lane] - center));
+    }
+    return signs >> 63 != 0;
 }
 
 /// No further than to a radius before the sphere about all that is bounded, and before any plane
