@@ -324,10 +324,9 @@ TEMPLATE_TEST_CASE("the finish is certain of ordinary rays", "", RAYLANE_ALL_SHA
     const double part = static_cast<double>(share.doubtful) / static_cast<double>(share.hits);
     std::printf("ordinary rays, %s: %.3g of %ld hits doubtful\n",
                 std::string(name_of(core::kind_of<TestType>)).c_str(), part, share.hits);
-    // Some of the cones are a thousand times as wide as they are long. How many are in doubt is
-    // Poisson's: as many as are expected at most, and four deviations.
-    const double most = 2e-4 * static_cast<double>(share.hits);
-    CHECK(static_cast<double>(share.doubtful) <= most + 4 * std::sqrt(most));
+    // Some of the cones are a thousand times as wide as they are long.
+    CHECK(static_cast<double>(share.doubtful) <=
+          tests::most_by_chance(2e-4 * static_cast<double>(share.hits)));
 }
 
 TEST_CASE("the finish sorts out packets of many kinds, and leaves lanes without a shape alone") {

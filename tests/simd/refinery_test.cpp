@@ -7,7 +7,6 @@
 #include "tests/simd/rounds.hpp"
 
 #include <bit>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -127,8 +126,8 @@ class Round {
 };
 
 bool at_contacts(const LookThrough& finder, std::size_t lane) {
-    for (const std::uint32_t open : finder.at_contacts())
-        if (open == lane) return true;
+    for (const std::uint32_t each : finder.at_contacts())
+        if (each == lane) return true;
     return false;
 }
 
@@ -201,9 +200,8 @@ void check_rounds(int of_each, int count) {
     const auto rays = static_cast<std::uint64_t>(count) * ray_count;
     CAPTURE(counters.refined, counters.doubtful, rays);
     CHECK(counters.refined * 20 > rays);
-    // Poisson's: as many as are expected at most, and four deviations.
-    const double most = static_cast<double>(rays) / 200.0;
-    CHECK(static_cast<double>(counters.doubtful) < most + 4.0 * std::sqrt(most));
+    CHECK(static_cast<double>(counters.doubtful) <
+          tests::most_by_chance(static_cast<double>(rays) / 400.0));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "tests/sanitized.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 
@@ -19,6 +20,11 @@ inline std::uint64_t seed(std::uint64_t usual) {
     const char* const wanted = std::getenv("RAYLANE_TEST_SEED");
     return wanted == nullptr ? usual
                              : usual + 0x9e3779b97f4a7c15 * std::strtoull(wanted, nullptr, 10);
+}
+
+/// Most of what is rare (Poisson's) where so many are expected: four deviations more.
+inline double most_by_chance(double expected) {
+    return expected + 4.0 * std::sqrt(expected);
 }
 
 } // namespace raylane::tests
