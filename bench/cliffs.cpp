@@ -105,30 +105,30 @@ Times times_of(std::size_t count, const std::function<void(std::size_t, std::siz
     return times;
 }
 
-Times raylane_times(const Situation& place, Precision precision) {
-    const Tracer tracer(place.scene, {.threads = 1, .precision = precision});
-    Hits hits(place.rays.size());
-    return times_of(place.rays.size(), [&](std::size_t first, std::size_t count) {
-        tracer.intersect(place.rays.span(first, count), hits.span(first, count));
+Times raylane_times(const Situation& situation, Precision precision) {
+    const Tracer tracer(situation.scene, {.threads = 1, .precision = precision});
+    Hits hits(situation.rays.size());
+    return times_of(situation.rays.size(), [&](std::size_t first, std::size_t count) {
+        tracer.intersect(situation.rays.span(first, count), hits.span(first, count));
     });
 }
 
 #ifdef RAYLANE_EMBREE
-Times embree_times(const Situation& place) {
-    const core::Scene& scene = library::Internals::of(place.scene);
+Times embree_times(const Situation& situation) {
+    const core::Scene& scene = library::Internals::of(situation.scene);
     if (!EmbreeScene::can_hold(scene)) return {};
     const EmbreeDevice device = make_embree_device(simd::best_isa());
     EmbreeScene embree(device.get(), scene, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM);
     embree.commit();
     const NoDenormals no_denormals;
     EmbreeQuery query(false);
-    return times_of(place.rays.size(), [&](std::size_t first, std::size_t count) {
+    return times_of(situation.rays.size(), [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             RTCRayHit ray{};
             float* const to[] = {&ray.ray.org_x, &ray.ray.org_y, &ray.ray.org_z,
                                  &ray.ray.dir_x, &ray.ray.dir_y, &ray.ray.dir_z};
             for (int k = 0; k < 6; ++k)
-                *to[k] = place.rays.values[k][i];
+                *to[k] = situation.rays.values[k][i];
             ray.ray.tfar = HUGE_VALF;
             ray.ray.mask = ~0U;
             ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -331,7 +331,7 @@ Situation sizes(const std::string& name, float large, float small) {
 
 using Make = std::function<Situation(const std::string&)>;
 
-std::vector<std::pair<std::string, Make>> all_places() {
+std::vector<std::pair<std::string, Make>> all_situations() {
     std::vector<std::pair<std::string, Make>> all;
     const auto add = [&](const std::string& name, const Make& make) {
         all.emplace_back(name, make);
@@ -398,14 +398,15 @@ int main(int argc, char** argv) {
     using namespace raylane::bench;
     std::printf("%-36s %9s %9s %9s %9s %9s %9s\n", "ns a ray", "exact", "worst", "robust", "worst",
                 "embree", "worst");
-    for (const auto& [name, make] : all_places()) {
+    for (const auto& [name, make] : all_situations()) {
         bool wanted = argc == 1;
         for (int i = 1; i < argc; ++i)
             wanted = wanted || name.find(argv[i]) != std::string::npos;
         if (!wanted) continue;
-        const Situation place = make(name);
-        const Times exact = raylane_times(place, Precision::exact),
-                    robust = raylane_times(place, Precision::robust), embree = embree_times(place);
+        const Situation situation = make(name);
+        const Times exact = raylane_times(situation, Precision::exact),
+                    robust = raylane_times(situation, Precision::robust),
+                    embree = embree_times(situation);
         std::printf("%-36s %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f\n", name.c_str(), exact.mean,
                     exact.worst, robust.mean, robust.worst, embree.mean, embree.worst);
         std::fflush(stdout);

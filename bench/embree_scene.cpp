@@ -104,8 +104,8 @@ EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFla
             RTCGeometry geometry = rtcNewGeometry(device, geometry_type<Shape>);
             const Buffers<Shape> buffers(geometry, table.size());
             std::vector<core::ShapeId>& ids = ids_.emplace_back();
-            for (const auto& [id, slot] : places_by_id(table)) {
-                buffers.set(static_cast<unsigned>(ids.size()), table.get(slot));
+            for (const auto& [id, place] : places_by_id(table)) {
+                buffers.set(static_cast<unsigned>(ids.size()), table.get(place));
                 ids.push_back(id);
             }
             rtcSetGeometryBuildQuality(geometry, quality);

@@ -12,8 +12,8 @@ core::SceneBuilder shapes_of(const core::Scene& scene) {
     builder.add_material({});
     core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         builder.reserve(table.size());
-        for (const auto& [id, slot] : places_by_id(table))
-            builder.add(table.get(slot), 0);
+        for (const auto& [id, place] : places_by_id(table))
+            builder.add(table.get(place), 0);
     });
     return builder;
 }

@@ -70,7 +70,7 @@ class CameraRays {
                 (Real(sample / grid_) + Real(point.y)) / Real(grid_)}; // NOLINT: whole rows
     }
 
-    /// Its place in the picture, from its middle to the right and upwards, in halves of a pixel.
+    /// Its point in the picture, from the middle to the right and upwards, in halves of a pixel.
     struct PicturePoint {
         Real across;
         Real upward;

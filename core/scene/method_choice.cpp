@@ -86,9 +86,9 @@ class FloatMethod {
 
     /// True if two surfaces may be closer than the sum of their displacements.
     bool confuses_surfaces() const {
-        for (std::size_t i = 0; i < places_.size(); ++i)
+        for (std::size_t i = 0; i < drawn_.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
-                if (!(gap(places_[i].bounds, places_[j].bounds) > places_[i].off + places_[j].off))
+                if (!(gap(drawn_[i].bounds, drawn_[j].bounds) > drawn_[i].off + drawn_[j].off))
                     return true;
         return false;
     }
@@ -120,7 +120,7 @@ class FloatMethod {
         double off = off_from(shape, seen.farthest + start, start);
         pixels_ = std::max(pixels_, off / pixel_.at(seen.nearest));
         if (shadows_) off = std::max(off, add_shadows(shape, bounds));
-        places_.push_back({bounds, off});
+        drawn_.push_back({bounds, off});
     }
 
     /// Shadows fall anywhere in the scene, and are larger than what casts them. Where they fall at
@@ -149,7 +149,7 @@ class FloatMethod {
     double extent_ = 0.0;  ///< between any two points of the scene, at most
     double largest_ = 0.0; ///< from the origin
     double pixels_ = 0.0;
-    std::vector<Drawn> places_;
+    std::vector<Drawn> drawn_;
 };
 
 void consider_floats(MethodEstimate& method, const Scene& scene, const Settings& settings,

@@ -147,12 +147,12 @@ void Wavefront::start(std::size_t count) {
     std::size_t filled = 0;
     for (const Samples& some : samples_)
         for (int number = some.first; number < some.first + some.count; ++number) {
-            const auto place = camera_rays_.point_at(
+            const auto point = camera_rays_.point_at(
                 some.x, some.y,
                 camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]
                                        : camera_rays_.in_pixel(some.x, some.y, number));
-            across_[filled] = place.across;
-            upward_[filled++] = place.upward;
+            across_[filled] = point.across;
+            upward_[filled++] = point.upward;
         }
     for (double* channel : radiance_)
         std::fill_n(channel, count, 0.0);
