@@ -2,6 +2,7 @@
 
 #include "simd/scene_view.hpp"
 #include "simd/shade_kernels.hpp"
+#include "simd/stream_kernels.hpp"
 #include "simd/trace_kernels.hpp"
 
 #include <cstddef>
@@ -37,6 +38,11 @@ struct Found {
     const double* meant_length = nullptr;
     /// True if points are wanted, so that t has to hold one.
     bool holds_points = true;
+    /// Limits below, as StreamRays has them. What is crossed before or at them is not looked at; of
+    /// rays that cross a shape there, finish leaves in doubt whether and where they do behind it.
+    /// Null: there are none.
+    const double* t_after = nullptr;
+    const double* start = nullptr;
 };
 
 /// Bits of Found::origin_bits.
@@ -68,6 +74,7 @@ struct Kernels {
     int lanes;
 
     RayKernels rays;
+    StreamKernels stream;
     MethodKernels methods[method_count]; ///< core::Precision by number
     /// shade[media][fog]: for scenes without and with transmissive materials, and fog. Four, as
     /// both are asked of every lane; what concerns one material, or all lanes alike, is asked per

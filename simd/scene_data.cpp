@@ -130,12 +130,13 @@ float largest_coordinate(const core::Bounds& bounds) {
 
 } // namespace
 
-SceneData::SceneData(const core::Scene& scene) : scene_(scene), fog_(view_of(scene.fog())) {
+SceneData::SceneData(const core::Scene& scene, Transmissive transmissive)
+    : scene_(scene), fog_(view_of(scene.fog())) {
     view_surroundings();
     view_tables();
     fill_occupants();
     view_hierarchy();
-    find_plain_lanes();
+    find_plain_lanes(transmissive);
 }
 
 void SceneData::view_surroundings() {
@@ -186,12 +187,15 @@ void SceneData::view_hierarchy() {
     view_.tree_depth = depth_below(nodes, 0);
     orders_ = orders_of(nodes);
     view_.orders = orders_.data();
-    view_.reach = largest_coordinate(scene_.hierarchy().bounds);
+    const core::Bounds& bounds = scene_.hierarchy().bounds;
+    view_.reach = largest_coordinate(bounds);
+    radius_ = 0.5F * core::length(core::Vec3f(bounds.upper - bounds.lower));
 }
 
-void SceneData::find_plain_lanes() {
-    const auto is_plain = [](const core::Material& material) {
-        return !material.transmits() && material.visible == core::Visible::both;
+void SceneData::find_plain_lanes(Transmissive transmissive) {
+    const auto is_plain = [transmissive](const core::Material& material) {
+        return (transmissive == Transmissive::blocks || !material.transmits()) &&
+               material.visible == core::Visible::both;
     };
     const std::vector<core::Material>& materials = scene_.materials();
     if (std::all_of(materials.begin(), materials.end(), is_plain)) return;
@@ -232,6 +236,13 @@ core::Place SceneData::place_of(std::uint32_t slot) const {
     const auto kind = static_cast<int>(occupant_of(slot).kind);
     const std::uint32_t place = slot - view_.tables[kind].first_slot;
     return {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)};
+}
+
+std::vector<std::uint32_t> SceneData::slots_by_id() const {
+    std::vector<std::uint32_t> slots(scene_.shape_count(), no_slot);
+    for (std::uint32_t slot = 0; slot < slots_; ++slot)
+        if (const core::ShapeId id = find_occupant(slot).id; id != core::no_shape) slots[id] = slot;
+    return slots;
 }
 
 std::uint32_t SceneData::slot_of(core::Kind kind, core::Place place) const {

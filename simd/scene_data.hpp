@@ -5,14 +5,22 @@
 #include "simd/shade_kernels.hpp"
 #include "simd/trace_kernels.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace raylane::simd {
 
+/// Transmissive surfaces in the way of a ray that asks what it is blocked by.
+enum class Transmissive : std::uint8_t {
+    lets_through, ///< pictures: light may pass them
+    blocks,       ///< the library: any surface does
+};
+
 /// Data that the kernels need of a scene, in their terms. The scene must outlive it.
 class SceneData {
   public:
-    explicit SceneData(const core::Scene& scene);
+    explicit SceneData(const core::Scene& scene,
+                       Transmissive transmissive = Transmissive::lets_through);
 
     const core::Scene& scene() const { return scene_; }
     const SceneView& view() const { return view_; }
@@ -33,6 +41,8 @@ class SceneData {
     /// True if some surface is visible from one side only.
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }
+    /// Of a sphere around all that is in the tree; without one it is infinite.
+    float radius() const { return radius_; }
 
     /// Medium that a ray is inside of; core::no_medium is empty space.
     struct Medium {
@@ -60,13 +70,15 @@ class SceneData {
     core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
     core::Place place_of(std::uint32_t slot) const;
     std::uint32_t slot_of(core::Kind kind, core::Place place) const;
+    /// Slots of all shapes, by id; no_slot of what is there twice, but for the first.
+    std::vector<std::uint32_t> slots_by_id() const;
 
   private:
     void view_surroundings();
     void view_tables();
     void fill_occupants();
     void view_hierarchy();
-    void find_plain_lanes();
+    void find_plain_lanes(Transmissive transmissive);
     Occupant find_occupant(std::uint32_t slot) const;
 
     const core::Scene& scene_;
@@ -82,6 +94,7 @@ class SceneData {
     std::uint32_t bounded_kinds_ = 0, unbounded_kinds_ = 0; // that there are, as bits
     bool one_sided_ = false;
     bool smooth_ = false;
+    float radius_ = std::numeric_limits<float>::infinity();
 };
 
 } // namespace raylane::simd

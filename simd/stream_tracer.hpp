@@ -22,6 +22,12 @@ struct RayStream {
     const float* direction[3] = {};
     const float* t_min = nullptr; ///< null: 0; what is negative is 0
     const float* t_max = nullptr; ///< null: infinity
+    /// Shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on the face
+    /// of it that HitStream::face said, and goes to its inside (the back) if origin_inward is 1, or
+    /// else to its outside. Null: none leaves any; the face is the body; all go to the outside.
+    const core::ShapeId* origin_shape = nullptr;
+    const std::uint8_t* origin_face = nullptr;
+    const std::uint8_t* origin_inward = nullptr;
 };
 
 /// Hits of rays, by ray, as far as they are wanted. Null: not wanted.
@@ -30,6 +36,7 @@ struct HitStream {
     float* normal[3] = {};            ///< unit, on the outside (the front); 0: nothing
     core::ShapeId* shape = nullptr;   ///< no_shape: nothing
     std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or nothing
+    std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
 };
 
 /// Answers streams of rays about one scene, which must outlive it. May be called by any number of
@@ -57,15 +64,20 @@ class StreamTracer {
     class Lease;
 
     template <class Answer>
-    void answer(std::size_t count, std::size_t most, const Answer& answer) const;
+    void answer(std::size_t count, const Answer& answer) const;
 
     static constexpr std::size_t fewest = 1024; ///< rays that are worth a thread
     std::size_t at_a_time() const;              ///< rays that look for what is nearest
+    std::uint32_t slot_of(core::ShapeId shape) const;
 
     const core::Scene& scene_;
     int threads_;
     std::unique_ptr<const SceneData> data_;
     Tracing tracing_;
+
+    // By id, once a ray has named a shape.
+    mutable std::once_flag has_slots_;
+    mutable std::vector<std::uint32_t> slots_;
 
     // Workers that nobody uses now: their memory is made once.
     mutable std::mutex mutex_;

@@ -22,6 +22,9 @@ struct RoundedRays {
     const std::uint32_t* origin_last;
     const double* meant_origin[3]; ///< before they were rounded
     const double* meant_direction[3];
+    /// How far along the rays meant these start: before that nothing is looked for, and from there
+    /// their t counts. Null: they all start where they start.
+    const double* before = nullptr;
 };
 
 /// Candidates for the nearest crossing of each ray. In and out.
@@ -98,8 +101,9 @@ struct Coherence {
     float apex[3];   ///< unless they are parallel
     bool converging; ///< they end at the apex
     bool parallel;
-    bool loose;  ///< they are near each other and no more: the rest means nothing
-    bool beyond; ///< they start beyond the apex
+    bool loose;          ///< they are near each other and no more: the rest means nothing
+    bool beyond;         ///< they start beyond the apex
+    float spread = 0.0F; ///< by which they miss the apex, at most
 };
 constexpr Coherence neighbours{{}, false, false, true, false};
 
@@ -108,14 +112,16 @@ struct RayKernels {
     void (*camera_rays)(const CameraView& camera, std::size_t count, const double* across,
                         const double* upward, double* const origin[3], double* const direction[3]);
 
-    /// Fills origin, direction and slack.
+    /// Fills origin, direction and slack, by the others.
     void (*round_rays)(std::size_t count, const RoundedRays& rays);
 
-    /// Lists the lanes whose candidate is not certain to be the nearest, and those that are
-    /// `doubtful` anyway. What was found for the candidate is as in Found. Returns how many.
+    /// Lists the lanes whose candidate is not certain to be the nearest, as none is before another
+    /// nearer than `least`, and those that are `doubtful` anyway. What was found for the candidate
+    /// is as in Found. Returns how many.
     std::size_t (*list_uncertain)(std::size_t count, const Candidates& candidates, const double* t,
                                   const double* error, const std::uint32_t* hit,
-                                  const std::uint8_t* doubtful, std::uint32_t* lanes);
+                                  const std::uint8_t* doubtful, float least,
+                                  std::uint32_t* lanes);
 };
 
 /// The shapes of the kinds in `kind_bits` one by one, and the hierarchy if there is one to walk.

@@ -136,6 +136,12 @@ bool rounds_surely(double t, double error, float& t_rounded) {
     return t_rounded == float_of(above(t, error));
 }
 
+int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, double number) {
+    if (below(hit.t, hit.error) > number) return 1;
+    if (above(hit.t, hit.error) < number) return -1;
+    return SharpHit(hit).root(scene, from).sign_of(ExactQuadratic::minus(number));
+}
+
 float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent) {
     float result = 0.0F;
     const auto is_sure = [&](const Hit<double>& known) {

@@ -9,6 +9,10 @@ namespace raylane::core {
 /// is not sure from t and its error alone it is decided exactly.
 float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent);
 
+/// Order of a crossing's true t and a number: -1 if it is less, 0 if they are the same, 1 if it is
+/// more. For what is not sure from t and its error alone it is decided exactly.
+int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, double number);
+
 /// True if every t within `error` of this one rounds to one float as above. That is then
 /// `t_rounded`.
 bool rounds_surely(double t, double error, float& t_rounded);

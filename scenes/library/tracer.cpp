@@ -36,7 +36,10 @@ simd::RayStream stream_of(const RaySpan& rays) {
             {rays.origin_x.data(), rays.origin_y.data(), rays.origin_z.data()},
             {rays.direction_x.data(), rays.direction_y.data(), rays.direction_z.data()},
             optional("t_min", rays.t_min, count),
-            optional("t_max", rays.t_max, count)};
+            optional("t_max", rays.t_max, count),
+            optional("origin_shape", rays.origin_shape, count),
+            optional("origin_face", rays.origin_face, count),
+            optional("origin_inward", rays.origin_inward, count)};
 }
 
 simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
@@ -44,7 +47,8 @@ simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
             {optional("normal_x", hits.normal_x, count), optional("normal_y", hits.normal_y, count),
              optional("normal_z", hits.normal_z, count)},
             optional("shape", hits.shape, count),
-            optional("entering", hits.entering, count)};
+            optional("entering", hits.entering, count),
+            optional("face", hits.face, count)};
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "simd/kernel/certify/in_double.hpp"
 #include "simd/kernel/certify/plain.hpp"
 #include "simd/kernel/shade/shade.hpp"
+#include "simd/kernel/stream/stream.hpp"
 #include "simd/kernel/traverse/prepare.hpp"
 #include "simd/kernel/traverse/traverse.hpp"
 #include "simd/kernels.hpp"
@@ -23,6 +24,7 @@ struct KernelsOf {
         return {name,
                 lanes,
                 Prepare<Arch>::table(),
+                CallerStream<Arch>::table(),
                 {method<PlainMethod<Arch, true>>(), method<PlainMethod<Arch, false>>(),
                  method<ExactMethod<Arch>>(), method<DoubleMethod<Arch>>()},
                 {{Shading<Double<Arch>, false, false>::table(),

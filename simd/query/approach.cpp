@@ -33,43 +33,36 @@ Approach::Approach(const SceneData& scene) : scene_(scene) {
 }
 
 void Approach::take_from(Arena& arena, std::size_t capacity) {
-    if (radius_ < 0.0) return;
-    arena.take(origin_, capacity);
-    before_ = arena.take<double>(capacity);
-    off_ = arena.take<double>(capacity);
+    room_ = arena.take<double>(capacity);
     t_ = arena.take<double>(capacity);
 }
 
-void Approach::bring_near(std::size_t count, RoundedRays& rays) {
-    any_ = false;
-    if (radius_ < 0.0) return;
-    if (!are_far(count, rays)) return;
-    any_ = true;
-    count_ = count;
-    for (std::size_t lane = 0; lane < count_; ++lane) {
-        core::Ray<double> ray; // of unit length
-        for (int axis = 0; axis < 3; ++axis) {
-            ray.origin[axis] = rays.meant_origin[axis][lane];
-            ray.direction[axis] = rays.meant_direction[axis][lane];
+void Approach::find_starts(const RayColumns& from, RoundedRays& rays) {
+    count_ = from.count;
+    before_ = from.start;
+    is_from_afar_ = are_far(from);
+    if (is_from_afar_) {
+        for (std::size_t lane = 0; lane < count_; ++lane) {
+            core::Ray<double> ray; // of unit length
+            for (int axis = 0; axis < 3; ++axis) {
+                ray.origin[axis] = from.origin[axis][lane];
+                ray.direction[axis] = from.direction[axis][lane];
+            }
+            room_[lane] = std::max(before_of(ray), from.start != nullptr ? from.start[lane] : 0.0);
         }
-        const double before = before_of(ray);
-        const core::Vec3d there = core::mul_add(before, ray.direction, ray.origin);
-        before_[lane] = before;
-        off_[lane] = before == 0.0 ? 0.0 : 0x1p-50 * (core::length(ray.origin) + before);
-        for (int axis = 0; axis < 3; ++axis)
-            origin_[axis][lane] = there[axis];
+        before_ = room_;
     }
-    for (int axis = 0; axis < 3; ++axis)
-        rays.meant_origin[axis] = origin_[axis];
+    rays.before = before_;
 }
 
-bool Approach::are_far(std::size_t count, const RoundedRays& rays) const {
+bool Approach::are_far(const RayColumns& rays) const {
+    if (radius_ < 0.0) return false;
     const double most = far_away * radius_;
     std::uint64_t signs = 0; // in lanes, which a maximum is not
     for (int axis = 0; axis < 3; ++axis) {
-        const double* const origin = rays.meant_origin[axis];
+        const double* const origin = rays.origin[axis];
         const double center = center_[axis];
-        for (std::size_t lane = 0; lane < count; ++lane)
+        for (std::size_t lane = 0; lane < rays.count; ++lane)
             signs |= std::bit_cast<std::uint64_t>(most - std::abs(origin[lane] - center));
     }
     return signs >> 63 != 0;
@@ -102,14 +95,8 @@ double Approach::before_of(const core::Ray<double>& ray) const {
     return std::max(before, 0.0);
 }
 
-void Approach::widen(const RoundedRays& rays) const {
-    if (!any_) return;
-    for (std::size_t lane = 0; lane < count_; ++lane)
-        rays.slack[lane] += static_cast<float>(off_[lane]) * (1.0F + 0x1p-15F);
-}
-
 const double* Approach::from_there(const double* t) {
-    if (!any_) return t;
+    if (!any()) return t;
     for (std::size_t lane = 0; lane < count_; ++lane)
         t_[lane] = t[lane] - before_[lane];
     return t_;

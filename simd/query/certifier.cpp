@@ -30,7 +30,8 @@ void Certifier::take_from(Arena& arena, std::size_t capacity) {
     if (refinery_.works()) refinery_.take_from(arena);
 }
 
-void Certifier::find_own_exits(const Paths& paths, const Candidates& candidates) {
+void Certifier::find_own_exits(const Paths& paths, const CandidateSearch& search,
+                               const Candidates& candidates) {
     std::fill_n(doubtful_, (paths.count + 15) / 16 * 16, std::uint8_t{0});
     std::uint32_t any = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane)
@@ -51,7 +52,7 @@ void Certifier::find_own_exits(const Paths& paths, const Candidates& candidates)
         if ((hit & hit_doubtful) != 0) {
             doubtful_[lane] = 1;
         } else if ((hit & hit_none) == 0) {
-            const double t = gathered_hits_.t[i];
+            const double t = gathered_hits_.t[i] - search.approach().before(lane);
             candidates.first[lane] = tracing_.certifies()
                                          ? std::max(0.0F, rounded_down(t - gathered_hits_.error[i]))
                                          : static_cast<float>(t);
@@ -71,7 +72,7 @@ void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candi
     finish(hits.found(paths, 0, paths.count));
     const std::size_t uncertain = tracing_.kernels->rays.list_uncertain(
         paths.count, candidates, search.approach().from_there(hits.t), hits.error, hits.hit,
-        doubtful_, lanes_);
+        doubtful_, refinery_.works() ? least_length : 0.0F, lanes_);
     if (!refinery_.works()) {
         compare_in_double(paths, {lanes_, uncertain}, hits, counters);
         return;

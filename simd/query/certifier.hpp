@@ -22,7 +22,8 @@ class Certifier {
     /// Crossings of rays with the shape that they leave, if they may cross it again. No filter can
     /// tell these from where the rays start, so they are solved before, and bound what else can be
     /// nearest.
-    void find_own_exits(const Paths& paths, const Candidates& candidates);
+    void find_own_exits(const Paths& paths, const CandidateSearch& search,
+                        const Candidates& candidates);
     /// Decides on what a search has found; hits.slot are the candidates' slots.
     void certify(const Paths& paths, CandidateSearch& search, const Candidates& candidates,
                  const Hits& hits, EngineCounters& counters);

@@ -85,6 +85,10 @@ struct Hits {
                 found.meant_direction[axis] = paths.meant_direction[axis] + begin;
         }
         if (paths.stand_for_others()) found.meant_length = paths.meant_length + begin;
+        if (paths.t_after != nullptr) {
+            found.t_after = paths.t_after + begin;
+            found.start = paths.start + begin;
+        }
         found.origin_first = paths.origin_first + begin;
         found.origin_last = paths.origin_last + begin;
         found.origin_bits = paths.origin_bits + begin;

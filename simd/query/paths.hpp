@@ -17,10 +17,15 @@ struct RayColumns {
     const double* direction[3]; ///< of length 1
     const std::uint32_t* origin_first;
     const std::uint32_t* origin_last;
+    const double* start = nullptr; ///< nothing is crossed until there; null: 0
 };
+
+/// Lengths below this may lose digits as floats.
+inline constexpr float least_length = 0x1p-100F;
 
 /// Origin bit beside the kernels': the ray may cross again the shape that it starts on.
 inline constexpr std::uint32_t origin_may_return = 0x10000;
+static_assert(stream_tie_counts != origin_may_return);
 
 /// Rays underway, structure of arrays: what core::ReferenceTracer::Path holds, but the depth, which
 /// a whole wave shares.
@@ -40,6 +45,9 @@ struct Paths {
     /// brought to length 1 and so rounded. Null: directions are exact.
     double* meant_direction[3];
     double* meant_length;
+    /// Limits below, as StreamRays has them, of rays that stand for others. Null: none has any.
+    double* t_after;
+    double* start;
 
     void take_from(Arena& arena, std::size_t capacity, bool with_media, bool for_others = false) {
         arena.take(origin, capacity);
@@ -54,6 +62,8 @@ struct Paths {
         for (double*& column : meant_direction)
             column = for_others ? arena.take<double>(capacity) : nullptr;
         meant_length = for_others ? arena.take<double>(capacity) : nullptr;
+        t_after = for_others ? arena.take<double>(capacity) : nullptr;
+        start = for_others ? arena.take<double>(capacity) : nullptr;
     }
 
     bool stand_for_others() const { return meant_length != nullptr; }
@@ -99,7 +109,8 @@ struct Paths {
                 {origin[0], origin[1], origin[2]},
                 {direction[0], direction[1], direction[2]},
                 origin_first,
-                origin_last};
+                origin_last,
+                start};
     }
 
     /// Lane `from` of `other` to lane `to`.
@@ -121,6 +132,10 @@ struct Paths {
             for (int axis = 0; axis < 3; ++axis)
                 meant_direction[axis][to] = other.meant_direction[axis][from];
             meant_length[to] = other.meant_length[from];
+        }
+        if (t_after != nullptr) {
+            t_after[to] = other.t_after != nullptr ? other.t_after[from] : 0.0;
+            start[to] = other.t_after != nullptr ? other.start[from] : 0.0;
         }
         origin_first[to] = other.origin_first[from];
         origin_last[to] = other.origin_last[from];

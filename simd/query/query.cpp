@@ -5,6 +5,15 @@
 
 namespace raylane::simd {
 
+namespace {
+
+/// A float that is not below what has been rounded to this one; for what is negative, 0.
+float rounded_up(float value) {
+    return value < 0.0F ? 0.0F : std::max(value, least_length) * (1.0F + 0x1p-21F);
+}
+
+} // namespace
+
 void Query::take_from(Arena& arena, std::size_t capacity) {
     search_.take_from(arena, capacity);
     certifier_.take_from(arena, capacity);
@@ -13,16 +22,21 @@ void Query::take_from(Arena& arena, std::size_t capacity) {
     second_ = arena.take<float>(capacity);
 }
 
-void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters) {
+void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters,
+                    const double* t_most) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     const std::size_t padded = (paths.count + 15) / 16 * 16;
     const Candidates candidates{first_, second_, hits_.slot};
-    std::fill_n(candidates.first, padded, infinity);
     std::fill_n(candidates.second, padded, infinity);
     std::fill_n(candidates.slot, padded, no_slot);
 
     search_.take(paths.columns());
-    certifier_.find_own_exits(paths, candidates);
+    if (t_most == nullptr)
+        std::fill_n(candidates.first, padded, infinity);
+    else // as if something unknown were there
+        for (std::size_t lane = 0; lane < paths.count; ++lane)
+            first_[lane] = rounded_up(search_.t_most(lane, t_most[lane]));
+    certifier_.find_own_exits(paths, search_, candidates);
     search_.nearest(coherence, candidates, counters);
     certifier_.certify(paths, search_, candidates, hits_, counters);
 }
@@ -35,6 +49,8 @@ void Query::occluded(const RayColumns& rays, const double* distance, std::uint8_
     for (std::size_t lane = 0; lane < rays.count; ++lane)
         first_[lane] = search_.t_most(lane, distance[lane]);
     search_.occluded(coherence, {first_, state}, counters);
+    for (std::size_t lane = 0; lane < rays.count; ++lane)
+        if (first_[lane] < least_length && first_[lane] >= 0.0F) state[lane] = doubtful;
     if (!search_.approach().any()) return;
     for (std::size_t lane = 0; lane < rays.count; ++lane)
         if (state[lane] == blocked && search_.approach().before(lane) > 0.25 * distance[lane])

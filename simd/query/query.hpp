@@ -18,8 +18,10 @@ class Query {
     /// Arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
 
-    /// `coherence` may be null: the rays have nothing in common.
-    void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
+    /// `coherence` may be null: the rays have nothing in common. Hits behind `t_most` are of no
+    /// interest: whether there is one or not, nothing may be found; null: all are.
+    void nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters,
+                 const double* t_most = nullptr);
     /// Hits of the last rays.
     const Hits& hits() const { return hits_; }
     /// Lanes that meet several surfaces at one point, where only the reference can go on. They have

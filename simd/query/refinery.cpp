@@ -248,6 +248,7 @@ void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
         for (const core::Crossing<double>& crossing :
              core::solve(table.get(scene_.place_of(slot)), ray, start, counters.widened)) {
             if (!(crossing.t > 0.0 || (start.on_surface && crossing.t == 0.0))) continue;
+            if (!counts(candidate, crossing)) continue;
             const double length = paths_.length_of(candidate);
             hits_.t[candidate] = crossing.t * length;
             hits_.error[candidate] =
@@ -258,6 +259,25 @@ void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
             return;
         }
     });
+}
+
+/// True if a crossing with the candidate is behind the limit below.
+bool Refinery::counts(std::size_t candidate, const core::Crossing<double>& crossing) const {
+    if (paths_.t_after == nullptr || !(paths_.t_after[candidate] > 0.0)) return true;
+    const SceneData::Occupant shape = scene_.occupant_of(hits_.slot[candidate]);
+    core::Hit<double> hit;
+    hit.t = crossing.t;
+    hit.error = crossing.error;
+    hit.shape = shape.id;
+    hit.face = crossing.face;
+    hit.entering = crossing.entering;
+    hit.kind = shape.kind;
+    hit.place = scene_.place_of(hits_.slot[candidate]);
+    const core::Ray<double> ray = ray_of(paths_, candidate);
+    const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, candidate);
+    const int side =
+        core::compare_t(scene_.scene(), {ray, origins}, hit, paths_.t_after[candidate]);
+    return side > 0 || (side == 0 && (paths_.origin_bits[candidate] & stream_tie_counts) != 0);
 }
 
 core::Hit<double> Refinery::hit_of(std::size_t candidate) const {

@@ -58,6 +58,7 @@ class Refinery {
     std::size_t first_of_close(std::size_t begin);
     void widen_close();
     void solve(std::size_t candidate, EngineCounters& counters);
+    bool counts(std::size_t candidate, const core::Crossing<double>& crossing) const;
     core::Hit<double> hit_of(std::size_t candidate) const;
     void swap(std::size_t a, std::size_t b);
     void hand_over(std::size_t candidate, const Hits& hits, std::uint32_t lane);

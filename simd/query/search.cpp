@@ -31,13 +31,16 @@ void CandidateSearch::take(const RayColumns& rays) {
     std::copy_n(rays.direction, 3, rounded_.meant_direction);
     rounded_.origin_first = rays.origin_first;
     rounded_.origin_last = rays.origin_last;
-    if (tracing_.precision == core::Precision::exact) approach_.bring_near(count_, rounded_);
+    if (tracing_.precision == core::Precision::exact) approach_.find_starts(rays, rounded_);
     tracing_.kernels->rays.round_rays(count_, rounded_);
-    approach_.widen(rounded_);
 }
 
-const Coherence* CandidateSearch::common(const Coherence* coherence) const {
-    return approach_.any() && coherence != nullptr ? &neighbours : coherence;
+const Coherence* CandidateSearch::common(const Coherence* coherence) {
+    if (!approach_.any() || coherence == nullptr) return coherence;
+    if (approach_.is_from_afar()) return &neighbours;
+    moved_ = *coherence;
+    moved_.beyond = !coherence->converging && !coherence->parallel && !coherence->loose;
+    return &moved_;
 }
 
 void CandidateSearch::nearest(const Coherence* coherence, const Candidates& candidates,

@@ -33,14 +33,15 @@ class CandidateSearch {
     Approach& approach() { return approach_; }
 
   private:
-    /// Rays that have been brought near no longer come from one point.
-    const Coherence* common(const Coherence* coherence) const;
+    /// What rays still have in common where they start further along.
+    const Coherence* common(const Coherence* coherence);
 
     const SceneData& scene_;
     Tracing tracing_;
     Approach approach_;
     std::size_t count_ = 0;
     RoundedRays rounded_{};
+    Coherence moved_{};
     Workspace workspace_{};
 };
 

@@ -14,7 +14,7 @@ class StreamTracer;
 }
 
 /// n rays, structure of arrays: ray i is the points origin + t direction with
-/// t_min < t <= t_max. n is the length of origin_x; the other five have it too, the limits have it
+/// t_min < t <= t_max. n is the length of origin_x; the other five have it too, all others have it
 /// or are empty. The arrays are the caller's and are only read.
 struct RaySpan {
     std::span<const float> origin_x{}, origin_y{}, origin_z{};
@@ -22,6 +22,16 @@ struct RaySpan {
     std::span<const float> direction_x{}, direction_y{}, direction_z{};
     std::span<const float> t_min{}; ///< empty: 0. Less than 0 is 0.
     std::span<const float> t_max{}; ///< empty: infinity
+    /// Shapes that rays leave, or no_shape (as is an id that no shape has): where a hit has said
+    /// that it is on one (HitSpan), the ray that goes on from there starts exactly on that surface,
+    /// however its numbers were rounded. So it cannot hit what it leaves, unless it comes back to
+    /// it, nor miss what is just behind, and needs no t_min. Empty: rays are what their numbers
+    /// say.
+    std::span<const ShapeId> origin_shape{};
+    std::span<const std::uint8_t> origin_face{}; ///< the hit's face; empty: 0
+    /// 1 where a ray goes to the inside (back) of what it leaves: where it goes through and the hit
+    /// was `entering`, or is thrown back and it was not. 0: to the outside. Empty: 0.
+    std::span<const std::uint8_t> origin_inward{};
 };
 
 /// Hits of n rays, structure of arrays, for the tracer to fill. A span of length 0 is not wanted;
@@ -36,6 +46,8 @@ struct HitSpan {
     /// 1 where the ray goes from the outside (front) to the inside (back), or touches; 0 where it
     /// comes out, or nothing is hit.
     std::span<std::uint8_t> entering{};
+    /// Part of the shape's surface, for RaySpan::origin_face; 0 where nothing is hit.
+    std::span<std::uint8_t> face{};
 };
 
 struct TracerOptions {
@@ -68,7 +80,7 @@ struct TracerOptions {
 ///
 /// - Sides that Material::visible hides are not hit. Glass is: any surface occludes.
 /// - A crossing at the origin itself (t = 0) is none. But an origin that was computed is seldom
-///   exactly on its surface: give such rays a small t_min.
+///   exactly on its surface: let such rays name what they leave (RaySpan::origin_shape).
 /// - Shapes that are the same, float by float and by the index of their material, count as the
 ///   first of them; but for triangles of polygons.
 /// - A ray of which a component is infinite or NaN, or its direction 0, or a limit NaN, hits

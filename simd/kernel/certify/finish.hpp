@@ -128,10 +128,18 @@ class Finish {
                                               const Spots<Arch>& spots, std::size_t i,
                                               std::uint32_t active) const {
         const Rays<D> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
-        Finished<D> finished = finisher.template finish<wanted>(
-            rays, leaves_any(i, active) ? starts(table, spots, i) : starts_nowhere<D>());
+        const bool leaves = leaves_any(i, active);
+        const Starts<D> from = leaves ? starts(table, spots, i) : starts_nowhere<D>();
+        Finished<D> finished = finisher.template finish<wanted>(rays, from);
+        if constexpr (wanted == Wanted::all)
+            if (leaves && !found_.holds_points) make_unit(finished, from.on_surface);
         if (found_.holds_points)
             finished.certain = finished.certain & holds_point(rays, finished.t, finished.error);
+        if (found_.start != nullptr) {
+            const F start = load(found_.start + i); // off by less than this
+            finished.certain =
+                finished.certain & (finished.t - finished.error > start * F(1 + 0x1p-50));
+        }
         store(finished, i, active);
         if constexpr (requires { finisher.shading_normal(rays.origin, rays.origin); }) {
             if (found_.shading_normal[0] != nullptr)
@@ -141,6 +149,20 @@ class Finish {
         } else if (found_.shading_normal[0] != nullptr) {
             store(finished.normal, found_.shading_normal, i, active);
         }
+    }
+
+    /// Finishers take a start on the surface for a point of it, so that what is perpendicular there
+    /// is as long as they expect. The origin of a ray for others need not be one.
+    static void make_unit(Finished<D>& finished, const M& lanes) {
+        const F inverse = select(lanes, F(1.0) / sqrt(squared_length(finished.normal)), F(1.0));
+        const Vectors<D>& error = finished.normal_error;
+        const F of_length = error.x + error.y + error.z;
+        const auto with_length = [&](const F& of_component) {
+            return select(lanes, (of_component + of_length) * inverse * F(1 + 0x1p-40) + F(0x1p-50),
+                          of_component);
+        };
+        finished.normal_error = {with_length(error.x), with_length(error.y), with_length(error.z)};
+        finished.normal = scaled<D>(inverse, finished.normal);
     }
 
     bool leaves_any(std::size_t i, std::uint32_t active) const {

@@ -106,6 +106,7 @@ class FinishAgain {
         Reader reader;
         Rays<D> rays;
         F length;
+        F t_after;
     };
 
     Loaded load(const Packet& packet, core::Kind kind) const {
@@ -114,7 +115,7 @@ class FinishAgain {
         const bool stand_for_others = found_.meant_length != nullptr;
         const double* const* const directions =
             stand_for_others ? found_.meant_direction : found_.direction;
-        double numbers[7][width];
+        double numbers[8][width];
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
@@ -124,6 +125,7 @@ class FinishAgain {
                 numbers[3 + axis][lane] = directions[axis][ray];
             }
             numbers[6][lane] = stand_for_others ? found_.meant_length[ray] : 1.0;
+            numbers[7][lane] = found_.t_after != nullptr ? found_.t_after[ray] : 0.0;
         }
         const auto vectors = [&](double(*from)[width]) {
             return Vectors<D>{F::load_unaligned(from[0]), F::load_unaligned(from[1]),
@@ -131,6 +133,7 @@ class FinishAgain {
         };
         loaded.rays = {vectors(numbers), vectors(numbers + 3)};
         loaded.length = F::load_unaligned(numbers[6]);
+        loaded.t_after = F::load_unaligned(numbers[7]);
         return loaded;
     }
 
@@ -145,8 +148,8 @@ class FinishAgain {
         const Loaded loaded = load(packet, kind);
         std::uint32_t certain = 0, misses = 0;
         with_solver<Certified<Number>>(kind, [&]<class Solver>() {
-            const Finished<D> finished = first_crossing<Solver, Number>(
-                loaded.reader, loaded.rays, loaded.length, found_.holds_points);
+            const Finished<D> finished =
+                first_crossing<Solver, Number>(loaded, found_.holds_points);
             certain = Lanes<D>::bits(finished.certain);
             misses = Lanes<D>::bits(finished.misses);
             if (certain != 0) store(finished, packet, certain);
@@ -161,15 +164,26 @@ class FinishAgain {
     }
 
     template <class Solver, class Number>
-    static Crossing<Certified<Number>> crossing_of(const Reader& reader, const Rays<D>& rays) {
+    static Crossing<Certified<Number>> crossing_of(const Loaded& loaded) {
         using C = Certified<Number>;
         const auto exact = [](const Vectors<D>& v) {
             return Vectors<C>{Floats<C>(v.x), Floats<C>(v.y), Floats<C>(v.z)};
         };
-        const Solver solver(ExactReader<Number>{reader});
-        return first_ahead<C>(
-            solver.crossings({exact(rays.origin), exact(rays.direction)}, starts_nowhere<C>()),
-            none<C>());
+        const Solver solver(ExactReader<Number>{loaded.reader});
+        Crossings<C> crossings = solver.crossings(
+            {exact(loaded.rays.origin), exact(loaded.rays.direction)}, starts_nowhere<C>());
+        for (Crossing<C>* const crossing : {&crossings.first, &crossings.second})
+            crossing->exists = crossing->exists & is_after<C>(crossing->t, loaded.t_after);
+        return first_ahead<C>(crossings, none<C>());
+    }
+
+    /// Not known at the limit itself, where that is any.
+    template <class C>
+    static Mask<C> is_after(const Floats<C>& t, const F& t_after) {
+        const Floats<C> limit(t_after);
+        Mask<C> is_after = t > limit;
+        is_after.known = is_after.known & ~((t == limit).surely() & (t_after > zero<D>()));
+        return is_after;
     }
 
     void widen(Packet& packet, const WideNumbers& t) {
@@ -185,8 +199,7 @@ class FinishAgain {
     template <class Solver>
     [[gnu::noinline]] void store(const Loaded& loaded, const Packet& packet,
                                  const WideNumbers& t) const {
-        const Crossing<Certified<Wide<D>>> first =
-            crossing_of<Solver, Wide<D>>(loaded.reader, loaded.rays);
+        const Crossing<Certified<Wide<D>>> first = crossing_of<Solver, Wide<D>>(loaded);
         const std::uint32_t known = Lanes<D>::bits(
             first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known);
         const std::uint32_t entering = Lanes<D>::bits(first.entering.answer);
@@ -210,15 +223,15 @@ class FinishAgain {
 
     /// First crossing of rays that do not start on the shape. The normal is not known.
     template <class Solver, class Number>
-    [[gnu::noinline]] static Finished<D> first_crossing(const Reader& reader, const Rays<D>& rays,
-                                                        const F& length, bool holds_points) {
-        const Crossing<Certified<Number>> first = crossing_of<Solver, Number>(reader, rays);
+    [[gnu::noinline]] static Finished<D> first_crossing(const Loaded& loaded, bool holds_points) {
+        const F& length = loaded.length;
+        const Crossing<Certified<Number>> first = crossing_of<Solver, Number>(loaded);
         using Its = Digits<Number>;
         const F t = first.t.in_double();
         const F error = (first.t.error + Its::lost_in_double(first.t.value)) * F(1.0 + 0x1p-50);
         M certain = first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known &
                     is_result<D>(t, error);
-        if (holds_points) certain = certain & holds_point(rays, t, error);
+        if (holds_points) certain = certain & holds_point(loaded.rays, t, error);
         // Of rays that stand for others the length is off by a few ulps, and so is the product.
         const F unit_t = t * length, rounding = select(length == F(1.0), zero<D>(), F(0x1p-50));
         return {certain,

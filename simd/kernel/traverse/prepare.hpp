@@ -41,40 +41,25 @@ struct Prepare : Streams<Arch> {
     }
 
     static void round_rays(std::size_t count, const RoundedRays& rays) {
-        using D = Double<Arch>;
-        using Number = Floats<D>;
         for (std::size_t i = 0; i < count; i += F::size) {
-            double moved[F::size] = {}; // by rounding, all coordinates together
-            for (int axis = 0; axis < 3; ++axis) {
-                const double* const meant = rays.meant_origin[axis] + i;
-                const F o = Lanes<Arch>::narrow(meant);
-                o.store_unaligned(rays.origin[axis] + i);
-                for (int half = 0; half < 2; ++half) {
-                    double* const sum = moved + half * Number::size;
-                    const Number rounded = Lanes<D>::widen(o, half);
-                    const Number off =
-                        rounded - Number::load_unaligned(meant + half * Number::size);
-                    (Number::load_unaligned(sum) + abs(off)).store_unaligned(sum);
-                }
-                Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
-                    .store_unaligned(rays.direction[axis] + i);
-            }
-            // As FilterRays asks for.
-            (Lanes<Arch>::narrow(moved) * F(1 + 0x1p-15F) + F(slack_floor))
-                .store_unaligned(rays.slack + i);
+            if (rays.before != nullptr)
+                round_packet<true>(rays, i);
+            else
+                round_packet<false>(rays, i);
         }
     }
 
     static std::size_t list_uncertain(std::size_t count, const Candidates& candidates,
                                       const double* t, const double* error,
                                       const std::uint32_t* hit, const std::uint8_t* doubtful,
-                                      std::uint32_t* lanes) {
+                                      float least, std::uint32_t* lanes) {
         const F none = S::broadcast_bits(no_slot);
         const F unsolved = S::broadcast_bits(hit_doubtful | hit_none), nothing = zero<Arch>();
         std::size_t listed = 0;
         std::uint32_t asked = 0; // of 16
         for (std::size_t i = 0; i < count; i += F::size) {
-            // Rounded to float, each is off by half an ulp, and so are their sum and the product.
+            // Rounded to float, each is off by half an ulp, and so are their sum and the product,
+            // if these are no subnormal numbers.
             const F last =
                 (Lanes<Arch>::narrow(t + i) + Lanes<Arch>::narrow(error + i)) * F(1 + 0x1p-21F);
             const F most = min(S::load(candidates.second + i),
@@ -82,7 +67,8 @@ struct Prepare : Streams<Arch> {
             const M solved =
                 Lanes<Arch>::in_range(S::load_bits(hit + i) & unsolved, nothing, nothing);
             const M missed = Lanes<Arch>::in_range(S::load_bits(candidates.slot + i), none, none);
-            std::uint32_t uncertain = Lanes<Arch>::bits(~(missed | (solved & (last <= most))));
+            const M first = (last <= most) & (most >= F(least));
+            std::uint32_t uncertain = Lanes<Arch>::bits(~(missed | (solved & first)));
             if (i % 16 == 0) asked = ~ShortLanes<Arch>::equal_16(doubtful + i, 0) & 0xFFFF;
             uncertain |= asked >> i % 16 & ((1U << F::size) - 1);
             if (uncertain == 0) continue;
@@ -95,6 +81,51 @@ struct Prepare : Streams<Arch> {
     }
 
     static constexpr RayKernels table() { return {camera_rays, round_rays, list_uncertain}; }
+
+  private:
+    using D = Double<Arch>;
+    using Number = Floats<D>;
+
+    /// Those that start further along are off by as much as they have been moved by in double, and
+    /// then by what rounding moves them.
+    template <bool moves>
+    [[gnu::always_inline]] static void round_packet(const RoundedRays& rays, std::size_t i) {
+        double moved[F::size] = {}; // all coordinates together
+        if constexpr (moves)
+            for (std::size_t k = 0; k < F::size; k += Number::size) {
+                const Number before = Number::load_unaligned(rays.before + i + k);
+                Number size = before;
+                for (const double* const meant : rays.meant_origin)
+                    size = size + abs(Number::load_unaligned(meant + i + k));
+                select(before > zero<D>(), Number(0x1p-50) * size, zero<D>())
+                    .store_unaligned(moved + k);
+            }
+        for (int axis = 0; axis < 3; ++axis) {
+            const double* meant = rays.meant_origin[axis] + i;
+            double there[F::size];
+            if constexpr (moves) {
+                for (std::size_t k = 0; k < F::size; k += Number::size)
+                    mul_add<D>(Number::load_unaligned(rays.before + i + k),
+                               Number::load_unaligned(rays.meant_direction[axis] + i + k),
+                               Number::load_unaligned(meant + k))
+                        .store_unaligned(there + k);
+                meant = there;
+            }
+            const F o = Lanes<Arch>::narrow(meant);
+            o.store_unaligned(rays.origin[axis] + i);
+            for (int half = 0; half < 2; ++half) {
+                double* const sum = moved + half * Number::size;
+                const Number off =
+                    Lanes<D>::widen(o, half) - Number::load_unaligned(meant + half * Number::size);
+                (Number::load_unaligned(sum) + abs(off)).store_unaligned(sum);
+            }
+            Lanes<Arch>::narrow(rays.meant_direction[axis] + i)
+                .store_unaligned(rays.direction[axis] + i);
+        }
+        // As FilterRays asks for.
+        (Lanes<Arch>::narrow(moved) * F(1 + 0x1p-15F) + F(slack_floor))
+            .store_unaligned(rays.slack + i);
+    }
 };
 
 } // namespace raylane::simd

@@ -244,7 +244,7 @@ struct Frustum : Streams<Arch> {
     void choose_apex(const RoundedRays& rays, std::size_t begin, const Coherence& coherence) {
         for (int axis = 0; axis < 3; ++axis)
             apex[axis] = coherence.parallel ? rays.origin[axis][begin] : coherence.apex[axis];
-        slack = half_ulp * (size(apex[0]) + size(apex[1]) + size(apex[2]));
+        slack = half_ulp * (size(apex[0]) + size(apex[1]) + size(apex[2])) + coherence.spread;
     }
 
     [[gnu::always_inline]] void enclose_packet(const RoundedRays& rays, std::size_t packet,

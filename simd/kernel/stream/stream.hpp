@@ -1,0 +1,390 @@
+#pragma once
+
+#include "simd/kernel/certify/slots.hpp"
+#include "simd/kernel/lanes/doubles.hpp"
+#include "simd/kernel/lanes/vectors.hpp"
+#include "simd/kernels.hpp"
+
+namespace raylane::simd {
+
+/// StreamKernels: a caller's rays in and out, 16 at a time.
+template <class Arch>
+class CallerStream {
+  public:
+    static std::size_t take(const CallerRays& rays, const StreamRays& taken) {
+        std::size_t none = 0;
+        for (std::size_t i = 0; i < rays.count; i += 16) {
+            if (rays.count - i < 16) {
+                const PaddedRays padded(rays, i);
+                return none + take_16(padded.rays, 0, rays.count - i, taken, i);
+            }
+            none += take_16(rays, i, 16, taken, i);
+        }
+        return none;
+    }
+
+    /// Rays through one point or in one direction are coherent if they are near each other in the
+    /// order in which they come; those that end at one point are put in order. Rays that are near
+    /// each other and no more are loosely so.
+    static bool find_coherence(std::size_t count, const StreamRays& rays, float radius,
+                               Coherence& coherence) {
+        coherence = {};
+        if (count < fewest) return false;
+        const Steps steps = steps_between(count, rays);
+        const double most = static_cast<double>(count - 1);
+        if (ends_at_one_point(count, rays, coherence)) return true;
+        if (!(steps.turn <= most_turn * most)) return false;
+        if (steps.turn == 0.0) {
+            coherence.parallel = steps.is_near(radius, most);
+            return coherence.parallel;
+        }
+        if (steps.move == 0.0) {
+            for (int axis = 0; axis < 3; ++axis)
+                coherence.apex[axis] = static_cast<float>(rays.origin[axis][0]);
+            return true;
+        }
+        coherence.loose = true;
+        return steps.is_near(radius, most);
+    }
+
+    static std::size_t hand_over(const SceneView& scene, const CallerRays& rays,
+                                 const StreamRays& taken, const StreamHits& found,
+                                 const CallerHits& hits, std::uint32_t* doubtful) {
+        std::size_t listed = 0;
+        const TableView* table = scene.tables;
+        for (std::size_t i = 0; i < rays.count; i += F::size) {
+            const std::size_t here = least(rays.count - i, F::size);
+            const Answers answers = answers_to(rays, taken, found, i, here, wants_normals(hits));
+            if (hits.t != nullptr)
+                store(select(answers.hit, answers.t, S::infinity()), hits.t + i, here);
+            for (int axis = 0; axis < 3; ++axis)
+                if (hits.normal[axis] != nullptr)
+                    // 0 has one sign.
+                    store(select(answers.hit,
+                                 Lanes<Arch>::narrow(found.normal[axis] + i) + zero<Arch>(),
+                                 zero<Arch>()),
+                          hits.normal[axis] + i, here);
+            const std::uint32_t bits = answers.hit_bits;
+            if (hits.shape != nullptr)
+                store_shapes(scene, found.slot + i, bits, here, hits.shape + i, table);
+            if (hits.entering != nullptr)
+                for (std::size_t lane = 0; lane < here; ++lane)
+                    hits.entering[i + lane] = static_cast<std::uint8_t>(
+                        bits >> lane & 1 & found.hit[i + lane] / hit_entering);
+            if (hits.face != nullptr)
+                for (std::size_t lane = 0; lane < here; ++lane)
+                    hits.face[i + lane] = static_cast<std::uint8_t>(
+                        (bits >> lane & 1) != 0 ? found.hit[i + lane] & hit_face : 0);
+            for (std::uint32_t left = answers.doubtful; left != 0; left &= left - 1)
+                doubtful[listed++] =
+                    static_cast<std::uint32_t>(i) + static_cast<unsigned>(__builtin_ctz(left));
+        }
+        return listed;
+    }
+
+    static constexpr StreamKernels table() { return {take, find_coherence, hand_over}; }
+
+  private:
+    using S = Streams<Arch>;
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+    using D = Double<Arch>;
+    using Number = Floats<D>;
+    static constexpr std::size_t half = Number::size;
+
+    /// Least number of rays that are worth a look.
+    static constexpr std::size_t fewest = 16;
+    /// Mean steps from one ray to the next that are small: of directions, and of origins in radii
+    /// of the scene.
+    static constexpr double most_turn = 0.25, most_move = 0.05;
+
+    static std::size_t least(std::size_t a, std::size_t b) { return a < b ? a : b; }
+    static bool wants_normals(const CallerHits& hits) {
+        return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
+    }
+
+    /// The last of a caller's rays, with others behind them that are none.
+    struct PaddedRays {
+        float origin[3][16] = {}, direction[3][16] = {}, t_min[16] = {}, t_max[16] = {};
+        CallerRays rays;
+
+        PaddedRays(const CallerRays& from, std::size_t begin) : rays(from) {
+            const std::size_t bytes = (from.count - begin) * sizeof(float);
+            for (int axis = 0; axis < 3; ++axis) {
+                __builtin_memcpy(origin[axis], from.origin[axis] + begin, bytes);
+                __builtin_memcpy(direction[axis], from.direction[axis] + begin, bytes);
+                rays.origin[axis] = origin[axis];
+                rays.direction[axis] = direction[axis];
+            }
+            if (from.t_min != nullptr) {
+                __builtin_memcpy(t_min, from.t_min + begin, bytes);
+                rays.t_min = t_min;
+            }
+            if (from.t_max != nullptr) {
+                __builtin_memcpy(t_max, from.t_max + begin, bytes);
+                rays.t_max = t_max;
+            }
+        }
+    };
+
+    static M is_finite(const F& value) { return abs(value) < S::infinity(); }
+
+    /// The float above one that is not negative.
+    static F next_above(const F& value) {
+        const auto bits = bits_as<std::uint32_t>(value);
+        return bits_as<float>(bits + decltype(bits)(std::uint32_t{1}));
+    }
+
+    /// Takes the first `count` of 16 rays in. Returns how many are none.
+    [[gnu::always_inline]] static std::size_t take_16(const CallerRays& rays, std::size_t from,
+                                                      std::size_t count, const StreamRays& taken,
+                                                      std::size_t to) {
+        std::uint32_t none = 0;
+        for (std::size_t k = 0; k < 16; k += F::size) {
+            F origin[3], direction[3];
+            for (int axis = 0; axis < 3; ++axis) {
+                origin[axis] = S::load(rays.origin[axis] + from + k);
+                direction[axis] = S::load(rays.direction[axis] + from + k);
+            }
+            M is_ray = is_finite(origin[0]) & is_finite(origin[1]) & is_finite(origin[2]) &
+                       is_finite(direction[0]) & is_finite(direction[1]) & is_finite(direction[2]);
+            const F largest = max(max(abs(direction[0]), abs(direction[1])), abs(direction[2]));
+            is_ray = is_ray & (largest > zero<Arch>());
+            F t_min = zero<Arch>(), t_max = S::infinity();
+            if (rays.t_min != nullptr) {
+                const F asked = S::load(rays.t_min + from + k);
+                t_min = select(asked > zero<Arch>(), asked, zero<Arch>());
+                is_ray = is_ray & (asked == asked) & (t_min < F(largest_float));
+            }
+            if (rays.t_max != nullptr) t_max = S::load(rays.t_max + from + k);
+            is_ray = is_ray & (t_min < t_max);
+            const std::uint32_t valid = Lanes<Arch>::bits(is_ray);
+            none |= (~valid & all_lanes) << k;
+            for (int part = 0; part < 2; ++part)
+                take_half(origin, direction, largest, valid, part, taken, to + k);
+            take_limits(t_min, t_max, rays.t_min != nullptr, valid, taken, to + k);
+        }
+        return static_cast<std::size_t>(__builtin_popcount(none & ((1U << count) - 1)));
+    }
+
+    static constexpr float largest_float = 0x1.fffffep127F;
+    static constexpr std::uint32_t all_lanes = (std::uint64_t{1} << F::size) - 1;
+
+    /// Takes half of some lanes in, in double.
+    [[gnu::always_inline]] static void take_half(const F (&origin)[3], const F (&direction)[3],
+                                                 const F& largest, std::uint32_t valid, int part,
+                                                 const StreamRays& taken, std::size_t to) {
+        const std::size_t at = to + static_cast<std::size_t>(part) * half;
+        const Mask<D> is_ray =
+            Lanes<D>::from_bits(valid >> (static_cast<unsigned>(part) * half) & ((1U << half) - 1));
+        // Of a number in double that was any float, infinity's bits are those of its exponent.
+        const Number power = Lanes<D>::widen(largest, part) & Number(__builtin_inf());
+        const Number unit = select(is_ray, Number(1.0) / power, Number(1.0));
+        Vectors<D> meant;
+        Number* const components[] = {&meant.x, &meant.y, &meant.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            *components[axis] = select(is_ray, Lanes<D>::widen(direction[axis], part) * unit,
+                                       Number(axis == 2 ? 1.0 : 0.0));
+            select(is_ray, Lanes<D>::widen(origin[axis], part), zero<D>())
+                .store_unaligned(taken.origin[axis] + at);
+            components[axis]->store_unaligned(taken.meant_direction[axis] + at);
+        }
+        const Number length = sqrt(squared_length(meant));
+        for (int axis = 0; axis < 3; ++axis)
+            (*components[axis] / length).store_unaligned(taken.direction[axis] + at);
+        length.store_unaligned(taken.meant_length + at);
+        unit.store_unaligned(taken.unit + at);
+    }
+
+    /// Takes limits in, by the floats' neighbours: what counts is the float nearest to t, ties to
+    /// even.
+    [[gnu::always_inline]] static void take_limits(const F& t_min, const F& t_max, bool has_t_min,
+                                                   std::uint32_t valid, const StreamRays& taken,
+                                                   std::size_t to) {
+        const F after_t_min = next_above(t_min), after_t_max = next_above(t_max);
+        const std::uint32_t endless = Lanes<Arch>::bits(~(t_max < F(largest_float)));
+        for (int part = 0; part < 2; ++part) {
+            const std::size_t at = to + static_cast<std::size_t>(part) * half;
+            const auto mask = [&](std::uint32_t bits) {
+                return Lanes<D>::from_bits(bits >> (static_cast<unsigned>(part) * half) &
+                                           ((1U << half) - 1));
+            };
+            const Number unit = Number::load_unaligned(taken.unit + at);
+            const Number length = Number::load_unaligned(taken.meant_length + at);
+            const Number most = Lanes<D>::widen(after_t_max, part) / unit * length;
+            select(mask(valid), select(mask(endless), Number(__builtin_inf()), most), Number(-1.0))
+                .store_unaligned(taken.t_most + at);
+            if (!has_t_min) {
+                zero<D>().store_unaligned(taken.t_after + at);
+                zero<D>().store_unaligned(taken.start + at);
+                continue;
+            }
+            const Number low = Lanes<D>::widen(t_min, part);
+            const Number middle = Number(0.5) * (low + Lanes<D>::widen(after_t_min, part));
+            const Number after = select(mask(valid) & (low > zero<D>()), middle / unit, zero<D>());
+            after.store_unaligned(taken.t_after + at);
+            (after * length).store_unaligned(taken.start + at);
+        }
+        if (has_t_min) {
+            const auto bits = bits_as<std::uint32_t>(t_min);
+            const auto odd = bits & decltype(bits)(std::uint32_t{1});
+            static_assert(stream_tie_counts == 1U << 17);
+            S::store_bits(bits_as<float>(odd << 17), taken.bits + to);
+        } else {
+            S::store_bits(zero<Arch>(), taken.bits + to);
+        }
+    }
+
+    /// Steps from each ray to the next, along the coordinates, added up.
+    struct Steps {
+        double turn, move;
+
+        bool is_near(float radius, double count) const {
+            return move <= most_move * static_cast<double>(radius) * count;
+        }
+    };
+    static Steps steps_between(std::size_t count, const StreamRays& rays) {
+        Number turn = zero<D>(), move = zero<D>();
+        for (std::size_t i = 0; i + 1 < count; i += half) {
+            Number turned = zero<D>(), moved = zero<D>();
+            for (int axis = 0; axis < 3; ++axis) {
+                const double* const d = rays.direction[axis] + i;
+                const double* const o = rays.origin[axis] + i;
+                turned = turned + abs(Number::load_unaligned(d) - Number::load_unaligned(d + 1));
+                moved = moved + abs(Number::load_unaligned(o) - Number::load_unaligned(o + 1));
+            }
+            const Mask<D> here = first_lanes(count - 1 - i);
+            turn = turn + select(here, turned, zero<D>());
+            move = move + select(here, moved, zero<D>());
+        }
+        return {sum_of(turn), sum_of(move)};
+    }
+
+    static Mask<D> first_lanes(std::size_t count) {
+        return Lanes<D>::from_bits(count < half ? (1U << count) - 1 : (1U << half) - 1);
+    }
+    static double sum_of(const Number& numbers) {
+        double lanes[half], sum = 0.0;
+        numbers.store_unaligned(lanes);
+        for (const double lane : lanes)
+            sum += lane;
+        return sum;
+    }
+    static double greatest_of(const Number& numbers) {
+        double lanes[half], most = 0.0;
+        numbers.store_unaligned(lanes);
+        for (const double lane : lanes)
+            most = lane > most ? lane : most;
+        return most;
+    }
+
+    /// True if all rays have an end, and these are one point, as far as rounding to float tells.
+    static bool ends_at_one_point(std::size_t count, const StreamRays& rays, Coherence& coherence) {
+        std::size_t first = 0;
+        while (first + 1 < count && rays.t_most[first] < 0.0)
+            ++first;
+        const double end = rays.t_most[first];
+        if (!(end >= 0.0 && end < __builtin_inf())) return false;
+        float apex[3];
+        for (int axis = 0; axis < 3; ++axis)
+            apex[axis] =
+                static_cast<float>(rays.origin[axis][first] + end * rays.direction[axis][first]);
+        Number off = zero<D>(), longest = zero<D>();
+        for (std::size_t i = 0; i < count; i += half) {
+            Number here = zero<D>();
+            const Number t = Number::load_unaligned(rays.t_most + i);
+            for (int axis = 0; axis < 3; ++axis) {
+                const Number there = mul_add<D>(t, Number::load_unaligned(rays.direction[axis] + i),
+                                                Number::load_unaligned(rays.origin[axis] + i));
+                here = here + abs(there - Number(static_cast<double>(apex[axis])));
+            }
+            const Mask<D> are_there = first_lanes(count - i) & (t >= zero<D>());
+            off = max(off, select(are_there, here, zero<D>()));
+            longest = max(longest, select(are_there, t, zero<D>()));
+            // Most rays end anywhere.
+            if (i == 0 && !is_one_point(off, longest)) return false;
+        }
+        if (!is_one_point(off, longest)) return false;
+        for (int axis = 0; axis < 3; ++axis)
+            coherence.apex[axis] = apex[axis];
+        coherence.converging = true;
+        coherence.spread = static_cast<float>(greatest_of(off)) * (1 + 0x1p-20F);
+        return true;
+    }
+    static bool is_one_point(const Number& off, const Number& longest) {
+        constexpr double most_off = 0x1p-18; // of the longest ray's length
+        const double length = greatest_of(longest);
+        return length < __builtin_inf() && greatest_of(off) <= most_off * length;
+    }
+
+    struct Answers {
+        F t;
+        M hit;
+        std::uint32_t hit_bits, doubtful;
+    };
+    static M mask_of(std::uint32_t bits) {
+        float lanes[F::size];
+        for (std::size_t lane = 0; lane < F::size; ++lane)
+            lanes[lane] = static_cast<float>(bits >> lane & 1);
+        return S::load(lanes) > zero<Arch>();
+    }
+    [[gnu::always_inline]] static Answers answers_to(const CallerRays& rays,
+                                                     const StreamRays& taken,
+                                                     const StreamHits& found, std::size_t i,
+                                                     std::size_t here, bool with_normals) {
+        double first[F::size], last[F::size];
+        std::uint32_t are_rays = 0;
+        for (std::size_t k = 0; k < F::size; k += half) {
+            const Number per_unit = Number::load_unaligned(taken.unit + i + k) /
+                                    Number::load_unaligned(taken.meant_length + i + k);
+            const Number t = Number::load_unaligned(found.t + i + k) * per_unit;
+            // The length and all operations are off by a few ulps.
+            const Number error =
+                Number::load_unaligned(found.error + i + k) * per_unit * Number(1 + 0x1p-50) +
+                Number(0x1p-49) * t;
+            are_rays |= Lanes<D>::bits(Number::load_unaligned(taken.t_most + i + k) >= zero<D>())
+                        << k;
+            (t - error).store_unaligned(first + k);
+            (t + error).store_unaligned(last + k);
+        }
+        const F t = Lanes<Arch>::narrow(first), none = S::broadcast_bits(no_slot);
+        const M sure = (t == Lanes<Arch>::narrow(last)) & (t > zero<Arch>()) & (t < S::infinity());
+        const M missed = Lanes<Arch>::in_range(S::load_bits(found.slot + i), none, none);
+        const F unknown = S::broadcast_bits(
+            hit_doubtful | (with_normals ? hit_normal_doubtful | hit_normal_unknown : 0));
+        const M known = Lanes<Arch>::in_range(S::load_bits(found.hit + i) & unknown, zero<Arch>(),
+                                              zero<Arch>());
+        if (here < F::size) are_rays &= (1U << here) - 1;
+        const std::uint32_t any = are_rays & ~Lanes<Arch>::bits(missed);
+        const std::uint32_t certain = Lanes<Arch>::bits(sure & known);
+        std::uint32_t hit = any & certain;
+        if (rays.t_max != nullptr) {
+            float t_max[F::size] = {};
+            __builtin_memcpy(t_max, rays.t_max + i, here * sizeof(float));
+            hit &= Lanes<Arch>::bits(t <= S::load(t_max));
+        }
+        return {t, mask_of(hit), hit, any & ~certain};
+    }
+
+    static void store(const F& values, float* to, std::size_t count) {
+        if (count == F::size) return values.store_unaligned(to);
+        float all[F::size];
+        values.store_unaligned(all);
+        __builtin_memcpy(to, all, count * sizeof(float));
+    }
+
+    static void store_shapes(const SceneView& scene, const std::uint32_t* slots, std::uint32_t hit,
+                             std::size_t count, std::uint32_t* to, const TableView*& table) {
+        for (std::size_t lane = 0; lane < count; ++lane) {
+            to[lane] = no_slot; // core::no_shape
+            if ((hit >> lane & 1) == 0) continue;
+            const std::uint32_t slot = slots[lane];
+            if (!Slots<Arch>::holds(*table, slot))
+                table = &Slots<Arch>::table_of(scene, Slots<Arch>::kind_of(scene, slot));
+            const float* const ids = table->blocks + 16 * static_cast<std::size_t>(table->values);
+            to[lane] = __builtin_bit_cast(std::uint32_t, ids[Slots<Arch>::offset(*table, slot)]);
+        }
+    }
+};
+
+} // namespace raylane::simd
