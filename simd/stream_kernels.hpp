@@ -11,13 +11,15 @@ namespace raylane::simd {
 
 struct Coherence;
 
-/// A caller's rays, structure of arrays: values behind `count` may not be read.
+/// A caller's rays, structure of arrays: values behind `count` may not be read. Limits of floats
+/// compare with the float nearest to t, those of doubles with the true one.
+template <class Real>
 struct CallerRays {
     std::size_t count;
-    const float* origin[3];
-    const float* direction[3]; ///< of any length
-    const float* t_min;        ///< null: 0
-    const float* t_max;        ///< null: infinity
+    const Real* origin[3];
+    const Real* direction[3]; ///< of any length
+    const Real* t_min;        ///< null: 0
+    const Real* t_max;        ///< null: infinity
 };
 
 /// Rays as kernels have them, structure of arrays of whole packets of 16. The directions meant are
@@ -43,10 +45,18 @@ inline constexpr std::uint32_t stream_tie_counts = 0x20000;
 /// Arrays of a caller's for hits. Null: not wanted.
 struct CallerHits {
     float* t;
+    double* t_double;
     float* normal[3];
     std::uint32_t* shape;
     std::uint8_t* entering;
     std::uint8_t* face;
+};
+
+/// Lanes for which more is to be done, as kernels list them.
+struct LeftOver {
+    std::uint32_t* doubtful; ///< their floats are in doubt; nothing has been stored
+    std::uint32_t* unsharp;  ///< hits of which t_double alone is
+    std::size_t doubtful_count, unsharp_count;
 };
 
 /// Hits of lanes, as in Found.
@@ -61,18 +71,20 @@ struct StreamHits {
 /// Kernels for streams of a caller's rays.
 struct StreamKernels {
     /// Takes rays in. Returns how many are none.
-    std::size_t (*take)(const CallerRays& rays, const StreamRays& taken);
+    std::size_t (*take)(const CallerRays<float>& rays, const StreamRays& taken);
+    std::size_t (*take_doubles)(const CallerRays<double>& rays, const StreamRays& taken);
 
     /// Looks at whole rays for what they have in common. Returns false if that is nothing.
     /// `radius`: of the scene.
     bool (*find_coherence)(std::size_t count, const StreamRays& rays, float radius,
                            Coherence& coherence);
 
-    /// Hands hits over to the caller, as floats: t in units of the caller's, no later than t_max.
-    /// Lists the lanes whose floats are in doubt, and leaves them as they are. Returns how many.
-    std::size_t (*hand_over)(const SceneView& scene, const CallerRays& rays,
-                             const StreamRays& taken, const StreamHits& found,
-                             const CallerHits& hits, std::uint32_t* doubtful);
+    /// Hands hits of the first `count` rays over to the caller: t in units of the caller's, no
+    /// later than t_max, or if that is null, no later than t_most says. `left` has room for `count`
+    /// each.
+    void (*hand_over)(const SceneView& scene, std::size_t count, const float* t_max,
+                      const StreamRays& taken, const StreamHits& found, const CallerHits& hits,
+                      LeftOver& left);
 };
 
 } // namespace raylane::simd

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <type_traits>
 
 namespace raylane::simd {
 
@@ -22,8 +24,9 @@ struct LoneRay {
     core::Ray<double> ray;
     core::OriginSurfaces<double> origins;
     int exponent; ///< the caller's t is ours times 2^exponent
-    float t_min, t_max;
-    double t_most; ///< no crossing counts from here on
+    double t_min, t_max;
+    bool by_floats; ///< these compare with the float nearest to t
+    double t_most;  ///< no crossing counts from here on
 
     core::LeavingRay leaving() const { return {ray, origins}; }
 
@@ -31,12 +34,32 @@ struct LoneRay {
     float t_of(const core::Scene& scene, const Hit<double>& hit) const {
         return core::rounded_t(scene, leaving(), hit, exponent);
     }
+    double double_t_of(const core::Scene& scene, const Hit<double>& hit) const {
+        return as_answered(core::nearest_double_t(scene, leaving(), hit));
+    }
+    double as_answered(double t) const {
+        return std::clamp(std::ldexp(t, exponent), std::numeric_limits<double>::denorm_min(),
+                          std::numeric_limits<double>::max());
+    }
     /// True if it counts: between the limits, and where it can be seen.
     bool finds(const core::Scene& scene, const Hit<double>& hit) const {
-        if (!scene.material_of(hit.shape).is_seen(hit.entering)) return false;
-        if (!(t_min > 0.0F || t_max < std::numeric_limits<float>::max())) return true;
-        const float t = t_of(scene, hit);
-        return t_min < t && t <= t_max;
+        return scene.material_of(hit.shape).is_seen(hit.entering) && is_behind_t_min(scene, hit) &&
+               is_before_t_max(scene, hit);
+    }
+    bool is_before_t_max(const core::Scene& scene, const Hit<double>& hit) const {
+        if (t_most == std::numeric_limits<double>::infinity()) return true;
+        return by_floats ? static_cast<double>(t_of(scene, hit)) <= t_max
+                         : compare_t(scene, hit, t_max) <= 0;
+    }
+
+  private:
+    bool is_behind_t_min(const core::Scene& scene, const Hit<double>& hit) const {
+        if (!(t_min > 0.0)) return true;
+        return by_floats ? static_cast<double>(t_of(scene, hit)) > t_min
+                         : compare_t(scene, hit, t_min) > 0;
+    }
+    int compare_t(const core::Scene& scene, const Hit<double>& hit, double limit) const {
+        return core::compare_t(scene, leaving(), hit, std::ldexp(limit, -exponent));
     }
 };
 
@@ -55,8 +78,9 @@ Value* from(Value* values, std::size_t first) {
 }
 
 /// `count` of them, from one on.
-RayStream part_of(const RayStream& rays, std::size_t first, std::size_t count) {
-    const auto part = [first](const float* const(&from_all)[3], int axis) {
+template <class Real>
+RayStream<Real> part_of(const RayStream<Real>& rays, std::size_t first, std::size_t count) {
+    const auto part = [first](const Real* const(&from_all)[3], int axis) {
         return from(from_all[axis], first);
     };
     return {count,
@@ -74,12 +98,14 @@ HitStream part_of(const HitStream& hits, std::size_t first) {
             {from(hits.normal[0], first), from(hits.normal[1], first), from(hits.normal[2], first)},
             from(hits.shape, first),
             from(hits.entering, first),
-            from(hits.face, first)};
+            from(hits.face, first),
+            from(hits.t_double, first)};
 }
 
-void store(const HitStream& hits, std::size_t i, float t, const core::Vec3f& normal,
-           core::ShapeId shape, bool entering, core::Face face) {
+void store(const HitStream& hits, std::size_t i, float t, double t_double,
+           const core::Vec3f& normal, core::ShapeId shape, bool entering, core::Face face) {
     if (hits.t != nullptr) hits.t[i] = t;
+    if (hits.t_double != nullptr) hits.t_double[i] = t_double;
     for (int axis = 0; axis < 3; ++axis)
         if (hits.normal[axis] != nullptr) hits.normal[axis][i] = normal[axis];
     if (hits.shape != nullptr) hits.shape[i] = shape;
@@ -88,8 +114,8 @@ void store(const HitStream& hits, std::size_t i, float t, const core::Vec3f& nor
 }
 
 void store_none(const HitStream& hits, std::size_t i) {
-    store(hits, i, std::numeric_limits<float>::infinity(), core::Vec3f(0.0F), core::no_shape, false,
-          core::body);
+    store(hits, i, std::numeric_limits<float>::infinity(), std::numeric_limits<double>::infinity(),
+          core::Vec3f(0.0F), core::no_shape, false, core::body);
 }
 
 /// Columns from lane `to` on, a multiple of 16.
@@ -106,7 +132,13 @@ StreamRays from(StreamRays rays, std::size_t to) {
     return rays;
 }
 
-CallerRays as_kernels_have_them(const RayStream& rays) {
+CallerHits as_kernels_have_them(const HitStream& hits) {
+    return {hits.t,     hits.t_double, {hits.normal[0], hits.normal[1], hits.normal[2]},
+            hits.shape, hits.entering, hits.face};
+}
+
+template <class Real>
+CallerRays<Real> as_kernels_have_them(const RayStream<Real>& rays) {
     return {rays.count,
             {rays.origin[0], rays.origin[1], rays.origin[2]},
             {rays.direction[0], rays.direction[1], rays.direction[2]},
@@ -127,16 +159,18 @@ class StreamTracer::Worker {
         arena_ = arena_for([&](Arena& arena) { take_from(arena); });
     }
 
-    void nearest(const RayStream& rays, const HitStream& hits) {
+    template <class Real>
+    void nearest(const RayStream<Real>& rays, const HitStream& hits) {
         for (std::size_t first = 0; first < rays.count; first += paths_.count) {
-            const RayStream some = take(rays, first);
+            const RayStream<Real> some = take(rays, first);
             nearest_of(some, part_of(hits, first));
         }
     }
 
-    void occluded(const RayStream& rays, std::uint8_t* occluded) {
+    template <class Real>
+    void occluded(const RayStream<Real>& rays, std::uint8_t* occluded) {
         for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
-            const RayStream some = take(rays, first);
+            const RayStream<Real> some = take(rays, first);
             count = some.count;
             occluded_of(some, occluded + first);
         }
@@ -159,11 +193,13 @@ class StreamTracer::Worker {
                   arena.take<double>(capacity_),
                   paths_.origin_bits};
         doubtful_ = arena.take<std::uint32_t>(capacity_);
+        unsharp_ = arena.take<std::uint32_t>(capacity_);
         state_ = arena.take<std::uint8_t>(capacity_);
     }
 
     /// Takes rays in from `first` on: as many as are best answered together. Returns these.
-    RayStream take(const RayStream& rays, std::size_t first) {
+    template <class Real>
+    RayStream<Real> take(const RayStream<Real>& rays, std::size_t first) {
         paths_.t_after = taken_.t_after;
         paths_.start = taken_.start;
         const std::size_t left = rays.count - first;
@@ -184,8 +220,13 @@ class StreamTracer::Worker {
     }
 
     /// All of them, from lane `to` on.
-    void take(const RayStream& rays, std::size_t count, std::size_t to) {
-        const std::size_t none = kernels().take(as_kernels_have_them(rays), from(taken_, to));
+    template <class Real>
+    void take(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
+        std::size_t none = 0;
+        if constexpr (std::is_same_v<Real, float>)
+            none = kernels().take(as_kernels_have_them(rays), from(taken_, to));
+        else
+            none = kernels().take_doubles(as_kernels_have_them(rays), from(taken_, to));
         if (rays.origin_shape == nullptr)
             for (std::uint32_t* const column :
                  {paths_.origin_first, paths_.origin_last, paths_.origin_slot})
@@ -196,7 +237,8 @@ class StreamTracer::Worker {
         if (none != 0) stand_in(to, to + count);
     }
 
-    void start_on(const RayStream& rays, std::size_t i, std::size_t lane) {
+    template <class Real>
+    void start_on(const RayStream<Real>& rays, std::size_t i, std::size_t lane) {
         const std::uint32_t tie_counts = paths_.origin_bits[lane];
         const std::uint32_t slot = tracer_.slot_of(rays.origin_shape[i]);
         if (slot == no_slot) {
@@ -226,32 +268,69 @@ class StreamTracer::Worker {
 
     bool is_ray(std::size_t lane) const { return taken_.t_most[lane] >= 0.0; }
 
-    void nearest_of(const RayStream& rays, const HitStream& hits) {
+    template <class Real>
+    void nearest_of(const RayStream<Real>& rays, const HitStream& hits) {
         EngineCounters counters;
         query_.nearest(paths_, coherence_, counters,
                        is_exact() && rays.t_max != nullptr ? taken_.t_most : nullptr);
         mark_unanswered(rays);
         const Hits& found = query_.hits();
-        const std::size_t doubtful =
-            kernels().hand_over(data_.view(), as_kernels_have_them(rays), taken_,
-                                {found.slot,
-                                 found.hit,
-                                 found.t,
-                                 found.error,
-                                 {found.normal[0], found.normal[1], found.normal[2]}},
-                                {hits.t,
-                                 {hits.normal[0], hits.normal[1], hits.normal[2]},
-                                 hits.shape,
-                                 hits.entering,
-                                 hits.face},
-                                doubtful_);
-        for (std::size_t k = 0; k < doubtful; ++k)
+        LeftOver left{doubtful_, unsharp_, 0, 0};
+        kernels().hand_over(data_.view(), rays.count, float_limits(rays), taken_,
+                            {found.slot,
+                             found.hit,
+                             found.t,
+                             found.error,
+                             {found.normal[0], found.normal[1], found.normal[2]}},
+                            as_kernels_have_them(hits), left);
+        sharpen({unsharp_, left.unsharp_count}, hits);
+        for (std::size_t k = 0; k < left.doubtful_count; ++k)
             answer(rays, doubtful_[k], hits);
+    }
+
+    static const float* float_limits(const RayStream<float>& rays) { return rays.t_max; }
+    static const float* float_limits(const RayStream<double>&) { return nullptr; }
+
+    /// t in double of lanes that have hits.
+    void sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits) {
+        const Hits& found = query_.hits();
+        if (!is_exact()) {
+            for (const std::uint32_t lane : lanes)
+                hits.t_double[lane] = in_double(lane, found.t[lane] / paths_.length_of(lane));
+            return;
+        }
+        constexpr std::size_t at_a_time = 128;
+        std::size_t places[at_a_time];
+        double high[at_a_time], low[at_a_time], error[at_a_time];
+        for (std::size_t first = 0; first < lanes.size(); first += at_a_time) {
+            const auto some = lanes.subspan(first, std::min(at_a_time, lanes.size() - first));
+            std::copy(some.begin(), some.end(), places);
+            tracing_.method().refine.widen(data_.view(), found.found(paths_, 0, paths_.count),
+                                           places, some.size(), {high, low, error});
+            for (std::size_t k = 0; k < some.size(); ++k) {
+                const std::uint32_t lane = some[k];
+                const bool is_sure = core::rounds_surely({high[k], low[k]}, error[k]);
+                hits.t_double[lane] = in_double(
+                    lane, is_sure
+                              ? high[k]
+                              : core::nearest_double_t(
+                                    scene_,
+                                    {ray_of(paths_, lane), origin_surfaces_of(data_, paths_, lane)},
+                                    hit_of(data_, paths_, found, lane)));
+            }
+        }
+    }
+
+    /// The caller's t for one of the lane's.
+    double in_double(std::size_t lane, double t) const {
+        return std::clamp(t * taken_.unit[lane], std::numeric_limits<double>::denorm_min(),
+                          std::numeric_limits<double>::max());
     }
 
     /// Marks hits that are none, or not the first, as doubtful: sides that cannot be seen, and what
     /// a method finds that certifies nothing.
-    void mark_unanswered(const RayStream& rays) {
+    template <class Real>
+    void mark_unanswered(const RayStream<Real>& rays) {
         const Hits& found = query_.hits();
         const auto mark = [&](std::size_t lane) { found.hit[lane] |= hit_doubtful; };
         if (data_.one_sided())
@@ -263,21 +342,33 @@ class StreamTracer::Worker {
         if (rays.t_min == nullptr) return;
         for (std::size_t lane = 0; lane < rays.count; ++lane)
             if (is_ray(lane) && found.slot[lane] != no_slot &&
-                t_at(lane, lone(rays, lane, lane)) <= rays.t_min[lane])
+                static_cast<double>(t_at(lane, lone(rays, lane, lane))) <=
+                    static_cast<double>(rays.t_min[lane]))
                 mark(lane);
     }
 
     /// Answer to one ray, by the scalar search or, where only floats are in doubt, by what has been
     /// found.
-    void answer(const RayStream& rays, std::size_t lane, const HitStream& hits) {
+    template <class Real>
+    void answer(const RayStream<Real>& rays, std::size_t lane, const HitStream& hits) {
         const LoneRay ray = lone(rays, lane, lane);
         const Hits& found = query_.hits();
         if ((found.hit[lane] & hit_doubtful) != 0) return search(ray, hits, lane);
-        const float t = t_at(lane, ray);
-        if (!(t <= ray.t_max)) return store_none(hits, lane);
-        store(hits, lane, t, wants_normals(hits) ? normal_at(lane, ray) : core::Vec3f(0.0F),
+        if (!is_before_t_max(lane, ray)) return store_none(hits, lane);
+        const auto t_double = [&] {
+            return ray.double_t_of(scene_, hit_of(data_, paths_, found, lane));
+        };
+        store(hits, lane, t_at(lane, ray), hits.t_double != nullptr ? t_double() : 0.0,
+              wants_normals(hits) ? normal_at(lane, ray) : core::Vec3f(0.0F),
               data_.id_of(found.slot[lane]), (found.hit[lane] & hit_entering) != 0,
               static_cast<core::Face>(found.hit[lane] & hit_face));
+    }
+
+    /// Of the lane's hit.
+    bool is_before_t_max(std::size_t lane, const LoneRay& ray) const {
+        return ray.by_floats
+                   ? static_cast<double>(t_at(lane, ray)) <= ray.t_max
+                   : ray.is_before_t_max(scene_, hit_of(data_, paths_, query_.hits(), lane));
     }
 
     /// The scalar search for one ray.
@@ -289,12 +380,16 @@ class StreamTracer::Worker {
         if (wants_normals(hits))
             normal = is_exact() ? core::rounded_normal(scene_, ray.leaving(), hit)
                                 : in_float(searcher_.surface_at(ray.ray, ray.origins, hit).normal);
-        store(hits, i, ray.t_of(scene_, hit), normal, hit.shape, hit.entering, hit.face);
+        const double t_double = hits.t_double == nullptr ? 0.0
+                                : is_exact()             ? ray.double_t_of(scene_, hit)
+                                                         : ray.as_answered(hit.t);
+        store(hits, i, ray.t_of(scene_, hit), t_double, normal, hit.shape, hit.entering, hit.face);
     }
 
-    void occluded_of(const RayStream& rays, std::uint8_t* occluded) {
+    template <class Real>
+    void occluded_of(const RayStream<Real>& rays, std::uint8_t* occluded) {
         // A t that is none until rounded is no matter for bounds.
-        constexpr float least_t = std::numeric_limits<float>::min() * 0x1p24F;
+        constexpr Real least_t = std::numeric_limits<float>::min() * 0x1p24F;
         std::fill_n(state_, rays.count, std::uint8_t{unblocked});
         if (rays.t_max != nullptr)
             for (std::size_t lane = 0; lane < rays.count; ++lane)
@@ -308,7 +403,7 @@ class StreamTracer::Worker {
         // Nor is a limit from below where nothing is certified.
         if (!is_exact() && rays.t_min != nullptr)
             for (std::size_t lane = 0; lane < rays.count; ++lane)
-                if (rays.t_min[lane] > 0.0F && state_[lane] == blocked && is_ray(lane))
+                if (rays.t_min[lane] > Real(0) && state_[lane] == blocked && is_ray(lane))
                     state_[lane] = doubtful;
         std::size_t left = 0;
         for (std::size_t lane = 0; lane < rays.count; ++lane) {
@@ -325,7 +420,8 @@ class StreamTracer::Worker {
     }
 
     /// Occlusion of doubtful rays by what they hit first.
-    void settle(const RayStream& rays, std::size_t left, std::uint8_t* occluded) {
+    template <class Real>
+    void settle(const RayStream<Real>& rays, std::size_t left, std::uint8_t* occluded) {
         for (std::size_t k = 0; k < left; ++k) {
             paths_.copy_ray(paths_, doubtful_[k], k);
             taken_.unit[k] = taken_.unit[doubtful_[k]];
@@ -341,7 +437,7 @@ class StreamTracer::Worker {
             if (query_.hits().slot[k] == no_slot) continue;
             const LoneRay ray = lone(rays, i, k);
             occluded[i] = data_.one_sided() && !is_seen(k) ? is_occluded(ray)
-                          : t_at(k, ray) <= ray.t_max      ? 1
+                          : is_before_t_max(k, ray)        ? 1
                                                            : 0;
         }
     }
@@ -356,18 +452,21 @@ class StreamTracer::Worker {
     }
 
     /// Ray i, which is in some lane.
-    LoneRay lone(const RayStream& rays, std::size_t i, std::size_t lane) const {
+    template <class Real>
+    LoneRay lone(const RayStream<Real>& rays, std::size_t i, std::size_t lane) const {
         const double unit = taken_.unit[lane];
+        constexpr Real endless = std::numeric_limits<Real>::infinity();
+        const Real t_min = rays.t_min != nullptr ? std::max(Real(0), rays.t_min[i]) : Real(0);
+        const Real t_max = rays.t_max != nullptr ? rays.t_max[i] : endless;
+        const auto beyond = static_cast<double>(std::nextafter(t_max, endless));
         return {ray_of(paths_, lane),
                 origin_surfaces_of(data_, paths_, lane),
                 std::ilogb(unit),
-                rays.t_min != nullptr ? std::max(0.0F, rays.t_min[i]) : 0.0F,
-                rays.t_max != nullptr ? rays.t_max[i] : std::numeric_limits<float>::infinity(),
-                rays.t_max != nullptr && rays.t_max[i] < std::numeric_limits<float>::max()
-                    ? static_cast<double>(
-                          std::nextafter(rays.t_max[i], std::numeric_limits<float>::infinity())) /
-                          unit
-                    : std::numeric_limits<double>::infinity()};
+                static_cast<double>(t_min),
+                static_cast<double>(t_max),
+                std::is_same_v<Real, float>,
+                t_max < std::numeric_limits<Real>::max() ? beyond / unit
+                                                         : std::numeric_limits<double>::infinity()};
     }
 
     /// True if the lane's hit can be seen from where the ray comes.
@@ -412,6 +511,7 @@ class StreamTracer::Worker {
     Coherence in_common_{};
     const Coherence* coherence_ = nullptr;
     std::uint32_t* doubtful_ = nullptr; // lanes
+    std::uint32_t* unsharp_ = nullptr;
     std::uint8_t* state_ = nullptr;
 };
 
@@ -480,17 +580,24 @@ void StreamTracer::answer(std::size_t count, const Answer& answer) const {
     });
 }
 
-void StreamTracer::nearest(const RayStream& rays, const HitStream& hits) const {
+template <class Real>
+void StreamTracer::nearest(const RayStream<Real>& rays, const HitStream& hits) const {
     answer(rays.count, [&](Worker& worker, std::size_t first, std::size_t count) {
         worker.nearest(part_of(rays, first, count), part_of(hits, first));
     });
 }
 
-void StreamTracer::occluded(const RayStream& rays, std::uint8_t* occluded) const {
+template <class Real>
+void StreamTracer::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const {
     answer(rays.count, [&](Worker& worker, std::size_t first, std::size_t count) {
         worker.occluded(part_of(rays, first, count), occluded + first);
     });
 }
+
+template void StreamTracer::nearest(const RayStream<float>&, const HitStream&) const;
+template void StreamTracer::nearest(const RayStream<double>&, const HitStream&) const;
+template void StreamTracer::occluded(const RayStream<float>&, std::uint8_t*) const;
+template void StreamTracer::occluded(const RayStream<double>&, std::uint8_t*) const;
 
 std::uint32_t StreamTracer::slot_of(core::ShapeId shape) const {
     std::call_once(has_slots_, [&] { slots_ = data_->slots_by_id(); });

@@ -15,13 +15,16 @@ namespace raylane::simd {
 class SceneData;
 
 /// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
-/// Component a of ray i is origin[a][i]. Directions may have any length but zero.
+/// Component a of ray i is origin[a][i]. Directions may have any length but zero. Doubles are 0 or
+/// of magnitude 2^-149 to 2^128, as floats are, but for components of a direction, which may be as
+/// small as 2^-276 of its largest.
+template <class Real>
 struct RayStream {
     std::size_t count = 0;
-    const float* origin[3] = {};
-    const float* direction[3] = {};
-    const float* t_min = nullptr; ///< null: 0; what is negative is 0
-    const float* t_max = nullptr; ///< null: infinity
+    const Real* origin[3] = {};
+    const Real* direction[3] = {};
+    const Real* t_min = nullptr; ///< null: 0; what is negative is 0
+    const Real* t_max = nullptr; ///< null: infinity
     /// Shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on the face
     /// of it that HitStream::face said, and goes to its inside (the back) if origin_inward is 1, or
     /// else to its outside. Null: none leaves any; the face is the body; all go to the outside.
@@ -37,14 +40,16 @@ struct HitStream {
     core::ShapeId* shape = nullptr;   ///< no_shape: nothing
     std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or nothing
     std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
+    double* t_double = nullptr;       ///< t, nearest to the true one; infinity: nothing
 };
 
 /// Answers streams of rays about one scene, which must outlive it. May be called by any number of
 /// threads at a time. The answer to a ray depends on the scene and that ray alone.
 ///
-/// A crossing counts by its t as it is answered: the nearest float, but never 0 or infinity. What
-/// its material's `visible` says cannot be seen from there does not count. A ray with a component
-/// that is not finite, a direction of 0 or a limit that is NaN hits nothing.
+/// Of rays in float a crossing counts by its t as it is answered: the nearest float, but never 0 or
+/// infinity; of rays in double by its true t. What its material's `visible` says cannot be seen
+/// from there does not count. A ray with a component that is not in the range of RayStream, a
+/// direction of 0 or a limit that is NaN hits nothing.
 class StreamTracer {
   public:
     /// `threads`: 0 is default_threads(). `isa`: an available one; default: the best.
@@ -54,10 +59,12 @@ class StreamTracer {
 
     /// The nearest crossing. Of several at the same t, one that is entered comes before one that is
     /// left, then the lower id.
-    void nearest(const RayStream& rays, const HitStream& hits) const;
+    template <class Real>
+    void nearest(const RayStream<Real>& rays, const HitStream& hits) const;
 
     /// 1 where there is any crossing, 0 elsewhere.
-    void occluded(const RayStream& rays, std::uint8_t* occluded) const;
+    template <class Real>
+    void occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const;
 
   private:
     class Worker;

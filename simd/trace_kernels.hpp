@@ -120,8 +120,7 @@ struct RayKernels {
     /// is as in Found. Returns how many.
     std::size_t (*list_uncertain)(std::size_t count, const Candidates& candidates, const double* t,
                                   const double* error, const std::uint32_t* hit,
-                                  const std::uint8_t* doubtful, float least,
-                                  std::uint32_t* lanes);
+                                  const std::uint8_t* doubtful, float least, std::uint32_t* lanes);
 };
 
 /// The shapes of the kinds in `kind_bits` one by one, and the hierarchy if there is one to walk.

@@ -39,7 +39,7 @@ class Library : public Contender {
 
     void run(std::size_t begin, std::size_t end, int /*thread*/) override {
         const auto from = [begin](auto& column) { return column.data() + begin; };
-        const simd::RayStream rays = {
+        const simd::RayStream<float> rays = {
             end - begin,
             {from(origin_[0]), from(origin_[1]), from(origin_[2])},
             {from(direction_[0]), from(direction_[1]), from(direction_[2])},

@@ -136,6 +136,29 @@ bool rounds_surely(double t, double error, float& t_rounded) {
     return t_rounded == float_of(above(t, error));
 }
 
+bool rounds_surely(const DoubleDouble& t, double error) {
+    const double most = error * (1.0 + 0x1p-50);
+    return t.high + (t.low - most) == t.high && t.high + (t.low + most) == t.high;
+}
+
+double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
+    DoubleDouble known;
+    if (with_better_t(scene, from, hit, [&](const Real& t) {
+            known = t.value;
+            return rounds_surely(t.value, t.error);
+        }))
+        return known.high;
+    // Between two that are next to each other, and nearly in their middle.
+    const double other =
+        std::nextafter(known.high, known.low < 0.0 ? 0.0 : std::numeric_limits<double>::infinity());
+    const ExactRoot root = SharpHit(hit).root(scene, from);
+    const int side =
+        root.sign_of(ExactQuadratic::minus(Dyadic(0.5) * (Dyadic(known.high) + Dyadic(other))));
+    const double nearer_0 = std::min(known.high, other), farther = std::max(known.high, other);
+    if (side != 0) return side < 0 ? nearer_0 : farther;
+    return (std::bit_cast<std::uint64_t>(nearer_0) & 1) == 0 ? nearer_0 : farther;
+}
+
 int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, double number) {
     if (below(hit.t, hit.error) > number) return 1;
     if (above(hit.t, hit.error) < number) return -1;

@@ -9,6 +9,10 @@ namespace raylane::core {
 /// is not sure from t and its error alone it is decided exactly.
 float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, int exponent);
 
+/// t, rounded to the nearest double, ties to even. For what is not sure from t and its error alone
+/// it is decided exactly.
+double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit);
+
 /// Order of a crossing's true t and a number: -1 if it is less, 0 if they are the same, 1 if it is
 /// more. For what is not sure from t and its error alone it is decided exactly.
 int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit, double number);
@@ -16,6 +20,9 @@ int compare_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit
 /// True if every t within `error` of this one rounds to one float as above. That is then
 /// `t_rounded`.
 bool rounds_surely(double t, double error, float& t_rounded);
+
+/// True if every number within `error` of this sum rounds to its high part.
+bool rounds_surely(const DoubleDouble& t, double error);
 
 /// The unit normal outside (in front) of the surface at the true point of a crossing, each
 /// component rounded to the nearest float, ties to even; 0 is +0. At an edge it is that of the

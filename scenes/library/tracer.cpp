@@ -25,7 +25,8 @@ Element* optional(const char* name, std::span<Element> span, std::size_t count) 
     return span.data();
 }
 
-simd::RayStream stream_of(const RaySpan& rays) {
+template <class Real>
+simd::RayStream<Real> stream_of(const BasicRaySpan<Real>& rays) {
     const std::size_t count = rays.origin_x.size();
     require_length("origin_y", rays.origin_y.size(), count);
     require_length("origin_z", rays.origin_z.size(), count);
@@ -48,7 +49,23 @@ simd::HitStream stream_of(const HitSpan& hits, std::size_t count) {
              optional("normal_z", hits.normal_z, count)},
             optional("shape", hits.shape, count),
             optional("entering", hits.entering, count),
-            optional("face", hits.face, count)};
+            optional("face", hits.face, count),
+            optional("t_double", hits.t_double, count)};
+}
+
+template <class Real>
+void find_nearest(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
+                  const HitSpan& hits) {
+    const simd::RayStream<Real> stream = stream_of(rays);
+    tracer.nearest(stream, stream_of(hits, stream.count));
+}
+
+template <class Real>
+void find_occluded(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
+                   std::span<std::uint8_t> occluded) {
+    const simd::RayStream<Real> stream = stream_of(rays);
+    require_length("occluded", occluded.size(), stream.count);
+    tracer.occluded(stream, occluded.data());
 }
 
 } // namespace
@@ -77,14 +94,19 @@ Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene)
 }
 
 void Tracer::intersect(const RaySpan& rays, const HitSpan& hits) const {
-    const simd::RayStream stream = stream_of(rays);
-    tracer_->nearest(stream, stream_of(hits, stream.count));
+    find_nearest(*tracer_, rays, hits);
+}
+
+void Tracer::intersect(const DoubleRaySpan& rays, const HitSpan& hits) const {
+    find_nearest(*tracer_, rays, hits);
 }
 
 void Tracer::occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) const {
-    const simd::RayStream stream = stream_of(rays);
-    require_length("occluded", occluded.size(), stream.count);
-    tracer_->occluded(stream, occluded.data());
+    find_occluded(*tracer_, rays, occluded);
+}
+
+void Tracer::occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded) const {
+    find_occluded(*tracer_, rays, occluded);
 }
 
 } // namespace raylane

@@ -53,4 +53,18 @@ float rounded(const Root& root) {
     return rounded(root, Number(root));
 }
 
+double rounded_to_double(const Root& root, const Number& digits) {
+    // The digits may have rounded up what was below the middle of two doubles, or twice.
+    double low = std::nextafter(static_cast<double>(digits), 0.0);
+    for (int steps = 0; steps < 3; ++steps) {
+        const double next = std::nextafter(low, std::numeric_limits<double>::infinity());
+        int side = compare_digits(digits, (Number(low) + Number(next)) / 2);
+        if (side == 0) side = sign_at(root, -(Exact(low) + Exact(next)), Exact(2));
+        const bool low_is_even = (__builtin_bit_cast(std::uint64_t, low) & 1) == 0;
+        if (side < 0 || (side == 0 && low_is_even)) break;
+        low = next;
+    }
+    return low;
+}
+
 } // namespace raylane::oracle

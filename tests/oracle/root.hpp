@@ -68,4 +68,7 @@ float nearest_float(const Number& digits, const Compare& compare) {
 float rounded(const Root& root, const Number& digits);
 float rounded(const Root& root);
 
+/// The double that is nearest to a positive root, ties to even.
+double rounded_to_double(const Root& root, const Number& digits);
+
 } // namespace raylane::oracle

@@ -44,11 +44,11 @@ struct Stream {
         for (std::vector<float>& component : normal)
             component.resize(size());
         tracer.nearest(
-            {size(),
-             {of[0].data(), of[1].data(), of[2].data()},
-             {of[3].data(), of[4].data(), of[5].data()},
-             t_min.data(),
-             nullptr},
+            RayStream<float>{size(),
+                             {of[0].data(), of[1].data(), of[2].data()},
+                             {of[3].data(), of[4].data(), of[5].data()},
+                             t_min.data(),
+                             nullptr},
             {t.data(), {normal[0].data(), normal[1].data(), normal[2].data()}, shape.data()});
     }
 };

@@ -30,7 +30,7 @@ struct Rays {
         t_min.push_back(limited ? static_cast<float>(random.log_uniform(0.01, 1.0)) : 0.0F);
         t_max.push_back(limited ? static_cast<float>(random.log_uniform(0.1, 10.0)) : 1e30F);
     }
-    RayStream view() const {
+    RayStream<float> view() const {
         return {t_min.size(),
                 {of[0].data(), of[1].data(), of[2].data()},
                 {of[3].data(), of[4].data(), of[5].data()},
@@ -44,7 +44,7 @@ struct Answers {
     std::vector<ShapeId> shape;
     std::vector<std::uint8_t> entering, occluded;
 
-    Answers(const Scene& scene, const RayStream& rays, Isa isa)
+    Answers(const Scene& scene, const RayStream<float>& rays, Isa isa)
         : t(rays.count), shape(rays.count), entering(rays.count), occluded(rays.count) {
         for (std::vector<float>& component : normal)
             component.resize(rays.count);

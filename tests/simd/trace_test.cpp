@@ -124,7 +124,7 @@ TEST_CASE("crossings whose squares are too large for float are met however rays 
     std::vector<float> x(count, -1e21F), y(count), zero(count, 0.0F), one(count, 1.0F);
     for (std::size_t i = 0; i < count; ++i)
         y[i] = 5e19F + 1e17F * static_cast<float>(i);
-    const RayStream rays{
+    const RayStream<float> rays{
         count, {x.data(), y.data(), zero.data()}, {one.data(), zero.data(), zero.data()}};
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;

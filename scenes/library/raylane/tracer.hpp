@@ -15,13 +15,18 @@ class StreamTracer;
 
 /// n rays, structure of arrays: ray i is the points origin + t direction with
 /// t_min < t <= t_max. n is the length of origin_x; the other five have it too, all others have it
-/// or are empty. The arrays are the caller's and are only read.
-struct RaySpan {
-    std::span<const float> origin_x{}, origin_y{}, origin_z{};
+/// or are empty. The arrays are the caller's and are only read. Real is float or double.
+///
+/// Doubles are taken for exactly what they are, in the range that floats have: components are 0 or
+/// of magnitude 2^-149 to 2^128, those of a direction beside its largest 0 or down to 2^-276 of
+/// that. A ray with others hits nothing.
+template <class Real>
+struct BasicRaySpan {
+    std::span<const Real> origin_x{}, origin_y{}, origin_z{};
     /// Directions of any length but zero; t counts in units of that length.
-    std::span<const float> direction_x{}, direction_y{}, direction_z{};
-    std::span<const float> t_min{}; ///< empty: 0. Less than 0 is 0.
-    std::span<const float> t_max{}; ///< empty: infinity
+    std::span<const Real> direction_x{}, direction_y{}, direction_z{};
+    std::span<const Real> t_min{}; ///< empty: 0. Less than 0 is 0.
+    std::span<const Real> t_max{}; ///< empty: infinity
     /// Shapes that rays leave, or no_shape (as is an id that no shape has): where a hit has said
     /// that it is on one (HitSpan), the ray that goes on from there starts exactly on that surface,
     /// however its numbers were rounded. So it cannot hit what it leaves, unless it comes back to
@@ -33,6 +38,8 @@ struct RaySpan {
     /// was `entering`, or is thrown back and it was not. 0: to the outside. Empty: 0.
     std::span<const std::uint8_t> origin_inward{};
 };
+using RaySpan = BasicRaySpan<float>;
+using DoubleRaySpan = BasicRaySpan<double>;
 
 /// Hits of n rays, structure of arrays, for the tracer to fill. A span of length 0 is not wanted;
 /// the others have length n. None may overlap another or a ray's.
@@ -48,6 +55,8 @@ struct HitSpan {
     std::span<std::uint8_t> entering{};
     /// Part of the shape's surface, for RaySpan::origin_face; 0 where nothing is hit.
     std::span<std::uint8_t> face{};
+    /// t as a double: finite where anything is hit. It takes longer than all others together.
+    std::span<double> t_double{};
 };
 
 struct TracerOptions {
@@ -62,13 +71,15 @@ struct TracerOptions {
 /// depends on the scene and that ray alone.
 ///
 /// With Precision::exact, all that is answered is what real arithmetic gives for exactly the floats
-/// given, whatever the shapes, however near they are to each other and on any processor:
+/// or doubles given, whatever the shapes, however near they are to each other and on any processor:
 /// - Which surface is crossed, which is first, and whether the ray enters. A tie is where t is the
 ///   same in real arithmetic, and nowhere else. Then what the ray enters comes before what it
 ///   leaves, and then the lower id.
-/// - t is the float nearest to the true one, but never 0 or infinite. The limits compare with this
-///   float: so each t, given back as t_min, leads on to the next crossing; of crossings that round
-///   to one float, it passes all. `occluded` says 1 where `intersect` finds a shape.
+/// - t is the float nearest to the true one, but never 0 or infinite, and t_double the double. The
+///   limits of rays in float compare with that float: so each t, given back as t_min, leads on to
+///   the next crossing; of crossings that round to one float, it passes all. The limits of rays in
+///   double compare with the true t, which nextafter(t_double, infinity) is surely behind.
+///   `occluded` says 1 where `intersect` finds a shape.
 /// - Components of normals are the floats nearest to those of the true normal where the crossing
 ///   truly is. Where faces of a box meet, it is that of edge_u before edge_v before edge_w; at the
 ///   rim of a capped cylinder or cone, the side's; at the apex of a cone, along the axis away from
@@ -95,10 +106,12 @@ class Tracer {
     /// The nearest crossing of each ray. Throws InvalidValue, which is a std::invalid_argument,
     /// where a span has another length; its field is the span's name. Throws std::bad_alloc.
     void intersect(const RaySpan& rays, const HitSpan& hits) const;
+    void intersect(const DoubleRaySpan& rays, const HitSpan& hits) const;
 
     /// 1 where a ray has a crossing, 0 where it has none: for the same rays, where intersect would
     /// find a shape. `occluded` has length n. Throws as intersect does.
     void occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) const;
+    void occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded) const;
 
   private:
     Scene scene_;

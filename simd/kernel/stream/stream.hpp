@@ -11,11 +11,12 @@ namespace raylane::simd {
 template <class Arch>
 class CallerStream {
   public:
-    static std::size_t take(const CallerRays& rays, const StreamRays& taken) {
+    template <class Real>
+    static std::size_t take(const CallerRays<Real>& rays, const StreamRays& taken) {
         std::size_t none = 0;
         for (std::size_t i = 0; i < rays.count; i += 16) {
             if (rays.count - i < 16) {
-                const PaddedRays padded(rays, i);
+                const PaddedRays<Real> padded(rays, i);
                 return none + take_16(padded.rays, 0, rays.count - i, taken, i);
             }
             none += take_16(rays, i, 16, taken, i);
@@ -47,14 +48,14 @@ class CallerStream {
         return steps.is_near(radius, most);
     }
 
-    static std::size_t hand_over(const SceneView& scene, const CallerRays& rays,
-                                 const StreamRays& taken, const StreamHits& found,
-                                 const CallerHits& hits, std::uint32_t* doubtful) {
-        std::size_t listed = 0;
+    static void hand_over(const SceneView& scene, std::size_t count, const float* t_max,
+                          const StreamRays& taken, const StreamHits& found, const CallerHits& hits,
+                          LeftOver& left) {
+        left.doubtful_count = left.unsharp_count = 0;
         const TableView* table = scene.tables;
-        for (std::size_t i = 0; i < rays.count; i += F::size) {
-            const std::size_t here = least(rays.count - i, F::size);
-            const Answers answers = answers_to(rays, taken, found, i, here, wants_normals(hits));
+        for (std::size_t i = 0; i < count; i += F::size) {
+            const std::size_t here = least(count - i, F::size);
+            const Answers answers = answers_to(t_max, taken, found, hits, i, here);
             if (hits.t != nullptr)
                 store(select(answers.hit, answers.t, S::infinity()), hits.t + i, here);
             for (int axis = 0; axis < 3; ++axis)
@@ -75,14 +76,18 @@ class CallerStream {
                 for (std::size_t lane = 0; lane < here; ++lane)
                     hits.face[i + lane] = static_cast<std::uint8_t>(
                         (bits >> lane & 1) != 0 ? found.hit[i + lane] & hit_face : 0);
-            for (std::uint32_t left = answers.doubtful; left != 0; left &= left - 1)
-                doubtful[listed++] =
-                    static_cast<std::uint32_t>(i) + static_cast<unsigned>(__builtin_ctz(left));
+            if (hits.t_double != nullptr) {
+                for (std::size_t lane = 0; lane < here; ++lane)
+                    hits.t_double[i + lane] = __builtin_inf();
+                list(bits, i, left.unsharp, left.unsharp_count);
+            }
+            list(answers.doubtful, i, left.doubtful, left.doubtful_count);
         }
-        return listed;
     }
 
-    static constexpr StreamKernels table() { return {take, find_coherence, hand_over}; }
+    static constexpr StreamKernels table() {
+        return {take<float>, take<double>, find_coherence, hand_over};
+    }
 
   private:
     using S = Streams<Arch>;
@@ -104,12 +109,13 @@ class CallerStream {
     }
 
     /// The last of a caller's rays, with others behind them that are none.
+    template <class Real>
     struct PaddedRays {
-        float origin[3][16] = {}, direction[3][16] = {}, t_min[16] = {}, t_max[16] = {};
-        CallerRays rays;
+        Real origin[3][16] = {}, direction[3][16] = {}, t_min[16] = {}, t_max[16] = {};
+        CallerRays<Real> rays;
 
-        PaddedRays(const CallerRays& from, std::size_t begin) : rays(from) {
-            const std::size_t bytes = (from.count - begin) * sizeof(float);
+        PaddedRays(const CallerRays<Real>& from, std::size_t begin) : rays(from) {
+            const std::size_t bytes = (from.count - begin) * sizeof(Real);
             for (int axis = 0; axis < 3; ++axis) {
                 __builtin_memcpy(origin[axis], from.origin[axis] + begin, bytes);
                 __builtin_memcpy(direction[axis], from.direction[axis] + begin, bytes);
@@ -136,9 +142,9 @@ class CallerStream {
     }
 
     /// Takes the first `count` of 16 rays in. Returns how many are none.
-    [[gnu::always_inline]] static std::size_t take_16(const CallerRays& rays, std::size_t from,
-                                                      std::size_t count, const StreamRays& taken,
-                                                      std::size_t to) {
+    [[gnu::always_inline]] static std::size_t take_16(const CallerRays<float>& rays,
+                                                      std::size_t from, std::size_t count,
+                                                      const StreamRays& taken, std::size_t to) {
         std::uint32_t none = 0;
         for (std::size_t k = 0; k < 16; k += F::size) {
             F origin[3], direction[3];
@@ -160,70 +166,110 @@ class CallerStream {
             is_ray = is_ray & (t_min < t_max);
             const std::uint32_t valid = Lanes<Arch>::bits(is_ray);
             none |= (~valid & all_lanes) << k;
-            for (int part = 0; part < 2; ++part)
-                take_half(origin, direction, largest, valid, part, taken, to + k);
+            for (int part = 0; part < 2; ++part) {
+                const auto widened = [part](const F(&v)[3]) {
+                    return Vectors<D>{Lanes<D>::widen(v[0], part), Lanes<D>::widen(v[1], part),
+                                      Lanes<D>::widen(v[2], part)};
+                };
+                take_half(widened(origin), widened(direction), Lanes<D>::widen(largest, part),
+                          Lanes<D>::from_bits(part_of(valid, part)), taken,
+                          to + k + static_cast<std::size_t>(part) * half);
+            }
             take_limits(t_min, t_max, rays.t_min != nullptr, valid, taken, to + k);
         }
         return static_cast<std::size_t>(__builtin_popcount(none & ((1U << count) - 1)));
     }
 
-    static constexpr float largest_float = 0x1.fffffep127F;
-    static constexpr std::uint32_t all_lanes = (std::uint64_t{1} << F::size) - 1;
-
-    /// Takes half of some lanes in, in double.
-    [[gnu::always_inline]] static void take_half(const F (&origin)[3], const F (&direction)[3],
-                                                 const F& largest, std::uint32_t valid, int part,
-                                                 const StreamRays& taken, std::size_t to) {
-        const std::size_t at = to + static_cast<std::size_t>(part) * half;
-        const Mask<D> is_ray =
-            Lanes<D>::from_bits(valid >> (static_cast<unsigned>(part) * half) & ((1U << half) - 1));
-        // Of a number in double that was any float, infinity's bits are those of its exponent.
-        const Number power = Lanes<D>::widen(largest, part) & Number(__builtin_inf());
-        const Number unit = select(is_ray, Number(1.0) / power, Number(1.0));
-        Vectors<D> meant;
-        Number* const components[] = {&meant.x, &meant.y, &meant.z};
-        for (int axis = 0; axis < 3; ++axis) {
-            *components[axis] = select(is_ray, Lanes<D>::widen(direction[axis], part) * unit,
-                                       Number(axis == 2 ? 1.0 : 0.0));
-            select(is_ray, Lanes<D>::widen(origin[axis], part), zero<D>())
-                .store_unaligned(taken.origin[axis] + at);
-            components[axis]->store_unaligned(taken.meant_direction[axis] + at);
+    [[gnu::always_inline]] static std::size_t take_16(const CallerRays<double>& rays,
+                                                      std::size_t from, std::size_t count,
+                                                      const StreamRays& taken, std::size_t to) {
+        std::uint32_t none = 0;
+        for (std::size_t k = 0; k < 16; k += half) {
+            const auto load =
+                [ k, from ](const double* const(&v)[3]) __attribute__((always_inline)) {
+                return Vectors<D>{Number::load_unaligned(v[0] + from + k),
+                                  Number::load_unaligned(v[1] + from + k),
+                                  Number::load_unaligned(v[2] + from + k)};
+            };
+            const Vectors<D> origin = load(rays.origin), direction = load(rays.direction);
+            const Number least(least_double);
+            const Number largest = max(max(abs(direction.x), abs(direction.y)), abs(direction.z));
+            const Number least_turn = largest * Number(least_of_largest);
+            Mask<D> is_ray = in_range(origin.x, least) & in_range(origin.y, least) &
+                             in_range(origin.z, least) & in_range(direction.x, least_turn) &
+                             in_range(direction.y, least_turn) & in_range(direction.z, least_turn) &
+                             (largest >= least);
+            Number t_min = zero<D>(), t_max(__builtin_inf());
+            if (rays.t_min != nullptr) {
+                const Number asked = Number::load_unaligned(rays.t_min + from + k);
+                t_min = select(asked > zero<D>(), asked, zero<D>());
+                is_ray = is_ray & (asked == asked) & (t_min < Number(__builtin_inf()));
+            }
+            if (rays.t_max != nullptr) t_max = Number::load_unaligned(rays.t_max + from + k);
+            is_ray = is_ray & (t_min < t_max);
+            none |= (~Lanes<D>::bits(is_ray) & all_halves) << k;
+            take_half(origin, direction, largest, is_ray, taken, to + k);
+            store_limits(t_min, t_max, is_ray, taken, to + k);
         }
+        for (std::size_t k = 0; k < 16; k += F::size)
+            S::store_bits(zero<Arch>(), taken.bits + to + k);
+        return static_cast<std::size_t>(__builtin_popcount(none & ((1U << count) - 1)));
+    }
+
+    static constexpr float largest_float = 0x1.fffffep127F;
+    /// Doubles are taken in the range that floats have, where no solver loses one.
+    static constexpr double least_double = 0x1p-149, too_large = 0x1p128;
+    static constexpr double least_of_largest = 0x1p-276;
+    static constexpr std::uint32_t all_lanes = (std::uint64_t{1} << F::size) - 1;
+    static constexpr std::uint32_t all_halves = (1U << half) - 1;
+
+    static std::uint32_t part_of(std::uint32_t bits, int part) {
+        return bits >> (static_cast<unsigned>(part) * half) & all_halves;
+    }
+    static Mask<D> in_range(const Number& value, const Number& least) {
+        const Number size = abs(value);
+        return ((size >= least) & (size < Number(too_large))) | (size == zero<D>());
+    }
+
+    /// Takes some rays in, in double.
+    [[gnu::always_inline]] static void take_half(const Vectors<D>& origin,
+                                                 const Vectors<D>& direction, const Number& largest,
+                                                 const Mask<D>& is_ray, const StreamRays& taken,
+                                                 std::size_t at) {
+        // Of a number that is not subnormal, infinity's bits are those of its exponent.
+        const Number power = largest & Number(__builtin_inf());
+        const Number unit = select(is_ray, Number(1.0) / power, Number(1.0));
+        const Number nothing = zero<D>();
+        const Vectors<D> meant{select(is_ray, direction.x * unit, nothing),
+                               select(is_ray, direction.y * unit, nothing),
+                               select(is_ray, direction.z * unit, Number(1.0))};
         const Number length = sqrt(squared_length(meant));
-        for (int axis = 0; axis < 3; ++axis)
-            (*components[axis] / length).store_unaligned(taken.direction[axis] + at);
+        const Number* const origins[] = {&origin.x, &origin.y, &origin.z};
+        const Number* const directions[] = {&meant.x, &meant.y, &meant.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            select(is_ray, *origins[axis], nothing).store_unaligned(taken.origin[axis] + at);
+            directions[axis]->store_unaligned(taken.meant_direction[axis] + at);
+            (*directions[axis] / length).store_unaligned(taken.direction[axis] + at);
+        }
         length.store_unaligned(taken.meant_length + at);
         unit.store_unaligned(taken.unit + at);
     }
 
-    /// Takes limits in, by the floats' neighbours: what counts is the float nearest to t, ties to
-    /// even.
+    /// Takes limits of floats in, by the floats' neighbours: what counts is the float nearest to t,
+    /// ties to even.
     [[gnu::always_inline]] static void take_limits(const F& t_min, const F& t_max, bool has_t_min,
                                                    std::uint32_t valid, const StreamRays& taken,
                                                    std::size_t to) {
         const F after_t_min = next_above(t_min), after_t_max = next_above(t_max);
         const std::uint32_t endless = Lanes<Arch>::bits(~(t_max < F(largest_float)));
         for (int part = 0; part < 2; ++part) {
-            const std::size_t at = to + static_cast<std::size_t>(part) * half;
-            const auto mask = [&](std::uint32_t bits) {
-                return Lanes<D>::from_bits(bits >> (static_cast<unsigned>(part) * half) &
-                                           ((1U << half) - 1));
-            };
-            const Number unit = Number::load_unaligned(taken.unit + at);
-            const Number length = Number::load_unaligned(taken.meant_length + at);
-            const Number most = Lanes<D>::widen(after_t_max, part) / unit * length;
-            select(mask(valid), select(mask(endless), Number(__builtin_inf()), most), Number(-1.0))
-                .store_unaligned(taken.t_most + at);
-            if (!has_t_min) {
-                zero<D>().store_unaligned(taken.t_after + at);
-                zero<D>().store_unaligned(taken.start + at);
-                continue;
-            }
             const Number low = Lanes<D>::widen(t_min, part);
             const Number middle = Number(0.5) * (low + Lanes<D>::widen(after_t_min, part));
-            const Number after = select(mask(valid) & (low > zero<D>()), middle / unit, zero<D>());
-            after.store_unaligned(taken.t_after + at);
-            (after * length).store_unaligned(taken.start + at);
+            const Number after = has_t_min ? select(low > zero<D>(), middle, low) : zero<D>();
+            const Number most = select(Lanes<D>::from_bits(part_of(endless, part)),
+                                       Number(__builtin_inf()), Lanes<D>::widen(after_t_max, part));
+            store_limits(after, most, Lanes<D>::from_bits(part_of(valid, part)), taken,
+                         to + static_cast<std::size_t>(part) * half);
         }
         if (has_t_min) {
             const auto bits = bits_as<std::uint32_t>(t_min);
@@ -233,6 +279,20 @@ class CallerStream {
         } else {
             S::store_bits(zero<Arch>(), taken.bits + to);
         }
+    }
+
+    /// Limits of some rays that have been taken in, in the caller's units.
+    [[gnu::always_inline]] static void store_limits(const Number& after, const Number& most,
+                                                    const Mask<D>& is_ray, const StreamRays& taken,
+                                                    std::size_t at) {
+        const Number unit = Number::load_unaligned(taken.unit + at);
+        const Number length = Number::load_unaligned(taken.meant_length + at);
+        const Number after_here = select(is_ray, after / unit, zero<D>());
+        after_here.store_unaligned(taken.t_after + at);
+        (after_here * length).store_unaligned(taken.start + at);
+        // Rounded up.
+        select(is_ray, most / unit * length * Number(1 + 0x1p-50), Number(-1.0))
+            .store_unaligned(taken.t_most + at);
     }
 
     /// Steps from each ray to the next, along the coordinates, added up.
@@ -328,42 +388,57 @@ class CallerStream {
             lanes[lane] = static_cast<float>(bits >> lane & 1);
         return S::load(lanes) > zero<Arch>();
     }
-    [[gnu::always_inline]] static Answers answers_to(const CallerRays& rays,
-                                                     const StreamRays& taken,
-                                                     const StreamHits& found, std::size_t i,
-                                                     std::size_t here, bool with_normals) {
+    [[gnu::always_inline]] static Answers answers_to(const float* t_max, const StreamRays& taken,
+                                                     const StreamHits& found,
+                                                     const CallerHits& hits, std::size_t i,
+                                                     std::size_t here) {
         double first[F::size], last[F::size];
-        std::uint32_t are_rays = 0;
+        std::uint32_t are_rays = 0, before = 0, beyond = 0;
         for (std::size_t k = 0; k < F::size; k += half) {
+            const Number unit_t = Number::load_unaligned(found.t + i + k);
+            const Number unit_error = Number::load_unaligned(found.error + i + k);
+            const Number most = Number::load_unaligned(taken.t_most + i + k);
             const Number per_unit = Number::load_unaligned(taken.unit + i + k) /
                                     Number::load_unaligned(taken.meant_length + i + k);
-            const Number t = Number::load_unaligned(found.t + i + k) * per_unit;
+            const Number t = unit_t * per_unit;
             // The length and all operations are off by a few ulps.
-            const Number error =
-                Number::load_unaligned(found.error + i + k) * per_unit * Number(1 + 0x1p-50) +
-                Number(0x1p-49) * t;
-            are_rays |= Lanes<D>::bits(Number::load_unaligned(taken.t_most + i + k) >= zero<D>())
-                        << k;
+            const Number error = unit_error * per_unit * Number(1 + 0x1p-50) + Number(0x1p-49) * t;
+            are_rays |= Lanes<D>::bits(most >= zero<D>()) << k;
+            if (t_max == nullptr) {
+                const Number off = unit_error * Number(1 + 0x1p-50);
+                before |= Lanes<D>::bits(unit_t + off <= most * Number(1 - 0x1p-47)) << k;
+                beyond |= Lanes<D>::bits(unit_t - off > most * Number(1 + 0x1p-50)) << k;
+            }
             (t - error).store_unaligned(first + k);
             (t + error).store_unaligned(last + k);
         }
         const F t = Lanes<Arch>::narrow(first), none = S::broadcast_bits(no_slot);
-        const M sure = (t == Lanes<Arch>::narrow(last)) & (t > zero<Arch>()) & (t < S::infinity());
+        M sure = (t == Lanes<Arch>::narrow(last)) & (t > zero<Arch>()) & (t < S::infinity());
         const M missed = Lanes<Arch>::in_range(S::load_bits(found.slot + i), none, none);
         const F unknown = S::broadcast_bits(
-            hit_doubtful | (with_normals ? hit_normal_doubtful | hit_normal_unknown : 0));
+            hit_doubtful | (wants_normals(hits) ? hit_normal_doubtful | hit_normal_unknown : 0));
         const M known = Lanes<Arch>::in_range(S::load_bits(found.hit + i) & unknown, zero<Arch>(),
                                               zero<Arch>());
         if (here < F::size) are_rays &= (1U << here) - 1;
         const std::uint32_t any = are_rays & ~Lanes<Arch>::bits(missed);
-        const std::uint32_t certain = Lanes<Arch>::bits(sure & known);
-        std::uint32_t hit = any & certain;
-        if (rays.t_max != nullptr) {
-            float t_max[F::size] = {};
-            __builtin_memcpy(t_max, rays.t_max + i, here * sizeof(float));
-            hit &= Lanes<Arch>::bits(t <= S::load(t_max));
+        std::uint32_t certain = Lanes<Arch>::bits(sure & known);
+        std::uint32_t in_limit = all_lanes;
+        if (t_max == nullptr) {
+            in_limit = before;
+            certain &= before | beyond;
+        } else {
+            float limit[F::size] = {};
+            __builtin_memcpy(limit, t_max + i, here * sizeof(float));
+            in_limit = Lanes<Arch>::bits(t <= S::load(limit));
         }
+        const std::uint32_t hit = any & certain & in_limit;
         return {t, mask_of(hit), hit, any & ~certain};
+    }
+
+    static void list(std::uint32_t lanes, std::size_t i, std::uint32_t* to, std::size_t& count) {
+        for (; lanes != 0; lanes &= lanes - 1)
+            to[count++] =
+                static_cast<std::uint32_t>(i) + static_cast<unsigned>(__builtin_ctz(lanes));
     }
 
     static void store(const F& values, float* to, std::size_t count) {

@@ -25,11 +25,6 @@ bool is_valid(const AnyShape& any) {
     }
 }
 
-std::vector<AnyShape> valid(std::vector<AnyShape> shapes) {
-    std::erase_if(shapes, [](const AnyShape& shape) { return !is_valid(shape); });
-    return shapes;
-}
-
 constexpr Visible visible_sides[] = {Visible::both, Visible::outside, Visible::inside};
 
 /// Of these.
@@ -59,6 +54,11 @@ void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, f
 }
 
 } // namespace
+
+std::vector<AnyShape> valid(std::vector<AnyShape> shapes) {
+    std::erase_if(shapes, [](const AnyShape& shape) { return !is_valid(shape); });
+    return shapes;
+}
 
 Scene scene_of(std::span<const AnyShape> shapes, Sides sides) {
     SceneBuilder builder;
@@ -157,11 +157,11 @@ void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tal
             if (ways == Ways::one && way++ != only) continue;
             if (!simd::is_available(isa)) continue;
             const simd::StreamTracer tracer(library::Internals::of(scene_), threads, isa);
-            const simd::RayStream stream{rays.size(),
-                                         {rays.x.data(), rays.y.data(), rays.z.data()},
-                                         {rays.dx.data(), rays.dy.data(), rays.dz.data()},
-                                         rays.t_min.data(),
-                                         rays.t_max.data()};
+            const simd::RayStream<float> stream{rays.size(),
+                                                {rays.x.data(), rays.y.data(), rays.z.data()},
+                                                {rays.dx.data(), rays.dy.data(), rays.dz.data()},
+                                                rays.t_min.data(),
+                                                rays.t_max.data()};
             Answers same{Hits(rays.size()), std::vector<std::uint8_t>(rays.size(), 77)};
             Hits& hits = same.hits;
             tracer.nearest(stream, {hits.t.data(),

@@ -17,6 +17,8 @@ enum class Sides {
     some, ///< of every third shape the outside, of every third the inside, of the others both
 };
 
+/// Without what core finds not valid.
+std::vector<AnyShape> valid(std::vector<AnyShape> shapes);
 Scene scene_of(std::span<const AnyShape> shapes, Sides sides = Sides::both);
 
 /// Fault that an answer may have.
