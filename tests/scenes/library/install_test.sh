@@ -1,10 +1,10 @@
 #!/bin/sh
-# Installs the built tree, moves it, and builds and runs a program that uses it.
+# Installs the built tree, moves it, and builds and runs the examples.
 #
 # usage: install_test.sh BUILD_FOLDER CMAKE GENERATOR COMPILER BUILD_TYPE FLAGS
 set -eu
 build=$1 cmake=$2 generator=$3 compiler=$4 build_type=$5 flags=$6
-consumer=$(dirname "$0")/consumer
+examples=$(dirname "$0")/../../../scenes/examples
 unset DESTDIR
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -31,16 +31,18 @@ archive=$(find "$prefix" -name libraylane.a)
 others=$(nm -gC --defined-only "$archive" | awk '$2 ~ /^[TDBRC]$/' | grep -v raylane || true)
 [ -z "$others" ] || fail "$others"
 
-echo "a program finds it, builds and runs"
-"$cmake" -S "$consumer" -B "$folder/consumer" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+echo "the examples find it, build and run"
+"$cmake" -S "$examples" -B "$folder/examples" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" \
     >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
-"$cmake" --build "$folder/consumer" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+"$cmake" --build "$folder/examples" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
 cd "$folder"
-"$folder/consumer/consumer"
+"$folder/examples/hits"
 [ -s sphere.png ] || fail "no picture"
+"$folder/examples/path" || fail "another picture than raylane's"
+[ -s path.png ] || fail "no picture of paths"
 
-echo "the tool and the examples are there"
+echo "the tool and the scenes are there"
 "$prefix/bin/raylane" render "$prefix/share/raylane/sphere.json" --size 16x16 -o tool.png
 [ -s tool.png ] || fail "no picture by the tool"
 [ -s "$prefix/share/raylane/raylane-scene.schema.json" ] || fail "no schema"

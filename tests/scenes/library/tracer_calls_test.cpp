@@ -37,8 +37,8 @@ TEST_CASE("answers depend on the ray alone, in spans of any length") {
 
 TEST_CASE("no rays get no answers") {
     const Tracer tracer(ball());
-    tracer.intersect({}, {});
-    tracer.occluded({}, {});
+    tracer.intersect(RaySpan{}, {});
+    tracer.occluded(RaySpan{}, {});
     CHECK(intersect(tracer, {}).t.empty());
 }
 
