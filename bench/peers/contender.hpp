@@ -35,8 +35,8 @@ using Contenders = std::vector<std::unique_ptr<Contender>>;
 /// raylane itself, by its own arrays.
 std::unique_ptr<Contender> make_own(const simd::SceneData& scene, simd::Isa isa, int threads);
 
-/// raylane's library, as its users have it.
-std::unique_ptr<Contender> make_library(const core::Scene& scene, simd::Isa isa);
+/// raylane's library, as its users have it: rays name what they leave, or start ahead of it.
+std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names);
 
 /// Embree: its calls for one ray, for 16, and for 16 that are said to be coherent. None if it does
 /// not have the scene's shapes, or was not there when this was built.

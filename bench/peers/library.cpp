@@ -8,11 +8,13 @@ namespace raylane::bench {
 namespace {
 
 /// What a user of the library gets: rays in float, in arrays of their own, answered by t, normal
-/// and id, or by 1 and 0. It is told nothing of what rays have in common, nor what they leave.
+/// and id, or by 1 and 0. It is told nothing of what rays have in common; what they leave they
+/// name, or start a little ahead of it.
 class Library : public Contender {
   public:
-    Library(const core::Scene& scene, simd::Isa isa)
-        : Contender("library"), tracer_(scene, /*threads=*/1, isa) {}
+    Library(const simd::SceneData& scene, simd::Isa isa, bool names)
+        : Contender(names ? "library, named" : "library"), scene_(scene), names_(names),
+          tracer_(scene.scene(), /*threads=*/1, isa) {}
 
     void prepare(const RaySet& rays) override {
         rays_ = &rays;
@@ -25,7 +27,10 @@ class Library : public Contender {
         t_.resize(rays.count);
         shape_.resize(rays.count);
         occluded_.resize(rays.count);
-        has_t_min_ = false;
+        leaves_any_ = rays.leaves_any();
+        shape_left_.assign(rays.count, core::no_shape);
+        face_left_.assign(rays.count, 0);
+        inward_.assign(rays.count, 0);
         for (std::size_t i = 0; i < rays.count; ++i) {
             const core::Ray<float> ray = rays.ray_in_float(i);
             for (int axis = 0; axis < 3; ++axis) {
@@ -33,18 +38,27 @@ class Library : public Contender {
                 direction_[axis][i] = ray.direction[axis];
             }
             t_min_[i] = rays.t_least(i);
-            has_t_min_ = has_t_min_ || t_min_[i] > 0.0F;
+            const simd::Paths path = rays.paths(i, 1);
+            if (path.origin_slot[0] == simd::no_slot) continue;
+            shape_left_[i] = scene_.id_of(path.origin_slot[0]);
+            face_left_[i] = static_cast<std::uint8_t>(path.origin_bits[0] & simd::origin_face);
+            inward_[i] = (path.origin_bits[0] & simd::origin_inward) != 0 ? 1 : 0;
         }
     }
 
     void run(std::size_t begin, std::size_t end, int /*thread*/) override {
         const auto from = [begin](auto& column) { return column.data() + begin; };
-        const simd::RayStream<float> rays = {
+        simd::RayStream<float> rays = {
             end - begin,
             {from(origin_[0]), from(origin_[1]), from(origin_[2])},
             {from(direction_[0]), from(direction_[1]), from(direction_[2])},
-            has_t_min_ ? from(t_min_) : nullptr,
+            leaves_any_ && !names_ ? from(t_min_) : nullptr,
             rays_->occlusion ? rays_->t_most(begin) : nullptr};
+        if (leaves_any_ && names_) {
+            rays.origin_shape = from(shape_left_);
+            rays.origin_face = from(face_left_);
+            rays.origin_inward = from(inward_);
+        }
         if (rays_->occlusion)
             tracer_.occluded(rays, from(occluded_));
         else
@@ -60,18 +74,20 @@ class Library : public Contender {
     }
 
   private:
+    const simd::SceneData& scene_;
+    bool names_;
     simd::StreamTracer tracer_;
     const RaySet* rays_ = nullptr;
     std::vector<float> origin_[3], direction_[3], t_min_, t_, normal_[3];
-    std::vector<core::ShapeId> shape_;
-    std::vector<std::uint8_t> occluded_;
-    bool has_t_min_ = false;
+    std::vector<core::ShapeId> shape_, shape_left_;
+    std::vector<std::uint8_t> occluded_, face_left_, inward_;
+    bool leaves_any_ = false;
 };
 
 } // namespace
 
-std::unique_ptr<Contender> make_library(const core::Scene& scene, simd::Isa isa) {
-    return std::make_unique<Library>(scene, isa);
+std::unique_ptr<Contender> make_library(const simd::SceneData& scene, simd::Isa isa, bool names) {
+    return std::make_unique<Library>(scene, isa, names);
 }
 
 } // namespace raylane::bench

@@ -92,7 +92,7 @@ scenes=
 for count in $counts; do
     scenes="$scenes spheres/$count"
 done
-all="camera mirror shadow incoherent occlusion"
+all="camera scanlines mirror shadow incoherent occlusion"
 # shellcheck disable=SC2086 # lists of words
 {
     measure $scenes sticks/$many "$picture" --rays $all

@@ -166,6 +166,11 @@ core::Ray<float> RaySet::ray_in_float(std::size_t i) const {
     return in_float_[i];
 }
 
+bool RaySet::leaves_any() const {
+    return std::any_of(origin_slot_.begin(), origin_slot_.end(),
+                       [](std::uint32_t slot) { return slot != simd::no_slot; });
+}
+
 void RaySet::reserve(std::size_t rays) {
     const std::size_t padded = rays + 16;
     for (auto* columns : {&origin_, &direction_})
@@ -221,12 +226,12 @@ void RaySet::finish() {
 std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side) {
     const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     std::vector<RaySet> sets(std::size(ray_set_names));
-    RaySet &camera = sets[0], &mirror = sets[1], &shadow = sets[2], &incoherent = sets[3],
-           &occlusion = sets[4];
+    RaySet &camera = sets[0], &scanlines = sets[1], &mirror = sets[2], &shadow = sets[3],
+           &incoherent = sets[4], &occlusion = sets[5];
     for (std::size_t i = 0; i < sets.size(); ++i)
         sets[i].name = ray_set_names[i];
     shadow.occlusion = occlusion.occlusion = true;
-    camera.coherence = coherence_at(scene.camera().from, false);
+    camera.coherence = scanlines.coherence = coherence_at(scene.camera().from, false);
     mirror.coherence = simd::neighbours;
     shadow.coherence = coherence_at(light_of(scene), true);
     for (RaySet& set : sets)
@@ -236,6 +241,9 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
     settings.width = settings.height = side;
     const core::CameraRays<double> rays(scene.camera(), settings);
     for_each_pixel(side, [&](int x, int y) { camera.add(rays.ray(x, y, 0), infinity); });
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            scanlines.add(rays.ray(x, y, 0), infinity);
     camera.finish();
     add_secondary(scene, data, camera, mirror, shadow);
 
@@ -257,7 +265,7 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
         incoherent.add(ray, infinity);
         occlusion.add(ray, static_cast<float>(distance));
     }
-    for (RaySet* set : {&mirror, &shadow, &incoherent, &occlusion})
+    for (RaySet* set : {&scanlines, &mirror, &shadow, &incoherent, &occlusion})
         set->finish();
     return sets;
 }

@@ -36,6 +36,8 @@ struct RaySet {
     /// Least t for those who know of no departures: how far ahead a ray has to start lest it hits
     /// what it leaves.
     float t_least(std::size_t i) const { return t_least_[i]; }
+    /// True if any ray leaves something.
+    bool leaves_any() const;
 
     void reserve(std::size_t rays);
     /// Adds a ray in the open.
@@ -55,10 +57,11 @@ struct RaySet {
     std::vector<std::uint32_t> origin_first_, origin_last_, origin_slot_, departure_;
 };
 
-inline constexpr const char* ray_set_names[] = {"camera", "mirror", "shadow", "incoherent",
-                                                "occlusion"};
+inline constexpr const char* ray_set_names[] = {"camera", "scanlines",  "mirror",
+                                                "shadow", "incoherent", "occlusion"};
 
-/// `camera`: those of a picture of side x side pixels, tile by tile; `mirror`: what its hits
+/// `camera`: those of a picture of side x side pixels, tile by tile, and `scanlines`: line by line;
+/// `mirror`: what the camera's hits
 /// reflect, and `shadow`: from these hits to a point light; `incoherent`: `side`^2 / 4 rays between
 /// any points of the scene's bounds, onwards; and `occlusion`: whether there is anything between
 /// those points.
