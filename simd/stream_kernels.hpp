@@ -31,7 +31,8 @@ struct StreamRays {
     double* direction[3]; ///< unit
     double* meant_direction[3];
     double* meant_length;
-    double* unit; ///< the caller's t per t of the ray meant: the power of two
+    double* unit;     ///< the caller's t per t of the ray meant: the power of two
+    double* per_unit; ///< the same per t of the unit direction, within 2^-51 of itself
     /// Crossings of the ray meant at less than this t, or at it unless stream_tie_counts, do not
     /// count; 0: all with t > 0 do.
     double* t_after;
@@ -50,6 +51,13 @@ struct CallerHits {
     std::uint32_t* shape;
     std::uint8_t* entering;
     std::uint8_t* face;
+};
+
+/// What hits have to be at or before: the caller's floats, if not null, as t in float is, or else,
+/// if `truly`, StreamRays::t_most.
+struct UpperLimits {
+    const float* t_max;
+    bool truly;
 };
 
 /// Lanes for which more is to be done, as kernels list them.
@@ -79,10 +87,9 @@ struct StreamKernels {
     bool (*find_coherence)(std::size_t count, const StreamRays& rays, float radius,
                            Coherence& coherence);
 
-    /// Hands hits of the first `count` rays over to the caller: t in units of the caller's, no
-    /// later than t_max, or if that is null, no later than t_most says. `left` has room for `count`
-    /// each.
-    void (*hand_over)(const SceneView& scene, std::size_t count, const float* t_max,
+    /// Hands hits of the first `count` rays over to the caller: t in units of the caller's. `left`
+    /// has room for `count` each.
+    void (*hand_over)(const SceneView& scene, std::size_t count, const UpperLimits& limits,
                       const StreamRays& taken, const StreamHits& found, const CallerHits& hits,
                       LeftOver& left);
 };

@@ -126,7 +126,7 @@ StreamRays from(StreamRays rays, std::size_t to) {
         rays.meant_direction[axis] += to;
     }
     for (double** const column :
-         {&rays.meant_length, &rays.unit, &rays.t_after, &rays.start, &rays.t_most})
+         {&rays.meant_length, &rays.unit, &rays.per_unit, &rays.t_after, &rays.start, &rays.t_most})
         *column += to;
     rays.bits += to;
     return rays;
@@ -188,6 +188,7 @@ class StreamTracer::Worker {
                   {paths_.meant_direction[0], paths_.meant_direction[1], paths_.meant_direction[2]},
                   paths_.meant_length,
                   arena.take<double>(capacity_),
+                  arena.take<double>(capacity_),
                   paths_.t_after,
                   paths_.start,
                   arena.take<double>(capacity_),
@@ -232,24 +233,28 @@ class StreamTracer::Worker {
                  {paths_.origin_first, paths_.origin_last, paths_.origin_slot})
                 std::fill_n(column + to, count, no_slot);
         else
-            for (std::size_t i = 0; i < count; ++i)
-                start_on(rays, i, to + i);
+            start_on(rays, tracer_.slots_by_id(), count, to);
         if (none != 0) stand_in(to, to + count);
     }
 
     template <class Real>
-    void start_on(const RayStream<Real>& rays, std::size_t i, std::size_t lane) {
-        const std::uint32_t tie_counts = paths_.origin_bits[lane];
-        const std::uint32_t slot = tracer_.slot_of(rays.origin_shape[i]);
-        if (slot == no_slot) {
-            paths_.start_nowhere(lane, lane + 1);
-        } else {
-            const bool inward = rays.origin_inward != nullptr && rays.origin_inward[i] != 0;
-            const std::uint32_t face = rays.origin_face != nullptr ? rays.origin_face[i] : 0;
-            paths_.start_on(lane, slot, data_.occupant_of(slot), face | (inward ? hit_entering : 0),
-                            /*through=*/true);
+    void start_on(const RayStream<Real>& rays, std::span<const std::uint32_t> slots,
+                  std::size_t count, std::size_t to) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t lane = to + i;
+            const core::ShapeId shape = rays.origin_shape[i];
+            const std::uint32_t tie_counts = paths_.origin_bits[lane];
+            const std::uint32_t slot = shape < slots.size() ? slots[shape] : no_slot;
+            if (slot == no_slot) {
+                paths_.start_nowhere(lane, lane + 1);
+            } else {
+                const bool inward = rays.origin_inward != nullptr && rays.origin_inward[i] != 0;
+                const std::uint32_t face = rays.origin_face != nullptr ? rays.origin_face[i] : 0;
+                paths_.start_on(lane, slot, data_.occupant_of(slot),
+                                face | (inward ? hit_entering : 0), /*through=*/true);
+            }
+            paths_.origin_bits[lane] |= tie_counts;
         }
-        paths_.origin_bits[lane] |= tie_counts;
     }
 
     /// Lanes without a ray get that of another lane, so that those around them have still in common
@@ -276,7 +281,7 @@ class StreamTracer::Worker {
         mark_unanswered(rays);
         const Hits& found = query_.hits();
         LeftOver left{doubtful_, unsharp_, 0, 0};
-        kernels().hand_over(data_.view(), rays.count, float_limits(rays), taken_,
+        kernels().hand_over(data_.view(), rays.count, limits_of(rays), taken_,
                             {found.slot,
                              found.hit,
                              found.t,
@@ -288,8 +293,10 @@ class StreamTracer::Worker {
             answer(rays, doubtful_[k], hits);
     }
 
-    static const float* float_limits(const RayStream<float>& rays) { return rays.t_max; }
-    static const float* float_limits(const RayStream<double>&) { return nullptr; }
+    static UpperLimits limits_of(const RayStream<float>& rays) { return {rays.t_max, false}; }
+    static UpperLimits limits_of(const RayStream<double>& rays) {
+        return {nullptr, rays.t_max != nullptr};
+    }
 
     /// t in double of lanes that have hits.
     void sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits) {
@@ -599,9 +606,9 @@ template void StreamTracer::nearest(const RayStream<double>&, const HitStream&) 
 template void StreamTracer::occluded(const RayStream<float>&, std::uint8_t*) const;
 template void StreamTracer::occluded(const RayStream<double>&, std::uint8_t*) const;
 
-std::uint32_t StreamTracer::slot_of(core::ShapeId shape) const {
+std::span<const std::uint32_t> StreamTracer::slots_by_id() const {
     std::call_once(has_slots_, [&] { slots_ = data_->slots_by_id(); });
-    return shape < slots_.size() ? slots_[shape] : no_slot;
+    return slots_;
 }
 
 } // namespace raylane::simd

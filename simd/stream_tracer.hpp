@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 namespace raylane::simd {
@@ -75,7 +76,7 @@ class StreamTracer {
 
     static constexpr std::size_t fewest = 1024; ///< rays that are worth a thread
     std::size_t at_a_time() const;              ///< rays that look for what is nearest
-    std::uint32_t slot_of(core::ShapeId shape) const;
+    std::span<const std::uint32_t> slots_by_id() const;
 
     const core::Scene& scene_;
     int threads_;

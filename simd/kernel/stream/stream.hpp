@@ -48,14 +48,14 @@ class CallerStream {
         return steps.is_near(radius, most);
     }
 
-    static void hand_over(const SceneView& scene, std::size_t count, const float* t_max,
+    static void hand_over(const SceneView& scene, std::size_t count, const UpperLimits& limits,
                           const StreamRays& taken, const StreamHits& found, const CallerHits& hits,
                           LeftOver& left) {
         left.doubtful_count = left.unsharp_count = 0;
         const TableView* table = scene.tables;
         for (std::size_t i = 0; i < count; i += F::size) {
             const std::size_t here = least(count - i, F::size);
-            const Answers answers = answers_to(t_max, taken, found, hits, i, here);
+            const Answers answers = answers_to(limits, taken, found, hits, i, here);
             if (hits.t != nullptr)
                 store(select(answers.hit, answers.t, S::infinity()), hits.t + i, here);
             for (int axis = 0; axis < 3; ++axis)
@@ -175,7 +175,10 @@ class CallerStream {
                           Lanes<D>::from_bits(part_of(valid, part)), taken,
                           to + k + static_cast<std::size_t>(part) * half);
             }
-            take_limits(t_min, t_max, rays.t_min != nullptr, valid, taken, to + k);
+            if (rays.t_min == nullptr && rays.t_max == nullptr)
+                store_no_limits(valid, taken, to + k);
+            else
+                take_limits(t_min, t_max, rays.t_min != nullptr, valid, taken, to + k);
         }
         return static_cast<std::size_t>(__builtin_popcount(none & ((1U << count) - 1)));
     }
@@ -236,23 +239,29 @@ class CallerStream {
                                                  const Vectors<D>& direction, const Number& largest,
                                                  const Mask<D>& is_ray, const StreamRays& taken,
                                                  std::size_t at) {
-        // Of a number that is not subnormal, infinity's bits are those of its exponent.
-        const Number power = largest & Number(__builtin_inf());
-        const Number unit = select(is_ray, Number(1.0) / power, Number(1.0));
+        // Of a number that is not subnormal, infinity's bits are those of its exponent, and the
+        // reciprocal's of the power of two are these, taken from twice those of 1.
+        using Bits = decltype(bits_as<std::uint64_t>(largest));
+        const Number unit =
+            select(is_ray,
+                   bits_as<double>(Bits(std::uint64_t{0x7FE} << 52) -
+                                   bits_as<std::uint64_t>(largest & Number(__builtin_inf()))),
+                   Number(1.0));
         const Number nothing = zero<D>();
         const Vectors<D> meant{select(is_ray, direction.x * unit, nothing),
                                select(is_ray, direction.y * unit, nothing),
                                select(is_ray, direction.z * unit, Number(1.0))};
-        const Number length = sqrt(squared_length(meant));
+        const Number length = sqrt(squared_length(meant)), inverse = Number(1.0) / length;
         const Number* const origins[] = {&origin.x, &origin.y, &origin.z};
         const Number* const directions[] = {&meant.x, &meant.y, &meant.z};
         for (int axis = 0; axis < 3; ++axis) {
             select(is_ray, *origins[axis], nothing).store_unaligned(taken.origin[axis] + at);
             directions[axis]->store_unaligned(taken.meant_direction[axis] + at);
-            (*directions[axis] / length).store_unaligned(taken.direction[axis] + at);
+            (*directions[axis] * inverse).store_unaligned(taken.direction[axis] + at);
         }
         length.store_unaligned(taken.meant_length + at);
         unit.store_unaligned(taken.unit + at);
+        (unit * inverse).store_unaligned(taken.per_unit + at);
     }
 
     /// Takes limits of floats in, by the floats' neighbours: what counts is the float nearest to t,
@@ -279,6 +288,18 @@ class CallerStream {
         } else {
             S::store_bits(zero<Arch>(), taken.bits + to);
         }
+    }
+
+    [[gnu::always_inline]] static void store_no_limits(std::uint32_t valid, const StreamRays& taken,
+                                                       std::size_t to) {
+        for (int part = 0; part < 2; ++part) {
+            const std::size_t at = to + static_cast<std::size_t>(part) * half;
+            zero<D>().store_unaligned(taken.t_after + at);
+            zero<D>().store_unaligned(taken.start + at);
+            select(Lanes<D>::from_bits(part_of(valid, part)), Number(__builtin_inf()), Number(-1.0))
+                .store_unaligned(taken.t_most + at);
+        }
+        S::store_bits(zero<Arch>(), taken.bits + to);
     }
 
     /// Limits of some rays that have been taken in, in the caller's units.
@@ -382,57 +403,55 @@ class CallerStream {
         M hit;
         std::uint32_t hit_bits, doubtful;
     };
-    static M mask_of(std::uint32_t bits) {
-        float lanes[F::size];
-        for (std::size_t lane = 0; lane < F::size; ++lane)
-            lanes[lane] = static_cast<float>(bits >> lane & 1);
-        return S::load(lanes) > zero<Arch>();
-    }
-    [[gnu::always_inline]] static Answers answers_to(const float* t_max, const StreamRays& taken,
-                                                     const StreamHits& found,
-                                                     const CallerHits& hits, std::size_t i,
-                                                     std::size_t here) {
+    [[gnu::always_inline]] static Answers
+    answers_to(const UpperLimits& limits, const StreamRays& taken, const StreamHits& found,
+               const CallerHits& hits, std::size_t i, std::size_t here) {
         double first[F::size], last[F::size];
-        std::uint32_t are_rays = 0, before = 0, beyond = 0;
         for (std::size_t k = 0; k < F::size; k += half) {
-            const Number unit_t = Number::load_unaligned(found.t + i + k);
-            const Number unit_error = Number::load_unaligned(found.error + i + k);
-            const Number most = Number::load_unaligned(taken.t_most + i + k);
-            const Number per_unit = Number::load_unaligned(taken.unit + i + k) /
-                                    Number::load_unaligned(taken.meant_length + i + k);
-            const Number t = unit_t * per_unit;
+            const Number per_unit = Number::load_unaligned(taken.per_unit + i + k);
+            const Number t = Number::load_unaligned(found.t + i + k) * per_unit;
             // The length and all operations are off by a few ulps.
-            const Number error = unit_error * per_unit * Number(1 + 0x1p-50) + Number(0x1p-49) * t;
-            are_rays |= Lanes<D>::bits(most >= zero<D>()) << k;
-            if (t_max == nullptr) {
-                const Number off = unit_error * Number(1 + 0x1p-50);
-                before |= Lanes<D>::bits(unit_t + off <= most * Number(1 - 0x1p-47)) << k;
-                beyond |= Lanes<D>::bits(unit_t - off > most * Number(1 + 0x1p-50)) << k;
-            }
+            const Number error =
+                Number::load_unaligned(found.error + i + k) * per_unit * Number(1 + 0x1p-50) +
+                Number(0x1p-49) * t;
             (t - error).store_unaligned(first + k);
             (t + error).store_unaligned(last + k);
         }
         const F t = Lanes<Arch>::narrow(first), none = S::broadcast_bits(no_slot);
-        M sure = (t == Lanes<Arch>::narrow(last)) & (t > zero<Arch>()) & (t < S::infinity());
+        const M sure = (t == Lanes<Arch>::narrow(last)) & (t > zero<Arch>()) & (t < S::infinity());
         const M missed = Lanes<Arch>::in_range(S::load_bits(found.slot + i), none, none);
         const F unknown = S::broadcast_bits(
             hit_doubtful | (wants_normals(hits) ? hit_normal_doubtful | hit_normal_unknown : 0));
         const M known = Lanes<Arch>::in_range(S::load_bits(found.hit + i) & unknown, zero<Arch>(),
                                               zero<Arch>());
-        if (here < F::size) are_rays &= (1U << here) - 1;
-        const std::uint32_t any = are_rays & ~Lanes<Arch>::bits(missed);
-        std::uint32_t certain = Lanes<Arch>::bits(sure & known);
-        std::uint32_t in_limit = all_lanes;
-        if (t_max == nullptr) {
-            in_limit = before;
-            certain &= before | beyond;
-        } else {
-            float limit[F::size] = {};
-            __builtin_memcpy(limit, t_max + i, here * sizeof(float));
-            in_limit = Lanes<Arch>::bits(t <= S::load(limit));
+        const M any = (Lanes<Arch>::narrow(taken.t_most + i) >= zero<Arch>()) & ~missed &
+                      S::first_lanes(here);
+        M certain = sure & known, hit = any & certain;
+        if (limits.t_max != nullptr) {
+            float most[F::size] = {};
+            __builtin_memcpy(most, limits.t_max + i, here * sizeof(float));
+            hit = hit & (t <= S::load(most));
+        } else if (limits.truly) {
+            const Sides sides = sides_of_t_most(taken, found, i);
+            certain = certain & (sides.before | sides.beyond);
+            hit = hit & sides.before;
         }
-        const std::uint32_t hit = any & certain & in_limit;
-        return {t, mask_of(hit), hit, any & ~certain};
+        return {t, hit, Lanes<Arch>::bits(hit), Lanes<Arch>::bits(any & ~certain)};
+    }
+
+    /// Lanes whose t is surely not after t_most, or surely is.
+    struct Sides {
+        M before, beyond;
+    };
+    static Sides sides_of_t_most(const StreamRays& taken, const StreamHits& found, std::size_t i) {
+        float before[F::size], beyond[F::size];
+        for (std::size_t lane = 0; lane < F::size; ++lane) {
+            const double t = found.t[i + lane], most = taken.t_most[i + lane];
+            const double error = found.error[i + lane] * (1 + 0x1p-50);
+            before[lane] = t + error <= most * (1 - 0x1p-47) ? 1 : 0;
+            beyond[lane] = t - error > most * (1 + 0x1p-50) ? 1 : 0;
+        }
+        return {S::load(before) > zero<Arch>(), S::load(beyond) > zero<Arch>()};
     }
 
     static void list(std::uint32_t lanes, std::size_t i, std::uint32_t* to, std::size_t& count) {
@@ -448,11 +467,13 @@ class CallerStream {
         __builtin_memcpy(to, all, count * sizeof(float));
     }
 
+    /// `table` is where one of these may be.
     static void store_shapes(const SceneView& scene, const std::uint32_t* slots, std::uint32_t hit,
                              std::size_t count, std::uint32_t* to, const TableView*& table) {
-        for (std::size_t lane = 0; lane < count; ++lane) {
+        for (std::size_t lane = 0; lane < count; ++lane)
             to[lane] = no_slot; // core::no_shape
-            if ((hit >> lane & 1) == 0) continue;
+        for (; hit != 0; hit &= hit - 1) {
+            const auto lane = static_cast<unsigned>(__builtin_ctz(hit));
             const std::uint32_t slot = slots[lane];
             if (!Slots<Arch>::holds(*table, slot))
                 table = &Slots<Arch>::table_of(scene, Slots<Arch>::kind_of(scene, slot));
