@@ -38,6 +38,9 @@ class SceneData {
     /// exactly: where that makes lists, these should be long; else what belongs to the rays should
     /// be in the cache.
     std::size_t best_ray_count() const { return has_tree() && !view_.large ? 2 * long_list : 1024; }
+    /// True if a packet's rays that are no neighbours in one of two directions cost more than to
+    /// put them in another order.
+    bool best_in_tiles() const { return has_tree() && slots_ >= 8192; }
     /// True if some surface is visible from one side only.
     bool one_sided() const { return one_sided_; }
     bool smooth() const { return smooth_; }

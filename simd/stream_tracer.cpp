@@ -4,9 +4,11 @@
 #include "simd/query/as_core.hpp"
 #include "simd/query/query.hpp"
 #include "simd/threads.hpp"
+#include "simd/tile_order.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -146,6 +148,84 @@ CallerRays<Real> as_kernels_have_them(const RayStream<Real>& rays) {
             rays.t_max};
 }
 
+/// Rays and hits by another order than the caller's.
+class TileColumns {
+  public:
+    template <class Real>
+    struct Sorted {
+        RayStream<Real> rays;
+        HitStream hits;
+    };
+
+    /// Puts rays in this order, and makes room for the hits that are wanted.
+    template <class Real>
+    Sorted<Real> take(const RayStream<Real>& rays, const HitStream& hits,
+                      std::span<const std::uint32_t> order) {
+        bytes_.resize(TileOrder::most * bytes_a_ray);
+        next_ = bytes_.data();
+        Sorted<Real> sorted{};
+        sorted.rays.count = order.size();
+        sorted.hits.t_double = room_for(hits.t_double, order.size());
+        for (int axis = 0; axis < 3; ++axis) {
+            sorted.rays.origin[axis] = gathered(rays.origin[axis], order);
+            sorted.rays.direction[axis] = gathered(rays.direction[axis], order);
+        }
+        sorted.rays.t_min = gathered(rays.t_min, order);
+        sorted.rays.t_max = gathered(rays.t_max, order);
+        sorted.hits.t = room_for(hits.t, order.size());
+        for (int axis = 0; axis < 3; ++axis)
+            sorted.hits.normal[axis] = room_for(hits.normal[axis], order.size());
+        sorted.hits.shape = room_for(hits.shape, order.size());
+        sorted.hits.entering = room_for(hits.entering, order.size());
+        sorted.hits.face = room_for(hits.face, order.size());
+        return sorted;
+    }
+
+    /// Writes hits to where they were asked for.
+    static void hand_back(const HitStream& sorted, std::span<const std::uint32_t> order,
+                          const HitStream& hits) {
+        scatter(sorted.t, order, hits.t);
+        for (int axis = 0; axis < 3; ++axis)
+            scatter(sorted.normal[axis], order, hits.normal[axis]);
+        scatter(sorted.shape, order, hits.shape);
+        scatter(sorted.entering, order, hits.entering);
+        scatter(sorted.face, order, hits.face);
+        scatter(sorted.t_double, order, hits.t_double);
+    }
+
+  private:
+    /// Of 8 columns of rays and all of hits.
+    static constexpr std::size_t bytes_a_ray = 8 * sizeof(double) + sizeof(double) + 5 * 4 + 2;
+
+    template <class Value>
+    Value* room(std::size_t count) {
+        auto* const values = reinterpret_cast<Value*>(next_);
+        next_ += count * sizeof(Value);
+        return values;
+    }
+    template <class Value>
+    Value* room_for(const Value* wanted, std::size_t count) {
+        return wanted != nullptr ? room<Value>(count) : nullptr;
+    }
+    template <class Value>
+    const Value* gathered(const Value* from, std::span<const std::uint32_t> order) {
+        if (from == nullptr) return nullptr;
+        Value* const to = room<Value>(order.size());
+        for (std::size_t k = 0; k < order.size(); ++k)
+            to[k] = from[order[k]];
+        return to;
+    }
+    template <class Value>
+    static void scatter(const Value* from, std::span<const std::uint32_t> order, Value* to) {
+        if (to == nullptr) return;
+        for (std::size_t k = 0; k < order.size(); ++k)
+            to[order[k]] = from[k];
+    }
+
+    std::vector<std::byte> bytes_;
+    std::byte* next_ = nullptr;
+};
+
 } // namespace
 
 /// Answers up to some rays at a time, for one thread.
@@ -161,8 +241,19 @@ class StreamTracer::Worker {
 
     template <class Real>
     void nearest(const RayStream<Real>& rays, const HitStream& hits) {
-        for (std::size_t first = 0; first < rays.count; first += paths_.count) {
+        std::size_t in_order = 0; // until there, rays have been found to be in a good order
+        for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
             const RayStream<Real> some = take(rays, first);
+            count = some.count;
+            if (first >= in_order && are_better_in_tiles(rays, first)) {
+                const std::size_t most = std::min(rays.count - first, TileOrder::most);
+                if (is_order_found(rays, first, most)) {
+                    nearest_in_tiles(part_of(rays, first, most), part_of(hits, first));
+                    count = most;
+                    continue;
+                }
+                in_order = first + most;
+            }
             nearest_of(some, part_of(hits, first));
         }
     }
@@ -218,6 +309,32 @@ class StreamTracer::Worker {
         if (!is_exact() || rays.t_min == nullptr) paths_.t_after = paths_.start = nullptr;
         paths_.count = count;
         return part_of(rays, first, count);
+    }
+
+    /// True if it is worth to look whether the rays taken last, and those behind them, are.
+    template <class Real>
+    bool are_better_in_tiles(const RayStream<Real>& rays, std::size_t first) const {
+        return coherence_ != nullptr && !coherence_->loose && !coherence_->converging &&
+               data_.best_in_tiles() && rays.origin_shape == nullptr &&
+               rays.count - first >= TileOrder::least;
+    }
+
+    template <class Real>
+    bool is_order_found(const RayStream<Real>& rays, std::size_t first, std::size_t count) {
+        const RayStream<Real> some = part_of(rays, first, count);
+        return tiles_.find(some.origin, some.direction, count, in_common_.parallel);
+    }
+
+    /// Rays in the order that has been found for them.
+    template <class Real>
+    void nearest_in_tiles(const RayStream<Real>& rays, const HitStream& hits) {
+        const std::span<const std::uint32_t> order = tiles_.order();
+        const auto [sorted, found] = tile_columns_.take(rays, hits, order);
+        for (std::size_t first = 0; first < sorted.count; first += paths_.count) {
+            const RayStream<Real> some = take(sorted, first);
+            nearest_of(some, part_of(found, first));
+        }
+        TileColumns::hand_back(found, order, hits);
     }
 
     /// All of them, from lane `to` on.
@@ -516,6 +633,8 @@ class StreamTracer::Worker {
     Paths paths_{};
     StreamRays taken_{}; // their columns, and those of limits
     Coherence in_common_{};
+    TileOrder tiles_;
+    TileColumns tile_columns_;
     const Coherence* coherence_ = nullptr;
     std::uint32_t* doubtful_ = nullptr; // lanes
     std::uint32_t* unsharp_ = nullptr;

@@ -1,9 +1,13 @@
 #include "core/reference/search.hpp"
 #include "scenes/library/internals.hpp"
+#include "simd/tile_order.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/ray_arrays.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 using namespace raylane;
 using namespace raylane::tests;
@@ -112,6 +116,124 @@ TEST_CASE("rays answered together have the answers that they have alone") {
             CHECK(different == 0);
             CHECK(hits > ray_count / 8);
         }
+}
+
+namespace {
+
+/// So many that rays line by line are put into tiles.
+Scene many_balls() {
+    Random random(7);
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    for (int i = 0; i < 9000; ++i)
+        builder.add(
+            Sphere{{uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1)}, 0.012F},
+            material);
+    return builder.build();
+}
+
+/// Line by line, from one point or parallel.
+Rays lines(bool parallel, bool with_limits) {
+    constexpr int width = 256, count = 9 * 1024 + 100; // some of them in a block of their own
+    Rays rays;
+    for (int i = 0; i < count; ++i) {
+        const float x = static_cast<float>(i % width) / 256.0F,
+                    y = static_cast<float>(i / width) / 40.0F;
+        if (parallel)
+            rays.add({x, y, 2.0F}, {0, 0.1F, -1});
+        else
+            rays.add({0.4F, 0.6F, 3.0F}, {x - 0.4F, y - 0.6F, i % 301 == 7 ? not_a_number : -2.5F});
+        if (!with_limits) continue;
+        rays.t_min.push_back(i % 3 == 0 ? 1.2F : 0.0F);
+        rays.t_max.push_back(i % 7 == 0 ? 1.1F : 2.5F);
+    }
+    return rays;
+}
+
+} // namespace
+
+TEST_CASE("rays that come line by line have the answers that they have one by one") {
+    const Tracer tracer(many_balls(), {.threads = 1});
+    for (const bool parallel : {false, true})
+        for (const bool with_limits : {false, true}) {
+            const Rays rays = lines(parallel, with_limits);
+            simd::TileOrder order; // or else nothing would be tested here
+            const float* const from[] = {rays.x.data(), rays.y.data(), rays.z.data()};
+            const float* const along[] = {rays.dx.data(), rays.dy.data(), rays.dz.data()};
+            CHECK(order.find(from, along, simd::TileOrder::most, parallel));
+
+            Hits hits(rays.size());
+            std::vector<std::uint8_t> face(rays.size(), 77);
+            std::vector<double> t_double(rays.size(), -1.0);
+            HitSpan span = hits.span();
+            span.face = face;
+            span.t_double = t_double;
+            tracer.intersect(rays.span(), span);
+            std::size_t found = 0, different = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                Hits alone(1);
+                double t_alone = -1.0;
+                std::uint8_t face_alone = 77;
+                HitSpan span_alone = alone.span();
+                span_alone.t_double = std::span(&t_alone, 1);
+                span_alone.face = std::span(&face_alone, 1);
+                tracer.intersect(rays.part(i, 1), span_alone);
+                found += alone.is_none(0) ? 0 : 1;
+                const bool same = hits.t[i] == alone.t[0] && hits.nx[i] == alone.nx[0] &&
+                                  hits.ny[i] == alone.ny[0] && hits.nz[i] == alone.nz[0] &&
+                                  hits.shape[i] == alone.shape[0] &&
+                                  hits.entering[i] == alone.entering[0] && face[i] == face_alone &&
+                                  t_double[i] == t_alone;
+                different += same ? 0 : 1;
+            }
+            CAPTURE(parallel, with_limits, found);
+            CHECK(different == 0);
+            CHECK(found > rays.size() / 4);
+        }
+}
+
+TEST_CASE("rays are put into another order where that is better") {
+    constexpr std::size_t count = simd::TileOrder::most;
+    std::vector<float> u(count), v(count), one(count, 1.0F), none(count, 0.0F);
+    const auto is_found = [&](auto&& point_of) {
+        for (std::size_t i = 0; i < count; ++i)
+            std::tie(u[i], v[i]) = point_of(static_cast<int>(i));
+        simd::TileOrder order;
+        const float* const from[] = {none.data(), none.data(), none.data()};
+        const float* const along[] = {u.data(), v.data(), one.data()};
+        if (!order.find(from, along, count, false)) return false;
+        std::vector<std::uint32_t> all(order.order().begin(), order.order().end());
+        // Packets are squares of about 4 by 4.
+        double rims = 0.0;
+        for (std::size_t first = 0; first < count; first += 16)
+            for (const std::vector<float>& values : {u, v}) {
+                float low = infinity, high = -infinity;
+                for (std::size_t k = first; k < first + 16; ++k) {
+                    low = std::min(low, values[all[k]]);
+                    high = std::max(high, values[all[k]]);
+                }
+                rims += static_cast<double>(high - low) * 512.0;
+            }
+        CHECK(rims / (count / 16) < 11.5); // of a line, 15
+        std::sort(all.begin(), all.end());
+        for (std::uint32_t i = 0; i < count; ++i)
+            CHECK(all[i] == i);
+        return true;
+    };
+    const auto at = [](int x, int y) {
+        return std::pair(static_cast<float>(x) / 512.0F, static_cast<float>(y) / 512.0F);
+    };
+    CHECK(is_found([&](int i) { return at(i % 512, i / 512); }));
+    CHECK(is_found([&](int i) { return at(i % 128, i / 128); }));
+    CHECK(is_found([&](int i) { return at(i / 64, i % 64); }));
+    CHECK_FALSE(is_found([&](int i) { // tiles of 16 x 16
+        return at(i % 16 + i / 256 % 8 * 16, i / 16 % 16 + i / 2048 * 16);
+    }));
+    CHECK_FALSE(is_found([&](int i) { return at(i, 0); }));
+    CHECK_FALSE(is_found([&](int) { return at(3, 5); }));
+    CHECK_FALSE(is_found([&](int i) {
+        return std::pair(i == 100 ? infinity : static_cast<float>(i % 512), not_a_number);
+    }));
 }
 
 namespace {

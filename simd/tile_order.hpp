@@ -1,0 +1,39 @@
+#pragma once
+
+#include "core/numbers/vector.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace raylane::simd {
+
+/// An order of rays that start at one point, or are parallel, in which those that are next to each
+/// other are so in space: cells of about 16, along a Morton curve. Rays that come line by line are
+/// neighbours in one direction alone, and many a time twice as expensive.
+class TileOrder {
+  public:
+    /// Rays that are put in order together.
+    static constexpr std::size_t most = 8192;
+    /// Fewer are not worth it.
+    static constexpr std::size_t least = 2048;
+
+    /// Finds it for `count` rays, up to `most`. False if theirs is about as good.
+    template <class Real>
+    bool find(const Real* const (&origin)[3], const Real* const (&direction)[3], std::size_t count,
+              bool parallel);
+
+    /// Numbers of the rays, in that order.
+    std::span<const std::uint32_t> order() const { return order_; }
+
+  private:
+    bool find_cells(std::size_t count);
+    void sort(std::size_t count, unsigned keys);
+
+    std::vector<float> u_, v_; // by ray, in a plane before them
+    std::vector<std::uint16_t> key_;
+    std::vector<std::uint32_t> ends_, order_;
+};
+
+} // namespace raylane::simd
