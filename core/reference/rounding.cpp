@@ -49,17 +49,15 @@ bool are_within(const Vec3<Bounded<double>>& v, double accuracy) {
     return v.x.error < most && v.y.error < most && v.z.error < most;
 }
 
-/// Calls is_enough(t) with t as well as it is known, then in 106 bits, then within 2^-100 of
-/// itself, until that returns true. Returns whether it did.
+/// Calls is_enough(t) with t in 106 bits, then within 2^-100 of itself, until that returns true.
+/// Returns whether it did.
 template <class IsEnough>
-bool with_better_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
-                   const IsEnough& is_enough) {
-    const SharpHit sharp(hit);
-    if (is_enough(sharp.wide_t())) return true;
+bool with_wide_t(const Scene& scene, const LeavingRay& from, const SharpHit& sharp,
+                 const IsEnough& is_enough) {
     sharp.widen(scene, from);
     if (is_enough(sharp.wide_t())) return true;
     return sharp.wide_t().error != 0.0 &&
-           is_enough(sharp.root(scene, from).in_wide(hit.t, hit.error));
+           is_enough(sharp.root(scene, from).in_wide(sharp.hit().t, sharp.hit().error));
 }
 
 Vec3<Real> wide_normal(const Scene& scene, const Ray<Real>& ray, const Real& t,
@@ -143,7 +141,7 @@ bool rounds_surely(const DoubleDouble& t, double error) {
 
 double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
     DoubleDouble known;
-    if (with_better_t(scene, from, hit, [&](const Real& t) {
+    if (with_wide_t(scene, from, hit, [&](const Real& t) {
             known = t.value;
             return rounds_surely(t.value, t.error);
         }))
@@ -195,7 +193,8 @@ Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<doubl
         }
         return true;
     };
-    if (!with_better_t(scene, from, hit, is_sure)) {
+    // Vectors have tried with t as it is known in double.
+    if (!with_wide_t(scene, from, hit, is_sure)) {
         const ExactDirection exact(scene, from, hit);
         for (int axis = 0; axis < 3; ++axis)
             normal[axis] = exact.rounded(axis);
@@ -236,7 +235,9 @@ SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
         }
         return are_within(direction, 0x1p-40) && are_within(point, 0x1p-50);
     };
-    if (with_better_t(scene, from, hit, is_known) || are_within(direction, 0x1p-40)) {
+    const SharpHit sharp(hit);
+    if (is_known(sharp.wide_t()) || with_wide_t(scene, from, sharp, is_known) ||
+        are_within(direction, 0x1p-40)) {
         // Of any size: only now is it sure that no square over- or underflows.
         result.normal = normalized(result.normal / largest(direction).magnitude());
         return result;
