@@ -218,18 +218,15 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
 
 SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
     static_assert(no_slot == core::no_shape);
-    int kind = core::kind_count - 1;
-    while (slot < view_.tables[kind].first_slot)
-        --kind;
-    const TableView& table = view_.tables[kind];
+    const core::Kind kind = kind_of(slot);
+    const TableView& table = view_.tables[static_cast<int>(kind)];
     const std::uint32_t place = slot - table.first_slot;
     const float* block =
         table.blocks + std::size_t{table.block_floats} * (place / core::block_size);
     const core::ShapeId id = reinterpret_cast<const core::ShapeId*>(
         block + std::size_t{core::block_size} * table.values)[place % core::block_size];
-    if (id == core::no_shape) return {id, {id, id}, 0, static_cast<core::Kind>(kind)};
-    return {id, scene_.coplanar_with(id), scene_.material_index_of(id),
-            static_cast<core::Kind>(kind)};
+    if (id == core::no_shape) return {id, {id, id}, 0, kind};
+    return {id, scene_.coplanar_with(id), scene_.material_index_of(id), kind};
 }
 
 core::Place SceneData::place_of(std::uint32_t slot) const {

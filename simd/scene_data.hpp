@@ -70,6 +70,14 @@ class SceneData {
             return find_occupant(slot);
         return occupants_[slot];
     }
+    /// What is known of a shape by its id, and the slot where it is: cheap however many there are.
+    struct NamedShape {
+        core::IdRange coplanar;
+        core::Kind kind;
+    };
+    NamedShape shape_named(core::ShapeId id, std::uint32_t slot) const {
+        return {scene_.coplanar_with(id), kind_of(slot)};
+    }
     core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
     core::Place place_of(std::uint32_t slot) const;
     std::uint32_t slot_of(core::Kind kind, core::Place place) const;
@@ -82,6 +90,12 @@ class SceneData {
     void fill_occupants();
     void view_hierarchy();
     void find_plain_lanes(Transmissive transmissive);
+    core::Kind kind_of(std::uint32_t slot) const {
+        int kind = core::kind_count - 1;
+        while (slot < view_.tables[kind].first_slot)
+            --kind;
+        return static_cast<core::Kind>(kind);
+    }
     Occupant find_occupant(std::uint32_t slot) const;
 
     const core::Scene& scene_;

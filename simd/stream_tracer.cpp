@@ -367,7 +367,7 @@ class StreamTracer::Worker {
             } else {
                 const bool inward = rays.origin_inward != nullptr && rays.origin_inward[i] != 0;
                 const std::uint32_t face = rays.origin_face != nullptr ? rays.origin_face[i] : 0;
-                paths_.start_on(lane, slot, data_.occupant_of(slot),
+                paths_.start_on(lane, slot, data_.shape_named(shape, slot),
                                 face | (inward ? hit_entering : 0), /*through=*/true);
             }
             paths_.origin_bits[lane] |= tie_counts;

@@ -86,9 +86,11 @@ struct Paths {
     }
 
     /// The lane's ray starts on a shape: on that side of it which the ray that hit it there, with
-    /// these hit_bits, goes to if it passes `through`, or else came from.
-    void start_on(std::size_t lane, std::uint32_t slot, const SceneData::Occupant& shape,
-                  std::uint32_t hit, bool through) const {
+    /// these hit_bits, goes to if it passes `through`, or else came from. Shape:
+    /// SceneData::Occupant, or as much of it as NamedShape has.
+    template <class Shape>
+    void start_on(std::size_t lane, std::uint32_t slot, const Shape& shape, std::uint32_t hit,
+                  bool through) const {
         const bool inward = through == ((hit & hit_entering) != 0);
         origin_first[lane] = shape.coplanar.first;
         origin_last[lane] = shape.coplanar.last;
