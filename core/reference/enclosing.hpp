@@ -38,13 +38,12 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
 }
 
 /// A point is in a body if a line through it leaves the body both ways, and behind a plane if it
-/// is.
+/// is. Outside of the bounds of what is transmissive, no line does, and nothing is searched.
 template <class Real>
 Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks& stacks,
                       const Vec3<Real>& point) {
     Media media = empty_space;
-    const auto transmits = [](const Material& material) { return material.transmits(); };
-    if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits)) return media;
+    if (!scene.transmissive().any) return media;
 
     for_each_unbounded_table(scene.shapes(), [&](const auto& table) {
         for_each_shape(table, [&](const Plane& plane, ShapeId id) {
@@ -54,6 +53,8 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks&
                 media = stacks.entered(media, scene.material_index_of(id));
         });
     });
+
+    if (!scene.transmissive().bounds.contains(point)) return media;
 
     // Any direction does; a round one would run along faces and edges.
     const Vec3<Real> direction = normalized(Vec3<Real>(Real(0.41), Real(0.57), Real(0.71)));

@@ -34,6 +34,21 @@ IdRange Scene::coplanar_with(ShapeId id) const {
     return polygon != nullptr ? *polygon : IdRange{id, id};
 }
 
+void Scene::find_transmissive() {
+    const auto transmits = [](const Material& material) { return material.transmits(); };
+    if (std::none_of(materials_.begin(), materials_.end(), transmits)) return;
+    for_each_table(shapes_, [&](const auto& table) {
+        for_each_shape(table, [&]<class Shape>(const Shape& shape, ShapeId id) {
+            if (!material_of(id).transmits()) return;
+            transmissive_.any = true;
+            if constexpr (is_bounded<Shape>)
+                transmissive_.bounds.include(bounds_of(shape));
+            else
+                transmissive_.any_unbounded = true;
+        });
+    });
+}
+
 std::size_t Scene::bytes() const {
     std::size_t bytes = hierarchy_.bytes() + material_of_.capacity() * sizeof(MaterialIndex) +
                         polygons_.capacity() * sizeof(IdRange) +
@@ -114,6 +129,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     scene_.hierarchy_ = build_hierarchy(lists_, {lists_, scene_.material_of_, scene_.polygons_},
                                         workers != nullptr ? *workers : alone, scene_.shapes_);
     lists_ = {};
+    scene_.find_transmissive();
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
         const Light& light = scene_.lights_[i];
         if (light.kind != LightKind::point) continue;

@@ -21,6 +21,13 @@ std::size_t rank_in_groups(std::span<const IdRange> groups, ShapeId id);
 /// Name of a shape in messages; empty where that is unknown.
 using NameOfShape = std::function<std::string(ShapeId)>;
 
+/// Shapes whose material is transmissive: those that a point may be inside of.
+struct TransmissiveShapes {
+    bool any = false;
+    bool any_unbounded = false;
+    Bounds bounds; ///< of those that have any
+};
+
 /// A validated scene that no longer changes. Copying it is expensive, moving it is not.
 class Scene {
   public:
@@ -31,6 +38,7 @@ class Scene {
     const std::vector<Material>& materials() const { return materials_; }
     const Material& material_of(ShapeId id) const { return materials_[material_of_[id]]; }
     MaterialIndex material_index_of(ShapeId id) const { return material_of_[id]; }
+    const TransmissiveShapes& transmissive() const { return transmissive_; }
     const std::vector<Light>& lights() const { return lights_; }
     const Fog& fog() const { return fog_; }
     const Camera& camera() const { return camera_; }
@@ -46,12 +54,14 @@ class Scene {
   private:
     friend class SceneBuilder;
     Scene() = default;
+    void find_transmissive();
 
     Tables shapes_;
     std::vector<MaterialIndex> material_of_; // by shape id
     std::vector<IdRange> polygons_;          // of more than one triangle, ascending
     Hierarchy hierarchy_;
     std::vector<Material> materials_;
+    TransmissiveShapes transmissive_;
     std::vector<Light> lights_;
     Fog fog_;
     Camera camera_;

@@ -19,9 +19,12 @@ struct Bounds {
         }
     }
 
-    bool contains(const Vec3f& p) const {
-        return lower.x <= p.x && p.x <= upper.x && lower.y <= p.y && p.y <= upper.y &&
-               lower.z <= p.z && p.z <= upper.z;
+    template <class Real>
+    bool contains(const Vec3<Real>& p) const {
+        bool is_in = true;
+        for (int axis = 0; axis < 3; ++axis)
+            is_in = is_in && Real(lower[axis]) <= p[axis] && p[axis] <= Real(upper[axis]);
+        return is_in;
     }
 
     /// Half of the surface area; 0 if empty. In double, where it cannot overflow.

@@ -16,11 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool any_transmits(const core::Scene& scene) {
-    return std::any_of(scene.materials().begin(), scene.materials().end(),
-                       [](const core::Material& material) { return material.transmits(); });
-}
-
 /// Every second bit of a Morton code.
 constexpr int even_bits(unsigned code) {
     int result = 0;
@@ -60,7 +55,7 @@ CameraView view_of(const core::CameraRays<double>& rays) {
 Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing)
     : scene_(scene), settings_(settings), tracing_(tracing),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
-      camera_coherence_(coherence_of(camera_)), with_media_(any_transmits(scene.scene())),
+      camera_coherence_(coherence_of(camera_)), with_media_(scene.scene().transmissive().any),
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
