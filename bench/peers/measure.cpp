@@ -10,8 +10,11 @@ namespace raylane::bench {
 
 namespace {
 
+bool is_of_library(const Result& result) {
+    return result.name.starts_with("library");
+}
 bool is_own(const Result& result) {
-    return result.name.starts_with("raylane");
+    return result.name.starts_with("raylane") || is_of_library(result);
 }
 
 double median_of(std::vector<double> values) {
@@ -56,7 +59,13 @@ std::optional<double> Row::ratio() const {
             (!best || (is_speed ? result.median > *best : result.median < *best)))
             best = result.median;
     if (!best) return std::nullopt;
-    return is_speed ? by[0].median / *best : *best / by[0].median;
+    const double own = users().median;
+    return is_speed ? own / *best : *best / own;
+}
+
+const Result& Row::users() const {
+    const auto found = std::find_if(by.begin(), by.end(), is_of_library);
+    return found != by.end() ? *found : by[0];
 }
 
 nlohmann::ordered_json Row::json() const {
@@ -71,6 +80,7 @@ nlohmann::ordered_json Row::json() const {
         if (result.alone) json["by"].back()["alone"] = *result.alone;
     }
     if (const std::optional<double> times = ratio()) json["ratio"] = *times;
+    json["own"] = users().name;
     return json;
 }
 

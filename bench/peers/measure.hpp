@@ -31,14 +31,17 @@ struct Result {
     std::optional<double> alone;      ///< the median by one thread, where there are several
 };
 
-/// One measurement of all contenders, raylane first. What is raylane's is called so.
+/// One measurement of all contenders, raylane's engine first. What is raylane's is called so, or
+/// "library".
 struct Row {
     std::string what;
     std::size_t count = 0; ///< of rays, shapes or pixels
     bool is_speed = true;  ///< millions per second, else seconds
     std::vector<Result> by;
 
-    /// Ratio by which raylane outdoes the best of the others; none if it is alone.
+    /// What users of raylane have: the library, where there is a row of it, or else the first.
+    const Result& users() const;
+    /// Ratio by which that outdoes the best of the others; none if raylane is alone.
     std::optional<double> ratio() const;
     nlohmann::ordered_json json() const;
     void print() const;

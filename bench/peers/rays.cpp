@@ -115,7 +115,7 @@ void measure_rays(const simd::SceneData& scene, const std::vector<std::string>& 
     };
     if (std::none_of(std::begin(ray_set_names), std::end(ray_set_names), is_wanted)) return;
     Contenders contenders = make_embree(scene.scene(), how.isa);
-    for (const bool names : {true, false})
+    for (const bool names : {false, true})
         contenders.insert(contenders.begin(), make_library(scene, how.isa, names));
     contenders.insert(contenders.begin(), make_own(scene, how.isa, how.threads));
     for (const RaySet& rays : make_ray_sets(scene.scene(), scene, how.side))

@@ -18,8 +18,15 @@ def load(parts):
     return rows
 
 
+def users(row):
+    """What users of raylane have."""
+    return next((result for result in row["by"] if result["name"] == row.get("own")),
+                row["by"][0])
+
+
 def best_peer(row):
-    peers = [result for result in row["by"] if not result["name"].startswith("raylane")]
+    peers = [result for result in row["by"]
+             if not result["name"].startswith(("raylane", "library"))]
     if not peers:
         return None
     best = max if row["unit"] == "Mrays/s" else min
@@ -27,21 +34,22 @@ def best_peer(row):
 
 
 def cells(row):
-    own, peer = row["by"][0], best_peer(row)
+    engine, own, peer = row["by"][0], users(row), best_peer(row)
     number = "%.2f" if row["unit"] == "Mrays/s" else "%.3f"
     wrong = ["%d" % result["wrong"] if result and "wrong" in result else ""
-             for result in (own, peer)]
+             for result in (engine, peer)]
     return [row["scene"], row["what"], row.get("isa", ""), str(row["threads"]), row["unit"],
-            number % own["median"], number % peer["median"] if peer else "",
+            number % engine["median"] if own is not engine else "", number % own["median"],
+            number % peer["median"] if peer else "",
             peer["name"] if peer else "", "%.2f" % row["ratio"] if peer else "", *wrong]
 
 
 def print_table(rows):
-    head = ["scene", "what", "isa", "threads", "unit", "raylane", "best peer", "which", "ratio",
+    head = ["scene", "what", "isa", "threads", "unit", "its engine", "raylane", "best peer", "which", "ratio",
             "wrong", "its"]
     table = [head] + [cells(row) for row in rows]
     widths = [max(len(line[column]) for line in table) for column in range(len(head))]
-    numbers = {3, 5, 6, 8, 9, 10}
+    numbers = {3, 5, 6, 7, 9, 10, 11}
     for line in table:
         print("  ".join(cell.rjust(width) if column in numbers else cell.ljust(width)
                         for column, (cell, width) in enumerate(zip(line, widths))).rstrip())
@@ -55,7 +63,7 @@ def gain(row, result):
 def print_scaling(rows):
     """Several threads against one, which took turns."""
     for row in rows:
-        results = [result for result in (row["by"][0], best_peer(row))
+        results = [result for result in (users(row), best_peer(row))
                    if result and "alone" in result]
         if results:
             print("%s, %s: %d threads are %s" % (
@@ -72,7 +80,7 @@ def main():
             (".nff", ".json")) else row["scene"]
     with open(output, "w") as file:
         json.dump({"rows": rows}, file, indent=2)
-    print("\nMedians. Ratio: how many times raylane outdoes the best peer. Wrong: answers that"
+    print("\nMedians. Ratio: how many times raylane, as its users have it, outdoes the best peer. Wrong: answers that"
           "\ncertified arithmetic refutes; of a picture, pixels that differ from raylane's.\n")
     print_table(rows)
     print()
