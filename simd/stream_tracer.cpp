@@ -195,7 +195,7 @@ class TileColumns {
 
   private:
     /// Of 8 columns of rays and all of hits.
-    static constexpr std::size_t bytes_a_ray = 8 * sizeof(double) + sizeof(double) + 5 * 4 + 2;
+    static constexpr std::size_t bytes_a_ray = 9 * sizeof(double) + 5 * sizeof(float) + 2;
 
     template <class Value>
     Value* room(std::size_t count) {
@@ -210,7 +210,7 @@ class TileColumns {
     template <class Value>
     const Value* gathered(const Value* from, std::span<const std::uint32_t> order) {
         if (from == nullptr) return nullptr;
-        Value* const to = room<Value>(order.size());
+        auto* const to = room<Value>(order.size());
         for (std::size_t k = 0; k < order.size(); ++k)
             to[k] = from[order[k]];
         return to;
@@ -513,7 +513,7 @@ class StreamTracer::Worker {
     template <class Real>
     void occluded_of(const RayStream<Real>& rays, std::uint8_t* occluded) {
         // A t that is none until rounded is no matter for bounds.
-        constexpr Real least_t = std::numeric_limits<float>::min() * 0x1p24F;
+        constexpr auto least_t = static_cast<Real>(0x1p-102);
         std::fill_n(state_, rays.count, std::uint8_t{unblocked});
         if (rays.t_max != nullptr)
             for (std::size_t lane = 0; lane < rays.count; ++lane)

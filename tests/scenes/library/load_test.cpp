@@ -61,8 +61,7 @@ TEST_CASE("scenes are parsed from text") {
 }
 
 TEST_CASE("the README's program is the one that is tested") {
-    const std::string program =
-        tests::content_of(RAYLANE_SOURCE_DIR "/scenes/examples/hits.cpp");
+    const std::string program = tests::content_of(RAYLANE_SOURCE_DIR "/scenes/examples/hits.cpp");
     REQUIRE(!program.empty());
     const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
     CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
