@@ -66,12 +66,18 @@ int complain_about_exception() {
     }
 }
 
-/// oneTBB's threads start each other, and where the system refuses one its exception has nowhere to
-/// go. Several threads may fail at once.
-[[noreturn]] void end_by_terminate() {
-    static std::atomic_flag ending;
-    while (ending.test_and_set())
+/// Several threads may fail at once: the first complains and ends the program, the others wait for
+/// that.
+void be_the_first_to_fail() {
+    static std::atomic_flag has_failed;
+    while (has_failed.test_and_set())
         ::pause();
+}
+
+/// oneTBB's threads start each other, and where the system refuses one its exception has nowhere to
+/// go.
+[[noreturn]] void end_by_terminate() {
+    be_the_first_to_fail();
     remove_temporaries();
     ::_exit(std::current_exception() ? complain_about_exception() : refused);
 }
@@ -90,6 +96,7 @@ int main(int argc, char** argv) {
             throw scenes::SystemRefused("standard output", "write", errno);
         return code;
     } catch (...) {
+        scenes::be_the_first_to_fail();
         return scenes::complain_about_exception();
     }
 }
