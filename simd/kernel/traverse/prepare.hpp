@@ -18,8 +18,6 @@ struct Prepare : Streams<Arch> {
     static void camera_rays(const CameraView& camera, std::size_t count, const double* across,
                             const double* upward, double* const origin[3],
                             double* const direction[3]) {
-        using D = Double<Arch>;
-        using Number = Floats<D>;
         const auto broadcast = [](const double(&v)[3]) {
             return Vectors<D>{Number(v[0]), Number(v[1]), Number(v[2])};
         };
