@@ -1,6 +1,6 @@
 #include "core/reference/search.hpp"
 #include "scenes/library/internals.hpp"
-#include "simd/tile_order.hpp"
+#include "simd/stream/tile_order.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/library/ray_arrays.hpp"
 
@@ -158,9 +158,10 @@ TEST_CASE("rays that come line by line have the answers that they have one by on
         for (const bool with_limits : {false, true}) {
             const Rays rays = lines(parallel, with_limits);
             simd::TileOrder order; // or else nothing would be tested here
-            const float* const from[] = {rays.x.data(), rays.y.data(), rays.z.data()};
-            const float* const along[] = {rays.dx.data(), rays.dy.data(), rays.dz.data()};
-            CHECK(order.find(from, along, simd::TileOrder::most, parallel));
+            const simd::RayStream<float> first = {simd::TileOrder::most,
+                                                  {rays.x.data(), rays.y.data(), rays.z.data()},
+                                                  {rays.dx.data(), rays.dy.data(), rays.dz.data()}};
+            CHECK(order.find(first, parallel));
 
             Hits hits(rays.size());
             std::vector<std::uint8_t> face(rays.size(), 77);
@@ -199,9 +200,9 @@ TEST_CASE("rays are put into another order where that is better") {
         for (std::size_t i = 0; i < count; ++i)
             std::tie(u[i], v[i]) = point_of(static_cast<int>(i));
         simd::TileOrder order;
-        const float* const from[] = {none.data(), none.data(), none.data()};
-        const float* const along[] = {u.data(), v.data(), one.data()};
-        if (!order.find(from, along, count, false)) return false;
+        const simd::RayStream<float> rays = {
+            count, {none.data(), none.data(), none.data()}, {u.data(), v.data(), one.data()}};
+        if (!order.find(rays, false)) return false;
         std::vector<std::uint32_t> all(order.order().begin(), order.order().end());
         // Packets are squares of about 4 by 4.
         double rims = 0.0;

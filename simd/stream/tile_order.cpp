@@ -1,4 +1,4 @@
-#include "simd/tile_order.hpp"
+#include "simd/stream/tile_order.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -61,8 +61,10 @@ Extent extent_of(const float* values, std::size_t count) {
 } // namespace
 
 template <class Real>
-bool TileOrder::find(const Real* const (&origin)[3], const Real* const (&direction)[3],
-                     std::size_t count, bool parallel) {
+bool TileOrder::find(const RayStream<Real>& rays, bool parallel) {
+    const Real* const(&origin)[3] = rays.origin;
+    const Real* const(&direction)[3] = rays.direction;
+    const std::size_t count = rays.count;
     u_.resize(most);
     v_.resize(most);
     const Vec3f forward =
@@ -154,9 +156,7 @@ void TileOrder::sort(std::size_t count, unsigned keys) {
         order_[ends_[key_[i]]++] = static_cast<std::uint32_t>(i);
 }
 
-template bool TileOrder::find(const float* const (&)[3], const float* const (&)[3], std::size_t,
-                              bool);
-template bool TileOrder::find(const double* const (&)[3], const double* const (&)[3], std::size_t,
-                              bool);
+template bool TileOrder::find(const RayStream<float>&, bool);
+template bool TileOrder::find(const RayStream<double>&, bool);
 
 } // namespace raylane::simd

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/numbers/vector.hpp"
+#include "simd/stream/streams.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +19,9 @@ class TileOrder {
     /// Fewer are not worth it.
     static constexpr std::size_t least = 2048;
 
-    /// Finds it for `count` rays, up to `most`. False if theirs is about as good.
+    /// Finds it for rays, `least` to `most` of them. False if theirs is about as good.
     template <class Real>
-    bool find(const Real* const (&origin)[3], const Real* const (&direction)[3], std::size_t count,
-              bool parallel);
+    bool find(const RayStream<Real>& rays, bool parallel);
 
     /// Numbers of the rays, in that order.
     std::span<const std::uint32_t> order() const { return order_; }

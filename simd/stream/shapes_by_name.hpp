@@ -1,0 +1,29 @@
+#pragma once
+
+#include "simd/scene_data.hpp"
+
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace raylane::simd {
+
+/// Slots of shapes by their ids, for rays that name what they leave: made when the first ray does.
+/// May be asked by any number of threads at a time.
+class ShapesByName {
+  public:
+    explicit ShapesByName(const SceneData& scene) : scene_(scene) {}
+
+    std::span<const std::uint32_t> slots() const {
+        std::call_once(are_there_, [&] { slots_ = scene_.slots_by_id(); });
+        return slots_;
+    }
+
+  private:
+    const SceneData& scene_;
+    mutable std::once_flag are_there_;
+    mutable std::vector<std::uint32_t> slots_;
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "core/numbers/vector.hpp"
+#include "core/shapes/ray.hpp"
+#include "core/shapes/shape.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace raylane::simd {
+
+/// `count` rays, structure of arrays: the points origin + t direction with t_min < t <= t_max.
+/// Component a of ray i is origin[a][i]. Directions may have any length but zero. Doubles are 0 or
+/// of magnitude 2^-149 to 2^128, as floats are, but for components of a direction, which may be as
+/// small as 2^-276 of its largest.
+template <class Real>
+struct RayStream {
+    std::size_t count = 0;
+    const Real* origin[3] = {};
+    const Real* direction[3] = {};
+    const Real* t_min = nullptr; ///< null: 0; what is negative is 0
+    const Real* t_max = nullptr; ///< null: infinity
+    /// Shapes that rays leave, or no_shape. Such a ray starts exactly on that surface, on the face
+    /// of it that HitStream::face said, and goes to its inside (the back) if origin_inward is 1, or
+    /// else to its outside. Null: none leaves any; the face is the body; all go to the outside.
+    const core::ShapeId* origin_shape = nullptr;
+    const std::uint8_t* origin_face = nullptr;
+    const std::uint8_t* origin_inward = nullptr;
+};
+
+/// Hits of rays, by ray, as far as they are wanted. Null: not wanted.
+struct HitStream {
+    float* t = nullptr;               ///< infinity: nothing
+    float* normal[3] = {};            ///< unit, on the outside (the front); 0: nothing
+    core::ShapeId* shape = nullptr;   ///< no_shape: nothing
+    std::uint8_t* entering = nullptr; ///< 1: from outside (the front); 0: from inside, or nothing
+    std::uint8_t* face = nullptr;     ///< for RayStream::origin_face
+    double* t_double = nullptr;       ///< t, nearest to the true one; infinity: nothing
+};
+
+inline bool wants_normals(const HitStream& hits) {
+    return hits.normal[0] != nullptr || hits.normal[1] != nullptr || hits.normal[2] != nullptr;
+}
+
+/// The array from one element on; null stays null.
+template <class Value>
+Value* from(Value* values, std::size_t first) {
+    return values != nullptr ? values + first : nullptr;
+}
+
+/// `count` rays, from one on; and their hits.
+template <class Real>
+RayStream<Real> part_of(const RayStream<Real>& rays, std::size_t first, std::size_t count) {
+    const auto part = [first](const Real* const(&from_all)[3], int axis) {
+        return from(from_all[axis], first);
+    };
+    return {count,
+            {part(rays.origin, 0), part(rays.origin, 1), part(rays.origin, 2)},
+            {part(rays.direction, 0), part(rays.direction, 1), part(rays.direction, 2)},
+            from(rays.t_min, first),
+            from(rays.t_max, first),
+            from(rays.origin_shape, first),
+            from(rays.origin_face, first),
+            from(rays.origin_inward, first)};
+}
+
+inline HitStream part_of(const HitStream& hits, std::size_t first) {
+    return {from(hits.t, first),
+            {from(hits.normal[0], first), from(hits.normal[1], first), from(hits.normal[2], first)},
+            from(hits.shape, first),
+            from(hits.entering, first),
+            from(hits.face, first),
+            from(hits.t_double, first)};
+}
+
+/// Stores one hit, as far as it is wanted; or that there is none.
+inline void store(const HitStream& hits, std::size_t i, float t, double t_double,
+                  const core::Vec3f& normal, core::ShapeId shape, bool entering, core::Face face) {
+    if (hits.t != nullptr) hits.t[i] = t;
+    if (hits.t_double != nullptr) hits.t_double[i] = t_double;
+    for (int axis = 0; axis < 3; ++axis)
+        if (hits.normal[axis] != nullptr) hits.normal[axis][i] = normal[axis];
+    if (hits.shape != nullptr) hits.shape[i] = shape;
+    if (hits.entering != nullptr) hits.entering[i] = entering ? 1 : 0;
+    if (hits.face != nullptr) hits.face[i] = face;
+}
+
+inline void store_none(const HitStream& hits, std::size_t i) {
+    store(hits, i, std::numeric_limits<float>::infinity(), std::numeric_limits<double>::infinity(),
+          core::Vec3f(0.0F), core::no_shape, false, core::body);
+}
+
+} // namespace raylane::simd

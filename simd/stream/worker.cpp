@@ -1,0 +1,313 @@
+#include "simd/stream/worker.hpp"
+
+#include "simd/query/as_core.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace raylane::simd {
+
+namespace {
+
+CallerHits as_kernels_have_them(const HitStream& hits) {
+    return {hits.t,     hits.t_double, {hits.normal[0], hits.normal[1], hits.normal[2]},
+            hits.shape, hits.entering, hits.face};
+}
+
+/// Normal in float, where 0 has one sign.
+core::Vec3f in_float(const core::Vec3d& normal) {
+    return core::convert<float>(normal) + core::Vec3f(0.0F);
+}
+
+UpperLimits limits_of(const RayStream<float>& rays) {
+    return {rays.t_max, false};
+}
+UpperLimits limits_of(const RayStream<double>& rays) {
+    return {nullptr, rays.t_max != nullptr};
+}
+
+} // namespace
+
+StreamWorker::StreamWorker(const SceneData& scene, const Tracing& tracing,
+                           const ShapesByName& shapes)
+    : scene_(scene), tracing_(tracing),
+      searcher_(scene.scene(), core::Search::hierarchy, tracing.precision),
+      query_(scene, tracing, Asked::floats), intake_(scene, tracing, shapes, at_a_time()) {
+    const std::size_t capacity = at_a_time();
+    arena_ = arena_for([&](Arena& arena) {
+        query_.take_from(arena, capacity);
+        intake_.take_from(arena);
+        doubtful_ = arena.take<std::uint32_t>(capacity);
+        unsharp_ = arena.take<std::uint32_t>(capacity);
+        state_ = arena.take<std::uint8_t>(capacity);
+    });
+}
+
+/// Rays that look for what is nearest.
+std::size_t StreamWorker::at_a_time() const {
+    constexpr std::size_t otherwise = 1024;
+    return is_exact() ? scene_.best_ray_count() : otherwise;
+}
+
+template <class Real>
+void StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
+    std::size_t in_order = 0; // until there, rays have been found to be in a good order
+    for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
+        const RayStream<Real> some = intake_.take(rays, first);
+        count = some.count;
+        if (first >= in_order && are_better_in_tiles(rays, first)) {
+            const std::size_t most = std::min(rays.count - first, TileOrder::most);
+            if (tiles_.find(part_of(rays, first, most), intake_.coherence()->parallel)) {
+                nearest_in_tiles(part_of(rays, first, most), part_of(hits, first));
+                count = most;
+                continue;
+            }
+            in_order = first + most;
+        }
+        nearest_of(some, part_of(hits, first));
+    }
+}
+
+template <class Real>
+void StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) {
+    for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
+        const RayStream<Real> some = intake_.take(rays, first);
+        count = some.count;
+        occluded_of(some, occluded + first);
+    }
+}
+
+/// True if it is worth to look whether the rays taken last, and those behind them, are.
+template <class Real>
+bool StreamWorker::are_better_in_tiles(const RayStream<Real>& rays, std::size_t first) const {
+    return intake_.coherence() != nullptr && !intake_.coherence()->loose &&
+           !intake_.coherence()->converging && scene_.best_in_tiles() &&
+           rays.origin_shape == nullptr && rays.count - first >= TileOrder::least;
+}
+
+/// Rays in the order that has been found for them.
+template <class Real>
+void StreamWorker::nearest_in_tiles(const RayStream<Real>& rays, const HitStream& hits) {
+    const std::span<const std::uint32_t> order = tiles_.order();
+    const auto [sorted, found] = tile_columns_.take(rays, hits, order);
+    for (std::size_t first = 0; first < sorted.count; first += intake_.paths().count) {
+        const RayStream<Real> some = intake_.take(sorted, first);
+        nearest_of(some, part_of(found, first));
+    }
+    TileColumns::hand_back(found, order, hits);
+}
+
+template <class Real>
+void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits) {
+    EngineCounters counters;
+    query_.nearest(intake_.paths(), intake_.coherence(), counters,
+                   is_exact() && rays.t_max != nullptr ? intake_.taken().t_most : nullptr);
+    mark_unanswered(rays);
+    const Hits& found = query_.hits();
+    LeftOver left{doubtful_, unsharp_, 0, 0};
+    kernels().hand_over(scene_.view(), rays.count, limits_of(rays), intake_.taken(),
+                        {found.slot,
+                         found.hit,
+                         found.t,
+                         found.error,
+                         {found.normal[0], found.normal[1], found.normal[2]}},
+                        as_kernels_have_them(hits), left);
+    sharpen({unsharp_, left.unsharp_count}, hits);
+    for (std::size_t k = 0; k < left.doubtful_count; ++k)
+        answer(rays, doubtful_[k], hits);
+}
+
+/// t in double of lanes that have hits.
+void StreamWorker::sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits) {
+    const Hits& found = query_.hits();
+    if (!is_exact()) {
+        for (const std::uint32_t lane : lanes)
+            hits.t_double[lane] = in_double(lane, found.t[lane] / intake_.paths().length_of(lane));
+        return;
+    }
+    constexpr std::size_t at_a_time = 128;
+    std::size_t places[at_a_time];
+    double high[at_a_time], low[at_a_time], error[at_a_time];
+    for (std::size_t first = 0; first < lanes.size(); first += at_a_time) {
+        const auto some = lanes.subspan(first, std::min(at_a_time, lanes.size() - first));
+        std::copy(some.begin(), some.end(), places);
+        tracing_.method().refine.widen(scene_.view(),
+                                       found.found(intake_.paths(), 0, intake_.paths().count),
+                                       places, some.size(), {high, low, error});
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            const std::uint32_t lane = some[k];
+            const bool is_sure = core::rounds_surely({high[k], low[k]}, error[k]);
+            hits.t_double[lane] =
+                in_double(lane, is_sure ? high[k]
+                                        : core::nearest_double_t(
+                                              scene_.scene(),
+                                              {ray_of(intake_.paths(), lane),
+                                               origin_surfaces_of(scene_, intake_.paths(), lane)},
+                                              hit_at(lane)));
+        }
+    }
+}
+
+/// The caller's t for one of the lane's.
+double StreamWorker::in_double(std::size_t lane, double t) const {
+    return std::clamp(t * intake_.taken().unit[lane], std::numeric_limits<double>::denorm_min(),
+                      std::numeric_limits<double>::max());
+}
+
+/// Marks hits that are none, or not the first, as doubtful: sides that cannot be seen, and what
+/// a method finds that certifies nothing.
+template <class Real>
+void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
+    const Hits& found = query_.hits();
+    const auto mark = [&](std::size_t lane) { found.hit[lane] |= hit_doubtful; };
+    if (scene_.one_sided())
+        for (std::size_t lane = 0; lane < rays.count; ++lane)
+            if (found.slot[lane] != no_slot && !is_seen(lane)) mark(lane);
+    if (is_exact()) return; // what meets several shapes at one point has the first
+    for (const std::uint32_t lane : query_.at_contacts())
+        mark(lane);
+    if (rays.t_min == nullptr) return;
+    for (std::size_t lane = 0; lane < rays.count; ++lane)
+        if (intake_.is_ray(lane) && found.slot[lane] != no_slot &&
+            static_cast<double>(t_at(lane, intake_.lone(rays, lane, lane))) <=
+                static_cast<double>(rays.t_min[lane]))
+            mark(lane);
+}
+
+/// Answer to one ray, by the scalar search or, where only floats are in doubt, by what has been
+/// found.
+template <class Real>
+void StreamWorker::answer(const RayStream<Real>& rays, std::size_t lane, const HitStream& hits) {
+    const LoneRay ray = intake_.lone(rays, lane, lane);
+    const Hits& found = query_.hits();
+    if ((found.hit[lane] & hit_doubtful) != 0) return search(ray, hits, lane);
+    if (!is_before_t_max(lane, ray)) return store_none(hits, lane);
+    const auto t_double = [&] { return ray.double_t_of(scene_.scene(), hit_at(lane)); };
+    store(hits, lane, t_at(lane, ray), hits.t_double != nullptr ? t_double() : 0.0,
+          wants_normals(hits) ? normal_at(lane, ray) : core::Vec3f(0.0F),
+          scene_.id_of(found.slot[lane]), (found.hit[lane] & hit_entering) != 0,
+          static_cast<core::Face>(found.hit[lane] & hit_face));
+}
+
+/// Of the lane's hit.
+bool StreamWorker::is_before_t_max(std::size_t lane, const LoneRay& ray) const {
+    return ray.by_floats ? static_cast<double>(t_at(lane, ray)) <= ray.t_max
+                         : ray.is_before_t_max(scene_.scene(), hit_at(lane));
+}
+
+/// The scalar search for one ray.
+void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t i) {
+    const auto counts = [&](const core::Hit<double>& hit) {
+        return ray.finds(scene_.scene(), hit);
+    };
+    const core::Hit<double> hit = searcher_.nearest(ray.ray, ray.origins, counts, ray.t_most).hit;
+    if (!hit.any()) return store_none(hits, i);
+    core::Vec3f normal(0.0F);
+    if (wants_normals(hits))
+        normal = is_exact() ? core::rounded_normal(scene_.scene(), ray.leaving(), hit)
+                            : in_float(searcher_.surface_at(ray.ray, ray.origins, hit).normal);
+    const double t_double = hits.t_double == nullptr ? 0.0
+                            : is_exact()             ? ray.double_t_of(scene_.scene(), hit)
+                                                     : ray.as_answered(hit.t);
+    store(hits, i, ray.t_of(scene_.scene(), hit), t_double, normal, hit.shape, hit.entering,
+          hit.face);
+}
+
+template <class Real>
+void StreamWorker::occluded_of(const RayStream<Real>& rays, std::uint8_t* occluded) {
+    // A t that is none until rounded is no matter for bounds.
+    constexpr auto least_t = static_cast<Real>(0x1p-102);
+    std::fill_n(state_, rays.count, std::uint8_t{unblocked});
+    if (rays.t_max != nullptr)
+        for (std::size_t lane = 0; lane < rays.count; ++lane)
+            if (rays.t_max[lane] < least_t) state_[lane] = doubtful;
+    for (std::size_t lane = 0; lane < rays.count; ++lane) {
+        if ((intake_.paths().origin_bits[lane] & origin_may_return) != 0) state_[lane] = doubtful;
+        if (!intake_.is_ray(lane)) state_[lane] = blocked;
+    }
+    EngineCounters counters;
+    query_.occluded(intake_.paths().columns(), intake_.taken().t_most, state_, intake_.coherence(),
+                    counters);
+    // Nor is a limit from below where nothing is certified.
+    if (!is_exact() && rays.t_min != nullptr)
+        for (std::size_t lane = 0; lane < rays.count; ++lane)
+            if (rays.t_min[lane] > Real(0) && state_[lane] == blocked && intake_.is_ray(lane))
+                state_[lane] = doubtful;
+    std::size_t left = 0;
+    for (std::size_t lane = 0; lane < rays.count; ++lane) {
+        occluded[lane] = state_[lane] == blocked && intake_.is_ray(lane) ? 1 : 0;
+        doubtful_[left] = static_cast<std::uint32_t>(lane);
+        left += state_[lane] == doubtful ? 1 : 0;
+    }
+    if (left == 0) return;
+    if (is_exact())
+        settle(rays, left, occluded);
+    else
+        for (std::size_t k = 0; k < left; ++k)
+            occluded[doubtful_[k]] = is_occluded(intake_.lone(rays, doubtful_[k], doubtful_[k]));
+}
+
+/// Occlusion of doubtful rays by what they hit first.
+template <class Real>
+void StreamWorker::settle(const RayStream<Real>& rays, std::size_t left, std::uint8_t* occluded) {
+    intake_.keep(doubtful_, left);
+    EngineCounters counters;
+    query_.nearest(intake_.paths(), intake_.coherence() != nullptr ? &neighbours : nullptr,
+                   counters, intake_.taken().t_most);
+    for (std::size_t k = 0; k < left; ++k) {
+        const std::size_t i = doubtful_[k];
+        occluded[i] = 0;
+        if (query_.hits().slot[k] == no_slot) continue;
+        const LoneRay ray = intake_.lone(rays, i, k);
+        occluded[i] = scene_.one_sided() && !is_seen(k) ? is_occluded(ray)
+                      : is_before_t_max(k, ray)         ? 1
+                                                        : 0;
+    }
+}
+
+std::uint8_t StreamWorker::is_occluded(const LoneRay& ray) {
+    std::uint8_t found = 0;
+    searcher_.each(ray.ray, ray.origins, ray.t_most, [&](const core::Hit<double>& hit) {
+        found = ray.finds(scene_.scene(), hit) ? 1 : 0;
+        return found == 0;
+    });
+    return found;
+}
+
+/// True if the lane's hit can be seen from where the ray comes.
+bool StreamWorker::is_seen(std::size_t lane) const {
+    const Hits& found = query_.hits();
+    const core::MaterialIndex material = scene_.occupant_of(found.slot[lane]).material;
+    return scene_.scene().materials()[material].is_seen((found.hit[lane] & hit_entering) != 0);
+}
+
+/// t of the lane's hit, for the caller.
+float StreamWorker::t_at(std::size_t lane, const LoneRay& ray) const {
+    const Hits& found = query_.hits();
+    const double per_unit = intake_.taken().unit[lane] / intake_.paths().length_of(lane);
+    const double t = found.t[lane] * per_unit;
+    float rounded = 0.0F;
+    // The length and both operations are off by a few ulps.
+    const double error = found.error[lane] * per_unit * (1.0 + 0x1p-50) + 0x1p-50 * t;
+    if (core::rounds_surely(t, is_exact() ? error : 0.0, rounded)) return rounded;
+    return ray.t_of(scene_.scene(), hit_at(lane));
+}
+
+core::Vec3f StreamWorker::normal_at(std::size_t lane, const LoneRay& ray) const {
+    const Hits& found = query_.hits();
+    if ((found.hit[lane] & (hit_normal_doubtful | hit_normal_unknown)) != 0)
+        return core::rounded_normal(scene_.scene(), ray.leaving(), hit_at(lane));
+    return in_float({found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]});
+}
+
+/// The lane's hit, as core has it.
+core::Hit<double> StreamWorker::hit_at(std::size_t lane) const {
+    return hit_of(scene_, intake_.paths(), query_.hits(), lane);
+}
+
+template void StreamWorker::nearest(const RayStream<float>&, const HitStream&);
+template void StreamWorker::nearest(const RayStream<double>&, const HitStream&);
+template void StreamWorker::occluded(const RayStream<float>&, std::uint8_t*);
+template void StreamWorker::occluded(const RayStream<double>&, std::uint8_t*);
+
+} // namespace raylane::simd

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "core/reference/search.hpp"
+#include "simd/query/query.hpp"
+#include "simd/stream/intake.hpp"
+#include "simd/stream/tile_columns.hpp"
+
+#include <span>
+
+namespace raylane::simd {
+
+/// Answers streams of rays, for one thread.
+class StreamWorker {
+  public:
+    StreamWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes);
+
+    template <class Real>
+    void nearest(const RayStream<Real>& rays, const HitStream& hits);
+    template <class Real>
+    void occluded(const RayStream<Real>& rays, std::uint8_t* occluded);
+
+  private:
+    bool is_exact() const { return tracing_.precision == core::Precision::exact; }
+    const StreamKernels& kernels() const { return tracing_.kernels->stream; }
+    std::size_t at_a_time() const;
+
+    template <class Real>
+    bool are_better_in_tiles(const RayStream<Real>& rays, std::size_t first) const;
+    template <class Real>
+    void nearest_in_tiles(const RayStream<Real>& rays, const HitStream& hits);
+    template <class Real>
+    void nearest_of(const RayStream<Real>& rays, const HitStream& hits);
+    template <class Real>
+    void mark_unanswered(const RayStream<Real>& rays);
+    void sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits);
+    template <class Real>
+    void answer(const RayStream<Real>& rays, std::size_t lane, const HitStream& hits);
+    void search(const LoneRay& ray, const HitStream& hits, std::size_t i);
+
+    template <class Real>
+    void occluded_of(const RayStream<Real>& rays, std::uint8_t* occluded);
+    template <class Real>
+    void settle(const RayStream<Real>& rays, std::size_t left, std::uint8_t* occluded);
+    std::uint8_t is_occluded(const LoneRay& ray);
+
+    core::Hit<double> hit_at(std::size_t lane) const;
+    bool is_seen(std::size_t lane) const;
+    bool is_before_t_max(std::size_t lane, const LoneRay& ray) const;
+    float t_at(std::size_t lane, const LoneRay& ray) const;
+    double in_double(std::size_t lane, double t) const;
+    core::Vec3f normal_at(std::size_t lane, const LoneRay& ray) const;
+
+    const SceneData& scene_;
+    Tracing tracing_;
+    core::Searcher<double> searcher_;
+    Query query_;
+    StreamIntake intake_;
+    TileOrder tiles_;
+    TileColumns tile_columns_;
+    std::uint32_t* doubtful_ = nullptr; // lanes
+    std::uint32_t* unsharp_ = nullptr;
+    std::uint8_t* state_ = nullptr;
+    Arena arena_;
+};
+
+} // namespace raylane::simd
