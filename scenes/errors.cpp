@@ -4,15 +4,21 @@
 #include <array>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 namespace raylane::scenes {
 
 namespace {
 
-std::string joined(std::string_view file, std::string_view place, std::string_view message) {
-    std::string text = printable(file, 4096);
-    if (!place.empty()) text.append(": ").append(place);
-    return text.append(": ").append(message);
+constexpr std::size_t longest_name = 4096; // of a file, in characters
+
+std::string lines_of(const std::vector<InputError>& errors, bool more) {
+    std::string lines;
+    for (const InputError& error : errors)
+        lines.append(lines.empty() ? "" : "\n").append(text_of(error));
+    if (more)
+        lines.append("\n").append(printable(errors.back().file, longest_name)).append(": and more");
+    return lines;
 }
 
 /// The length of the well-formed UTF-8 sequence at the start of `text`, or 0.
@@ -54,12 +60,49 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 } // namespace
 
+std::string text_of(const InputError& error) {
+    std::string text = printable(error.file, longest_name);
+    for (const std::size_t number : {error.position.line, error.position.column})
+        if (number != 0) text.append(":").append(std::to_string(number));
+    if (!error.place.empty()) text.append(": ").append(error.place);
+    return text.append(": ").append(error.message);
+}
+
+BadInput::BadInput(std::vector<InputError> errors, bool more)
+    : std::runtime_error(lines_of(errors, more)),
+      errors_(std::make_shared<const std::vector<InputError>>(std::move(errors))) {}
+
 BadInput::BadInput(std::string_view file, std::string_view place, std::string_view message)
-    : std::runtime_error(joined(file, place, message)) {}
+    : BadInput({{std::string(file), {}, std::string(place), std::string(message)}}) {}
+
+void InputErrors::add(const InputError& error) {
+    if (errors_.size() < most)
+        errors_.push_back(error);
+    else
+        overflowed_ = true;
+}
+
+void InputErrors::add(const BadInput& bad) {
+    for (const InputError& error : bad.errors())
+        add(error);
+}
+
+void InputErrors::report() const {
+    if (errors_.empty()) return;
+    std::vector<InputError> sorted = errors_;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const InputError& a, const InputError& b) {
+        return std::pair(a.position.line, a.position.column) <
+               std::pair(b.position.line, b.position.column);
+    });
+    throw BadInput(std::move(sorted), overflowed_);
+}
 
 SystemRefused::SystemRefused(std::string_view file, std::string_view action, int error_number)
     : std::runtime_error(
-          joined(file, "", "cannot " + std::string(action) + ": " + std::strerror(error_number))) {}
+          text_of({std::string(file),
+                   {},
+                   "",
+                   "cannot " + std::string(action) + ": " + std::strerror(error_number)})) {}
 
 std::string printable(std::string_view text, std::size_t most) {
     static constexpr std::array<char, 17> hex = {"0123456789ABCDEF"};

@@ -1,20 +1,65 @@
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// The errors that the tool reports. Their text is one line without control characters, and begins
-/// with the file.
+/// The errors that the tool reports. Their text has no control characters, and each of its lines,
+/// mostly one, begins with the file.
 namespace raylane::scenes {
 
-/// Input that cannot be meant: a malformed scene, wrong usage. Exit code 2.
+/// A place in a text.
+struct TextPosition {
+    std::size_t line = 0;   ///< from 1; 0 where none is known
+    std::size_t column = 0; ///< from 1, in characters; 0 where none is known
+};
+
+/// One mistake in a file.
+struct InputError {
+    std::string file; ///< as the user wrote it
+    TextPosition position;
+    std::string place;   ///< what it is in: a JSON pointer; empty where that is the whole file
+    std::string message; ///< "must be positive, got -1"
+};
+
+/// "file:line:column: place: message", without what is not there; a line without its end.
+std::string text_of(const InputError& error);
+
+/// Input that cannot be meant: a malformed scene, wrong usage. Exit code 2. The text has a line for
+/// each error, and another one if there are more.
 class BadInput : public std::runtime_error {
   public:
-    using std::runtime_error::runtime_error;
-    /// "file: place: message", or "file: message" if the place is empty.
+    explicit BadInput(std::vector<InputError> errors, bool more = false);
+    /// One error, without a position.
     BadInput(std::string_view file, std::string_view place, std::string_view message);
+
+    /// At least one.
+    const std::vector<InputError>& errors() const { return *errors_; }
+
+  private:
+    std::shared_ptr<const std::vector<InputError>> errors_; // copies of an exception must not throw
+};
+
+/// Collects the mistakes in a file, as many as somebody may want to read at once.
+class InputErrors {
+  public:
+    static constexpr std::size_t most = 10;
+
+    /// Those above `most` are left out.
+    void add(const InputError& error);
+    void add(const BadInput& bad);
+    bool empty() const { return errors_.empty(); }
+    /// True if some were left out: there is no need to look for others.
+    bool overflowed() const { return overflowed_; }
+    /// Throws BadInput, in the order of the file, if there are any.
+    void report() const;
+
+  private:
+    std::vector<InputError> errors_;
+    bool overflowed_ = false;
 };
 
 /// The system would not: reading, writing, memory. Exit code 3.

@@ -79,6 +79,17 @@ void SceneBuilder::add_light(const Light& light) {
     scene_.lights_.push_back(light);
 }
 
+void SceneBuilder::renumber_materials(std::span<const MaterialIndex> new_index) {
+    std::vector<Material> renumbered;
+    for (std::size_t i = 0; i < new_index.size(); ++i) {
+        renumbered.resize(std::max<std::size_t>(renumbered.size(), new_index[i] + std::size_t{1}));
+        renumbered[new_index[i]] = scene_.materials_[i];
+    }
+    scene_.materials_ = std::move(renumbered);
+    for (MaterialIndex& material : scene_.material_of_)
+        material = new_index[material];
+}
+
 template <class Shape>
 ShapeId SceneBuilder::append(const Shape& shape, MaterialIndex material) {
     const auto id = static_cast<ShapeId>(shape_count());

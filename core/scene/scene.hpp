@@ -83,6 +83,10 @@ class SceneBuilder {
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
     void add_light(const Light& light);
+    /// Gives material i the index new_index[i], for all of them: 0, 1, 2, ... without a gap. Of
+    /// several that become one, the last counts. For readers that meet a material's name before the
+    /// material.
+    void renumber_materials(std::span<const MaterialIndex> new_index);
 
     /// The id of the new shape: 0, 1, 2, ... `material` must be an index that add_material
     /// returned.

@@ -63,19 +63,15 @@ std::string expectation_in(std::string_view error) {
     return "must be a value";
 }
 
-/// Receives the parser's events.
+/// Receives the parser's events. Values that follow an error at their start are read over.
 class ItemParser {
   public:
     ItemParser(std::string_view file, JsonText& text, std::span<const RootKey> keys,
-               const TakeItem& take)
-        : file_(file), text_(text), keys_(keys), seen_(keys.size()), take_(take) {}
+               const TakeItem& take, InputErrors& errors)
+        : file_(file), text_(text), keys_(keys), take_(take), errors_(errors) {}
 
-    /// Throws for required keys that did not come.
-    void finish() const {
-        for (std::size_t i = 0; i < keys_.size(); ++i)
-            if (keys_[i].required && !seen_[i])
-                fail("", "must have the key \"" + std::string(keys_[i].name) + '"');
-    }
+    /// Looks for required keys that did not come.
+    Outline finish();
 
     // Calls of nlohmann::json's parser. The answer true means: go on.
     bool null() { return scalar(JsonType::null, "", 0.0F); }
@@ -100,34 +96,49 @@ class ItemParser {
     bool scalar(JsonType type, std::string_view text, float number);
     bool open(JsonType type);
     bool close();
-    void add(JsonType type, std::string_view text, float number);
+    /// False if the value of a root key must not be of this type.
+    bool add(JsonType type, std::string_view text, float number);
     void root_key(std::string_view key);
-    /// Type that the value that comes next must have, unless that is for the taker to say.
+    /// Type that the outermost value or that of the root key must have, unless that is for the
+    /// taker to say.
     std::optional<JsonType> expected_type() const;
     std::string next_pointer() const;
+    JsonPositions next_positions(JsonType type) const;
     bool is_named() const { return in_collection_ && root_key_->holds == Holds::named_items; }
-    void hand_over() {
-        take_(*root_key_, is_named() ? std::string_view(name_) : "", item_);
-        ++item_count_;
-    }
-    [[noreturn]] void fail(std::string_view pointer, std::string_view message) const {
-        throw BadInput(file_, pointer, message);
+    /// True if the value that comes next belongs to a root key that was refused.
+    bool is_refused() const { return in_root_ && root_key_ == nullptr; }
+    void hand_over();
+    bool go_on() const { return !errors_.overflowed(); }
+    InputError error(const TextPosition& position, std::string_view pointer,
+                     std::string_view message) const {
+        return {std::string(file_), position, std::string(pointer), std::string(message)};
     }
 
     std::string_view file_;
     JsonText& text_;
     std::span<const RootKey> keys_;
-    std::vector<bool> seen_; // which of keys_
     const TakeItem& take_;
+    InputErrors& errors_;
 
+    Outline outline_;
     bool in_root_ = false;
-    const RootKey* root_key_ = nullptr; // the latest
+    const RootKey* root_key_ = nullptr; // the latest; none if it was refused
     bool in_collection_ = false;        // inside of its value, a list or an object of items
+    std::size_t skipped_ = 0;           // open arrays and objects that are read over
     std::size_t item_count_ = 0;
-    std::string name_; // of the latest item in an object of them
-    std::string key_;  // the latest in an item
+    std::string name_;          // of the latest item in an object of them
+    std::string key_;           // the latest in an item
+    TextPosition key_position_; // of the latest of all keys
     JsonDocument item_;
 };
+
+Outline ItemParser::finish() {
+    for (const RootKey& key : keys_)
+        if (key.required && !outline_.values.contains(key.name))
+            errors_.add(
+                error(outline_.root, "", "must have the key \"" + std::string(key.name) + '"'));
+    return std::move(outline_);
+}
 
 bool ItemParser::number_float(json::number_float_t value, const std::string& digits) {
     std::string text = digits;
@@ -138,16 +149,19 @@ bool ItemParser::number_float(json::number_float_t value, const std::string& dig
 }
 
 bool ItemParser::key(const std::string& key) {
+    if (skipped_ > 0) return true;
+    key_position_ = text_.position_of_parsed(false);
     if (item_.depth() > 0) {
         if (item_.innermost().find(key))
-            fail(item_.innermost().pointer() + pointer_token(key), "must be given only once");
+            errors_.add(error(key_position_, item_.innermost().pointer() + pointer_token(key),
+                              "must be given only once"));
         key_ = key;
     } else if (in_collection_) {
         name_ = key;
     } else {
         root_key(key);
     }
-    return true;
+    return go_on();
 }
 
 void ItemParser::root_key(std::string_view key) {
@@ -156,58 +170,93 @@ void ItemParser::root_key(std::string_view key) {
         names.push_back(known.name);
     const std::size_t index =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), key) - names.begin());
-    if (index == names.size()) fail("", unknown_key(key, names));
-    if (seen_[index]) fail(pointer_token(key), "must be given only once");
-    seen_[index] = true;
-    root_key_ = &keys_[index];
+    root_key_ = nullptr;
+    if (index == names.size())
+        errors_.add(error(key_position_, "", unknown_key(key, names)));
+    else if (outline_.values.contains(key))
+        errors_.add(error(key_position_, pointer_token(key), "must be given only once"));
+    else
+        root_key_ = &keys_[index];
 }
 
 bool ItemParser::scalar(JsonType type, std::string_view text, float number) {
-    add(type, text, number);
-    if (item_.depth() == 0) hand_over();
-    return true;
+    if (skipped_ > 0 || is_refused()) return true;
+    if (add(type, text, number) && item_.depth() == 0) hand_over();
+    return go_on();
 }
 
 bool ItemParser::open(JsonType type) {
-    if (item_.depth() > 0 || in_collection_ || expected_type() != type) {
-        add(type, "", 0.0F);
+    if (skipped_ > 0 || is_refused()) {
+        ++skipped_;
+    } else if (item_.depth() > 0 || in_collection_ || expected_type() != type) {
+        if (!add(type, "", 0.0F)) {
+            item_.close();
+            ++skipped_;
+        }
     } else if (in_root_) {
+        outline_.values[root_key_->name] = text_.position_of_parsed(false);
         in_collection_ = true;
         item_count_ = 0;
     } else {
+        outline_.root = text_.position_of_parsed(false);
         in_root_ = true;
     }
-    return true;
+    return go_on();
 }
 
 bool ItemParser::close() {
-    if (item_.depth() > 0) {
+    if (skipped_ > 0) {
+        --skipped_;
+    } else if (item_.depth() > 0) {
         item_.close();
         if (item_.depth() == 0) hand_over();
     } else {
         in_collection_ = false;
     }
+    return go_on();
+}
+
+void ItemParser::hand_over() {
+    try {
+        take_(*root_key_, is_named() ? std::string_view(name_) : "", item_);
+    } catch (const BadInput& bad) {
+        errors_.add(bad);
+    }
+    ++item_count_;
+}
+
+bool ItemParser::add(JsonType type, std::string_view text, float number) {
+    const bool starts = item_.depth() == 0;
+    const JsonPositions positions = next_positions(type);
+    if (starts) item_.begin(file_, next_pointer());
+    if (starts && in_root_ && !in_collection_)
+        outline_.values.try_emplace(root_key_->name, positions.value);
+    item_.add(type, positions, key_, text, number);
+    // Said here, before all that is in a list of the wrong kind has been read.
+    const auto expected = expected_type();
+    if (starts && !in_collection_ && expected && *expected != type) {
+        const InputError wrong = item_.root().error_expecting(name_of(*expected));
+        if (!in_root_) throw BadInput({wrong});
+        errors_.add(wrong);
+        return false;
+    }
+    const auto refuse = [&](const std::string& message) {
+        throw BadInput({error(item_.root().positions().value, item_.root().pointer(), message)});
+    };
+    if (item_.depth() > deepest)
+        refuse("must not be nested more than " + std::to_string(deepest) + " deep");
+    if (item_.values() > most_values || item_.text_bytes() > most_text)
+        refuse("must not hold more than " + std::to_string(most_values) + " values or " +
+               std::to_string(most_text) + " bytes of text");
     return true;
 }
 
-void ItemParser::add(JsonType type, std::string_view text, float number) {
-    const bool starts = item_.depth() == 0;
-    if (starts) item_.begin(file_, next_pointer());
-    item_.add(type, key_, text, number);
-    // Said here, before all that is in a list of the wrong kind has been read.
-    if (const auto expected = expected_type(); starts && expected && *expected != type)
-        item_.root().fail_expecting(name_of(*expected));
-    if (item_.depth() > deepest)
-        fail(item_.root().pointer(),
-             "must not be nested more than " + std::to_string(deepest) + " deep");
-    if (item_.values() > most_values || item_.text_bytes() > most_text)
-        fail(item_.root().pointer(), "must not hold more than " + std::to_string(most_values) +
-                                         " values or " + std::to_string(most_text) +
-                                         " bytes of text");
+JsonPositions ItemParser::next_positions(JsonType type) const {
+    return {text_.position_of_parsed(type == JsonType::number), key_position_};
 }
 
 std::optional<JsonType> ItemParser::expected_type() const {
-    if (!in_root_ || in_collection_) return JsonType::object;
+    if (!in_root_) return JsonType::object;
     switch (root_key_->holds) {
     case Holds::item_list:
         return JsonType::array;
@@ -230,6 +279,9 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
                              const json::exception& error) {
     static constexpr int out_of_range = 406;
     if (error.id == out_of_range) {
+        if (skipped_ > 0 || is_refused())
+            text_.fail(text_.token_at(read - 2),
+                       "must be a number that fits a double, got " + printable(token));
         add(JsonType::number, token, std::numeric_limits<float>::infinity());
         static_cast<void>(item_.latest().number()); // throws
     }
@@ -250,11 +302,18 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
 
 } // namespace
 
-void read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take) {
-    JsonText text(file);
-    ItemParser parser(file.name(), text, keys, take);
-    json::sax_parse(JsonTextIterator(text), JsonTextIterator(), &parser);
-    parser.finish();
+Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
+                   InputErrors& errors) {
+    try {
+        JsonText text(file);
+        ItemParser parser(file.name(), text, keys, take, errors);
+        if (json::sax_parse(JsonTextIterator(text), JsonTextIterator(), &parser))
+            return parser.finish();
+    } catch (const BadInput& fatal) {
+        errors.add(fatal);
+    }
+    errors.report();
+    return {};
 }
 
 } // namespace raylane::scenes

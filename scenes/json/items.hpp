@@ -1,10 +1,12 @@
 #pragma once
 
+#include "scenes/errors.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/json/value.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string_view>
 
@@ -23,15 +25,30 @@ struct RootKey {
     bool required = false;
 };
 
-/// Takes an item; `name` is its key if it is one of named items. The document is used again for the
-/// next one.
+/// Takes an item, and throws BadInput for what is wrong with it; `name` is its key if it is one of
+/// named items. The document is used again for the next one.
 using TakeItem =
     std::function<void(const RootKey& key, std::string_view name, const JsonDocument& item)>;
 
+/// Where the outermost object begins, and the values in it.
+struct Outline {
+    TextPosition root;
+    std::map<std::string_view, TextPosition> values; ///< by root key
+
+    /// Of the value with this key, or of the object that lacks it.
+    TextPosition of(std::string_view key) const {
+        const auto found = values.find(key);
+        return found != values.end() ? found->second : root;
+    }
+};
+
 /// Reads a JSON text with comments, whose outermost value is an object, and hands over its items,
-/// one by one and in the order of the file, so that a long list is never held in memory. Throws
-/// BadInput for what is not JSON, for unknown, missing and repeated keys, and for items too deep or
-/// too large to belong to a scene.
-void read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take);
+/// one by one and in the order of the file, so that a long list is never held in memory.
+///
+/// Adds to `errors` what `take` throws, and unknown, missing and repeated keys, and goes on behind
+/// them. Throws BadInput with all errors so far where it cannot: for what is not JSON, for items
+/// too deep or too large to belong to a scene, and where there are too many errors already.
+Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
+                   InputErrors& errors);
 
 } // namespace raylane::scenes

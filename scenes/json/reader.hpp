@@ -7,7 +7,9 @@ namespace raylane::scenes {
 
 /// Reads a scene in raylane's own format, whose schema is scenes/raylane-scene.schema.json.
 /// `workers` build the hierarchy, if there are any.
-/// Throws BadInput, whose place is a JSON pointer, or line and column where the text is not JSON.
+/// Throws BadInput, with the position of each mistake, and a JSON pointer unless the text is not
+/// JSON: the first mistake in each object, material, light and so on, and all keys that nobody
+/// knows, up to InputErrors::most.
 core::Scene read_json(InputFile& file, core::Workers* workers = nullptr);
 
 } // namespace raylane::scenes

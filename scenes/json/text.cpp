@@ -1,7 +1,5 @@
 #include "scenes/json/text.hpp"
 
-#include "scenes/errors.hpp"
-
 #include <algorithm>
 
 namespace raylane::scenes {
@@ -44,19 +42,28 @@ JsonText::Token JsonText::token_at(std::size_t index) {
     // The parser gives a word up at the first letter that cannot be, but a message wants all of it.
     while (state_ == State::word && latest().start.size() < kept_of_token && !ends_word(peek()))
         latest().start += static_cast<char>(take());
-    const Token* found = &latest();
-    for (std::size_t back = 1; back < tokens_.size() && found->index > index && back < token_count_;
-         ++back)
-        found = &tokens_[(token_count_ - back) % tokens_.size()];
-    Token token = *found;
+    Token token = token_with(index);
     token.start = printable(token.start, longest_quote);
     return token;
 }
 
+const JsonText::Token& JsonText::token_with(std::size_t index) const {
+    std::size_t back = 0;
+    const auto token = [&]() -> const Token& {
+        return tokens_[(token_count_ - back) % tokens_.size()];
+    };
+    while (token().index > index && back + 1 < tokens_.size() && back + 1 < token_count_)
+        ++back;
+    return token();
+}
+
+TextPosition JsonText::position_of_parsed(bool number) const {
+    const bool one_further = number && !(at_end() && state_ == State::word);
+    return token_with(index_ - (one_further ? 2 : 1)).position;
+}
+
 void JsonText::fail(const Token& token, std::string_view message) const {
-    throw BadInput(
-        file_.name(),
-        "line " + std::to_string(token.line) + ", column " + std::to_string(token.column), message);
+    throw BadInput({{file_.name(), token.position, "", std::string(message)}});
 }
 
 bool JsonText::fill() {
@@ -71,10 +78,10 @@ int JsonText::take() {
     if (c == end_of_file) return c;
     ++used_;
     if (c == '\n') {
-        ++line_;
-        column_ = 1;
+        ++position_.line;
+        position_.column = 1;
     } else if ((c & 0xC0) != 0x80) { // the bytes of one character count once
-        ++column_;
+        ++position_.column;
     }
     return c;
 }
@@ -92,7 +99,7 @@ int JsonText::next() {
     } else if (c == '"') {
         begin_token(State::string, c);
     } else if (c < 0x20) {
-        fail({index_, line_, column_, ""},
+        fail({index_, position_, ""},
              "must be JSON, got the byte " + printable(std::string(1, static_cast<char>(c))));
     } else if (state_ == State::between) {
         begin_token(State::word, c);
@@ -116,7 +123,7 @@ int JsonText::next_of_string() {
 bool JsonText::skip_blank() {
     bool skipped = false;
     for (int c = peek(); is_space(c) || c == '/'; c = peek(), skipped = true) {
-        const Token start{index_, line_, column_, "/"};
+        const Token start{index_, position_, "/"};
         take();
         if (c == '/') skip_comment(start);
     }
@@ -143,7 +150,7 @@ void JsonText::begin_token(State state, int first) {
     state_ = state;
     ++token_count_;
     token_length_ = 1;
-    latest() = {index_, line_, column_, std::string(1, static_cast<char>(first))};
+    latest() = {index_, position_, std::string(1, static_cast<char>(first))};
 }
 
 void JsonText::grow_token(int character, std::size_t longest, std::string_view what) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenes/errors.hpp"
 #include "scenes/input_file.hpp"
 
 #include <array>
@@ -24,8 +25,7 @@ class JsonText {
 
     struct Token {
         std::size_t index = 0; ///< of its first character, among those that the parser gets
-        std::size_t line = 1;
-        std::size_t column = 1; ///< in characters, not bytes
+        TextPosition position;
         std::string
             start; ///< as much of its text as a message may show; empty at the end of the file
     };
@@ -43,8 +43,11 @@ class JsonText {
     /// advance() reached.
     Token token_at(std::size_t index);
     /// End of the file, once it is reached.
-    Token end() const { return {index_, line_, column_, ""}; }
-    /// Throws BadInput whose place is the token's line and column.
+    Token end() const { return {index_, position_, ""}; }
+    /// Where the token begins that the parser has just recognized. Of a number it has read one
+    /// character too many, unless the file ended there.
+    TextPosition position_of_parsed(bool number) const;
+    /// Throws BadInput with the token's position.
     [[noreturn]] void fail(const Token& token, std::string_view message) const;
 
   private:
@@ -65,12 +68,12 @@ class JsonText {
     void begin_token(State state, int first);
     void grow_token(int character, std::size_t longest, std::string_view what);
     Token& latest() { return tokens_[token_count_ % tokens_.size()]; }
+    const Token& token_with(std::size_t index) const;
 
     InputFile& file_;
     std::vector<char> buffer_;
     std::size_t used_ = 0;
-    std::size_t line_ = 1;
-    std::size_t column_ = 1;
+    TextPosition position_{1, 1}; // of the next byte to be taken
 
     State state_ = State::between;
     bool escaped_ = false; // in a string, behind a backslash

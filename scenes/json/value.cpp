@@ -77,13 +77,14 @@ void JsonDocument::begin(std::string_view file, std::string pointer) {
     text_.clear();
 }
 
-void JsonDocument::add(JsonType type, std::string_view key, std::string_view text, float number) {
+void JsonDocument::add(JsonType type, const JsonPositions& positions, std::string_view key,
+                       std::string_view text, float number) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     const std::uint32_t parent = open_.empty() ? 0 : open_.back();
     const bool named = !open_.empty() && nodes_[parent].type == JsonType::object;
     const bool opens = type == JsonType::array || type == JsonType::object;
-    nodes_.push_back(
-        {type, parent, opens ? 0 : index + 1, keep(named ? key : ""), keep(text), number});
+    nodes_.push_back({type, parent, opens ? 0 : index + 1, keep(named ? key : ""), keep(text),
+                      number, positions});
     if (opens) open_.push_back(index);
 }
 
@@ -145,12 +146,41 @@ std::string JsonValue::quoted() const {
     return "an object";
 }
 
+JsonValue JsonValue::toward(std::string_view path) const {
+    const std::size_t slash = std::min(path.find('/'), path.size());
+    const std::string_view step = path.substr(0, slash);
+    const std::vector<JsonValue> values = children();
+    std::size_t index = values.size();
+    if (type() == JsonType::array)
+        std::from_chars(step.data(), step.data() + step.size(), index);
+    else
+        for (index = 0; index < values.size() && values[index].key() != step;)
+            ++index;
+    if (index >= values.size()) return *this;
+    return slash == path.size() ? values[index] : values[index].toward(path.substr(slash + 1));
+}
+
+InputError JsonValue::error(std::string_view message) const {
+    return {std::string(file()), positions().value, pointer(), std::string(message)};
+}
+
+InputError JsonValue::error_expecting(std::string_view expected) const {
+    return error("must be " + std::string(expected) + ", got " + quoted());
+}
+
 void JsonValue::fail(std::string_view message) const {
-    throw BadInput(file(), pointer(), message);
+    throw BadInput({error(message)});
 }
 
 void JsonValue::fail_expecting(std::string_view expected) const {
-    fail("must be " + std::string(expected) + ", got " + quoted());
+    throw BadInput({error_expecting(expected)});
+}
+
+void JsonValue::fail(const core::InvalidValue& invalid) const {
+    InputError wrong = error(invalid.expectation);
+    if (!invalid.field.empty()) wrong.place.append("/").append(invalid.field);
+    wrong.position = toward(invalid.field).positions().value;
+    throw BadInput({wrong});
 }
 
 void JsonValue::fail_choice(const std::vector<std::string_view>& names) const {
@@ -164,10 +194,13 @@ void JsonValue::require(JsonType wanted) const {
 
 void JsonValue::allow_only(std::initializer_list<std::string_view> keys) const {
     require(JsonType::object);
+    std::vector<InputError> errors;
     for (const JsonValue& child : children()) {
-        if (std::find(keys.begin(), keys.end(), child.key()) == keys.end())
-            fail(unknown_key(child.key(), keys));
+        if (std::find(keys.begin(), keys.end(), child.key()) != keys.end()) continue;
+        errors.push_back(error(unknown_key(child.key(), keys)));
+        errors.back().position = child.positions().key;
     }
+    if (!errors.empty()) throw BadInput(std::move(errors));
 }
 
 std::optional<JsonValue> JsonValue::find(std::string_view wanted) const {
@@ -184,8 +217,11 @@ JsonValue JsonValue::at(std::string_view wanted) const {
 }
 
 void JsonValue::exclude(std::string_view one, std::string_view other) const {
-    if (find(one) && find(other))
-        fail("must not have both " + in_quotes(one) + " and " + in_quotes(other));
+    const std::optional<JsonValue> first = find(one), second = find(other);
+    if (!first || !second) return;
+    InputError both = error("must not have both " + in_quotes(one) + " and " + in_quotes(other));
+    both.position = (first->node_ < second->node_ ? second : first)->positions().key;
+    throw BadInput({both});
 }
 
 std::vector<JsonValue> JsonValue::array(std::size_t count, std::string_view elements) const {

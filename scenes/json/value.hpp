@@ -20,6 +20,11 @@ enum class JsonType : std::uint8_t { null, boolean, number, string, array, objec
 /// "an object", "a number", ...
 std::string_view name_of(JsonType type);
 
+/// Where a value begins in its file, and its key if it has one.
+struct JsonPositions {
+    TextPosition value, key;
+};
+
 class JsonValue;
 
 /// One value of a file with all that is in it, in the order of the file. Its nodes lie in one
@@ -33,7 +38,8 @@ class JsonDocument {
     /// Adds a value behind the others in the innermost open array or object. `key` counts in an
     /// object alone. `text`: a string's content, or as what a message quotes a number. `number` may
     /// be infinite.
-    void add(JsonType type, std::string_view key, std::string_view text = {}, float number = 0.0F);
+    void add(JsonType type, const JsonPositions& positions, std::string_view key,
+             std::string_view text = {}, float number = 0.0F);
     /// Closes the array or object that was added last and is still open.
     void close();
 
@@ -60,6 +66,7 @@ class JsonDocument {
         std::uint32_t end; // one past the last node inside: where the next sibling is; 0 while open
         Text key, text;
         float number;
+        JsonPositions positions;
     };
 
     Text keep(std::string_view text);
@@ -78,7 +85,7 @@ class JsonDocument {
 };
 
 /// A value inside a document, which must outlive it. What is asked of it and is not so throws
-/// BadInput with the file and the value's JSON pointer.
+/// BadInput with the file, the value's position and its JSON pointer.
 class JsonValue {
   public:
     JsonValue(const JsonDocument& document, std::uint32_t node)
@@ -88,14 +95,22 @@ class JsonValue {
     std::string_view key() const { return document_->get(node().key); }
     std::string_view file() const { return document_->file_; }
     std::string pointer() const;
+    const JsonPositions& positions() const { return node().positions; }
+    /// The value at the end of a path such as "edges/2", or as far on the way there as there are
+    /// values.
+    JsonValue toward(std::string_view path) const;
     /// The value if it is a short text, or else what it is: `-1`, `"red"`, `an array`.
     std::string quoted() const;
 
-    [[noreturn]] void fail(std::string_view message) const;
+    InputError error(std::string_view message) const;
     /// "must be `expected`, got ..."
+    InputError error_expecting(std::string_view expected) const;
+    [[noreturn]] void fail(std::string_view message) const;
     [[noreturn]] void fail_expecting(std::string_view expected) const;
+    /// For what core says of a part of the value.
+    [[noreturn]] void fail(const core::InvalidValue& invalid) const;
 
-    /// Refuses every key of an object but these.
+    /// Refuses every key of an object but these, each with an error of its own.
     void allow_only(std::initializer_list<std::string_view> keys) const;
     std::optional<JsonValue> find(std::string_view key) const;
     JsonValue at(std::string_view key) const;
@@ -151,9 +166,7 @@ auto checked(const JsonValue& value, Action action) {
     try {
         return action();
     } catch (const core::InvalidValue& invalid) {
-        throw BadInput(value.file(),
-                       value.pointer() + (invalid.field.empty() ? "" : "/") + invalid.field,
-                       invalid.expectation);
+        value.fail(invalid);
     }
 }
 

@@ -7,6 +7,8 @@
 #include "scenes/errors.hpp"
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace raylane::library {
 
@@ -18,7 +20,10 @@ decltype(auto) translated(const F& f) {
     } catch (const core::InvalidValue& invalid) {
         throw InvalidValue(invalid.field, invalid.expectation);
     } catch (const scenes::BadInput& error) {
-        throw BadInput(error.what());
+        std::vector<InputError> errors;
+        for (const scenes::InputError& e : error.errors())
+            errors.push_back({e.file, e.position.line, e.position.column, e.place, e.message});
+        throw BadInput(error.what(), std::move(errors));
     } catch (const scenes::SystemRefused& error) {
         throw SystemRefused(error.what());
     }

@@ -14,7 +14,7 @@ namespace raylane::scenes {
 /// - objects before the first f are a matte grey;
 /// - Ks is what is reflected as well; an index of refraction of 0 is 1 where T is 0.
 /// `workers` build the hierarchy, if there are any.
-/// Throws BadInput, whose place is "line N", and SystemRefused.
+/// Throws BadInput, with the line, and SystemRefused.
 core::Scene read_nff(InputFile& file, core::Workers* workers = nullptr);
 
 } // namespace raylane::scenes

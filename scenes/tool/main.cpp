@@ -12,6 +12,7 @@
 #include <exception>
 #include <new>
 #include <sstream>
+#include <string_view>
 #include <unistd.h>
 
 namespace raylane::scenes {
@@ -20,10 +21,14 @@ namespace {
 
 enum ExitCode { done = 0, bad_input = 2, refused = 3 };
 
-/// Takes no memory: that may be what there is none of.
-int complain(const char* message, ExitCode code) {
-    std::fprintf(stderr, "raylane: %s\n", message);
-    return code;
+/// Each line of the message on one of its own. Takes no memory: that may be what there is none of.
+int complain(std::string_view message, ExitCode code) {
+    while (true) {
+        const std::string_view line = message.substr(0, message.find('\n'));
+        std::fprintf(stderr, "raylane: %.*s\n", static_cast<int>(line.size()), line.data());
+        if (line.size() == message.size()) return code;
+        message.remove_prefix(line.size() + 1);
+    }
 }
 
 int run(int argc, const char* const* argv) {
@@ -44,7 +49,7 @@ int run(int argc, const char* const* argv) {
         std::fputs(text.str().c_str(), stdout);
         return code;
     } catch (const CLI::ParseError& error) {
-        return complain(usage_message(app, error).c_str(), bad_input);
+        return complain(usage_message(app, error), bad_input);
     }
     for (const Command& command : commands)
         if (command.arguments->parsed()) return command.run();

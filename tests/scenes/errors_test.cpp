@@ -31,4 +31,25 @@ TEST_CASE("errors read as file, place, message") {
     CHECK(std::string(BadInput("a.json", "/objects/3/radius", "must be positive, got -1").what()) ==
           "a.json: /objects/3/radius: must be positive, got -1");
     CHECK(std::string(BadInput("a.json", "", "no such file").what()) == "a.json: no such file");
+    CHECK(text_of({"a.json", {3, 14}, "/camera", "must be"}) == "a.json:3:14: /camera: must be");
+    CHECK(text_of({"a.nff", {3, 0}, "", "must be"}) == "a.nff:3: must be");
+}
+
+TEST_CASE("ten errors are collected, and that there were more") {
+    InputErrors errors;
+    CHECK_NOTHROW(errors.report());
+    for (std::size_t line = 10; line > 0; --line)
+        errors.add(InputError{"a", {line, 1}, "", "wrong"});
+    CHECK(!errors.overflowed());
+    errors.add(BadInput("a", "", "wrong"));
+    CHECK(errors.overflowed());
+    try {
+        errors.report();
+        FAIL("must throw");
+    } catch (const BadInput& bad) {
+        const std::string text = bad.what();
+        CHECK(text.starts_with("a:1:1: wrong\na:2:1: wrong\n"));
+        CHECK(text.ends_with("\na:10:1: wrong\na: and more"));
+        CHECK(bad.errors().size() == 10);
+    }
 }

@@ -72,7 +72,7 @@ TEST_CASE("complaints about the file") {
 
 TEST_CASE("complaints about keys") {
     check({
-        {"{}", R"(must have the key "camera")"},
+        {"{}", "must have the key \"camera\"\nmust have the key \"objects\""},
         {"{" + camera + "}", R"(must have the key "objects")"},
         {with(R"("light": [])"), R"(unknown key "light", did you mean "lights"?)"},
         {with(R"("zzzzzzzz": [])"),
@@ -157,7 +157,7 @@ TEST_CASE("complaints about words") {
              R"({"type": "sphere", "material": "obsidian", "center": [0, 0, 0], "radius": 1})"),
          R"(/objects/0/material: must be the name of a material, got "obsidian")"},
         {"{" + camera +
-             R"(, "objects": [{"type": "sphere", "material": "clay", "center": [0, 0, 0], "radius": 1}]})",
+             R"(, "lights": [{"type": "directional", "direction": [0, 0, 1]}], "objects": [{"type": "sphere", "material": "clay", "center": [0, 0, 0], "radius": 1}]})",
          R"(/objects/0/material: must be the name of a material, got "clay")"},
         {with(R"("image": {"transfer": "sRGB"})"),
          R"(/image/transfer: must be "srgb" or "linear", got "sRGB")"},

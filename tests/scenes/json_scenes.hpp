@@ -4,6 +4,7 @@
 #include "scenes/json/reader.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -16,21 +17,41 @@ inline core::Scene scene_of(const std::string& text) {
     return scenes::read_json(file);
 }
 
-/// Complaint about a file that is no scene, without its name in front; "" if it is one.
-inline std::string complaint_about(const std::filesystem::path& path) {
+/// Complaint about a file that is no scene, without its name in front of each line: "3:14: ...". ""
+/// if it is one.
+inline std::string placed_complaint_about(const std::filesystem::path& path) {
     try {
         scenes::InputFile file(path);
         scenes::read_json(file);
     } catch (const scenes::BadInput& error) {
-        const std::string text = error.what(), name = path.string() + ": ";
-        return text.starts_with(name) ? text.substr(name.size())
-                                      : "without the file's name: " + text;
+        const std::string name = path.string() + ":";
+        std::string complaint;
+        std::istringstream lines(error.what());
+        for (std::string line; std::getline(lines, line);) {
+            if (!line.starts_with(name)) return "without the file's name: " + line;
+            complaint.append(complaint.empty() ? "" : "\n").append(line.substr(name.size()));
+        }
+        return complaint;
     }
     return "";
 }
 
+/// The same without line and column.
+inline std::string complaint_about(const std::filesystem::path& path) {
+    std::string complaint;
+    std::istringstream lines(placed_complaint_about(path));
+    for (std::string line; std::getline(lines, line);)
+        complaint.append(complaint.empty() ? "" : "\n")
+            .append(line, line.find_first_not_of("0123456789: "), std::string::npos);
+    return complaint;
+}
+
 inline std::string complaint_about_text(const std::string& text) {
     return complaint_about(TemporaryFile(text).path());
+}
+
+inline std::string placed_complaint_about_text(const std::string& text) {
+    return placed_complaint_about(TemporaryFile(text).path());
 }
 
 /// A scene but for what is inside of its list of objects.

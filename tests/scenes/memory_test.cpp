@@ -1,5 +1,7 @@
 #include "scenes/generators.hpp"
+#include "scenes/json/reader.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/temporary_directory.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -88,6 +90,36 @@ void add_uniform(core::SceneBuilder& builder, int count) {
 }
 
 } // namespace
+
+TEST_CASE("JSON takes no more memory where objects come before the materials") {
+    constexpr std::size_t count = 200'000;
+    const std::string objects = [] {
+        std::string text = R"("objects": [)";
+        for (std::size_t i = 0; i < count; ++i)
+            text.append(i == 0 ? "" : ",")
+                .append(R"({"type": "sphere", "material": "m)" + std::to_string(i % 9) +
+                        R"(", "radius": 1, "center": [)" + std::to_string(i) + ", 0, 0]}");
+        return text + "]";
+    }();
+    std::string materials = R"("materials": {"m0": {})";
+    for (int i = 1; i < 9; ++i)
+        materials += ", \"m" + std::to_string(i) + "\": {}";
+    materials += "}";
+    const std::string start = R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+        "lights": [{"type": "directional", "direction": [0, 0, 1]}], )";
+    for (const bool objects_first : {false, true}) {
+        const tests::TemporaryFile written(start + (objects_first ? objects : materials) + ", " +
+                                           (objects_first ? materials : objects) + "}");
+        scenes::InputFile file(written.path());
+        const std::size_t before = live;
+        peak = before;
+        const core::Scene scene = scenes::read_json(file);
+        const double each = static_cast<double>(peak - before) / static_cast<double>(count);
+        CAPTURE(objects_first, each);
+        REQUIRE(scene.shape_count() == count);
+        CHECK(each <= most_at_peak);
+    }
+}
 
 TEST_CASE("a sphere takes 40 bytes, and 100 while the scene is built") {
     for (const int count : {20'000, 200'000, 1'000'000})

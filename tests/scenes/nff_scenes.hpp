@@ -23,11 +23,12 @@ inline core::Scene scene_of(std::string_view text) {
     return scenes::read_nff(file);
 }
 
-/// The message without the file's directory.
+/// The message without the file's directory, and with the line in words.
 inline std::string error_of(std::string_view text) {
     const TemporaryDirectory directory;
     scenes::InputFile file(directory.write("scene.nff", text));
-    return message_in<scenes::BadInput>(directory.path(), [&] { scenes::read_nff(file); });
+    return in_words(
+        message_in<scenes::BadInput>(directory.path(), [&] { scenes::read_nff(file); }));
 }
 
 } // namespace raylane::tests

@@ -96,7 +96,7 @@ class SceneBuilder {
 
 /// Reads a scene from a file, JSON (scenes/raylane-scene.schema.json describes it) or NFF. The
 /// format follows the file's ending (.json, .nff) or else its content. Throws BadInput for what is
-/// malformed, SystemRefused, and std::bad_alloc.
+/// malformed, in JSON for up to ten mistakes at once, SystemRefused, and std::bad_alloc.
 Scene load(const std::filesystem::path& path);
 
 /// The same for a scene in memory. `name` is what messages call it; the format follows its ending,

@@ -34,7 +34,32 @@ TEST_CASE("scenes are loaded from files, and mistakes cost one line") {
     directory.write(
         "a.json",
         with_objects(R"({"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": -1})"));
-    CHECK(message("a.json") == folder + "a.json: /objects/0/radius: must be positive, got -1");
+    CHECK(message("a.json") == folder + "a.json:3:88: /objects/0/radius: must be positive, got -1");
+}
+
+TEST_CASE("each mistake in a file can be had by itself") {
+    try {
+        parse(with_objects("3,\n {\"a\": 1}"), "x.json");
+        FAIL("must throw");
+    } catch (const BadInput& bad) {
+        REQUIRE(bad.errors().size() == 2);
+        const InputError& error = bad.errors()[1];
+        CHECK(error.file == "x.json");
+        CHECK(error.line == 4);
+        CHECK(error.column == 2);
+        CHECK(error.place == "/objects/1");
+        CHECK(error.message == "must have the key \"type\"");
+        CHECK(bad.what() == std::string("x.json:3:21: /objects/0: must be an object, got 3\n"
+                                        "x.json:4:2: /objects/1: must have the key \"type\""));
+    }
+    try {
+        load("/none.json");
+        FAIL("must throw");
+    } catch (const BadInput& bad) {
+        REQUIRE(bad.errors().size() == 1);
+        CHECK(bad.errors()[0].line == 0);
+        CHECK(bad.errors()[0].message == "no such file");
+    }
 }
 
 TEST_CASE("scenes are parsed from text") {
@@ -47,17 +72,20 @@ TEST_CASE("scenes are parsed from text") {
         return refusal_of([&] { parse(text, name); });
     };
     CHECK(message("", "x") == "x: must be a scene, got an empty file");
-    CHECK(message(nff, "x.json").starts_with("x.json: line 1, column 1: "));
-    CHECK(message(nff + "s 0 0 0\n", "x").starts_with("x: line 11: "));
-    CHECK(message("{}", "x") == "x: must have the key \"camera\"");
+    CHECK(message(nff, "x.json").starts_with("x.json:1:1: "));
+    CHECK(message(nff + "s 0 0 0\n", "x").starts_with("x:11: "));
+    CHECK(message("{}", "x") ==
+          "x:1:1: must have the key \"camera\"\nx:1:1: must have the key \"objects\"");
     CHECK(refusal_of([] { parse("\x01"); }) ==
           "scene: must be a scene in JSON or NFF, got a binary file");
     // Longer than what is looked at to tell the format.
     const std::string blank(200'000, ' ');
     CHECK(parse(blank + with_objects("") + blank, "x.json").shape_count() == 0);
     // A light on a surface is found at the end, and its object looked up in the text once more.
-    CHECK(message(nff + std::string(100'000, '\n') + "l 0 0 1\n", "x").find("line 10") !=
-          std::string::npos);
+    CHECK(message(nff.substr(0, nff.find("l 0 9 9")) + "l 0 0 1\n" + std::string(100'000, '\n') +
+                      nff.substr(nff.find("f 1")),
+                  "x") == "x:8: l: position: must not be on a surface, got a point of the s of "
+                          "line 100010");
 }
 
 TEST_CASE("the README's program is the one that is tested") {
