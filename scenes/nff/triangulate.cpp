@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -41,7 +42,7 @@ bool Triangulator::project(std::span<const core::Vec3f> polygon) {
     if (largest->sign() < 0) std::swap(x, y);
     const auto count = static_cast<std::uint32_t>(polygon.size());
     vertices_.resize(count);
-    Rectangle bounds;
+    std::vector<PlanePoint> points(count);
     for (std::uint32_t v = 0; v < count; ++v) {
         const auto p = core::convert<double>(polygon[v]);
         vertices_[v] = {.point = {p[x], p[y]},
@@ -49,11 +50,10 @@ bool Triangulator::project(std::span<const core::Vec3f> polygon) {
                         .next = v + 1 == count ? 0 : v + 1,
                         .version = 0,
                         .removed = false,
-                        .convex = true,
-                        .in_grid = false};
-        bounds.include(vertices_[v].point);
+                        .convex = true};
+        points[v] = vertices_[v].point;
     }
-    grid_.reset(bounds, count);
+    tree_.reset(std::move(points));
     left_ = count;
     reflex_ = 0;
     return true;
@@ -99,6 +99,7 @@ void Triangulator::clip_ears() {
 void Triangulator::remove(std::uint32_t v) {
     Vertex& vertex = vertices_[v];
     vertex.removed = true;
+    tree_.mark(v, false);
     if (!vertex.convex) --reflex_;
     --left_;
     vertices_[vertex.previous].next = vertex.next;
@@ -123,12 +124,8 @@ void Triangulator::settle() {
         if (convex != vertex.convex) reflex_ += convex ? -1 : 1;
         vertex.convex = convex;
         ++vertex.version;
-        if (convex) {
-            candidates_.items.push_back({v, vertex.version});
-        } else if (!vertex.in_grid) {
-            vertex.in_grid = true;
-            grid_.insert(v, vertex.point);
-        }
+        tree_.mark(v, !convex);
+        if (convex) candidates_.items.push_back({v, vertex.version});
     }
     changed_.clear();
 }
@@ -153,14 +150,9 @@ Triangulator::Ear Triangulator::ear_at(std::uint32_t v) const {
     const PlanePoint& b = vertices_[v].point;
     const PlanePoint& a = vertices_[vertices_[v].previous].point;
     const PlanePoint& c = vertices_[vertices_[v].next].point;
-    Rectangle bounds;
-    for (const PlanePoint& corner : {a, b, c})
-        bounds.include(corner);
-
     bool touched = false;
-    const bool blocked = grid_.any_in(bounds, [&](std::uint32_t other) {
+    const bool blocked = tree_.any_in(a, b, c, [&](std::uint32_t other) {
         const Vertex& vertex = vertices_[other];
-        if (vertex.removed || vertex.convex || !bounds.contains(vertex.point)) return false;
         const int ab = orientation(a, b, vertex.point);
         const int bc = orientation(b, c, vertex.point);
         const int ca = orientation(c, a, vertex.point);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
-#include "scenes/nff/point_grid.hpp"
+#include "scenes/nff/point_tree.hpp"
 
 #include <array>
 #include <cstdint>
@@ -18,9 +18,9 @@ namespace raylane::scenes {
 ///
 /// A polygon that crosses itself has no such tiling; it gets some triangles, always the same.
 ///
-/// Time is linear where few of the corners are reflex or the vertices near an ear are few, and
-/// never more than quadratic. An object of this class serves any number of polygons and keeps its
-/// memory.
+/// An ear is found to be one in the time that a k-d tree takes to say that no reflex vertex is in a
+/// triangle: the root of their number at most, unless many lie on its rim. An object of this class
+/// serves any number of polygons and keeps its memory.
 class Triangulator {
   public:
     /// Indices of vertices, counter-clockwise where the polygon is.
@@ -38,7 +38,6 @@ class Triangulator {
         std::uint32_t version; // counts how often its neighbours changed
         bool removed;
         bool convex;
-        bool in_grid;
     };
     /// A vertex that may be an ear, if its neighbours are still those that it had.
     struct Candidate {
@@ -63,7 +62,7 @@ class Triangulator {
     std::vector<Vertex> vertices_;
     std::size_t left_ = 0;   // vertices not removed
     std::size_t reflex_ = 0; // of these, not convex
-    PointGrid grid_;         // the vertices that were reflex at some time
+    PointTree tree_;         // marked: those
     std::vector<std::uint32_t> changed_;
     Queue candidates_;
     Queue touched_;

@@ -116,6 +116,26 @@ Polygon comb(int teeth) {
     return polygon;
 }
 
+/// Two rows of corners, each in one line.
+Polygon strip(int length) {
+    Polygon polygon;
+    for (int i = 0; i < length; ++i)
+        polygon.push_back({static_cast<float>(i), 0.0F, 0.0F});
+    for (int i = length - 1; i >= 0; --i)
+        polygon.push_back({static_cast<float>(i), 1.0F, 0.0F});
+    return polygon;
+}
+
+/// All corners but three are reflex.
+Polygon below_a_bowl(int corners) {
+    Polygon polygon = {{0.0F, -5.0F, 0.0F}};
+    for (int i = corners; i >= 0; --i) {
+        const float x = 2.0F * static_cast<float>(i) / static_cast<float>(corners) - 1.0F;
+        polygon.push_back({x, x * x, 0.0F});
+    }
+    return polygon;
+}
+
 struct GridPoint {
     int x, y;
     bool operator==(const GridPoint&) const = default;
@@ -312,4 +332,7 @@ TEST_CASE("large polygons take no minutes") {
     CHECK(triangulates(star(50000, 0.5), 5));
     CHECK(triangulates(spiral(50000, 20), 5));
     CHECK(triangulates(comb(10000), 5));
+    // Squared, their corners would be minutes.
+    CHECK(triangulates(strip(100'000), 5));
+    CHECK(triangulates(below_a_bowl(200'000), 5));
 }
