@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -34,11 +36,11 @@ std::string header_line(ByteSource& source) {
 
 using Pixel = std::array<unsigned char, 4>; // red, green, blue, exponent
 
-void add_pixel(Image& image, const Pixel& pixel) {
+void add_pixel(std::vector<float>& rgb, const Pixel& pixel) {
     // A mantissa is a fraction of 256; the exponent's bias is 128.
     const float scale = pixel[3] == 0 ? 0.0F : std::ldexp(1.0F, pixel[3] - (128 + 8));
     for (int channel = 0; channel < 3; ++channel)
-        image.rgb.push_back(static_cast<float>(pixel[channel]) * scale);
+        rgb.push_back(static_cast<float>(pixel[channel]) * scale);
 }
 
 /// One component of a row: runs of one byte, and bytes as they are.
@@ -122,12 +124,14 @@ void read_hdr(ByteSource& source, Image& image) {
     take_size(image, to_int(std::string_view(size).substr(plus + 4)),
               to_int(std::string_view(size).substr(3, plus - 3)), "HDR");
 
+    std::vector<float> rgb;
     std::vector<Pixel> row(image.width);
     for (int y = 0; y < image.height; ++y) {
         read_row(source, row);
         for (const Pixel& pixel : row)
-            add_pixel(image, pixel);
+            add_pixel(rgb, pixel);
     }
+    image.rgb = Components(std::move(rgb));
 }
 
 void read_pfm(ByteSource& source, Image& image) {
@@ -140,6 +144,7 @@ void read_pfm(ByteSource& source, Image& image) {
     if (!scale || *scale == 0.0F) throw damaged("PFM");
     const bool little_endian = *scale < 0.0F;
 
+    std::vector<float> rgb;
     std::vector<char> row(std::size_t{4} * channels * image.width);
     for (int y = 0; y < image.height; ++y) {
         if (source.read(row) != row.size()) throw damaged("PFM");
@@ -147,13 +152,14 @@ void read_pfm(ByteSource& source, Image& image) {
             std::uint32_t bits = 0;
             for (std::size_t k = 0; k < 4; ++k)
                 bits = bits << 8 | static_cast<unsigned char>(row[i + (little_endian ? 3 - k : k)]);
-            image.rgb.insert(image.rgb.end(), 3 / channels, std::bit_cast<float>(bits));
+            rgb.insert(rgb.end(), 3 / channels, std::bit_cast<float>(bits));
         }
     }
     const auto row_size = static_cast<std::ptrdiff_t>(3) * image.width;
     for (int y = 0; y < image.height / 2; ++y)
-        std::swap_ranges(image.rgb.begin() + y * row_size, image.rgb.begin() + (y + 1) * row_size,
-                         image.rgb.end() - (y + 1) * row_size);
+        std::swap_ranges(rgb.begin() + y * row_size, rgb.begin() + (y + 1) * row_size,
+                         rgb.end() - (y + 1) * row_size);
+    image.rgb = Components(std::move(rgb));
 }
 
 } // namespace raylane::scenes

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "scenes/image/components.hpp"
+
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace raylane::scenes {
 
@@ -13,8 +14,8 @@ struct Image {
     /// True if the components are linear floats (HDR, PFM), not codes divided by the largest code
     /// (PNG).
     bool linear_float = false;
-    std::vector<float> rgb; ///< width * height * 3, rows from the top down
-    std::string name;       ///< of its file, for messages
+    Components rgb;   ///< width * height * 3, rows from the top down
+    std::string name; ///< of its file, for messages
 };
 
 /// Reads a PNG, HDR or PFM picture; the content tells which. Grey becomes RGB, transparency is left

@@ -16,7 +16,7 @@ const float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
 Image image_of(std::vector<float> rgb, int width) {
     const int height = static_cast<int>(rgb.size()) / 3 / width;
-    return {width, height, true, std::move(rgb), "a.pfm"};
+    return {width, height, true, scenes::Components(std::move(rgb)), "a.pfm"};
 }
 
 } // namespace

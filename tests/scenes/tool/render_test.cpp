@@ -28,8 +28,8 @@ scenes::Image picture(const Workshop& workshop, const Options& options,
 
 /// Red, green and blue.
 std::vector<float> pixel(const scenes::Image& image, int x, int y) {
-    const auto first = image.rgb.begin() + 3 * (y * image.width + x);
-    return {first, first + 3};
+    const auto first = static_cast<std::size_t>(3 * (y * image.width + x));
+    return {image.rgb[first], image.rgb[first + 1], image.rgb[first + 2]};
 }
 
 /// Half a mirror before a blue world.

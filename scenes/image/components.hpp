@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// Components of a picture's pixels, one after the other: floats, or codes of 8 or 16 bits, which
+/// stand for their fraction of the largest code and take no more room than in their file.
+class Components {
+  public:
+    Components() = default;
+    template <class Component>
+    explicit Components(std::vector<Component> components) : components_(std::move(components)) {}
+
+    std::size_t size() const {
+        return std::visit([](const auto& all) { return all.size(); }, components_);
+    }
+
+    float operator[](std::size_t i) const {
+        if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&components_))
+            return static_cast<float>((*bytes)[i]) / 255.0F;
+        if (const auto* words = std::get_if<std::vector<std::uint16_t>>(&components_))
+            return static_cast<float>((*words)[i]) / 65535.0F;
+        return (*std::get_if<std::vector<float>>(&components_))[i];
+    }
+
+    /// All of them as floats.
+    std::vector<float> floats() const {
+        std::vector<float> floats(size());
+        for (std::size_t i = 0; i < floats.size(); ++i)
+            floats[i] = (*this)[i];
+        return floats;
+    }
+
+  private:
+    std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>>
+        components_;
+};
+
+} // namespace raylane::scenes

@@ -1,0 +1,140 @@
+#include "scenes/image/png_reader.hpp"
+
+#include <bit>
+#include <csetjmp>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <png.h>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// A reading by libpng, which says what is wrong by a jump out of its functions: nothing that has a
+/// destructor may be alive in between, and no exception may pass through.
+class PngReading {
+  public:
+    explicit PngReading(ByteSource& source) : source_(source) {
+        png_ = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, this, &jump_on_error,
+                                        &look_at_warning, this, &allocate, &release);
+        if (png_ != nullptr) info_ = png_create_info_struct(png_);
+        if (info_ == nullptr) {
+            png_destroy_read_struct(&png_, nullptr, nullptr);
+            throw std::bad_alloc();
+        }
+        png_set_read_fn(png_, this, &feed);
+    }
+    ~PngReading() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReading(const PngReading&) = delete;
+    PngReading& operator=(const PngReading&) = delete;
+
+    /// Width, height and bits of a component, and has all that follow come as such RGB.
+    void begin() {
+        step([this] {
+            png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
+            png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // check_size has others
+            png_read_info(png_, info_);
+            png_get_IHDR(png_, info_, &width, &height, &bits, &color_type, nullptr, nullptr,
+                         nullptr);
+        });
+    }
+
+    /// `rows`: one pointer for each.
+    template <class Code>
+    void read(Code** rows) {
+        step([this, rows] {
+            png_set_expand(png_);
+            png_set_strip_alpha(png_);
+            if ((color_type & PNG_COLOR_MASK_COLOR) == 0) png_set_gray_to_rgb(png_);
+            if constexpr (sizeof(Code) == 2 && std::endian::native == std::endian::little)
+                png_set_swap(png_);
+            const int passes = png_set_interlace_handling(png_);
+            png_read_update_info(png_, info_);
+            if (png_get_rowbytes(png_, info_) != std::size_t{3} * width * sizeof(Code))
+                png_error(png_, "rows of another size");
+            for (int pass = 0; pass < passes; ++pass)
+                for (png_uint_32 y = 0; y < height; ++y)
+                    png_read_row(png_, reinterpret_cast<png_bytep>(rows[y]), nullptr);
+            png_read_end(png_, nullptr);
+        });
+    }
+
+    png_uint_32 width = 0, height = 0;
+    int bits = 0, color_type = 0;
+
+  private:
+    template <class Act>
+    void step(const Act& act) {
+        if (setjmp(png_jmpbuf(png_)) == 0) { // NOLINT: what libpng has for exceptions
+            act();
+            return;
+        }
+        if (failure_) std::rethrow_exception(failure_);
+        if (memory_refused_) throw std::bad_alloc();
+        throw damaged("PNG");
+    }
+
+    static PngReading& self(png_voidp pointer) { return *static_cast<PngReading*>(pointer); }
+
+    [[noreturn]] static void jump_on_error(png_structp png, png_const_charp) {
+        png_longjmp(png, 1);
+    }
+    /// Data behind that of the last row is no more than a warning to libpng, and may be gigabytes.
+    static void look_at_warning(png_structp png, png_const_charp message) {
+        if (std::strncmp(message, "IDAT", 4) == 0) png_longjmp(png, 1);
+    }
+    static png_voidp allocate(png_structp png, png_alloc_size_t size) {
+        void* const memory = std::malloc(size);
+        if (memory == nullptr) self(png_get_mem_ptr(png)).memory_refused_ = true;
+        return memory;
+    }
+    static void release(png_structp, png_voidp memory) { std::free(memory); }
+
+    static void feed(png_structp png, png_bytep bytes, std::size_t count) {
+        if (!self(png_get_io_ptr(png)).fill({reinterpret_cast<char*>(bytes), count}))
+            png_longjmp(png, 1);
+    }
+    bool fill(std::span<char> bytes) noexcept {
+        try {
+            return source_.read(bytes) == bytes.size();
+        } catch (...) {
+            failure_ = std::current_exception();
+            return false;
+        }
+    }
+
+    ByteSource& source_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    std::exception_ptr failure_;
+    bool memory_refused_ = false;
+};
+
+template <class Code>
+Components components_of(PngReading& reading) {
+    const std::size_t row = std::size_t{3} * reading.width;
+    std::vector<Code> codes(row * reading.height);
+    std::vector<Code*> rows(reading.height);
+    for (std::size_t y = 0; y < rows.size(); ++y)
+        rows[y] = codes.data() + y * row;
+    reading.read(rows.data());
+    return Components(std::move(codes));
+}
+
+} // namespace
+
+void read_png(ByteSource& source, Image& image) {
+    PngReading reading(source);
+    reading.begin();
+    check_size(reading.width, reading.height);
+    image.width = static_cast<int>(reading.width);
+    image.height = static_cast<int>(reading.height);
+    constexpr int most_bits_of_a_byte = 8;
+    image.rgb = reading.bits > most_bits_of_a_byte ? components_of<std::uint16_t>(reading)
+                                                   : components_of<std::uint8_t>(reading);
+    if (source.get() >= 0) throw damaged("PNG");
+}
+
+} // namespace raylane::scenes
