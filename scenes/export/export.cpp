@@ -9,6 +9,7 @@ namespace {
 enum class Format { json, nff, pov };
 
 Format format_of(const std::filesystem::path& path) {
+    if (path == "-") return Format::json;
     const std::string ending = path.extension().string();
     if (ending == ".json") return Format::json;
     if (ending == ".nff") return Format::nff;
@@ -26,24 +27,24 @@ std::vector<std::string> export_scene(const std::filesystem::path& path, const c
     const Format format = format_of(path);
     AtomicFile file(path);
     TextFile text(file);
-    LeftOut left_out;
+    Differences differences;
     try {
         switch (format) {
         case Format::json:
             write_json(text, scene);
             break;
         case Format::nff:
-            write_nff(text, scene, left_out);
+            write_nff(text, scene, differences);
             break;
         case Format::pov:
-            write_pov(text, scene, left_out);
+            write_pov(text, scene, differences);
         }
     } catch (const core::InvalidValue& invalid) {
         throw BadInput(path.string(), "", invalid.what());
     }
     text.flush();
     file.commit();
-    return {left_out.begin(), left_out.end()};
+    return {differences.begin(), differences.end()};
 }
 
 } // namespace raylane::scenes

@@ -12,8 +12,8 @@ namespace raylane::scenes {
 /// Standard Procedural Databases) or .pov (POV-Ray 3.7's). The file appears whole or not at all.
 ///
 /// JSON holds all of a scene, to the bit, but which triangles make up a flat polygon. Of what the
-/// others have no word for, shapes are refused, and the rest is left out: the names of what is, in
-/// words, are returned.
+/// others have no word for, shapes are refused, and the rest is left out. That, and what programs
+/// make of the rest that is not what raylane makes of it, is returned, in words.
 ///
 /// Throws BadInput for another ending or a shape that the format does not have, and SystemRefused.
 std::vector<std::string> export_scene(const std::filesystem::path& path, const core::Scene& scene);

@@ -12,17 +12,17 @@ using core::Vec3d, core::Vec3f;
 
 class NffWriter {
   public:
-    NffWriter(TextFile& file, const core::Scene& scene, LeftOut& left_out)
-        : file_(file), scene_(scene), left_out_(left_out), reach_(1000.0 * size_of(scene)) {}
+    NffWriter(TextFile& file, const core::Scene& scene, Differences& differences)
+        : file_(file), scene_(scene), differences_(differences), reach_(1000.0 * size_of(scene)) {}
 
     void write() {
         write_view();
         file_ << "b ";
         file_.list(scene_.background(), " ") << "\n";
-        if (scene_.fog().kind != core::FogKind::none) left_out_.insert("fog");
+        if (scene_.fog().kind != core::FogKind::none) differences_.insert("fog");
         for (const core::Light& light : scene_.lights()) {
             if (light.kind != core::LightKind::point) {
-                left_out_.insert("directional lights");
+                differences_.insert("directional lights");
                 continue;
             }
             file_ << "l ";
@@ -69,13 +69,13 @@ class NffWriter {
     }
 
     void write_fill(const core::Material& m) {
-        if (m.pattern.kind != core::PatternKind::solid) left_out_.insert("patterns");
-        if (m.reflection != core::Reflection::constant) left_out_.insert("Fresnel reflection");
-        if (m.absorption != Vec3f(0.0F)) left_out_.insert("absorption");
+        if (m.pattern.kind != core::PatternKind::solid) differences_.insert("patterns");
+        if (m.reflection != core::Reflection::constant) differences_.insert("Fresnel reflection");
+        if (m.absorption != Vec3f(0.0F)) differences_.insert("absorption");
         if (m.visible == core::Visible::outside)
-            left_out_.insert("surfaces seen from outside only");
-        if (m.specular != m.reflectivity) left_out_.insert("highlights of their own");
-        left_out_.insert("ambient light of their own");
+            differences_.insert("surfaces seen from outside only");
+        if (m.specular != m.reflectivity) differences_.insert("highlights of their own");
+        differences_.insert("ambient light of their own");
         file_ << "f ";
         file_.list(m.pattern.colors[0], " ")
             << " " << m.diffuse << " " << m.reflectivity << " " << m.exponent << " "
@@ -95,12 +95,12 @@ class NffWriter {
     }
     template <core::Ends ends>
     void write_shape(const core::Cylinder<ends>& s) {
-        if (ends == core::Ends::capped) left_out_.insert("caps");
+        if (ends == core::Ends::capped) differences_.insert("caps");
         write_frustum(s.base, s.radius, s.axis, s.radius);
     }
     template <core::Ends ends>
     void write_shape(const core::Cone<ends>& s) {
-        if (ends == core::Ends::capped) left_out_.insert("caps");
+        if (ends == core::Ends::capped) differences_.insert("caps");
         write_frustum(s.base, s.base_radius, s.axis, s.top_radius);
     }
     void write_shape(const core::Triangle& s) {
@@ -135,7 +135,7 @@ class NffWriter {
     }
     /// A square about as far as can be seen.
     void write_shape(const core::Plane& s) {
-        left_out_.insert("the far ends of planes");
+        differences_.insert("the far ends of planes");
         const Vec3d normal = core::normalized(core::convert<double>(s.normal));
         const Vec3d aside = std::abs(normal.x) < 0.7 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
         const Vec3d across = reach_ * core::normalized(core::cross(normal, aside));
@@ -153,15 +153,15 @@ class NffWriter {
 
     TextFile& file_;
     const core::Scene& scene_;
-    LeftOut& left_out_;
+    Differences& differences_;
     double reach_;           ///< of what has no end
     bool is_inside_ = false; ///< true if the shapes being written are seen from inside alone
 };
 
 } // namespace
 
-void write_nff(TextFile& file, const core::Scene& scene, LeftOut& left_out) {
-    NffWriter(file, scene, left_out).write();
+void write_nff(TextFile& file, const core::Scene& scene, Differences& differences) {
+    NffWriter(file, scene, differences).write();
 }
 
 } // namespace raylane::scenes

@@ -11,8 +11,8 @@ using core::Vec3d, core::Vec3f;
 
 class PovWriter {
   public:
-    PovWriter(TextFile& file, const core::Scene& scene, LeftOut& left_out)
-        : file_(file), scene_(scene), left_out_(left_out) {}
+    PovWriter(TextFile& file, const core::Scene& scene, Differences& differences)
+        : file_(file), scene_(scene), differences_(differences) {}
 
     void write() {
         file_ << "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level "
@@ -27,11 +27,24 @@ class PovWriter {
             write_material(i, scene_.materials()[i]);
         for_each_by_id(scene_, [&](const auto& shape, core::ShapeId id) {
             write_shape(shape);
+            if (is_open(shape) && scene_.material_of(id).transmits())
+                differences_.insert(
+                    "bodies that several transmissive surfaces enclose, of which each "
+                    "is a body of its own there");
             file_ << " material { m" << std::to_string(scene_.material_index_of(id)) << " } }\n";
         });
     }
 
   private:
+    /// True for what is part of a body's surface, and not the whole of it.
+    template <class Shape>
+    static bool is_open(const Shape&) {
+        using namespace core;
+        return std::is_same_v<Shape, Disc> || std::is_same_v<Shape, Triangle> ||
+               std::is_same_v<Shape, SmoothTriangle> || std::is_same_v<Shape, OpenCylinder> ||
+               std::is_same_v<Shape, OpenCone> || std::is_same_v<Shape, Quadric>;
+    }
+
     template <class Real>
     TextFile& vector(const core::Vec3<Real>& v) {
         file_ << "<";
@@ -63,7 +76,7 @@ class PovWriter {
         const core::Fog& fog = scene_.fog();
         if (fog.kind == core::FogKind::none) return;
         if (fog.kind != core::FogKind::exponential) {
-            left_out_.insert("linear fog");
+            differences_.insert("linear fog");
             return;
         }
         file_ << "fog { fog_type 1 distance " << 1.0F / fog.density << " ";
@@ -87,7 +100,7 @@ class PovWriter {
         file_ << "pigment { ";
         switch (pattern.kind) {
         case core::PatternKind::back_plane:
-            left_out_.insert("back-plane patterns");
+            differences_.insert("back-plane patterns");
             [[fallthrough]];
         case core::PatternKind::solid:
             color(pattern.colors[0]);
@@ -115,7 +128,7 @@ class PovWriter {
             color(pattern.colors[1]) << "] } scale " << 2.0F * pattern.size;
             break;
         case core::PatternKind::gradient:
-            left_out_.insert("the ends of gradients, which repeat");
+            differences_.insert("the ends of gradients, which repeat");
             vector("gradient", pattern.to - pattern.from) << " color_map { [0 ";
             color(pattern.colors[0]) << "] [1 ";
             color(pattern.colors[1]) << "] } scale " << core::length(pattern.to - pattern.from);
@@ -129,7 +142,14 @@ class PovWriter {
     void write_material(std::size_t index, const core::Material& material) {
         file_ << "#declare m" << std::to_string(index) << " = material { texture { ";
         write_pigment(material);
-        file_ << " finish { ambient " << material.ambient << " diffuse " << material.diffuse;
+        // They are weighed there by what the pigment does not transmit.
+        const float opacity = 1.0F - material.transmission;
+        const bool lit = material.ambient > 0.0F || material.diffuse > 0.0F;
+        const float weight = opacity > 0.0F ? 1.0F / opacity : 0.0F;
+        if (lit && opacity <= 0.0F)
+            differences_.insert("ambient and diffuse light of what transmits all");
+        file_ << " finish { ambient " << weight * material.ambient << " diffuse "
+              << weight * material.diffuse;
         if (material.specular > 0.0F)
             file_ << " specular " << material.specular << " roughness "
                   << 1.0F / std::max(material.exponent, 1.0F);
@@ -138,9 +158,13 @@ class PovWriter {
         else if (material.reflectivity > 0.0F)
             file_ << " reflection { " << material.reflectivity << " }";
         file_ << " } } interior { ior " << material.index << " } }\n";
-        if (material.visible != core::Visible::both) left_out_.insert("one-sided surfaces");
+        if (material.visible != core::Visible::both) differences_.insert("one-sided surfaces");
         if (material.transmits() && material.absorption != Vec3f(0.0F))
-            left_out_.insert("absorption");
+            differences_.insert("absorption");
+        if (material.reflection == core::Reflection::schlick)
+            differences_.insert("Schlick's reflection, which is Fresnel's there");
+        if (scene_.fog().kind == core::FogKind::exponential && material.transmits())
+            differences_.insert("fog, which is inside of transmissive bodies, too");
     }
 
     void write_shape(const core::Sphere& s) {
@@ -217,13 +241,13 @@ class PovWriter {
 
     TextFile& file_;
     const core::Scene& scene_;
-    LeftOut& left_out_;
+    Differences& differences_;
 };
 
 } // namespace
 
-void write_pov(TextFile& file, const core::Scene& scene, LeftOut& left_out) {
-    PovWriter(file, scene, left_out).write();
+void write_pov(TextFile& file, const core::Scene& scene, Differences& differences) {
+    PovWriter(file, scene, differences).write();
 }
 
 } // namespace raylane::scenes

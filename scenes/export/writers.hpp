@@ -10,12 +10,12 @@
 
 namespace raylane::scenes {
 
-/// Features that a format has no word for, in words.
-using LeftOut = std::set<std::string>;
+/// What another program would not do as the scene has it, in words.
+using Differences = std::set<std::string>;
 
 void write_json(TextFile& file, const core::Scene& scene);
-void write_nff(TextFile& file, const core::Scene& scene, LeftOut& left_out);
-void write_pov(TextFile& file, const core::Scene& scene, LeftOut& left_out);
+void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);
+void write_pov(TextFile& file, const core::Scene& scene, Differences& differences);
 
 /// Calls visit(shape, id) for all shapes that the tables have, in the order of their ids, which
 /// decides where surfaces coincide.

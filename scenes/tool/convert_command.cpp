@@ -20,12 +20,12 @@ int convert(const ConvertArguments& arguments) {
     const std::string& output = file_argument("OUTPUT", *arguments.output);
     require_other_file("OUTPUT", output, "SCENE", scene);
     require_scene_ending(output);
-    std::string left_out;
+    std::string differences;
     for (const std::string& what : export_scene(output, load_with_progress(scene)))
-        left_out.append(left_out.empty() ? "" : ", ").append(what);
-    if (!left_out.empty())
-        std::fprintf(stderr, "%s: left out, as the format has no word for it: %s\n",
-                     printable(output, 4096).c_str(), left_out.c_str());
+        differences.append(differences.empty() ? "" : ", ").append(what);
+    if (!differences.empty())
+        std::fprintf(stderr, "%s: not as in the scene, for want of a word in the format: %s\n",
+                     printable(output, 4096).c_str(), differences.c_str());
     return 0;
 }
 
@@ -34,9 +34,12 @@ int convert(const ConvertArguments& arguments) {
 Command add_convert_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("convert", "Write a scene in another format");
     auto arguments = std::make_shared<ConvertArguments>();
-    add_positional(*command, "SCENE", arguments->scene, "A scene in JSON or NFF");
-    add_positional(*command, "OUTPUT", arguments->output,
-                   "The file to write: .json, .nff, or .pov for POV-Ray 3.7");
+    add_positional(*command, "SCENE", arguments->scene,
+                   "A scene in JSON or NFF; - is standard input");
+    add_positional(
+        *command, "OUTPUT", arguments->output,
+        "The file to write: .json, .nff, or .pov for POV-Ray 3.7; or - for JSON to standard "
+        "output");
     command->footer("Example: raylane convert scenes/lattice.json lattice.pov");
     return {command, [arguments] { return convert(*arguments); }};
 }

@@ -172,8 +172,10 @@ TEST_CASE("NFF takes the shapes that it has, and tells what it leaves out") {
 TEST_CASE("POV-Ray is told every shape and material") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "scene.pov";
-    const std::vector<std::string> left_out = export_scene(path, load_scene(shipped("birthday")));
-    CHECK(left_out == std::vector<std::string>{"back-plane patterns", "linear fog"});
+    CHECK(export_scene(path, load_scene(shipped("birthday"))) ==
+          std::vector<std::string>{"Schlick's reflection, which is Fresnel's there",
+                                   "ambient and diffuse light of what transmits all",
+                                   "back-plane patterns", "linear fog"});
     const std::string text = text_of(path);
     const auto count = [&](const std::string& part) {
         int times = 0;
@@ -191,6 +193,38 @@ TEST_CASE("POV-Ray is told every shape and material") {
     CHECK(count("camera {") == 1);
     CHECK(count("light_source {") == 1);
     CHECK(count("{") == count("}"));
+}
+
+TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "scene.pov";
+    const auto told = [&](core::Material material, const auto& shape) {
+        core::SceneBuilder builder;
+        builder.wants_light = false;
+        builder.add(shape, builder.add_material(material));
+        return export_scene(path, std::move(builder).build());
+    };
+    core::Material glass;
+    glass.ambient = 0.125F;
+    glass.diffuse = 0.25F;
+    glass.transmission = 0.75F;
+    const core::Sphere ball{{0, 0, 0}, 1};
+    CHECK(told(glass, ball).empty());
+    CHECK(text_of(path).find("ambient 0.5 diffuse 1") != std::string::npos);
+
+    const auto has = [](const std::vector<std::string>& words, const std::string& start) {
+        return std::any_of(words.begin(), words.end(),
+                           [&](const std::string& word) { return word.starts_with(start); });
+    };
+    // Half of a lens.
+    const core::Quadric bowl{{0, 0, 0}, 1, 1, 1, 0, 0, 0, 0, 0, 0, -1, {-1, -1, 0}, {1, 1, 1}};
+    CHECK(has(told(glass, bowl), "bodies that several transmissive surfaces enclose"));
+    glass.transmission = 1.0F;
+    CHECK(has(told(glass, ball), "ambient and diffuse light of what transmits all"));
+    glass.ambient = glass.diffuse = 0.0F;
+    CHECK(told(glass, ball).empty());
+    glass.transmission = 0.0F;
+    CHECK(told(glass, bowl).empty());
 }
 
 TEST_CASE("an ending that is no format's is refused") {
