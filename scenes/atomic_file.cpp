@@ -5,12 +5,15 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <fcntl.h>
+#include <optional>
 #include <random>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -19,16 +22,60 @@ namespace {
 constexpr std::size_t buffer_size = 64 << 10;
 constexpr unsigned permission_bits = 07777;
 
+/// The descriptor of this process that a path such as /dev/stdout names, if it does.
+std::optional<int> own_descriptor(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const std::string folder =
+        std::filesystem::canonical(std::filesystem::absolute(path, unknown).parent_path(), unknown)
+            .string();
+    const std::string own = "/proc/" + std::to_string(::getpid()) + "/";
+    if (!folder.starts_with(own) || !folder.ends_with("/fd")) return std::nullopt;
+    const std::string name = path.filename().string();
+    int descriptor = -1;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), descriptor);
+    if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+    return descriptor;
+}
+
+struct Target {
+    std::filesystem::path path;
+    std::optional<int> descriptor; // if that is open already
+};
+
 /// End of a chain of symbolic links, there or not.
-std::filesystem::path followed(std::filesystem::path path) {
+Target followed(std::filesystem::path path) {
+    if (path == "-") return {path, STDOUT_FILENO};
     constexpr int longest_chain = 40; // as in Linux, which then says ELOOP
     std::error_code no_link;
     for (int i = 0; i < longest_chain; ++i) {
+        if (const std::optional<int> descriptor = own_descriptor(path)) return {path, descriptor};
         const std::filesystem::path next = std::filesystem::read_symlink(path, no_link);
         if (no_link) break;
         path = path.parent_path() / next;
     }
-    return path;
+    return {path, std::nullopt};
+}
+
+/// Gives a file the owner and the mode of another one. False if its owner may not be changed.
+bool take_over(int descriptor, const struct stat& from) {
+    struct stat made {};
+    if (::fstat(descriptor, &made) != 0) return false;
+    if ((made.st_uid != from.st_uid || made.st_gid != from.st_gid) &&
+        ::fchown(descriptor, from.st_uid, from.st_gid) != 0)
+        return false;
+    // Gives back what the umask took. A file system without permissions may refuse; so be it.
+    static_cast<void>(::fchmod(descriptor, from.st_mode & permission_bits));
+    return true;
+}
+
+/// Writes all, or returns false with errno set.
+bool write_all(int descriptor, std::span<const char> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+        if (count < 0 && errno != EINTR) return false;
+        if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+    return true;
 }
 
 std::string random_suffix() {
@@ -75,8 +122,14 @@ void remove_temporaries() noexcept {
 }
 
 AtomicFile::AtomicFile(const std::filesystem::path& path)
-    : name_(path.string()), target_(followed(path)) {
+    : name_(path == "-" ? "standard output" : path.string()) {
     buffer_.reserve(buffer_size);
+    Target target = followed(path);
+    target_ = std::move(target.path);
+    if (target.descriptor) {
+        open_existing(*target.descriptor);
+        return;
+    }
     struct stat status {};
     const bool exists = ::stat(path.c_str(), &status) == 0;
     if (!exists && errno != ENOENT) refuse(errno);
@@ -92,10 +145,8 @@ AtomicFile::AtomicFile(const std::filesystem::path& path)
     }
     // Renaming would replace a file that its owner protected.
     if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) refuse(errno);
-    const unsigned mode = status.st_mode & permission_bits;
-    open_temporary(mode);
-    // Gives back what the umask took. A file system without permissions may refuse; so be it.
-    static_cast<void>(::fchmod(descriptor_, mode));
+    open_temporary(status.st_mode & permission_bits);
+    keeps_target_ = !take_over(descriptor_, status);
 }
 
 AtomicFile::~AtomicFile() {
@@ -127,6 +178,10 @@ void AtomicFile::write(std::span<const char> bytes) {
 
 void AtomicFile::commit() {
     flush();
+    if (keeps_target_) {
+        copy_temporary();
+        discard_temporary();
+    }
     // Some file systems say only now that there is no room.
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
@@ -135,6 +190,32 @@ void AtomicFile::commit() {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(errno);
     replace_known(temporary_.c_str(), nullptr);
     temporary_.clear();
+}
+
+void AtomicFile::open_existing(int descriptor) {
+    const int flags = ::fcntl(descriptor, F_GETFL);
+    if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY) refuse(EBADF);
+    // Another one for the same place in the same file, which may be closed.
+    descriptor_ = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+    if (descriptor_ < 0) refuse(errno);
+}
+
+void AtomicFile::copy_temporary() const {
+    const int from = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+    if (from < 0) refuse(errno);
+    const int to = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+    int error_number = to < 0 ? errno : 0;
+    std::vector<char> part(buffer_size);
+    while (error_number == 0) {
+        const ssize_t count = ::read(from, part.data(), part.size());
+        if (count == 0) break;
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0 || !write_all(to, std::span(part).first(static_cast<std::size_t>(count))))
+            error_number = errno;
+    }
+    ::close(from);
+    if (to >= 0 && ::close(to) != 0 && error_number == 0) error_number = errno;
+    if (error_number != 0) refuse(error_number);
 }
 
 void AtomicFile::open_temporary(unsigned mode) {
@@ -162,11 +243,7 @@ void AtomicFile::discard_temporary() {
 }
 
 void AtomicFile::flush() {
-    for (std::size_t done = 0; done < buffer_.size();) {
-        const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
-        if (count < 0 && errno != EINTR) refuse(errno);
-        if (count > 0) done += static_cast<std::size_t>(count);
-    }
+    if (!write_all(descriptor_, buffer_)) refuse(errno);
     buffer_.clear();
 }
 

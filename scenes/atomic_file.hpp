@@ -9,14 +9,16 @@
 namespace raylane::scenes {
 
 /// A file that appears whole or not at all: written to a temporary beside it, which takes its name
-/// when all went well. What is no regular file (a pipe, a device) is written directly.
+/// when all went well. What is no regular file (a pipe, a device), or open already ("-", standard
+/// output; /dev/stdout, /proc/self/fd/3), is written directly, from where it stands.
 ///
 /// All that can be known is checked at construction, so before the work whose result is to be
 /// written. Functions throw SystemRefused; the temporary is gone when the object is, and a signal
 /// handler can remove it by remove_temporaries().
 class AtomicFile {
   public:
-    /// A symbolic link is followed: what it leads to is replaced, and keeps its permissions.
+    /// A symbolic link is followed: what it leads to is replaced, and keeps its permissions and
+    /// owner. Where they can only be kept by not replacing it, it is overwritten in commit().
     explicit AtomicFile(const std::filesystem::path& path);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -31,14 +33,17 @@ class AtomicFile {
     void commit();
 
   private:
+    void open_existing(int descriptor);
     void open_temporary(unsigned mode);
+    void copy_temporary() const;
     void discard_temporary();
     void flush();
     [[noreturn]] void refuse(int error_number) const;
 
     std::string name_;
     std::filesystem::path target_;
-    std::string temporary_;
+    std::string temporary_;     // empty: the target itself is written
+    bool keeps_target_ = false; // its content alone is replaced
     int descriptor_ = -1;
     std::vector<char> buffer_;
 };

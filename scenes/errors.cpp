@@ -123,16 +123,74 @@ std::string printable(std::string_view text, std::size_t most) {
     return out;
 }
 
+namespace {
+
+/// What other programs call what a key or option is for.
+struct Synonym {
+    std::string_view elsewhere, here;
+};
+constexpr std::array synonyms = {
+    Synonym{"albedo", "color"},
+    Synonym{"alpha", "transmission"},
+    Synonym{"angle", "field_of_view"},
+    Synonym{"bounces", "max_depth"},
+    Synonym{"depth", "max_depth"},
+    Synonym{"depth", "max-depth"},
+    Synonym{"eta", "index"},
+    Synonym{"eye", "from"},
+    Synonym{"fov", "field_of_view"},
+    Synonym{"fovy", "field_of_view"},
+    Synonym{"height", "size"},
+    Synonym{"ior", "index"},
+    Synonym{"jobs", "threads"},
+    Synonym{"ka", "ambient"},
+    Synonym{"kd", "diffuse"},
+    Synonym{"ks", "specular"},
+    Synonym{"look_at", "at"},
+    Synonym{"lookat", "at"},
+    Synonym{"max_bounces", "max_depth"},
+    Synonym{"opacity", "transmission"},
+    Synonym{"origin", "from"},
+    Synonym{"origin", "center"},
+    Synonym{"position", "from"},
+    Synonym{"position", "center"},
+    Synonym{"primitives", "objects"},
+    Synonym{"refractive_index", "index"},
+    Synonym{"resolution", "image"},
+    Synonym{"resolution", "size"},
+    Synonym{"samples", "grid"},
+    Synonym{"samples", "sampling"},
+    Synonym{"samples", "spp"},
+    Synonym{"shapes", "objects"},
+    Synonym{"shininess", "exponent"},
+    Synonym{"size", "image"},
+    Synonym{"spp", "grid"},
+    Synonym{"spp", "sampling"},
+    Synonym{"target", "at"},
+    Synonym{"transparency", "transmission"},
+    Synonym{"width", "size"},
+};
+
+} // namespace
+
 std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates,
                        std::string_view prefix) {
     const std::string_view start = unknown.substr(0, 64); // a key may be as long as its file
+    const auto known = [&](std::string_view name) {
+        return std::find(candidates.begin(), candidates.end(), name) != candidates.end();
+    };
+    const auto said = [&](std::string_view name) {
+        return ", did you mean \"" + std::string(prefix).append(name) + "\"?";
+    };
+    for (const Synonym& synonym : synonyms)
+        if (synonym.elsewhere == start && known(synonym.here)) return said(synonym.here);
     const auto nearest =
         std::min_element(candidates.begin(), candidates.end(), [&](auto a, auto b) {
             return edit_distance(start, a) < edit_distance(start, b);
         });
     if (nearest == candidates.end()) return "";
     if (edit_distance(start, *nearest) > 1 + std::max(start.size(), nearest->size()) / 3) return "";
-    return ", did you mean \"" + std::string(prefix).append(*nearest) + "\"?";
+    return said(*nearest);
 }
 
 std::string alternatives(const std::vector<std::string>& names) {

@@ -16,7 +16,9 @@ constexpr std::size_t head_size = 64 << 10;
 }
 
 InputFile::InputFile(const std::filesystem::path& path)
-    : name_(path.string()), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    : name_(path == "-" ? "standard input" : path.string()),
+      descriptor_(path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                              : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
     if (descriptor_ < 0) {
         if (errno == ENOENT || errno == ENOTDIR) throw BadInput(name_, "", "no such file");
         throw SystemRefused(name_, "open", errno);
@@ -87,6 +89,7 @@ std::size_t InputFile::read_some(std::span<char> buffer) {
     while (descriptor_ >= 0) {
         const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
         if (count >= 0) {
+            if (count == 0) require_same_size();
             bytes_read_ += static_cast<std::uint64_t>(count);
             if (on_read) on_read(bytes_read_, size_);
             return static_cast<std::size_t>(count);
@@ -94,6 +97,16 @@ std::size_t InputFile::read_some(std::span<char> buffer) {
         if (errno != EINTR) throw SystemRefused(name_, "read", errno);
     }
     return 0;
+}
+
+void InputFile::require_same_size() const {
+    struct stat status {};
+    if (size_ == 0 || ::fstat(descriptor_, &status) != 0) return;
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    if (size != size_)
+        throw BadInput(name_, "",
+                       "must not change while it is read: it had " + std::to_string(size_) +
+                           " bytes, and now has " + std::to_string(size));
 }
 
 } // namespace raylane::scenes

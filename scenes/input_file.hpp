@@ -18,6 +18,7 @@ class InputFile {
   public:
     /// Throws BadInput if there is no such file or it is a directory, SystemRefused if it cannot be
     /// opened.
+    /// "-" is standard input.
     explicit InputFile(const std::filesystem::path& path);
     /// A text in memory that is read as if it were the content of a file of that name.
     InputFile(std::string name, std::string_view text);
@@ -35,7 +36,8 @@ class InputFile {
     /// The first bytes, at most 64 KiB, without consuming them.
     std::string_view head();
     /// Fills `buffer` as far as the file goes; returns how many bytes, 0 at the end. Throws
-    /// SystemRefused.
+    /// SystemRefused, and BadInput if the file turns out to have another length than at first: it
+    /// is being written.
     std::size_t read(std::span<char> buffer);
     /// Everything that is left. Throws SystemRefused.
     std::string read_all();
@@ -44,6 +46,7 @@ class InputFile {
 
   private:
     std::size_t read_some(std::span<char> buffer);
+    void require_same_size() const;
 
     std::string name_;
     int descriptor_ = -1; // none for a text

@@ -75,6 +75,21 @@ std::optional<float> to_float(std::string_view word) {
     return value;
 }
 
+bool is_number(std::string_view word) {
+    const std::string_view number = without_plus(word);
+    const char* const end = number.data() + number.size();
+    double value = 0.0;
+    const auto [rest, error] = std::from_chars(number.data(), end, value);
+    return rest == end && (error == std::errc::result_out_of_range ||
+                           (error == std::errc() && std::isfinite(value)));
+}
+
+bool vanishes_in_float(std::string_view number) {
+    const std::string_view mantissa = number.substr(0, number.find_first_of("eE"));
+    return to_float(number) == 0.0F &&
+           mantissa.find_first_of("123456789") != std::string_view::npos;
+}
+
 std::optional<int> to_int(std::string_view word) {
     const std::string_view number = without_plus(word);
     const char* const end = number.data() + number.size();

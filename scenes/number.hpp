@@ -12,6 +12,12 @@ namespace raylane::scenes {
 /// float is 0.
 std::optional<float> to_float(std::string_view word);
 
+/// True if `word` is a decimal number, of any size.
+bool is_number(std::string_view word);
+
+/// True if the float nearest to a decimal number is 0, and the number is not.
+bool vanishes_in_float(std::string_view number);
+
 /// The whole number that `word` is. Nothing if it is none or does not fit.
 std::optional<int> to_int(std::string_view word);
 

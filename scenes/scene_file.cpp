@@ -4,8 +4,10 @@
 #include "scenes/input_file.hpp"
 #include "scenes/json/reader.hpp"
 #include "scenes/nff/reader.hpp"
+#include "scenes/number.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace raylane::scenes {
@@ -27,6 +29,27 @@ bool is_binary(std::string_view head) {
     });
 }
 
+/// True if the first entity is one of NFF: a view, on lines of its own, or another with a number.
+/// Wavefront's OBJ begins with some of the same letters.
+bool looks_like_nff(std::string_view head) {
+    static constexpr std::string_view blanks = " \t\r\n\v\f";
+    const auto next_word = [&] {
+        head.remove_prefix(std::min(head.find_first_not_of(blanks), head.size()));
+        const std::string_view word = head.substr(0, head.find_first_of(blanks));
+        head.remove_prefix(word.size());
+        return word;
+    };
+    std::string_view word = next_word();
+    while (word.starts_with('#')) {
+        head.remove_prefix(std::min(head.find('\n'), head.size()));
+        word = next_word();
+    }
+    if (word.empty()) return true; // remarks alone, so far
+    if (word == "v") return next_word() == "from";
+    static constexpr std::array<std::string_view, 7> others = {"b", "c", "f", "l", "p", "pp", "s"};
+    return std::find(others.begin(), others.end(), word) != others.end() && is_number(next_word());
+}
+
 bool is_json(InputFile& file) {
     std::string ending = std::filesystem::path(file.name()).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
@@ -36,7 +59,12 @@ bool is_json(InputFile& file) {
     if (ending == ".nff") return false;
     if (is_binary(file.head()))
         throw BadInput(file.name(), "", "must be a scene in JSON or NFF, got a binary file");
-    return looks_like_json(file.head());
+    if (looks_like_json(file.head())) return true;
+    if (!looks_like_nff(file.head()))
+        throw BadInput(
+            file.name(), "",
+            "must be a scene in JSON (.json) or NFF (.nff), and what it holds is neither");
+    return false;
 }
 
 core::Scene read_scene(InputFile& file, const LoadOptions& options) {

@@ -83,6 +83,7 @@ float radiance_component(float value) {
 OutputFile::OutputFile(const std::filesystem::path& path) : format_(format_of(path)), file_(path) {}
 
 OutputFile::Format OutputFile::format_of(const std::filesystem::path& path) {
+    if (path == "-") return Format::png;
     std::string ending = path.extension().string();
     for (char& c : ending)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

@@ -7,7 +7,8 @@
 namespace raylane::scenes {
 
 /// A picture's file. Its ending tells the format: .png (8 bits through the transfer curve), .hdr
-/// (Radiance, linear, a shared exponent) or .pfm (linear floats, unchanged).
+/// (Radiance, linear, a shared exponent) or .pfm (linear floats, unchanged). "-" is standard
+/// output, in PNG.
 class OutputFile {
   public:
     /// Throws BadInput if the ending is none of these, SystemRefused if the file cannot be written,

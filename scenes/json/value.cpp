@@ -1,6 +1,7 @@
 #include "scenes/json/value.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "scenes/number.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -179,7 +180,11 @@ void JsonValue::fail_expecting(std::string_view expected) const {
 void JsonValue::fail(const core::InvalidValue& invalid) const {
     InputError wrong = error(invalid.expectation);
     if (!invalid.field.empty()) wrong.place.append("/").append(invalid.field);
-    wrong.position = toward(invalid.field).positions().value;
+    const JsonValue at = toward(invalid.field);
+    wrong.position = at.positions().value;
+    if (at.type() == JsonType::number && invalid.expectation.ends_with("got 0") &&
+        vanishes_in_float(at.quoted()))
+        wrong.message.append(", the float nearest to ").append(at.quoted());
     throw BadInput({wrong});
 }
 
@@ -236,7 +241,7 @@ std::vector<JsonValue> JsonValue::array(std::size_t count, std::string_view elem
 
 float JsonValue::number() const {
     require(JsonType::number);
-    if (std::isinf(node().number)) fail_expecting("a number that fits a float (at most 3.4e38)");
+    if (std::isinf(node().number)) fail_expecting("a number from -1e30 to 1e30");
     return node().number;
 }
 

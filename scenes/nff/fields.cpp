@@ -14,13 +14,19 @@ bool NffFields::next_entity() {
     entity_ = word;
     line_ = scanner_.line();
     vertex_ = 0;
+    vanished_.clear();
     return !word.empty();
 }
 
 float NffFields::number(std::string_view field) {
     const std::string_view word = scanner_.word();
-    if (const std::optional<float> value = to_float(word)) return *value;
-    refuse(field, "must be a finite number", in_quotes(word));
+    if (const std::optional<float> value = to_float(word)) {
+        if (*value == 0.0F && vanishes_in_float(word)) vanished_ = word;
+        return *value;
+    }
+    refuse(field,
+           is_number(word) ? "must be a number from -1e30 to 1e30" : "must be a finite number",
+           in_quotes(word));
 }
 
 int NffFields::whole_number(std::string_view field, int least, int most) {
@@ -60,6 +66,13 @@ void NffFields::refuse(std::string_view field, std::string_view must, std::strin
         message += ": vertex " + std::to_string(vertex_) + " of " + std::to_string(vertex_count_);
     if (!field.empty()) message.append(": ").append(field);
     fail(scanner_.line(), message.append(": ").append(must).append(", got ").append(what));
+}
+
+void NffFields::refuse(const core::InvalidValue& invalid) const {
+    std::string message = entity_ + ": " + invalid.what();
+    if (!vanished_.empty() && message.ends_with("got 0"))
+        message.append(", the float nearest to ").append(printable(vanished_));
+    fail(line_, message);
 }
 
 std::string in_quotes(std::string_view word) {

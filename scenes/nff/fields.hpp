@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/numbers/vector.hpp"
+#include "core/shapes/invalid_value.hpp"
 #include "scenes/nff/scanner.hpp"
 
 #include <string>
@@ -35,6 +36,8 @@ class NffFields {
     /// "line N: entity: field: must, got what": N is where the last word is.
     [[noreturn]] void refuse(std::string_view field, std::string_view must,
                              std::string_view what) const;
+    /// For what core says of the entity.
+    [[noreturn]] void refuse(const core::InvalidValue& invalid) const;
     /// "line N: message" for another place.
     [[noreturn]] void fail(std::uint64_t line, std::string_view message) const {
         scanner_.fail(line, message);
@@ -46,6 +49,7 @@ class NffFields {
     std::uint64_t line_ = 0;
     int vertex_ = 0;
     int vertex_count_ = 0;
+    std::string vanished_; // the latest number of the entity whose float is 0, and it is not
 };
 
 /// A word of a file as a message quotes it.

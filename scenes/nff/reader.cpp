@@ -85,7 +85,7 @@ core::Scene Reader::read() {
         try {
             read_entity();
         } catch (const InvalidValue& invalid) {
-            fields_.fail(fields_.line(), fields_.entity() + ": " + invalid.what());
+            fields_.refuse(invalid);
         }
         if (!reserved_ && fields_.bytes_passed() >= sample_size) reserve_rest();
     }

@@ -17,6 +17,7 @@ namespace {
 /// True if both names lead to one file, there or not. Devices can be written twice.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code unknown;
+    if (a == "-" || b == "-") return false; // standard input and output
     if (std::filesystem::is_other(a, unknown)) return false;
     if (std::filesystem::equivalent(a, b, unknown)) return true;
     const auto resolved = [&](const std::filesystem::path& path) {

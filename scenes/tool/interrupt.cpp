@@ -41,7 +41,7 @@ bool is_ignored(int signal) {
 } // namespace
 
 void catch_signals() {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2})
         if (!is_ignored(signal)) on(signal, end_process);
     on(SIGPIPE, SIG_IGN);
     on(SIGXFSZ, SIG_IGN);

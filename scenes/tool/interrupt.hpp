@@ -3,9 +3,9 @@
 /// Ctrl-C and its kin, which may come at any moment.
 namespace raylane::scenes {
 
-/// Makes SIGINT, SIGTERM and SIGHUP, from now on, remove the temporaries and end the process at
-/// once, with 128 + the signal's number; and writes to closed pipes and beyond file size limits
-/// fail rather than kill.
+/// Makes SIGINT, SIGTERM, SIGHUP and all others that come from outside to end a process, from now
+/// on, remove the temporaries and end it at once, with 128 + the signal's number; and writes to
+/// closed pipes and beyond file size limits fail rather than kill.
 void catch_signals();
 
 /// True if a signal is ending the process at this moment, in another thread: nothing shall be shown

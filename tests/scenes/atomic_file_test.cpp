@@ -265,3 +265,78 @@ TEST_CASE("what is no regular file is written directly") {
     std::signal(SIGPIPE, previous);
     CHECK(directory.file_count() == 2);
 }
+
+TEST_CASE("a file that is open already is written from where it stands") {
+    const TemporaryDirectory directory;
+    const auto path = directory.write("log", "");
+    const int log = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    REQUIRE(log >= 0);
+    const auto put = [&](std::string_view text) {
+        REQUIRE(::write(log, text.data(), text.size()) == static_cast<ssize_t>(text.size()));
+    };
+    const std::string number = std::to_string(log);
+    std::filesystem::create_symlink("/dev/fd/" + number, directory.path() / "link");
+    put("before ");
+    for (const std::filesystem::path& name :
+         {std::filesystem::path("/proc/self/fd/" + number), directory.path() / "link"}) {
+        scenes::AtomicFile file(name);
+        file.write(std::string_view("amid "));
+        file.commit();
+    }
+    put("behind");
+    ::close(log);
+    CHECK(content_of(path) == "before amid amid behind");
+    CHECK(directory.file_count() == 2);
+
+    const int reading = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const std::filesystem::path read_only = "/dev/fd/" + std::to_string(reading);
+    CHECK(tests::message_of<scenes::SystemRefused>([&] { scenes::AtomicFile file(read_only); }) ==
+          read_only.string() + ": cannot write: Bad file descriptor");
+    ::close(reading);
+}
+
+TEST_CASE("a dash is standard output") {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "out";
+    CHECK(holds_in_child([&] {
+        const int out = ::open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+        ::dup2(out, STDOUT_FILENO);
+        write("-");
+        return true;
+    }));
+    std::filesystem::rename(path, directory.path() / "out.png");
+    CHECK(is_picture(directory.path() / "out.png"));
+    CHECK(directory.file_count() == 1);
+}
+
+TEST_CASE("an owner keeps his file") {
+    const TemporaryDirectory directory;
+    const auto owner_of = [](const std::filesystem::path& path) {
+        struct stat status {};
+        REQUIRE(::stat(path.c_str(), &status) == 0);
+        return std::pair(status.st_uid, status.st_gid);
+    };
+    const auto path = directory.write("out.png", "old");
+    if (::geteuid() == 0) REQUIRE(::chown(path.c_str(), 1234, 4321) == 0);
+    std::filesystem::permissions(path, std::filesystem::perms(0640));
+    const auto owner = owner_of(path);
+    write(path);
+    CHECK(is_picture(path));
+    CHECK(owner_of(path) == owner);
+    CHECK(mode_of(path) == 0640);
+
+    // Somebody who may write it, but not give files away.
+    const auto shared = directory.write("shared.png", std::string(100000, 'x'));
+    std::filesystem::permissions(shared, std::filesystem::perms(0666));
+    std::filesystem::permissions(directory.path(), std::filesystem::perms(0777));
+    const auto first_owner = owner_of(shared);
+    CHECK(holds_in_child([&] {
+        become_nobody();
+        write(shared);
+        return true;
+    }));
+    CHECK(is_picture(shared));
+    CHECK(owner_of(shared) == first_owner);
+    CHECK(mode_of(shared) == 0666);
+    CHECK(directory.file_count() == 2);
+}

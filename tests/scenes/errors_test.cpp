@@ -18,6 +18,14 @@ TEST_CASE("an unknown word brings the nearest known one") {
     CHECK(suggestion("anything", {}).empty());
     CHECK(suggestion("sise", {"size", "spp"}, "--") == ", did you mean \"--size\"?");
     CHECK(suggestion("zzz", {"size"}, "--").empty());
+    // What other programs call it.
+    CHECK(suggestion("fov", {"from", "field_of_view"}) == ", did you mean \"field_of_view\"?");
+    CHECK(suggestion("spp", {"image", "sampling"}) == ", did you mean \"sampling\"?");
+    CHECK(suggestion("ior", {"color", "index"}) == ", did you mean \"index\"?");
+    CHECK(suggestion("look_at", {"from", "at"}) == ", did you mean \"at\"?");
+    CHECK(suggestion("opacity", {"exponent", "transmission"}) ==
+          ", did you mean \"transmission\"?");
+    CHECK(suggestion("opacity", {"center"}).empty());
 }
 
 TEST_CASE("alternatives read as in a sentence") {

@@ -183,11 +183,13 @@ TEST_CASE("complaints about words") {
 TEST_CASE("complaints about numbers") {
     check({
         {object("sphere", R"("center": [0, 0, 0], "radius": 1e39)"),
-         "/objects/1/radius: must be a number that fits a float (at most 3.4e38), got 1e39"},
+         "/objects/1/radius: must be a number from -1e30 to 1e30, got 1e39"},
         {object("sphere", R"("center": [0, -1e999, 0], "radius": 1)"),
-         "/objects/1/center/1: must be a number that fits a float (at most 3.4e38), got -1e999"},
+         "/objects/1/center/1: must be a number from -1e30 to 1e30, got -1e999"},
         {object("sphere", R"("center": [0, 2e30, 0], "radius": 1)"),
          "/objects/1/center/1: must be a number from -1e30 to 1e30, got 2e+30"},
+        {object("sphere", R"("center": [0, 0, 0], "radius": 1e-60)"),
+         "/objects/1/radius: must be positive, got 0, the float nearest to 1e-60"},
         {object("sphere", R"("center": [0, 0, 0], "radius": 0)"),
          "/objects/1/radius: must be positive, got 0"},
         {object("sphere", R"("center": [0, 0, 0], "radius": -1)"),

@@ -1,6 +1,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 using namespace raylane::scenes;
@@ -33,4 +34,41 @@ TEST_CASE("a scene's format follows the content where the ending says nothing") 
     CHECK(distance_in("// a comment\n" + json, ending) == 9.0F);
     CHECK(distance_in(nff, ending) == 7.0F);
     CHECK(distance_in("# a comment {\n\n" + nff, ending) == 7.0F);
+}
+
+TEST_CASE("a file of another kind is told from a scene with a mistake") {
+    const auto error_of = [](const std::string& text, const std::string& ending) {
+        return raylane::tests::message_of<BadInput>([&] { parse_scene("a" + ending, text); });
+    };
+    const std::string neither =
+        ": must be a scene in JSON (.json) or NFF (.nff), and what it holds is neither";
+    const std::string pdb = "HEADER    HYDROLASE\nATOM      1  N   PRO A   1      29.361  39.686\n";
+    const std::string obj = "# a cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+    CHECK(error_of(pdb, ".pdb") == "a.pdb" + neither);
+    CHECK(error_of(obj, ".obj") == "a.obj" + neither);
+    CHECK(error_of("3\n\nC 0 0 0\n", ".xyz") == "a.xyz" + neither);
+    CHECK(error_of("s one\n", "") == "a" + neither);
+    // Here it is clear what was meant.
+    CHECK(error_of(pdb, ".nff").starts_with("a.nff:1: "));
+    CHECK(error_of("# nothing\n\nv\nfrom 0 0 no\n", "").starts_with("a:4: "));
+}
+
+TEST_CASE("a file that changes while it is read is no shorter scene") {
+    std::string text = nff;
+    while (text.size() < 300'000)
+        text += "s 0 0 0 1\n";
+    for (const bool longer : {false, true}) {
+        const TemporaryFile file(text, ".nff");
+        LoadOptions options;
+        options.on_read = [&, changed = false](std::uint64_t, std::uint64_t) mutable {
+            if (changed) return;
+            changed = true;
+            std::filesystem::resize_file(file.path(), text.size() + (longer ? 10 : -100'000));
+        };
+        const std::string message =
+            raylane::tests::message_of<BadInput>([&] { load_scene(file.path(), options); });
+        CHECK(message == file.path().string() + ": must not change while it is read: it had " +
+                             std::to_string(text.size()) + " bytes, and now has " +
+                             std::to_string(text.size() + (longer ? 10 : -100'000)));
+    }
 }

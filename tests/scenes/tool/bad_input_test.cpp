@@ -81,6 +81,8 @@ TEST_CASE("what is no file that holds a scene is told in one line") {
         {"JSON of nothing", "a.json", " // nothing\n", "must be a scene, got an empty file"},
         {"NFF of nothing", "a.nff", "# nothing\n", "must have a v entity, got none"},
         {"no scene at all", "a", "Dear Sir,\n",
+         "must be a scene in JSON (.json) or NFF (.nff), and what it holds is neither"},
+        {"no NFF at all", "a.nff", "Dear Sir,\n",
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "Dear")"},
         {"a binary JSON file", "a.json",
          std::string("\x7F"
@@ -109,7 +111,7 @@ TEST_CASE("what is no JSON, or not a scene's, is told in one line") {
         {"infinity", "a.json", "{\"background\":\n [0, Infinity, 0]}",
          "must be a value, got Infinity"},
         in_object("too large a number", R"("type": "sphere", "center": [0, 0, 0], "radius": 1e39)",
-                  "/radius: must be a number that fits a float (at most 3.4e38), got 1e39"),
+                  "/radius: must be a number from -1e30 to 1e30, got 1e39"),
         in_scene("unknown key", R"("light": [])", R"(unknown key "light", did you mean "lights"?)"),
         in_object("unknown key in an object",
                   R"("type": "sphere", "center": [0, 0, 0], "raduis": 1)",

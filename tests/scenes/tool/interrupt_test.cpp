@@ -37,7 +37,7 @@ void check_end(const Workshop& workshop, Process& process, int signal) {
 } // namespace
 
 TEST_CASE("an interrupted rendering ends soon and leaves nothing") {
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
         const Workshop workshop;
         Process process = workshop.start(render_for_hours);
         REQUIRE(workshop.wait_for_files(2));
