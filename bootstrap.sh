@@ -17,11 +17,13 @@ libxsimd-dev        SIMD registers
 libtbb-dev          threads
 nlohmann-json3-dev  reads JSON scenes
 libcli11-dev        reads the command line
-libstb-dev          reads and writes pictures
+libstb-dev          writes pictures
 zlib1g-dev          compresses them
+libpng-dev          reads PNG
 libbenchmark-dev    measures speed
 catch2              runs the tests
 libboost-dev        the tests'"'"' 100-digit oracle
+pkgconf             the test of what is installed
 python3-jsonschema  the test of the JSON Schema
 gappa               proves the kernels'"'"' error bounds
 '

@@ -21,19 +21,20 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
     Rendering rendering{core::Film(settings.width, settings.height), {}};
     tbb::enumerable_thread_specific<Tracer> tracers(make_tracer);
     const auto is_stopped = [&] { return options.progress != nullptr && options.progress->stop; };
-    for_each_tile(settings.width, settings.height, tile, options.threads,
-                  [&](const core::Region& region) {
-                      if (is_stopped()) return;
-                      Tracer& tracer = tracers.local();
-                      const std::uint64_t rays_before = tracer.counters().rays();
-                      tracer.render(region, rendering.film);
-                      if (options.progress != nullptr) {
-                          options.progress->rays += tracer.counters().rays() - rays_before;
-                          options.progress->pixels += region.pixels();
-                      }
-                      // Isolated: what it waits for shall not make it draw another tile.
-                      if (options.after_tile) tbb::this_task_arena::isolate(options.after_tile);
-                  });
+    for_each_tile(
+        settings.width, settings.height, tile, options.threads, [&](const core::Region& region) {
+            if (is_stopped()) return;
+            Tracer& tracer = tracers.local();
+            const std::uint64_t rays_before = tracer.counters().rays();
+            tracer.render(region, rendering.film);
+            if (options.progress != nullptr) {
+                options.progress->rays += tracer.counters().rays() - rays_before;
+                options.progress->pixels += region.pixels();
+            }
+            // Isolated: what it waits for shall not make it draw another tile.
+            if (options.after_tile)
+                tbb::this_task_arena::isolate([&] { options.after_tile(region, rendering.film); });
+        });
     rendering.complete = !is_stopped();
     for (const Tracer& tracer : tracers)
         rendering.counters += tracer.counters();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/film.hpp"
+#include "core/scene/region.hpp"
 #include "core/scene/scene.hpp"
 #include "core/shapes/precision.hpp"
 #include "simd/engine_counters.hpp"
@@ -34,8 +35,9 @@ struct RenderOptions {
     core::Precision precision = core::Precision::exact;
     int threads = 0; ///< 0: all that the machine has
     Progress* progress = nullptr;
-    /// Called behind each tile by the thread that has drawn it, so by several at a time.
-    std::function<void()> after_tile;
+    /// Called behind each tile by the thread that has drawn it, so by several at a time. The film
+    /// is not to be read but in that tile.
+    std::function<void(const core::Region&, const core::Film&)> after_tile;
 };
 
 struct Rendering {

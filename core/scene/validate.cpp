@@ -9,6 +9,7 @@ using namespace checks;
 namespace {
 
 void validate(const Pattern& pattern) {
+    require_enumerator("kind", pattern.kind, PatternKind::back_plane);
     validate_color("colors/0", pattern.colors[0]);
     validate_color("colors/1", pattern.colors[1]);
     require_positive("size", pattern.size);
@@ -38,19 +39,23 @@ void validate(const Material& material) {
     require_not_negative("diffuse", material.diffuse);
     require_not_negative("specular", material.specular);
     require_not_negative("exponent", material.exponent);
+    require_enumerator("reflection", material.reflection, Reflection::dielectric);
     require_fraction("reflectivity", material.reflectivity);
     require_fraction("transmission", material.transmission);
     require_positive("index", material.index);
     validate_color("absorption", material.absorption);
+    require_enumerator("visible", material.visible, Visible::inside);
 }
 
 void validate(const Light& light) {
+    require_enumerator("kind", light.kind, LightKind::directional);
     require_point("position", light.position);
     if (light.kind == LightKind::directional) require_direction("direction", light.direction);
     validate_color("color", light.color);
 }
 
 void validate(const Fog& fog) {
+    require_enumerator("kind", fog.kind, FogKind::exponential);
     if (fog.kind == FogKind::none) return;
     validate_color("color", fog.color);
     if (fog.kind == FogKind::exponential) {
@@ -68,6 +73,7 @@ void validate(const Fog& fog) {
 }
 
 void validate(const Camera& camera) {
+    require_enumerator("projection", camera.projection, Projection::orthographic);
     require_point("from", camera.from);
     require_point("at", camera.at);
     require_direction("up", camera.up);
@@ -94,6 +100,8 @@ void validate(const Settings& settings) {
                                         " pixels, got " + std::to_string(settings.width) + " x " +
                                         std::to_string(settings.height));
     require_count("grid", settings.grid, 1, Settings::max_grid);
+    require_enumerator("samples", settings.samples, SamplePattern::stratified);
+    require_enumerator("transfer", settings.transfer, Transfer::linear);
     require_count("max_depth", settings.max_depth, 0, Settings::depth_limit);
     require_fraction("min_weight", settings.min_weight);
 }

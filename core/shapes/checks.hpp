@@ -47,6 +47,14 @@ void require_positive(const Field& field, float value);
 void require_not_negative(const Field& field, float value);
 void require_fraction(const Field& field, float value);
 void require_count(const char* field, int value, int least, int most);
+/// Requires an enumerator: one from 0 to `last`.
+template <class Enum>
+void require_enumerator(const char* field, Enum value, Enum last) {
+    if (value > last)
+        throw InvalidValue(field, "must be one of its enumerators, 0 to " +
+                                      std::to_string(static_cast<unsigned>(last)) + ", got " +
+                                      std::to_string(static_cast<unsigned>(value)));
+}
 
 /// Requires three vectors, fields name/0 to name/2, to span a volume.
 void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Vec3f& w);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
+#include <memory>
 #include <new>
 #include <optional>
 #include <span>
@@ -150,6 +152,12 @@ raylane_settings to_c(const Settings& s) {
             s.max_depth, s.min_weight};
 }
 
+raylane_progress to_c(const Progress& progress) {
+    const Tile& tile = progress.tile;
+    return {progress.pixels, progress.total_pixels, progress.rays, tile.x,           tile.y,
+            tile.width,      tile.height,           tile.rgb,      tile.floats_a_row};
+}
+
 /// Adds shapes that have the same floats in the same order.
 template <class Shape, class CShape>
 raylane_status add(raylane_builder* builder, const CShape* shapes, std::size_t count,
@@ -228,11 +236,15 @@ raylane_status scene_of(raylane_scene** scene, const Make& make) noexcept {
     return guarded([&] {
         raylane_scene*& to = checked("scene", scene);
         to = nullptr;
-        to = new raylane_scene{make()};
+        to = std::make_unique<raylane_scene>(raylane_scene{make()}).release();
     });
 }
 
 } // namespace
+
+const char* raylane_version(void) {
+    return version();
+}
 
 const char* raylane_error_text(void) {
     return error_text.c_str();
@@ -381,6 +393,14 @@ size_t raylane_material_count(const raylane_scene* scene) {
     return scene != nullptr ? scene->scene.material_count() : 0;
 }
 
+void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower, raylane_vec3* upper) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    if (scene != nullptr) bounds = scene->scene.bounds();
+    if (lower != nullptr) *lower = to_c(bounds.lower);
+    if (upper != nullptr) *upper = to_c(bounds.upper);
+}
+
 raylane_settings raylane_scene_settings(const raylane_scene* scene) {
     return to_c(scene != nullptr ? scene->scene.settings() : Settings{});
 }
@@ -422,8 +442,8 @@ raylane_status raylane_occluded_doubles(const raylane_tracer* tracer,
 }
 
 raylane_status raylane_render(const raylane_scene* scene, const raylane_settings* settings,
-                              int threads, int precision, raylane_progress progress, void* user,
-                              float* rgb) {
+                              int threads, int precision, raylane_progress_callback progress,
+                              void* user, float* rgb) {
     return guarded([&] {
         static_cast<void>(checked("rgb", rgb));
         RenderOptions options;
@@ -432,8 +452,9 @@ raylane_status raylane_render(const raylane_scene* scene, const raylane_settings
         options.precision = enum_from_int<Precision>("precision", precision);
         const std::optional<Image> image =
             render(checked("scene", scene).scene, options, [&](const Progress& done) {
-                return progress == nullptr ||
-                       progress(done.pixels, done.total_pixels, done.rays, user) != 0;
+                if (progress == nullptr) return true;
+                const raylane_progress told = to_c(done);
+                return progress(&told, user) != 0;
             });
         if (!image) return failed(RAYLANE_CANCELLED, "cancelled");
         std::copy(image->rgb.begin(), image->rgb.end(), rgb);

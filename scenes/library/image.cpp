@@ -47,6 +47,16 @@ Image image_of(const core::Film& film) {
     return image;
 }
 
+Tile tile_of(const core::Film& film, const core::Region& region) {
+    static_assert(sizeof(core::Color) == 3 * sizeof(float));
+    return {region.x0,
+            region.y0,
+            region.x1 - region.x0,
+            region.y1 - region.y0,
+            &film.at(region.x0, region.y0).x,
+            std::size_t{3} * film.width()};
+}
+
 void require_side(const char* field, int pixels) {
     if (pixels < 1 || pixels > core::Settings::max_size)
         throw InvalidValue(field, "must be from 1 to " + std::to_string(core::Settings::max_size) +
@@ -75,11 +85,11 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     inner.threads = options.threads;
     inner.precision = precision_for(scene, settings, options);
     inner.progress = &made;
-    inner.after_tile = [&] {
+    inner.after_tile = [&](const core::Region& region, const core::Film& film) {
         const std::lock_guard lock(calling);
         if (has_ended) return;
         has_ended = true;
-        has_ended = !progress({made.pixels, total, made.rays});
+        has_ended = !progress({made.pixels, total, made.rays, tile_of(film, region)});
         made.stop = has_ended;
     };
     const simd::Rendering rendering = render_with(scene, settings, inner);
@@ -90,6 +100,7 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
 void write_image(const std::filesystem::path& path, const Image& image, Transfer transfer) {
     require_side("width", image.width);
     require_side("height", image.height);
+    if (transfer > Transfer::linear) throw InvalidValue("transfer", "must be a Transfer");
     if (image.rgb.size() != std::size_t{3} * image.width * image.height)
         throw InvalidValue("rgb", "must be 3 components for each of " +
                                       std::to_string(image.width) + " x " +

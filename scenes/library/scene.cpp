@@ -39,6 +39,11 @@ std::size_t Scene::material_count() const {
     return scene_->materials().size();
 }
 
+Bounds Scene::bounds() const {
+    const core::Bounds& bounds = scene_->hierarchy().bounds;
+    return {converted<Vec3>(bounds.lower), converted<Vec3>(bounds.upper)};
+}
+
 MaterialIndex Scene::material_of(ShapeId shape) const {
     require_index(shape, shape_count(), "shapes");
     return scene_->material_index_of(shape);
@@ -72,24 +77,39 @@ Settings Scene::settings() const {
     return converted<Settings>(scene_->settings());
 }
 
-SceneBuilder::SceneBuilder() : builder_(std::make_unique<core::SceneBuilder>()) {}
+SceneBuilder::SceneBuilder() = default;
 SceneBuilder::~SceneBuilder() = default;
-SceneBuilder::SceneBuilder(SceneBuilder&&) noexcept = default;
-SceneBuilder& SceneBuilder::operator=(SceneBuilder&&) noexcept = default;
+SceneBuilder::SceneBuilder(SceneBuilder&& other) noexcept {
+    *this = std::move(other);
+}
+SceneBuilder& SceneBuilder::operator=(SceneBuilder&& other) noexcept {
+    if (this == &other) return *this;
+    camera = std::exchange(other.camera, {});
+    background = std::exchange(other.background, {});
+    fog = std::exchange(other.fog, {});
+    settings = std::exchange(other.settings, {});
+    builder_ = std::move(other.builder_);
+    return *this;
+}
+
+core::SceneBuilder& SceneBuilder::builder() {
+    if (builder_ == nullptr) builder_ = std::make_unique<core::SceneBuilder>();
+    return *builder_;
+}
 
 MaterialIndex SceneBuilder::add_material(const Material& material) {
-    return translated([&] { return builder_->add_material(converted<core::Material>(material)); });
+    return translated([&] { return builder().add_material(converted<core::Material>(material)); });
 }
 
 void SceneBuilder::add_light(const Light& light) {
-    translated([&] { builder_->add_light(converted<core::Light>(light)); });
+    translated([&] { builder().add_light(converted<core::Light>(light)); });
 }
 
 #define RAYLANE_ADD(Shape, name, text)                                                             \
     template <>                                                                                    \
     ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {                        \
         return translated(                                                                         \
-            [&] { return builder_->add(library::core_shape<core::Shape>(shape), material); });     \
+            [&] { return builder().add(library::core_shape<core::Shape>(shape), material); });     \
     }
 RAYLANE_SHAPES(RAYLANE_ADD)
 #undef RAYLANE_ADD
@@ -101,7 +121,7 @@ ShapeId SceneBuilder::add_polygon_as(std::span<const Shape> triangles, MaterialI
     for (const Shape& triangle : triangles)
         converted_triangles.push_back(library::core_shape<CoreShape>(triangle));
     return translated([&] {
-        return builder_->add_polygon(std::span<const CoreShape>(converted_triangles), material);
+        return builder().add_polygon(std::span<const CoreShape>(converted_triangles), material);
     });
 }
 
@@ -114,12 +134,12 @@ ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle> triangles,
 }
 
 std::size_t SceneBuilder::shape_count() const {
-    return builder_->shape_count();
+    return builder_ != nullptr ? builder_->shape_count() : 0;
 }
 
 Scene SceneBuilder::build() {
-    const SceneBuilder taken = std::exchange(*this, SceneBuilder());
-    core::SceneBuilder& builder = *taken.builder_;
+    SceneBuilder taken = std::move(*this);
+    core::SceneBuilder& builder = taken.builder();
     library::copy(taken.camera, builder.camera);
     library::copy(taken.background, builder.background);
     library::copy(taken.fog, builder.fog);

@@ -1,6 +1,7 @@
 #include "core/shapes/invalid_value.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/library/raylane/version.h"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/usage.hpp"

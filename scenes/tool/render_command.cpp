@@ -1,6 +1,7 @@
 #include "core/scene/method_choice.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/image/writer.hpp"
+#include "scenes/library/raylane/version.h"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/loading.hpp"
@@ -44,7 +45,7 @@ struct Times {
 
 std::string default_output(const std::filesystem::path& scene) {
     // A name that ends in a slash has no stem. It is refused when it is to be read.
-    return scene.has_stem() ? scene.stem().concat(".png").string() : "scene.png";
+    return scene.has_stem() && scene != "-" ? scene.stem().concat(".png").string() : "scene.png";
 }
 
 struct Files {
@@ -226,9 +227,12 @@ Command add_render_command(CLI::App& app) {
     const auto add = [&](const char* names, Argument& value, const char* help, const char* type) {
         add_option(*command, names, value, help, type);
     };
-    add_positional(*command, "SCENE", arguments->scene, "A scene in JSON or NFF");
+    add_positional(*command, "SCENE", arguments->scene,
+                   "A scene in JSON or NFF; - is standard input");
     add("-o,--output", arguments->output,
-        "The picture: .png, .hdr or .pfm (default: the scene's name, .png)", "FILE");
+        "The picture: .png, .hdr or .pfm, or - for a PNG to standard output (default: the "
+        "scene's name, .png)",
+        "FILE");
     add("--size", arguments->size, "Pixels (default: as the scene says)", "WxH");
     add("--spp", arguments->samples,
         "Samples per pixel, a square number (default: as the scene says)", "N");
@@ -255,7 +259,8 @@ Command add_render_command(CLI::App& app) {
         "NAME");
     add("--transfer", arguments->transfer,
         "From light to PNG: srgb or linear (default: as the scene says)", "CURVE");
-    add("--stats", arguments->stats, "Write figures about the rendering as JSON", "FILE");
+    add("--stats", arguments->stats,
+        "Write figures about the rendering as JSON; - is standard output", "FILE");
     command->footer("Example: raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");
     return {command, [arguments] { return render(*arguments); }};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "raylane/api.h"
+
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
@@ -8,7 +10,7 @@
 #include <vector>
 
 /// The errors. What they say is one line, but for a BadInput that holds several mistakes.
-namespace raylane {
+namespace RAYLANE_API raylane {
 
 /// A value that no scene may hold, or that no function may be called with.
 ///

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "raylane/api.h"
 #include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 
@@ -10,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace raylane {
+namespace RAYLANE_API raylane {
 
 /// A picture in linear float RGB. Components are >= 0 and may exceed 1.
 struct Image {
@@ -20,7 +21,9 @@ struct Image {
 
     /// The pixel in column x from the left, row y from the top.
     Color at(int x, int y) const {
-        const float* pixel = rgb.data() + 3 * (static_cast<std::size_t>(y) * width + x);
+        const float* pixel =
+            rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                              static_cast<std::size_t>(x));
         return {pixel[0], pixel[1], pixel[2]};
     }
 };
@@ -31,11 +34,28 @@ struct RenderOptions {
     Precision precision = Precision::exact;
 };
 
+/// Part of a picture, where the picture is drawn: not to be read behind the call that it is an
+/// argument of.
+struct Tile {
+    int x = 0, y = 0;             ///< of the picture's pixel that is the tile's upper left one
+    int width = 0, height = 0;    ///< pixels
+    const float* rgb = nullptr;   ///< linear components of the upper left pixel, then of its row
+    std::size_t floats_a_row = 0; ///< from a pixel to the one below
+
+    /// The pixel in the tile's column from the left, row from the top.
+    Color at(int column, int row) const {
+        const float* pixel = rgb + static_cast<std::size_t>(row) * floats_a_row +
+                             3 * static_cast<std::size_t>(column);
+        return {pixel[0], pixel[1], pixel[2]};
+    }
+};
+
 /// Progress of a rendering.
 struct Progress {
     std::int64_t pixels = 0;       ///< done
     std::int64_t total_pixels = 0; ///< of the picture
     std::uint64_t rays = 0;        ///< traced, of all kinds
+    Tile tile;                     ///< done last; no two share a pixel
 };
 
 /// Hears of progress, and answers whether to continue.
@@ -45,20 +65,20 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// whatever the threads and the processor. May be called by several threads at a time. Throws
 /// InvalidValue for options that are none (fields "settings/width", ..., "threads", "precision"),
 /// and std::bad_alloc.
-Image render(const Scene& scene, const RenderOptions& options = {});
+RAYLANE_API Image render(const Scene& scene, const RenderOptions& options = {});
 
-/// The same, with a callback: called after every tile of some hundred pixels or more, by whichever
+/// The same, with a callback: called with every tile of some hundred pixels or more, by whichever
 /// thread has drawn it, never by two at a time, so it should be quick. Once it returns false it is
 /// not called again, the tiles under way are finished, and there is no picture. What it throws
 /// comes out.
-std::optional<Image> render(const Scene& scene, const RenderOptions& options,
-                            const ProgressCallback& progress);
+RAYLANE_API std::optional<Image> render(const Scene& scene, const RenderOptions& options,
+                                        const ProgressCallback& progress);
 
 /// Writes a picture; the file's ending tells the format: .png (8 bits through the transfer curve),
 /// .hdr (Radiance) or .pfm (the floats unchanged). The file appears whole or not at all. Throws
 /// InvalidValue for an image whose size is not that of its pixels, BadInput for another ending, and
 /// SystemRefused.
-void write_image(const std::filesystem::path& path, const Image& image,
-                 Transfer transfer = Transfer::srgb);
+RAYLANE_API void write_image(const std::filesystem::path& path, const Image& image,
+                             Transfer transfer = Transfer::srgb);
 
 } // namespace raylane

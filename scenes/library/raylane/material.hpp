@@ -1,10 +1,11 @@
 #pragma once
 
+#include "raylane/api.h"
 #include "raylane/vector.hpp"
 
 #include <cstdint>
 
-namespace raylane {
+namespace RAYLANE_API raylane {
 
 enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_plane };
 

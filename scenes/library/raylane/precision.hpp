@@ -1,8 +1,10 @@
 #pragma once
 
+#include "raylane/api.h"
+
 #include <cstdint>
 
-namespace raylane {
+namespace RAYLANE_API raylane {
 
 /// Method by which the hits of rays are found. `exact` decides as real arithmetic does for the
 /// numbers given, and is hardly slower than `robust`: the others are there to compare with, and for

@@ -1,14 +1,19 @@
-/* The library for C, and for all that can call C. Handles are opaque, no exception comes across, and
- * arrays are the caller's.
+/** @file
+ * The library for C, and for all that can call C. Handles are opaque, no exception comes across,
+ * and arrays are the caller's.
  *
- * Each call returns RAYLANE_OK, or what went wrong; raylane_error_text() says it in one line. What a
- * value may be, what the answers mean and how threads may call is what the C++ headers say of the same
- * names: shapes.hpp, material.hpp, surroundings.hpp, scene.hpp, tracer.hpp, image.hpp.
+ * Each call returns RAYLANE_OK, or what went wrong; raylane_error_text() says it in one line. What
+ * a value may be, what the answers mean and how threads may call is what the C++ headers say of the
+ * same names: shapes.hpp, material.hpp, surroundings.hpp, scene.hpp, tracer.hpp, image.hpp.
  *
- * Handles that a call makes are released by the caller. A tracer keeps its scene. NULL is no handle; to
- * release it does nothing. */
+ * Handles that a call makes are released by the caller. A tracer keeps its scene. NULL is no
+ * handle; to release it does nothing. */
 #ifndef RAYLANE_H
 #define RAYLANE_H
+/* NOLINTBEGIN: this is C. */
+
+#include "raylane/api.h"
+#include "raylane/version.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -17,18 +22,21 @@
 extern "C" {
 #endif
 
+/** Version of the library that the program runs with; RAYLANE_VERSION is that of this header. */
+RAYLANE_API const char* raylane_version(void);
+
 typedef enum raylane_status {
     RAYLANE_OK = 0,
-    RAYLANE_INVALID_VALUE = 1,  /* a value that no scene may hold, or no call may be made with */
-    RAYLANE_BAD_INPUT = 2,      /* a file that cannot be meant */
-    RAYLANE_SYSTEM_REFUSED = 3, /* the system would not read or write */
+    RAYLANE_INVALID_VALUE = 1,  /**< a value that no scene may hold, or no call may be made with */
+    RAYLANE_BAD_INPUT = 2,      /**< a file that cannot be meant */
+    RAYLANE_SYSTEM_REFUSED = 3, /**< the system would not read or write */
     RAYLANE_OUT_OF_MEMORY = 4,
-    RAYLANE_CANCELLED = 5, /* by the callback */
+    RAYLANE_CANCELLED = 5, /**< by the callback */
     RAYLANE_UNKNOWN = 6
 } raylane_status;
 
-/* What this thread's last call that failed has to say. Valid until it fails again. */
-const char* raylane_error_text(void);
+/** What this thread's last call that failed has to say. Valid until it fails again. */
+RAYLANE_API const char* raylane_error_text(void);
 
 typedef struct raylane_builder raylane_builder;
 typedef struct raylane_scene raylane_scene;
@@ -40,7 +48,7 @@ typedef struct raylane_vec3 {
     float x, y, z;
 } raylane_vec3;
 
-/* Shapes, as in shapes.hpp. */
+/** Shapes, as in shapes.hpp. */
 typedef struct raylane_sphere {
     raylane_vec3 center;
     float radius;
@@ -78,7 +86,7 @@ typedef struct raylane_ellipsoid {
     raylane_vec3 center, axis_u, axis_v, axis_w;
 } raylane_ellipsoid;
 
-/* Enumerators of the C++ headers, in their order. */
+/** Enumerators of the C++ headers, in their order. */
 enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_BACK_PLANE };
 enum { RAYLANE_CONSTANT, RAYLANE_SCHLICK, RAYLANE_DIELECTRIC };
 enum { RAYLANE_BOTH_SIDES, RAYLANE_OUTSIDE, RAYLANE_INSIDE };
@@ -128,68 +136,85 @@ typedef struct raylane_settings {
     float min_weight;
 } raylane_settings;
 
-/* The values that C++ starts with. */
-raylane_material raylane_default_material(void);
-raylane_light raylane_default_light(void);
-raylane_fog raylane_default_fog(void);
-raylane_camera raylane_default_camera(void);
-raylane_settings raylane_default_settings(void);
+/** The values that C++ starts with. */
+RAYLANE_API raylane_material raylane_default_material(void);
+RAYLANE_API raylane_light raylane_default_light(void);
+RAYLANE_API raylane_fog raylane_default_fog(void);
+RAYLANE_API raylane_camera raylane_default_camera(void);
+RAYLANE_API raylane_settings raylane_default_settings(void);
 
-raylane_status raylane_builder_create(raylane_builder** builder);
-void raylane_builder_release(raylane_builder* builder);
+RAYLANE_API raylane_status raylane_builder_create(raylane_builder** builder);
+RAYLANE_API void raylane_builder_release(raylane_builder* builder);
 
-raylane_status raylane_add_material(raylane_builder* builder, const raylane_material* material,
-                                    uint32_t* index);
-raylane_status raylane_add_light(raylane_builder* builder, const raylane_light* light);
-raylane_status raylane_set_fog(raylane_builder* builder, const raylane_fog* fog);
-raylane_status raylane_set_camera(raylane_builder* builder, const raylane_camera* camera);
-raylane_status raylane_set_background(raylane_builder* builder, raylane_vec3 color);
-raylane_status raylane_set_settings(raylane_builder* builder, const raylane_settings* settings);
+RAYLANE_API raylane_status raylane_add_material(raylane_builder* builder,
+                                                const raylane_material* material, uint32_t* index);
+RAYLANE_API raylane_status raylane_add_light(raylane_builder* builder, const raylane_light* light);
+RAYLANE_API raylane_status raylane_set_fog(raylane_builder* builder, const raylane_fog* fog);
+RAYLANE_API raylane_status raylane_set_camera(raylane_builder* builder,
+                                              const raylane_camera* camera);
+RAYLANE_API raylane_status raylane_set_background(raylane_builder* builder, raylane_vec3 color);
+RAYLANE_API raylane_status raylane_set_settings(raylane_builder* builder,
+                                                const raylane_settings* settings);
 
-/* `count` shapes of one material: their ids are *first, *first + 1, ...; first may be NULL. Of a list
- * in which one is not valid, those before it have been added, and the text says which one it is. */
-raylane_status raylane_add_spheres(raylane_builder* builder, const raylane_sphere* shapes,
-                                   size_t count, uint32_t material, uint32_t* first);
-raylane_status raylane_add_planes(raylane_builder* builder, const raylane_plane* shapes,
-                                  size_t count, uint32_t material, uint32_t* first);
-raylane_status raylane_add_discs(raylane_builder* builder, const raylane_disc* shapes, size_t count,
-                                 uint32_t material, uint32_t* first);
-raylane_status raylane_add_triangles(raylane_builder* builder, const raylane_triangle* shapes,
-                                     size_t count, uint32_t material, uint32_t* first);
-raylane_status raylane_add_smooth_triangles(raylane_builder* builder,
-                                            const raylane_smooth_triangle* shapes, size_t count,
-                                            uint32_t material, uint32_t* first);
-raylane_status raylane_add_boxes(raylane_builder* builder, const raylane_box* shapes, size_t count,
-                                 uint32_t material, uint32_t* first);
-raylane_status raylane_add_open_cylinders(raylane_builder* builder, const raylane_cylinder* shapes,
-                                          size_t count, uint32_t material, uint32_t* first);
-raylane_status raylane_add_capped_cylinders(raylane_builder* builder,
-                                            const raylane_cylinder* shapes, size_t count,
-                                            uint32_t material, uint32_t* first);
-raylane_status raylane_add_open_cones(raylane_builder* builder, const raylane_cone* shapes,
-                                      size_t count, uint32_t material, uint32_t* first);
-raylane_status raylane_add_capped_cones(raylane_builder* builder, const raylane_cone* shapes,
-                                        size_t count, uint32_t material, uint32_t* first);
-raylane_status raylane_add_quadrics(raylane_builder* builder, const raylane_quadric* shapes,
-                                    size_t count, uint32_t material, uint32_t* first);
-raylane_status raylane_add_ellipsoids(raylane_builder* builder, const raylane_ellipsoid* shapes,
-                                      size_t count, uint32_t material, uint32_t* first);
-/* Triangles that tile one flat polygon. */
-raylane_status raylane_add_polygon(raylane_builder* builder, const raylane_triangle* triangles,
-                                   size_t count, uint32_t material, uint32_t* first);
+/** `count` shapes of one material: their ids are *first, *first + 1, ...; first may be NULL. Of a
+ * list in which one is not valid, those before it have been added, and the text says which one it
+ * is. */
+RAYLANE_API raylane_status raylane_add_spheres(raylane_builder* builder,
+                                               const raylane_sphere* shapes, size_t count,
+                                               uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_planes(raylane_builder* builder, const raylane_plane* shapes,
+                                              size_t count, uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_discs(raylane_builder* builder, const raylane_disc* shapes,
+                                             size_t count, uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_triangles(raylane_builder* builder,
+                                                 const raylane_triangle* shapes, size_t count,
+                                                 uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_smooth_triangles(raylane_builder* builder,
+                                                        const raylane_smooth_triangle* shapes,
+                                                        size_t count, uint32_t material,
+                                                        uint32_t* first);
+RAYLANE_API raylane_status raylane_add_boxes(raylane_builder* builder, const raylane_box* shapes,
+                                             size_t count, uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_open_cylinders(raylane_builder* builder,
+                                                      const raylane_cylinder* shapes, size_t count,
+                                                      uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_capped_cylinders(raylane_builder* builder,
+                                                        const raylane_cylinder* shapes,
+                                                        size_t count, uint32_t material,
+                                                        uint32_t* first);
+RAYLANE_API raylane_status raylane_add_open_cones(raylane_builder* builder,
+                                                  const raylane_cone* shapes, size_t count,
+                                                  uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_capped_cones(raylane_builder* builder,
+                                                    const raylane_cone* shapes, size_t count,
+                                                    uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_quadrics(raylane_builder* builder,
+                                                const raylane_quadric* shapes, size_t count,
+                                                uint32_t material, uint32_t* first);
+RAYLANE_API raylane_status raylane_add_ellipsoids(raylane_builder* builder,
+                                                  const raylane_ellipsoid* shapes, size_t count,
+                                                  uint32_t material, uint32_t* first);
+/** Triangles that tile one flat polygon. */
+RAYLANE_API raylane_status raylane_add_polygon(raylane_builder* builder,
+                                               const raylane_triangle* triangles, size_t count,
+                                               uint32_t material, uint32_t* first);
 
-/* The builder is new then, whether this succeeds or not. */
-raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene);
-/* A file, by its path in the system's encoding; or a text in memory, which messages call `name`. */
-raylane_status raylane_load(const char* path, raylane_scene** scene);
-raylane_status raylane_parse(const char* text, size_t length, const char* name,
-                             raylane_scene** scene);
-void raylane_scene_release(raylane_scene* scene);
-size_t raylane_shape_count(const raylane_scene* scene);
-size_t raylane_material_count(const raylane_scene* scene);
-raylane_settings raylane_scene_settings(const raylane_scene* scene);
+/** The builder is new then, whether this succeeds or not. */
+RAYLANE_API raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene);
+/** A file, by its path in the system's encoding; or a text in memory, which messages call `name`.
+ */
+RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene);
+RAYLANE_API raylane_status raylane_parse(const char* text, size_t length, const char* name,
+                                         raylane_scene** scene);
+RAYLANE_API void raylane_scene_release(raylane_scene* scene);
+RAYLANE_API size_t raylane_shape_count(const raylane_scene* scene);
+RAYLANE_API size_t raylane_material_count(const raylane_scene* scene);
+/** Of all shapes but planes; lower > upper if there are none. */
+RAYLANE_API void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower,
+                                      raylane_vec3* upper);
+RAYLANE_API raylane_settings raylane_scene_settings(const raylane_scene* scene);
 
-/* Rays, structure of arrays: as RaySpan and DoubleRaySpan. Arrays have `count` values each; the
+/** Rays, structure of arrays: as RaySpan and DoubleRaySpan. Arrays have `count` values each; the
  * limits' and origin_* may be NULL. */
 typedef struct raylane_rays {
     size_t count;
@@ -206,7 +231,7 @@ typedef struct raylane_double_rays {
     const uint8_t *origin_face, *origin_inward;
 } raylane_double_rays;
 
-/* Hits, as HitSpan. NULL: not wanted. */
+/** Hits, as HitSpan. NULL: not wanted. */
 typedef struct raylane_hits {
     float *t, *normal_x, *normal_y, *normal_z;
     uint32_t* shape;
@@ -214,33 +239,46 @@ typedef struct raylane_hits {
     double* t_double;
 } raylane_hits;
 
-raylane_status raylane_tracer_create(const raylane_scene* scene, int threads, int precision,
-                                     raylane_tracer** tracer);
-void raylane_tracer_release(raylane_tracer* tracer);
+RAYLANE_API raylane_status raylane_tracer_create(const raylane_scene* scene, int threads,
+                                                 int precision, raylane_tracer** tracer);
+RAYLANE_API void raylane_tracer_release(raylane_tracer* tracer);
 
-raylane_status raylane_intersect(const raylane_tracer* tracer, const raylane_rays* rays,
-                                 const raylane_hits* hits);
-raylane_status raylane_intersect_doubles(const raylane_tracer* tracer,
-                                         const raylane_double_rays* rays, const raylane_hits* hits);
-raylane_status raylane_occluded(const raylane_tracer* tracer, const raylane_rays* rays,
-                                uint8_t* occluded);
-raylane_status raylane_occluded_doubles(const raylane_tracer* tracer,
-                                        const raylane_double_rays* rays, uint8_t* occluded);
+RAYLANE_API raylane_status raylane_intersect(const raylane_tracer* tracer, const raylane_rays* rays,
+                                             const raylane_hits* hits);
+RAYLANE_API raylane_status raylane_intersect_doubles(const raylane_tracer* tracer,
+                                                     const raylane_double_rays* rays,
+                                                     const raylane_hits* hits);
+RAYLANE_API raylane_status raylane_occluded(const raylane_tracer* tracer, const raylane_rays* rays,
+                                            uint8_t* occluded);
+RAYLANE_API raylane_status raylane_occluded_doubles(const raylane_tracer* tracer,
+                                                    const raylane_double_rays* rays,
+                                                    uint8_t* occluded);
 
-/* Pixels done, of how many, and rays traced. Returns 0 to cancel. */
-typedef int (*raylane_progress)(int64_t pixels, int64_t total_pixels, uint64_t rays, void* user);
+/** As Progress: `rgb` has the linear components of the tile's upper left pixel and then of its row,
+ * the row below is floats_a_row further; not to be read behind the call. */
+typedef struct raylane_progress {
+    int64_t pixels, total_pixels;
+    uint64_t rays;
+    int tile_x, tile_y, tile_width, tile_height;
+    const float* rgb;
+    size_t floats_a_row;
+} raylane_progress;
+/** Returns 0 to cancel. */
+typedef int (*raylane_progress_callback)(const raylane_progress* progress, void* user);
 
-/* The picture, into height x width x 3 floats of the caller's: rows from the top down, linear RGB.
+/** The picture, into height x width x 3 floats of the caller's: rows from the top down, linear RGB.
  * settings: NULL for the scene's own. progress: NULL for none. */
-raylane_status raylane_render(const raylane_scene* scene, const raylane_settings* settings,
-                              int threads, int precision, raylane_progress progress, void* user,
-                              float* rgb);
-/* transfer: RAYLANE_SRGB or RAYLANE_LINEAR, for PNG. */
-raylane_status raylane_write_image(const char* path, int width, int height, const float* rgb,
-                                   int transfer);
+RAYLANE_API raylane_status raylane_render(const raylane_scene* scene,
+                                          const raylane_settings* settings, int threads,
+                                          int precision, raylane_progress_callback progress,
+                                          void* user, float* rgb);
+/** transfer: RAYLANE_SRGB or RAYLANE_LINEAR, for PNG. */
+RAYLANE_API raylane_status raylane_write_image(const char* path, int width, int height,
+                                               const float* rgb, int transfer);
 
 #ifdef __cplusplus
 }
 #endif
 
+/* NOLINTEND */
 #endif

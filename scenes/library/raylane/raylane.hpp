@@ -16,3 +16,4 @@
 #include "raylane/surroundings.hpp"
 #include "raylane/tracer.hpp"
 #include "raylane/vector.hpp"
+#include "raylane/version.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "raylane/api.h"
 #include "raylane/material.hpp"
 #include "raylane/shapes.hpp"
 #include "raylane/surroundings.hpp"
@@ -12,15 +13,20 @@
 #include <string_view>
 #include <vector>
 
-namespace raylane {
-
-namespace core {
+namespace raylane::core {
 class Scene;
 class SceneBuilder;
-} // namespace core
-namespace library {
+} // namespace raylane::core
+namespace raylane::library {
 struct Internals;
 }
+
+namespace RAYLANE_API raylane {
+
+/// An axis-aligned box, closed. Empty if lower > upper.
+struct Bounds {
+    Vec3 lower, upper;
+};
 
 /// A validated scene that never changes. Cheap to copy: the copies are one scene, which lives as
 /// long as any of them, or a Tracer of it. May be read by any number of threads at a time.
@@ -28,6 +34,10 @@ class Scene {
   public:
     std::size_t shape_count() const;
     std::size_t material_count() const;
+    /// Of all shapes but planes, which have none. Contains all of each, and is larger by no more
+    /// than roundings; of a quadric, its box. Without such shapes it is empty: infinity to
+    /// -infinity.
+    Bounds bounds() const;
     /// Throws InvalidValue for an id that is no shape's.
     MaterialIndex material_of(ShapeId shape) const;
     /// Throws InvalidValue for an index that is no material's.
@@ -52,7 +62,7 @@ class Scene {
 
 /// Collects a scene, in any order, and checks each value as it comes. All functions throw
 /// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was;
-/// and std::bad_alloc. To be used by one thread at a time.
+/// and std::bad_alloc. To be used by one thread at a time. One that was moved from is as new.
 class SceneBuilder {
   public:
     Camera camera; ///< checked by build(), field "camera/..."
@@ -63,8 +73,8 @@ class SceneBuilder {
 
     SceneBuilder();
     ~SceneBuilder();
-    SceneBuilder(SceneBuilder&&) noexcept;
-    SceneBuilder& operator=(SceneBuilder&&) noexcept;
+    SceneBuilder(SceneBuilder&& other) noexcept;
+    SceneBuilder& operator=(SceneBuilder&& other) noexcept;
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
@@ -91,16 +101,18 @@ class SceneBuilder {
     template <class CoreShape, class Shape>
     ShapeId add_polygon_as(std::span<const Shape> triangles, MaterialIndex material);
 
-    std::unique_ptr<core::SceneBuilder> builder_;
+    core::SceneBuilder& builder();
+
+    std::unique_ptr<core::SceneBuilder> builder_; // none as long as it is new
 };
 
 /// Reads a scene from a file, JSON (scenes/raylane-scene.schema.json describes it) or NFF. The
 /// format follows the file's ending (.json, .nff) or else its content. Throws BadInput for what is
 /// malformed, in JSON for up to ten mistakes at once, SystemRefused, and std::bad_alloc.
-Scene load(const std::filesystem::path& path);
+RAYLANE_API Scene load(const std::filesystem::path& path);
 
 /// The same for a scene in memory. `name` is what messages call it; the format follows its ending,
 /// or else the content.
-Scene parse(std::string_view text, const std::string& name = "scene");
+RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene");
 
 } // namespace raylane

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "raylane/api.h"
 #include "raylane/vector.hpp"
 
 #include <concepts>
@@ -14,7 +15,7 @@
 /// it, a line that only touches it hits it, as does one within a face. A surface (the others) ends
 /// at its rim, and the rim belongs to it. A line that touches it hits it; one that lies in it, in a
 /// flat surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
-namespace raylane {
+namespace RAYLANE_API raylane {
 
 struct Sphere {
     Vec3 center;

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "raylane/api.h"
 #include "raylane/vector.hpp"
 
 #include <cstdint>
 
 /// Contents of a scene besides its shapes: lights, fog, the camera, and the settings of the
 /// picture.
-namespace raylane {
+namespace RAYLANE_API raylane {
 
 enum class LightKind : std::uint8_t { point, directional };
 

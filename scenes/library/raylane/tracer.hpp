@@ -1,5 +1,6 @@
 #pragma once
 
+#include "raylane/api.h"
 #include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 
@@ -7,11 +8,11 @@
 #include <memory>
 #include <span>
 
-namespace raylane {
-
-namespace simd {
+namespace raylane::simd {
 class StreamTracer;
 }
+
+namespace RAYLANE_API raylane {
 
 /// n rays, structure of arrays: ray i is the points origin + t direction with
 /// t_min < t <= t_max. n is the length of origin_x; the other five have it too, all others have it

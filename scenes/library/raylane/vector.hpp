@@ -1,6 +1,8 @@
 #pragma once
 
-namespace raylane {
+#include "raylane/api.h"
+
+namespace RAYLANE_API raylane {
 
 /// A point, a direction or, as red, green and blue, a colour.
 struct Vec3 {

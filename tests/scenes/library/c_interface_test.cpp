@@ -86,6 +86,10 @@ TEST_CASE("what C builds, asks and draws is what C++ does") {
     CHECK(raylane_shape_count(in_c.get()) == 2);
     CHECK(raylane_material_count(in_c.get()) == 1);
     CHECK(raylane_scene_settings(in_c.get()).width == 32);
+    raylane_vec3 lower{}, upper{};
+    raylane_scene_bounds(in_c.get(), &lower, &upper);
+    CHECK(lower.x == scene.bounds().lower.x);
+    CHECK(upper.z == scene.bounds().upper.z);
 
     Random random(3);
     Rays rays;
@@ -169,7 +173,7 @@ TEST_CASE("what goes wrong in C has a code and a line of text") {
     CHECK(raylane_add_spheres(builder.get(), nullptr, 0, material, nullptr) == RAYLANE_OK);
 
     raylane_scene* none = nullptr;
-    CHECK(raylane_load("no/such.json", &none) == RAYLANE_SYSTEM_REFUSED);
+    CHECK(raylane_load("no/such.json", &none) == RAYLANE_BAD_INPUT);
     CHECK(none == nullptr);
     const char text[] = "{\"objects\": 3}";
     CHECK(raylane_parse(text, std::strlen(text), "mine.json", &none) == RAYLANE_BAD_INPUT);
@@ -194,7 +198,9 @@ TEST_CASE("what goes wrong in C has a code and a line of text") {
          "rays: must not be NULL");
 
     std::vector<float> rgb(std::size_t{32} * 24 * 3);
-    const auto cancel = [](std::int64_t, std::int64_t, std::uint64_t, void* user) {
+    const auto cancel = [](const raylane_progress* progress, void* user) {
+        CHECK(progress->pixels == std::int64_t{progress->tile_width} * progress->tile_height);
+        CHECK(progress->total_pixels == 32 * 24);
         ++*static_cast<int*>(user);
         return 0;
     };

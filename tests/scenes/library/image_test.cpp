@@ -191,7 +191,7 @@ TEST_CASE("pictures are written, in the format of the ending") {
         const scenes::Image read = scenes::read_image(directory.path() / name);
         CHECK(read.width == 70);
         CHECK(read.height == 50);
-        if (name == "a.pfm") CHECK(read.rgb == image.rgb);
+        if (name == "a.pfm") CHECK(read.rgb.floats() == image.rgb);
         if (name == "a.png") CHECK(read.rgb[0] * 255.0F == Approx(137.0F)); // 0.25 in sRGB
     }
     write_image(directory.path() / "linear.png", image, Transfer::linear);
@@ -216,4 +216,34 @@ TEST_CASE("pictures that cannot be written leave no file") {
               write_image(folder + "/a.png", Image{1, -1, {}});
           }) == "height: must be from 1 to 65535, got -1");
     CHECK(directory.file_count() == 0);
+}
+
+TEST_CASE("a picture's tiles come as they are drawn") {
+    const Scene scene = mirrored_ball();
+    Image put_together{70, 50, std::vector<float>(std::size_t{3} * 70 * 50, -1.0F)};
+    std::int64_t pixels = 0;
+    const std::optional<Image> image = render(scene, {.threads = 3}, [&](const Progress& progress) {
+        const Tile& tile = progress.tile;
+        for (int row = 0; row < tile.height; ++row)
+            for (int column = 0; column < tile.width; ++column) {
+                const Color color = tile.at(column, row);
+                float* pixel =
+                    put_together.rgb.data() + 3 * ((tile.y + row) * 70 + tile.x + column);
+                CHECK(pixel[0] == -1.0F);
+                pixel[0] = color.x;
+                pixel[1] = color.y;
+                pixel[2] = color.z;
+                ++pixels;
+            }
+        return true;
+    });
+    REQUIRE(image);
+    CHECK(pixels == 70 * 50);
+    CHECK(put_together.rgb == image->rgb);
+}
+
+TEST_CASE("an image is not written by a transfer that is none") {
+    CHECK(message_of<InvalidValue>([&] {
+              write_image("none.png", {1, 1, {0, 0, 0}}, static_cast<Transfer>(2));
+          }) == "transfer: must be a Transfer");
 }

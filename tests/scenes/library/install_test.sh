@@ -1,10 +1,10 @@
 #!/bin/sh
-# Installs the built tree, moves it, and builds and runs the examples.
+# Installs the built tree, moves it, looks at what it has, and builds and runs the examples.
 #
-# usage: install_test.sh BUILD_FOLDER CMAKE GENERATOR COMPILER BUILD_TYPE FLAGS
+# usage: install_test.sh BUILD_FOLDER CMAKE GENERATOR C_COMPILER CXX_COMPILER BUILD_TYPE FLAGS
 set -eu
-build=$1 cmake=$2 generator=$3 compiler=$4 build_type=$5 flags=$6
-examples=$(dirname "$0")/../../../scenes/examples
+build=$1 cmake=$2 generator=$3 c_compiler=$4 compiler=$5 build_type=$6 flags=$7
+source=$(cd "$(dirname "$0")/../../.." && pwd)
 unset DESTDIR
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -12,30 +12,69 @@ fail() {
     echo "$*"
     exit 1
 }
+quietly() { # command...
+    "$@" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+}
 
-"$cmake" --install "$build" --prefix "$folder/installed" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+quietly "$cmake" --install "$build" --prefix "$folder/installed"
 prefix="$folder/another place"
 mv "$folder/installed" "$prefix"
 
-echo "headers name nothing of what is inside, and each stands by itself"
+echo "headers name nothing of what is inside, and each stands by itself, without a warning"
 ! grep -riE 'xsimd|tbb|glm|nlohmann|stb_' "$prefix/include" || fail "see above"
-for header in "$prefix"/include/raylane/*.hpp; do
-    # shellcheck disable=SC2086 # a list of words
-    echo "#include <raylane/$(basename "$header")>" |
-        "$compiler" $flags -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion \
-            -Werror -fsyntax-only -I "$prefix/include" -x c++ - || fail "$header"
+warnings='-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Werror'
+for header in "$prefix"/include/raylane/*; do
+    name=$(basename "$header")
+    for each in "$compiler" g++ clang++; do
+        command -v "$each" >/dev/null || continue
+        # shellcheck disable=SC2086 # a list of words
+        echo "#include <raylane/$name>" |
+            "$each" -std=c++20 $warnings -fsyntax-only -I "$prefix/include" -x c++ - || fail "$each: $name"
+    done
+    case $name in
+    *.h)
+        # shellcheck disable=SC2086 # a list of words
+        printf '#include <raylane/%s>\nextern int not_empty;\n' "$name" |
+            "$c_compiler" -std=c99 ${warnings% -Wold*} -Werror -fsyntax-only -I "$prefix/include" -x c - ||
+            fail "$c_compiler: $name"
+        ;;
+    esac
 done
 
-echo "the archive claims no name outside of raylane"
+ours='raylane|glm|nlohmann|stbi|CLI'
 archive=$(find "$prefix" -name libraylane.a)
-others=$(nm -gC --defined-only "$archive" | awk '$2 ~ /^[TDBRC]$/' | grep -v raylane || true)
-[ -z "$others" ] || fail "$others"
+if [ -n "$archive" ]; then
+    echo "the archive claims no name outside of raylane, and what takes it in exports none of it"
+    others=$(nm -gC --defined-only "$archive" | awk '$2 ~ /^[TDBRC]$/' | grep -v raylane || true)
+    [ -z "$others" ] || fail "$others"
+    # shellcheck disable=SC2086 # a list of words
+    quietly "$compiler" $flags -shared -o "$folder/all.so" -Wl,--whole-archive "$archive" \
+        -Wl,--no-whole-archive -ltbb -lz
+    exported=$(nm -DC --defined-only "$folder/all.so" | grep -v ' std::' |
+        grep -E "$ours" || true)
+    [ -z "$exported" ] || fail "$exported"
+    run_path=
+else
+    echo "the shared library exports what its headers declare, and nothing else"
+    shared=$(find "$prefix" -name libraylane.so)
+    [ -n "$shared" ] || fail "no library"
+    exported=$(nm -DC --defined-only "$shared" | cut -d' ' -f3-)
+    others=$(echo "$exported" |
+        grep -vE '^(((typeinfo|typeinfo name|vtable) for|unsigned int) )?raylane(_|::)' || true)
+    [ -z "$others" ] || fail "$others"
+    inside=$(echo "$exported" | grep -E '^([a-z ]+ for )?raylane::(core|simd|scenes|library)::' || true)
+    [ -z "$inside" ] || fail "$inside"
+    for function in $(sed -n 's/^RAYLANE_API .*\(raylane_[a-z_]*\)(.*/\1/p' "$prefix/include/raylane/raylane.h"); do
+        echo "$exported" | grep -qx "$function" || fail "$function is not exported"
+    done
+    run_path="-Wl,-rpath,$(dirname "$shared")"
+fi
 
 echo "the examples find it, build and run"
-"$cmake" -S "$examples" -B "$folder/examples" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
-    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" \
-    >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
-"$cmake" --build "$folder/examples" >"$folder/log" 2>&1 || fail "$(cat "$folder/log")"
+quietly "$cmake" -S "$source/scenes/examples" -B "$folder/examples" -G "$generator" \
+    -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_CXX_COMPILER="$compiler" \
+    -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_C_FLAGS="$flags"
+quietly "$cmake" --build "$folder/examples"
 cd "$folder"
 "$folder/examples/hits"
 [ -s sphere.png ] || fail "no picture"
@@ -44,6 +83,43 @@ cd "$folder"
 cmp sphere.png ball.png || fail "another picture from C"
 "$folder/examples/path" || fail "another picture than raylane's"
 [ -s path.png ] || fail "no picture of paths"
+
+echo "pkg-config finds it"
+if command -v pkg-config >/dev/null; then
+    pc=$(find "$prefix" -name raylane.pc)
+    words=$(PKG_CONFIG_PATH=$(dirname "$pc") pkg-config --cflags --libs raylane)
+    eval "quietly \"$compiler\" $flags -std=c++20 \"$source/scenes/examples/hits.cpp\" -o hits.pc \
+        $words ${run_path:+\"$run_path\"}"
+    rm sphere.png
+    ./hits.pc
+    [ -s sphere.png ] || fail "no picture"
+else
+    echo "(there is none)"
+fi
+
+echo "as a part of another project it is the library alone"
+mkdir outer
+cat >outer/CMakeLists.txt <<EOF
+cmake_minimum_required(VERSION 3.25)
+project(outer LANGUAGES C CXX)
+add_subdirectory("$source" raylane)
+if(NOT TARGET raylane::raylane)
+  message(FATAL_ERROR "no library")
+endif()
+foreach(target raylane raylane-bench raylane-test-core raylane-tests)
+  if(TARGET \${target})
+    message(FATAL_ERROR "\${target} is none of another project's business")
+  endif()
+endforeach()
+get_property(tests DIRECTORY "$source" PROPERTY TESTS)
+if(tests)
+  message(FATAL_ERROR "tests")
+endif()
+EOF
+quietly "$cmake" -S outer -B outer/build -G "$generator" -DCMAKE_C_COMPILER="$c_compiler" \
+    -DCMAKE_CXX_COMPILER="$compiler"
+quietly "$cmake" --install outer/build --prefix "$folder/none"
+[ ! -e "$folder/none" ] || fail "it installs itself with another project"
 
 echo "the tool and the scenes are there"
 "$prefix/bin/raylane" render "$prefix/share/raylane/sphere.json" --size 16x16 -o tool.png

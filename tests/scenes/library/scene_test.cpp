@@ -6,6 +6,7 @@
 #include "tests/shapes/shapes.hpp"
 
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -278,4 +279,92 @@ TEST_CASE("there is nothing behind the last shape or material") {
           "must be one of 1 shapes, got 1");
     CHECK_THROWS_AS(scene.material_of(no_shape), InvalidValue);
     CHECK_THROWS_AS(scene.material(1), InvalidValue);
+}
+
+TEST_CASE("the headers' version is the library's") {
+    CHECK(std::string(version()) == RAYLANE_VERSION);
+    CHECK(version_number() == RAYLANE_VERSION_NUMBER);
+    CHECK(std::string(RAYLANE_VERSION) == std::to_string(RAYLANE_VERSION_MAJOR) + "." +
+                                              std::to_string(RAYLANE_VERSION_MINOR) + "." +
+                                              std::to_string(RAYLANE_VERSION_PATCH));
+}
+
+TEST_CASE("a builder that was moved from is as new") {
+    SceneBuilder first;
+    first.camera.from = {1, 2, 3};
+    first.background = {1, 0, 0};
+    first.settings.width = 7;
+    first.add(Sphere{{0, 0, 0}, 1}, first.add_material({}));
+    SceneBuilder second = std::move(first);
+    CHECK(second.shape_count() == 1);
+    CHECK(first.shape_count() == 0);
+    CHECK(first.camera.from == Camera{}.from);
+    CHECK(first.background == Color{});
+    CHECK(first.add_material({}) == 0);
+    CHECK(first.add(Sphere{{0, 0, 0}, 2}, 0) == 0);
+    CHECK(first.build().settings().width == Settings{}.width);
+    first = std::move(second);
+    CHECK(second.build().shape_count() == 0);
+    const SceneBuilder& itself = first;
+    first = std::move(const_cast<SceneBuilder&>(itself));
+    const Scene scene = first.build();
+    CHECK(scene.shape_count() == 1);
+    CHECK(scene.settings().width == 7);
+    CHECK(scene.camera().from == Vec3{1, 2, 3});
+}
+
+TEST_CASE("a number that is no enumerator is refused") {
+    SceneBuilder builder;
+    const auto message = [](const auto& call) { return message_of<InvalidValue>(call); };
+    const auto material = [&](const Material& wrong) {
+        return message([&] { builder.add_material(wrong); });
+    };
+    CHECK(material({.pattern = {.kind = static_cast<PatternKind>(5)}}) ==
+          "pattern/kind: must be one of its enumerators, 0 to 4, got 5");
+    CHECK(material({.reflection = static_cast<Reflection>(3)}).starts_with("reflection: must be"));
+    CHECK(material({.visible = static_cast<Visible>(255)}).starts_with("visible: must be"));
+    CHECK(message([&] {
+              builder.add_light({.kind = static_cast<LightKind>(2)});
+          }).starts_with("kind: must be"));
+    const auto built = [&](auto change) {
+        SceneBuilder wrong;
+        change(wrong);
+        return message([&] { wrong.build(); });
+    };
+    CHECK(built([](SceneBuilder& b) {
+              b.fog.kind = static_cast<FogKind>(4);
+          }).starts_with("fog/kind: must be"));
+    CHECK(built([](SceneBuilder& b) {
+              b.camera.projection = static_cast<Projection>(2);
+          }).starts_with("camera/projection: must be"));
+    CHECK(built([](SceneBuilder& b) {
+              b.settings.samples = static_cast<SamplePattern>(2);
+          }).starts_with("settings/samples: must be"));
+    CHECK(built([](SceneBuilder& b) {
+              b.settings.transfer = static_cast<Transfer>(2);
+          }).starts_with("settings/transfer: must be"));
+}
+
+TEST_CASE("a scene has the bounds of its shapes but planes") {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    builder.add(Plane{{0, -1, 0}, {0, 1, 0}}, material);
+    const Bounds empty = builder.build().bounds();
+    CHECK(empty.lower == Vec3{infinity, infinity, infinity});
+    CHECK(empty.upper == Vec3{-infinity, -infinity, -infinity});
+
+    builder.add_material({});
+    builder.add(Plane{{0, -100, 0}, {0, 1, 0}}, material);
+    builder.add(Sphere{{1, 2, 3}, 0.5F}, material);
+    builder.add(CappedCylinder{{-4, 0, 0}, {0, 0, 5}, 0.25F}, material);
+    const Bounds bounds = builder.build().bounds();
+    const auto close = [](const Vec3& outer, const Vec3& truth, float side) {
+        const auto within = [&](float a, float b) {
+            return side * (a - b) >= 0.0F && side * (a - b) < 1e-5F;
+        };
+        return within(outer.x, truth.x) && within(outer.y, truth.y) && within(outer.z, truth.z);
+    };
+    CHECK(close(bounds.lower, {-4.25F, -0.25F, 0}, -1));
+    CHECK(close(bounds.upper, {1.5F, 2.5F, 5}, 1));
 }
