@@ -49,32 +49,50 @@ std::size_t StreamWorker::at_a_time() const {
     return is_exact() ? scene_.best_ray_count() : otherwise;
 }
 
-template <class Real>
-void StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
-    std::size_t in_order = 0; // until there, rays have been found to be in a good order
+/// Takes all rays in, some at a time, and calls as_they_are(some, first), or in_tiles(first, count)
+/// for those that the tiles' order is worth it for.
+template <class Real, class AsTheyAre, class InTiles>
+void StreamWorker::in_good_order(const RayStream<Real>& rays, const AsTheyAre& as_they_are,
+                                 const InTiles& in_tiles) {
+    std::size_t in_order = 0; // until there, rays have been found to be in one
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         const RayStream<Real> some = intake_.take(rays, first);
         count = some.count;
         if (first >= in_order && are_better_in_tiles(rays, first)) {
             const std::size_t most = std::min(rays.count - first, TileOrder::most);
             if (tiles_.find(part_of(rays, first, most), intake_.coherence()->parallel)) {
-                nearest_in_tiles(part_of(rays, first, most), part_of(hits, first));
+                in_tiles(first, most);
                 count = most;
                 continue;
             }
             in_order = first + most;
         }
-        nearest_of(some, part_of(hits, first));
+        as_they_are(some, first);
     }
 }
 
 template <class Real>
+void StreamWorker::nearest(const RayStream<Real>& rays, const HitStream& hits) {
+    in_good_order(
+        rays,
+        [&](const RayStream<Real>& some, std::size_t first) {
+            nearest_of(some, part_of(hits, first));
+        },
+        [&](std::size_t first, std::size_t count) {
+            nearest_in_tiles(part_of(rays, first, count), part_of(hits, first));
+        });
+}
+
+template <class Real>
 void StreamWorker::occluded(const RayStream<Real>& rays, std::uint8_t* occluded) {
-    for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
-        const RayStream<Real> some = intake_.take(rays, first);
-        count = some.count;
-        occluded_of(some, occluded + first);
-    }
+    in_good_order(
+        rays,
+        [&](const RayStream<Real>& some, std::size_t first) {
+            occluded_of(some, occluded + first);
+        },
+        [&](std::size_t first, std::size_t count) {
+            occluded_in_tiles(part_of(rays, first, count), occluded + first);
+        });
 }
 
 /// True if it is worth to look whether the rays taken last, and those behind them, are.
@@ -90,11 +108,26 @@ template <class Real>
 void StreamWorker::nearest_in_tiles(const RayStream<Real>& rays, const HitStream& hits) {
     const std::span<const std::uint32_t> order = tiles_.order();
     const auto [sorted, found] = tile_columns_.take(rays, hits, order);
-    for (std::size_t first = 0; first < sorted.count; first += intake_.paths().count) {
+    for (std::size_t first = 0, count = 0; first < sorted.count; first += count) {
         const RayStream<Real> some = intake_.take(sorted, first);
+        count = some.count;
         nearest_of(some, part_of(found, first));
     }
     TileColumns::hand_back(found, order, hits);
+}
+
+template <class Real>
+void StreamWorker::occluded_in_tiles(const RayStream<Real>& rays, std::uint8_t* occluded) {
+    const std::span<const std::uint32_t> order = tiles_.order();
+    HitStream answers; // one column of bytes
+    answers.entering = occluded;
+    const auto [sorted, found] = tile_columns_.take(rays, answers, order);
+    for (std::size_t first = 0, count = 0; first < sorted.count; first += count) {
+        const RayStream<Real> some = intake_.take(sorted, first);
+        count = some.count;
+        occluded_of(some, found.entering + first);
+    }
+    TileColumns::hand_back(found, order, answers);
 }
 
 template <class Real>

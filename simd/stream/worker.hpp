@@ -24,6 +24,9 @@ class StreamWorker {
     const StreamKernels& kernels() const { return tracing_.kernels->stream; }
     std::size_t at_a_time() const;
 
+    template <class Real, class AsTheyAre, class InTiles>
+    void in_good_order(const RayStream<Real>& rays, const AsTheyAre& as_they_are,
+                       const InTiles& in_tiles);
     template <class Real>
     bool are_better_in_tiles(const RayStream<Real>& rays, std::size_t first) const;
     template <class Real>
@@ -37,6 +40,8 @@ class StreamWorker {
     void answer(const RayStream<Real>& rays, std::size_t lane, const HitStream& hits);
     void search(const LoneRay& ray, const HitStream& hits, std::size_t i);
 
+    template <class Real>
+    void occluded_in_tiles(const RayStream<Real>& rays, std::uint8_t* occluded);
     template <class Real>
     void occluded_of(const RayStream<Real>& rays, std::uint8_t* occluded);
     template <class Real>

@@ -170,6 +170,8 @@ TEST_CASE("rays that come line by line have the answers that they have one by on
             span.face = face;
             span.t_double = t_double;
             tracer.intersect(rays.span(), span);
+            std::vector<std::uint8_t> blocked(rays.size(), 77);
+            tracer.occluded(rays.span(), blocked);
             std::size_t found = 0, different = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 Hits alone(1);
@@ -184,7 +186,8 @@ TEST_CASE("rays that come line by line have the answers that they have one by on
                                   hits.ny[i] == alone.ny[0] && hits.nz[i] == alone.nz[0] &&
                                   hits.shape[i] == alone.shape[0] &&
                                   hits.entering[i] == alone.entering[0] && face[i] == face_alone &&
-                                  t_double[i] == t_alone;
+                                  t_double[i] == t_alone &&
+                                  blocked[i] == (alone.is_none(0) ? 0 : 1);
                 different += same ? 0 : 1;
             }
             CAPTURE(parallel, with_limits, found);
