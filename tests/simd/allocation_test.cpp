@@ -1,4 +1,5 @@
 #include "simd/isa.hpp"
+#include "simd/stream_tracer.hpp"
 #include "simd/wavefront/wavefront.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
@@ -6,6 +7,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <vector>
 
 /// In a program of its own: it counts what is asked of the heap.
 namespace {
@@ -19,6 +21,11 @@ void* counted(std::size_t bytes, std::size_t alignment) {
     return memory;
 }
 
+/// Not inline: g++ would take malloc's other half for a mistake.
+__attribute__((noinline)) void release(void* memory) {
+    std::free(memory);
+}
+
 } // namespace
 
 void* operator new(std::size_t bytes) {
@@ -28,16 +35,16 @@ void* operator new(std::size_t bytes, std::align_val_t alignment) {
     return counted(bytes, static_cast<std::size_t>(alignment));
 }
 void operator delete(void* memory) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-    std::free(memory);
+    release(memory);
 }
 
 using namespace raylane;
@@ -76,4 +83,80 @@ TEST_CASE("nothing is allocated inside the wavefront loop") {
     CHECK(wavefront.counters().deferred > 0);
     CHECK(allocations == before);
     CHECK(before > 0);
+}
+
+namespace {
+
+/// Balls on a lattice, so large that each touches its neighbours, and every third of them seen from
+/// outside alone.
+Scene touching_balls(int side) {
+    SceneBuilder builder;
+    builder.wants_light = false;
+    Material one_sided;
+    one_sided.visible = Visible::outside;
+    const MaterialIndex materials[] = {builder.add_material({}), builder.add_material(one_sided)};
+    for (int i = 0; i < side * side * side; ++i)
+        builder.add(
+            Sphere{{static_cast<float>(2 * (i % side)), static_cast<float>(2 * (i / side % side)),
+                    static_cast<float>(2 * (i / side / side))},
+                   1.0F},
+            materials[i % 3 == 0 ? 1 : 0]);
+    return std::move(builder).build();
+}
+
+/// Calls `ask` twice, and tells how much of the heap the second one took.
+template <class Ask>
+long allocated_by_second(const Ask& ask) {
+    ask();
+    const long before = allocations;
+    ask();
+    return allocations - before;
+}
+
+} // namespace
+
+TEST_CASE("nothing is allocated by a library's call after the first of its kind") {
+    constexpr std::size_t count = 10000;
+    for (const int side : {4, 21}) { // the second has tiles
+        const Scene scene = touching_balls(side);
+        const simd::StreamTracer tracer(scene, 1);
+        const float far = static_cast<float>(side);
+        // From one point line by line; along the lattice, through contacts; from everywhere.
+        for (const int kind : {0, 1, 2}) {
+            std::vector<float> of_rays[6];
+            for (std::size_t i = 0; i < count; ++i) {
+                const float x = static_cast<float>(i % 100) / 50.0F - 1.0F,
+                            y = static_cast<float>(i / 100) / 50.0F - 1.0F,
+                            step = static_cast<float>(i % 50);
+                const float ray[3][6] = {{far, far, -2.0F * far, x, y, 2.0F},
+                                         {step - 1.0F, 1.0F, -3.0F, 0, 0, 1},
+                                         {step, far * y, far * x, y, x - y, 1.0F - x}};
+                for (int k = 0; k < 6; ++k)
+                    of_rays[k].push_back(ray[kind][k]);
+            }
+            std::vector<float> t(count), normals[3] = {t, t, t}, t_min(count, 0.5F),
+                                         t_max(count, 2.5F * far);
+            std::vector<ShapeId> shape(count), named(count, 0);
+            std::vector<std::uint8_t> entering(count), face(count);
+            std::vector<double> t_double(count);
+            simd::RayStream<float> rays = {
+                count,
+                {of_rays[0].data(), of_rays[1].data(), of_rays[2].data()},
+                {of_rays[3].data(), of_rays[4].data(), of_rays[5].data()}};
+            const simd::HitStream hits = {
+                t.data(),     {normals[0].data(), normals[1].data(), normals[2].data()},
+                shape.data(), entering.data(),
+                face.data(),  t_double.data()};
+            CAPTURE(side, kind);
+            CHECK(allocated_by_second([&] { tracer.nearest(rays, hits); }) == 0);
+            CHECK(allocated_by_second([&] { tracer.occluded(rays, face.data()); }) == 0);
+            rays.t_min = t_min.data();
+            rays.t_max = t_max.data();
+            CHECK(allocated_by_second([&] { tracer.nearest(rays, hits); }) == 0);
+            CHECK(allocated_by_second([&] { tracer.occluded(rays, face.data()); }) == 0);
+            rays.origin_shape = named.data();
+            CHECK(allocated_by_second([&] { tracer.nearest(rays, hits); }) == 0);
+            CHECK(allocated_by_second([&] { tracer.occluded(rays, face.data()); }) == 0);
+        }
+    }
 }
