@@ -171,14 +171,16 @@ def pictures_figure(source):
 
 
 def speeds_by_count(rows, what):
-    """Of spheres: (number, raylane's speed, Embree's best)."""
+    """Of spheres: (number, speed for users of raylane's library, of its engine, Embree's best)."""
     points = []
     for row in rows:
         kind, _, count = row["scene"].partition("/")
         if kind != "spheres" or row["what"] != what:
             continue
-        own, *others = [result["median"] for result in row["by"]]
-        points.append((int(count), own, max(others, default=0)))
+        speeds = {result["name"]: result["median"] for result in row["by"]}
+        others = [speed for name, speed in speeds.items() if not name.startswith(("raylane", "library"))]
+        points.append((int(count), speeds[row["own"]], speeds[row["by"][0]["name"]],
+                       max(others, default=0)))
     return sorted(points)
 
 
@@ -199,13 +201,15 @@ def peers_figure(source):
         print("set xrange [%g:%g]" % (points[0][0] / 2, points[-1][0] * 2))
         plot = Plot()
         plot.add([(count, own, "%.1f" % (own / other) if other else "")
-                  for count, own, other in points],
+                  for count, own, _, other in points],
                  "with linespoints pt 7 lw 2 lc '%s' title "
                  "'raylane, and how many times Embree'" % COLORS["raylane"])
         plot.again("using 1:2:3 with labels center offset 0,0.9 font ',9' tc '%s' notitle" %
                    COLORS["raylane"])
+        plot.add([(count, engine) for count, _, engine, _ in points],
+                 "with lines dt 2 lw 1 lc '%s' title 'its engine, by its own arrays'" % COLORS["raylane"])
         if all(other for *_, other in points):
-            plot.add([(count, other) for count, _, other in points],
+            plot.add([(count, other) for count, *_, other in points],
                      "with linespoints pt 7 lw 2 lc '%s' title 'Embree, its best call'" %
                      COLORS["Embree"])
         plot.draw()
