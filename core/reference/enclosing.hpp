@@ -4,6 +4,8 @@
 #include "core/reference/search.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 /// Media that enclose a point, such as a camera's place.
@@ -37,11 +39,27 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
     return left;
 }
 
+/// False if no point of a box is inside of a transmissive body, planes aside: each is outside of
+/// the bounds of every solid, and of those around all that could be a body together.
+bool may_be_in_body(const Scene& scene, const Bounds& box);
+
+/// Bounds of points, rounded outwards.
+template <class Real>
+void include_point(Bounds& bounds, const Vec3<Real>& point) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto value = static_cast<float>(point[axis]);
+        bounds.lower[axis] = std::min(bounds.lower[axis], std::nextafter(value, -infinity));
+        bounds.upper[axis] = std::max(bounds.upper[axis], std::nextafter(value, infinity));
+    }
+}
+
 /// A point is in a body if a line through it leaves the body both ways, and behind a plane if it
-/// is. Outside of the bounds of what is transmissive, no line does, and nothing is searched.
+/// is. Where no body can be around it, nothing is searched; `may_be_in_a_body`: false if that is
+/// known.
 template <class Real>
 Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks& stacks,
-                      const Vec3<Real>& point) {
+                      const Vec3<Real>& point, bool may_be_in_a_body = true) {
     Media media = empty_space;
     if (!scene.transmissive().any) return media;
 
@@ -54,7 +72,10 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks&
         });
     });
 
-    if (!scene.transmissive().bounds.contains(point)) return media;
+    if (!may_be_in_a_body) return media;
+    Bounds around_point;
+    include_point(around_point, point);
+    if (!may_be_in_body(scene, around_point)) return media;
 
     // Any direction does; a round one would run along faces and edges.
     const Vec3<Real> direction = normalized(Vec3<Real>(Real(0.41), Real(0.57), Real(0.71)));

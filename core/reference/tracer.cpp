@@ -55,10 +55,10 @@ Vec3<Real> ReferenceTracer<Real>::trace(const Ray<Real>& ray) {
 
 /// Perspective rays share their origin, so the last one's media serve again.
 template <class Real>
-Media ReferenceTracer<Real>::media_around(const Vector& origin) {
+Media ReferenceTracer<Real>::media_around(const Vector& origin, bool may_be_in_a_body) {
     if (!start_media_ || origin != start_) {
         start_ = origin;
-        start_media_ = enclosing_media(scene_, searcher_, media_, origin);
+        start_media_ = enclosing_media(scene_, searcher_, media_, origin, may_be_in_a_body);
     }
     return *start_media_;
 }

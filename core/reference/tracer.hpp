@@ -57,8 +57,9 @@ class ReferenceTracer {
     Vector light_let_through(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Media media,
                              Real distance);
 
-    /// Media that a ray from the camera starts in.
-    Media media_around(const Vector& origin);
+    /// Media that a ray from the camera starts in; `may_be_in_a_body`: false if that is
+    /// known to be in none.
+    Media media_around(const Vector& origin, bool may_be_in_a_body = true);
     /// Those that paths are inside of.
     MediaStacks& media() { return media_; }
 

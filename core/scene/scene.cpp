@@ -41,10 +41,13 @@ void Scene::find_transmissive() {
         for_each_shape(table, [&]<class Shape>(const Shape& shape, ShapeId id) {
             if (!material_of(id).transmits()) return;
             transmissive_.any = true;
-            if constexpr (is_bounded<Shape>)
-                transmissive_.bounds.include(bounds_of(shape));
-            else
+            if constexpr (is_bounded<Shape>) {
+                const Bounds bounds = bounds_of(shape);
+                transmissive_.bounds.include(bounds);
+                if (!is_solid<Shape>) transmissive_.open.include(bounds);
+            } else {
                 transmissive_.any_unbounded = true;
+            }
         });
     });
 }

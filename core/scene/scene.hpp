@@ -26,6 +26,7 @@ struct TransmissiveShapes {
     bool any = false;
     bool any_unbounded = false;
     Bounds bounds; ///< of those that have any
+    Bounds open;   ///< of those that are no solids: several together may have an inside
 };
 
 /// A validated scene that no longer changes. Copying it is expensive, moving it is not.

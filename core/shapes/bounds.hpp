@@ -27,6 +27,14 @@ struct Bounds {
         return is_in;
     }
 
+    bool meets(const Bounds& other) const {
+        bool do_meet = true;
+        for (int axis = 0; axis < 3; ++axis)
+            do_meet =
+                do_meet && lower[axis] <= other.upper[axis] && other.lower[axis] <= upper[axis];
+        return do_meet;
+    }
+
     /// Half of the surface area; 0 if empty. In double, where it cannot overflow.
     double half_area() const {
         const Vec3d size = convert<double>(upper) - convert<double>(lower);

@@ -23,6 +23,13 @@ namespace raylane::core {
 template <class Shape>
 inline constexpr bool is_bounded = Shape::traits.bounded;
 
+/// True for solids, which by themselves have an inside.
+template <class Shape>
+inline constexpr bool is_solid =
+    std::is_same_v<Shape, Sphere> || std::is_same_v<Shape, Ellipsoid> ||
+    std::is_same_v<Shape, Box> || std::is_same_v<Shape, CappedCylinder> ||
+    std::is_same_v<Shape, CappedCone>;
+
 constexpr const ShapeTraits& traits_of(Kind kind) {
     return with_shape_type(kind, []<class Shape>(std::type_identity<Shape>) -> const ShapeTraits& {
         return Shape::traits;

@@ -39,10 +39,7 @@ class PovWriter {
     /// True for what is part of a body's surface, and not the whole of it.
     template <class Shape>
     static bool is_open(const Shape&) {
-        using namespace core;
-        return std::is_same_v<Shape, Disc> || std::is_same_v<Shape, Triangle> ||
-               std::is_same_v<Shape, SmoothTriangle> || std::is_same_v<Shape, OpenCylinder> ||
-               std::is_same_v<Shape, OpenCone> || std::is_same_v<Shape, Quadric>;
+        return core::is_bounded<Shape> && !core::is_solid<Shape>;
     }
 
     template <class Real>

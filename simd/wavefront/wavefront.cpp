@@ -2,6 +2,7 @@
 
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
+#include "core/reference/enclosing.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/wavefront/coherence.hpp"
 
@@ -159,12 +160,25 @@ void Wavefront::start(std::size_t count) {
     std::iota(paths_.sample, paths_.sample + count, 0U);
     paths_.start_nowhere(0, count);
     if (with_media_ && camera_.orthographic)
-        for (std::size_t i = 0; i < count; ++i)
-            paths_.set_media(i, reference_.media_around(ray_of(paths_, i).origin));
-    else if (with_media_) {
+        start_in_media();
+    else if (with_media_)
         std::fill_n(paths_.media, count, reference_.media_around(ray_of(paths_, 0).origin));
-    }
     counters_.primary += count;
+}
+
+/// Origins that are neighbours are asked about together: seldom is there a body around them.
+void Wavefront::start_in_media() {
+    constexpr std::size_t together = 64;
+    const core::Scene& scene = scene_.scene();
+    for (std::size_t first = 0; first < paths_.count; first += together) {
+        const std::size_t end = std::min(first + together, paths_.count);
+        core::Bounds origins;
+        for (std::size_t i = first; i < end; ++i)
+            core::include_point(origins, ray_of(paths_, i).origin);
+        const bool may_be = core::may_be_in_body(scene, origins);
+        for (std::size_t i = first; i < end; ++i)
+            paths_.set_media(i, reference_.media_around(ray_of(paths_, i).origin, may_be));
+    }
 }
 
 void Wavefront::add(std::uint32_t sample, double r, double g, double b) {

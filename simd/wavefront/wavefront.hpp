@@ -49,6 +49,7 @@ class Wavefront {
 
     void take_from(Arena& arena);
     void start(std::size_t count);
+    void start_in_media();
     void trace();
     void trace_wave(int depth);
     void follow(std::size_t lane, int depth);

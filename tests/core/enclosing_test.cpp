@@ -61,10 +61,27 @@ TEST_CASE("media are searched for where a transmissive body may be, and nowhere 
     CHECK(asker.stacks.top(asker.at(Vec3d(0.0, -6.0, 0.0))) == 1); // under the plane
     CHECK_FALSE(asker.has_searched());
     CHECK(asker.at(Vec3d(0.0, 12.0, 0.0)) == empty_space); // between two
-    CHECK(asker.has_searched());
+    CHECK_FALSE(asker.has_searched());
     CHECK(asker.stacks.top(asker.at(Vec3d(-0.9, 10.0, 0.0))) == 1);
     CHECK(asker.stacks.top(asker.at(Vec3d(1.4, 10.0, 0.0))) == 2);
     CHECK(asker.stacks.top(asker.at(Vec3d(0.0, 14.4999999, 0.0))) == 1);
+}
+
+TEST_CASE("sheets that are no solids may be a body together") {
+    SceneBuilder builder;
+    builder.wants_light = false;
+    const MaterialIndex clear = builder.add_material(glass());
+    builder.add(Disc{Vec3f(0.0F, 0.0F, 1.0F), Vec3f(0.0F, 0.0F, 1.0F), 5.0F}, clear);
+    builder.add(Disc{Vec3f(0.0F, 0.0F, -1.0F), Vec3f(0.0F, 0.0F, -1.0F), 5.0F}, clear);
+    builder.add(Sphere{Vec3f(40.0F, 0.0F, 0.0F), 1.0F}, clear);
+    const Scene scene = std::move(builder).build();
+    Asker asker{scene};
+    CHECK(asker.at(Vec3d(0.5, 0.5, 0.0)) != empty_space);
+    CHECK(asker.at(Vec3d(0.5, 0.5, 1.5)) == empty_space);
+    CHECK(asker.at(Vec3d(40.0, 0.5, 0.0)) != empty_space);
+    CHECK(may_be_in_body(scene, {Vec3f(0.0F, 0.0F, -0.5F), Vec3f(0.5F, 0.5F, 0.5F)}));
+    CHECK_FALSE(may_be_in_body(scene, {Vec3f(6.0F, -9.0F, -9.0F), Vec3f(38.0F, 9.0F, 9.0F)}));
+    CHECK(may_be_in_body(scene, {Vec3f(6.0F, -9.0F, -9.0F), Vec3f(39.5F, 9.0F, 9.0F)}));
 }
 
 TEST_CASE("points are in a transmissive body whatever its bounds") {

@@ -1,0 +1,38 @@
+#include "core/reference/enclosing.hpp"
+
+namespace raylane::core {
+
+namespace {
+
+/// True if a solid below a node of the hierarchy is transmissive and has bounds that meet the box.
+bool any_solid_meets(const Scene& scene, std::uint32_t index, const Bounds& box) {
+    const auto in_block = [&]<class Shape>(const Block<Shape>& block) {
+        bool any = false;
+        if constexpr (is_solid<Shape>)
+            for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane)
+                any = any || (scene.material_of(block.ids[lane]).transmits() &&
+                              bounds_of(block.get(lane)).meets(box));
+        return any;
+    };
+    const WideNode& node = scene.hierarchy().nodes[index];
+    for (int i = 0; i < block_size; ++i) {
+        if (!node.bounds(i).meets(box)) continue;
+        const Child child = node.children[i];
+        if (child.is_block() ? with_table(scene.shapes(), child.kind(),
+                                          [&](const auto& table) {
+                                              return in_block(table.blocks()[child.index()]);
+                                          })
+                             : any_solid_meets(scene, child.index(), box))
+            return true;
+    }
+    return false;
+}
+
+} // namespace
+
+bool may_be_in_body(const Scene& scene, const Bounds& box) {
+    const TransmissiveShapes& shapes = scene.transmissive();
+    return shapes.bounds.meets(box) && (shapes.open.meets(box) || any_solid_meets(scene, 0, box));
+}
+
+} // namespace raylane::core
