@@ -71,6 +71,10 @@ struct TracerOptions {
 /// a time on one Tracer; long spans are shared out among threads of its own. What a ray hits
 /// depends on the scene and that ray alone.
 ///
+/// Ask for many rays at once: a call costs half a microsecond by itself, which from 256 rays on is
+/// little. Among 100 spheres (AVX-512, scanlines, one thread) a ray takes 600 ns alone, 44 in calls
+/// for 16, 19 in those for 256 and 18 in the longest. After the first calls nothing is allocated.
+///
 /// With Precision::exact, all that is answered is what real arithmetic gives for exactly the floats
 /// or doubles given, whatever the shapes, however near they are to each other and on any processor:
 /// - Which surface is crossed, which is first, and whether the ray enters. A tie is where t is the
