@@ -204,7 +204,7 @@ def peers_figure(source):
                   for count, own, _, other in points],
                  "with linespoints pt 7 lw 2 lc '%s' title "
                  "'raylane, and how many times Embree'" % COLORS["raylane"])
-        plot.again("using 1:2:3 with labels center offset 0,0.9 font ',9' tc '%s' notitle" %
+        plot.again("using 1:2:3 with labels center offset 0,-0.9 font ',9' tc '%s' notitle" %
                    COLORS["raylane"])
         plot.add([(count, engine) for count, _, engine, _ in points],
                  "with lines dt 2 lw 1 lc '%s' title 'its engine, by its own arrays'" % COLORS["raylane"])
