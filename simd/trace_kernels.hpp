@@ -149,9 +149,13 @@ struct CandidateList {
 /// nearly as near is listed, too.
 inline constexpr float candidate_grace = 1.0F + 0x1p-18F;
 
-/// Numbers as sums of two doubles, and what these may be off by.
-struct WideNumbers {
+/// Crossings in twice the digits: t as the sum of two doubles, and what that may be off by.
+struct WideCrossings {
     double *high, *low, *error;
+    /// Outward normals of length 1, each component correctly rounded where `rounded` is 1: a bit for
+    /// each of the three. Null if nobody asks.
+    float* normal[3] = {};
+    std::uint8_t* rounded = nullptr;
 };
 
 /// Kernels for rays that are left in doubt.
@@ -164,11 +168,11 @@ struct RefineKernels {
     /// MethodKernels::finish once more for lanes that it left doubtful. The others are left as they
     /// are.
     void (*finish_again)(const SceneView& scene, const Found& found);
-    /// t of `count` crossings that have been found, at some places of `found`, in twice the digits,
-    /// of the rays that are meant. The error is infinite where it is not known, as of those that
-    /// start on the shape.
+    /// Widens `count` crossings that have been found, at some places of `found`, of the rays that
+    /// are meant. The error is infinite, and no normal is rounded, where they are not known, as of
+    /// rays that start on the shape.
     void (*widen)(const SceneView& scene, const Found& found, const std::size_t* places,
-                  std::size_t count, const WideNumbers& t);
+                  std::size_t count, const WideCrossings& wide);
 };
 
 } // namespace raylane::simd

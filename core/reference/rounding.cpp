@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace raylane::core {
 
@@ -83,13 +84,15 @@ class ExactDirection {
         square_ = {0.0, 0.0, squared_length(along_.v)};
     }
 
-    /// Nearest to the component, ties to even.
-    float rounded(int axis) const {
+    /// Nearest to the component, ties to even; it is one of those from `first` to `last`.
+    float rounded(int axis, float first, float last) const {
         const ExactQuadratic value{0.0, 0.5 * along_.slope[axis], along_.v[axis]};
         const int sign = root_.sign_of(value);
         if (sign == 0) return 0.0F;
+        if (sign < 0) first = -std::exchange(last, -first);
         // By their numbers, floats from 0 to 1 are in order.
-        std::uint32_t low = 0, high = std::bit_cast<std::uint32_t>(1.0F);
+        std::uint32_t low = std::bit_cast<std::uint32_t>(std::clamp(first, 0.0F, 1.0F) + 0.0F);
+        std::uint32_t high = std::bit_cast<std::uint32_t>(std::clamp(last, 0.0F, 1.0F) + 0.0F);
         while (low < high) {
             const std::uint32_t next = low + (high - low) / 2;
             const double middle = 0.5 * static_cast<double>(std::bit_cast<float>(next)) +
@@ -181,25 +184,26 @@ float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& h
 
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
     const Ray<Real> ray = ray_in<Real>(from.ray);
-    Vec3f normal;
+    Vec3f first(-1.0F), last(1.0F);
     const auto is_sure = [&](const Real& t) {
         const Vec3<Real> direction = wide_normal(scene, ray, t, hit);
         const Real length = core::length(direction);
         for (int axis = 0; axis < 3; ++axis) {
             const Bounded<double> component = in_double(direction[axis] / length);
-            normal[axis] = static_cast<float>(below(component.value, component.error));
-            if (normal[axis] != static_cast<float>(above(component.value, component.error)))
-                return false;
+            if (!(component.error <= 1.0)) continue;
+            first[axis] = static_cast<float>(below(component.value, component.error));
+            last[axis] = static_cast<float>(above(component.value, component.error));
         }
-        return true;
+        return first == last;
     };
     // Vectors have tried with t as it is known in double.
     if (!with_wide_t(scene, from, hit, is_sure)) {
         const ExactDirection exact(scene, from, hit);
         for (int axis = 0; axis < 3; ++axis)
-            normal[axis] = exact.rounded(axis);
+            if (first[axis] != last[axis])
+                first[axis] = exact.rounded(axis, first[axis], last[axis]);
     }
-    return normal + Vec3f(0.0F); // no -0
+    return first + Vec3f(0.0F); // no -0
 }
 
 SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,

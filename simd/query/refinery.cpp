@@ -199,12 +199,13 @@ std::size_t Refinery::first_of(std::size_t begin, std::size_t end, EngineCounter
 void Refinery::widen_close() {
     const std::size_t count = close_.size();
     wide_.resize(3 * count);
-    const WideNumbers t = {wide_.data(), wide_.data() + count, wide_.data() + 2 * count};
+    const WideCrossings wide = {wide_.data(), wide_.data() + count, wide_.data() + 2 * count};
     tracing_.method().refine.widen(scene_.view(), hits_.found(paths_, 0, count_), close_.data(),
-                                   count, t);
+                                   count, wide);
     sharp_.clear();
     for (std::size_t k = 0; k < count; ++k)
-        sharp_.emplace_back(hit_of(close_[k]), core::DoubleDouble(t.high[k], t.low[k]), t.error[k]);
+        sharp_.emplace_back(hit_of(close_[k]), core::DoubleDouble(wide.high[k], wide.low[k]),
+                            wide.error[k]);
 }
 
 /// first_of() of what is close, by core's order.

@@ -1,5 +1,6 @@
 #include "simd/stream/worker.hpp"
 
+#include "core/reference/crossing_order.hpp"
 #include "simd/query/as_core.hpp"
 
 #include <algorithm>
@@ -146,39 +147,66 @@ void StreamWorker::nearest_of(const RayStream<Real>& rays, const HitStream& hits
                          {found.normal[0], found.normal[1], found.normal[2]}},
                         as_kernels_have_them(hits), left);
     sharpen({unsharp_, left.unsharp_count}, hits);
-    for (std::size_t k = 0; k < left.doubtful_count; ++k)
-        answer(rays, doubtful_[k], hits);
+    answer(rays, {doubtful_, left.doubtful_count}, hits);
 }
+
+/// What is known of some lanes' crossings in twice the digits.
+struct StreamWorker::Widened {
+    static constexpr std::size_t most = 128;
+
+    std::span<const std::uint32_t> lanes;
+    double high[most], low[most], error[most];
+    float normal[3][most];
+    std::uint8_t rounded[most];
+
+    core::DoubleDouble t(std::size_t k) const { return {high[k], low[k]}; }
+    bool knows_normal(std::size_t k) const { return rounded[k] == 7; }
+};
 
 /// t in double of lanes that have hits.
 void StreamWorker::sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits) {
-    const Hits& found = query_.hits();
-    if (!is_exact()) {
-        for (const std::uint32_t lane : lanes)
-            hits.t_double[lane] = in_double(lane, found.t[lane] / intake_.paths().length_of(lane));
-        return;
+    for (std::size_t first = 0; first < lanes.size(); first += Widened::most) {
+        const Widened widened = widen(lanes.subspan(first), false);
+        for (std::size_t k = 0; k < widened.lanes.size(); ++k)
+            hits.t_double[widened.lanes[k]] = double_t_of(widened, k);
     }
-    constexpr std::size_t at_a_time = 128;
-    std::size_t places[at_a_time];
-    double high[at_a_time], low[at_a_time], error[at_a_time];
-    for (std::size_t first = 0; first < lanes.size(); first += at_a_time) {
-        const auto some = lanes.subspan(first, std::min(at_a_time, lanes.size() - first));
-        std::copy(some.begin(), some.end(), places);
-        tracing_.method().refine.widen(scene_.view(),
-                                       found.found(intake_.paths(), 0, intake_.paths().count),
-                                       places, some.size(), {high, low, error});
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            const std::uint32_t lane = some[k];
-            const bool is_sure = core::rounds_surely({high[k], low[k]}, error[k]);
-            hits.t_double[lane] =
-                in_double(lane, is_sure ? high[k]
-                                        : core::nearest_double_t(
-                                              scene_.scene(),
-                                              {ray_of(intake_.paths(), lane),
-                                               origin_surfaces_of(scene_, intake_.paths(), lane)},
-                                              hit_at(lane)));
+}
+
+/// Of the first ones of `lanes`.
+StreamWorker::Widened StreamWorker::widen(std::span<const std::uint32_t> lanes,
+                                          bool with_normals) const {
+    Widened widened;
+    widened.lanes = lanes.first(std::min(lanes.size(), Widened::most));
+    if (!is_exact()) { // t is what has been found
+        for (std::size_t k = 0; k < widened.lanes.size(); ++k) {
+            widened.high[k] = hit_at(widened.lanes[k]).t;
+            widened.low[k] = widened.error[k] = 0.0;
+            widened.rounded[k] = 0;
         }
+        return widened;
     }
+    std::size_t places[Widened::most];
+    std::copy(widened.lanes.begin(), widened.lanes.end(), places);
+    WideCrossings wide{widened.high, widened.low, widened.error};
+    if (with_normals) {
+        for (int axis = 0; axis < 3; ++axis)
+            wide.normal[axis] = widened.normal[axis];
+        wide.rounded = widened.rounded;
+    }
+    tracing_.method().refine.widen(scene_.view(),
+                                   query_.hits().found(intake_.paths(), 0, intake_.paths().count),
+                                   places, widened.lanes.size(), wide);
+    return widened;
+}
+
+/// The caller's t of a crossing.
+double StreamWorker::double_t_of(const Widened& widened, std::size_t k) const {
+    const std::uint32_t lane = widened.lanes[k];
+    if (core::rounds_surely(widened.t(k), widened.error[k]))
+        return in_double(lane, widened.high[k]);
+    const core::LeavingRay from{ray_of(intake_.paths(), lane),
+                                origin_surfaces_of(scene_, intake_.paths(), lane)};
+    return in_double(lane, core::nearest_double_t(scene_.scene(), from, hit_at(lane)));
 }
 
 /// The caller's t for one of the lane's.
@@ -207,19 +235,52 @@ void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
             mark(lane);
 }
 
-/// Answer to one ray, by the scalar search or, where only floats are in doubt, by what has been
-/// found.
+/// Answers to doubtful rays, by the scalar search or, where only floats are in doubt, by what has
+/// been found.
 template <class Real>
-void StreamWorker::answer(const RayStream<Real>& rays, std::size_t lane, const HitStream& hits) {
-    const LoneRay ray = intake_.lone(rays, lane, lane);
+void StreamWorker::answer(const RayStream<Real>& rays, std::span<std::uint32_t> lanes,
+                          const HitStream& hits) {
     const Hits& found = query_.hits();
-    if ((found.hit[lane] & hit_doubtful) != 0) return search(ray, hits, lane);
-    if (!is_before_t_max(lane, ray)) return store_none(hits, lane);
-    const auto t_double = [&] { return ray.double_t_of(scene_.scene(), hit_at(lane)); };
-    store(hits, lane, t_at(lane, ray), hits.t_double != nullptr ? t_double() : 0.0,
-          wants_normals(hits) ? normal_at(lane, ray) : core::Vec3f(0.0F),
-          scene_.id_of(found.slot[lane]), (found.hit[lane] & hit_entering) != 0,
-          static_cast<core::Face>(found.hit[lane] & hit_face));
+    const auto is_found = [&](std::uint32_t lane) {
+        return (found.hit[lane] & hit_doubtful) == 0;
+    };
+    const auto lost = std::partition(lanes.begin(), lanes.end(), is_found);
+    for (auto lane = lost; lane != lanes.end(); ++lane)
+        search(intake_.lone(rays, *lane, *lane), hits, *lane);
+    const std::span<const std::uint32_t> others(lanes.begin(), lost);
+    for (std::size_t first = 0; first < others.size(); first += Widened::most) {
+        const Widened widened = widen(others.subspan(first), wants_normals(hits));
+        for (std::size_t k = 0; k < widened.lanes.size(); ++k)
+            answer(intake_.lone(rays, widened.lanes[k], widened.lanes[k]), widened, k, hits);
+    }
+}
+
+/// Answer to a ray that hits what has been found for it, if that is before its end.
+void StreamWorker::answer(const LoneRay& ray, const Widened& widened, std::size_t k,
+                          const HitStream& hits) {
+    const std::uint32_t lane = widened.lanes[k];
+    const core::Scene& scene = scene_.scene();
+    core::Hit<double> hit = hit_at(lane);
+    if (is_exact()) hit = core::SharpHit(hit, widened.t(k), widened.error[k]).sharpened();
+    const float t = is_exact() ? ray.t_of(scene, hit) : t_at(lane, ray);
+    const bool counts = ray.by_floats ? static_cast<double>(t) <= ray.t_max
+                                      : ray.is_before_t_max(scene, hit);
+    if (!counts) return store_none(hits, lane);
+    core::Vec3f normal(0.0F);
+    if (wants_normals(hits)) normal = normal_of(ray, hit, widened, k);
+    store(hits, lane, t, hits.t_double != nullptr ? double_t_of(widened, k) : 0.0, normal,
+          hit.shape, hit.entering, hit.face);
+}
+
+core::Vec3f StreamWorker::normal_of(const LoneRay& ray, const core::Hit<double>& hit,
+                                    const Widened& widened, std::size_t k) const {
+    const Hits& found = query_.hits();
+    const std::uint32_t lane = widened.lanes[k];
+    if ((found.hit[lane] & (hit_normal_doubtful | hit_normal_unknown)) == 0)
+        return in_float({found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]});
+    if (!widened.knows_normal(k)) return core::rounded_normal(scene_.scene(), ray.leaving(), hit);
+    return core::Vec3f(widened.normal[0][k], widened.normal[1][k], widened.normal[2][k]) +
+           core::Vec3f(0.0F); // no -0
 }
 
 /// Of the lane's hit.
@@ -324,13 +385,6 @@ float StreamWorker::t_at(std::size_t lane, const LoneRay& ray) const {
     const double error = found.error[lane] * per_unit * (1.0 + 0x1p-50) + 0x1p-50 * t;
     if (core::rounds_surely(t, is_exact() ? error : 0.0, rounded)) return rounded;
     return ray.t_of(scene_.scene(), hit_at(lane));
-}
-
-core::Vec3f StreamWorker::normal_at(std::size_t lane, const LoneRay& ray) const {
-    const Hits& found = query_.hits();
-    if ((found.hit[lane] & (hit_normal_doubtful | hit_normal_unknown)) != 0)
-        return core::rounded_normal(scene_.scene(), ray.leaving(), hit_at(lane));
-    return in_float({found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]});
 }
 
 /// The lane's hit, as core has it.

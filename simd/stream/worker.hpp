@@ -37,7 +37,9 @@ class StreamWorker {
     void mark_unanswered(const RayStream<Real>& rays);
     void sharpen(std::span<const std::uint32_t> lanes, const HitStream& hits);
     template <class Real>
-    void answer(const RayStream<Real>& rays, std::size_t lane, const HitStream& hits);
+    void answer(const RayStream<Real>& rays, std::span<std::uint32_t> lanes, const HitStream& hits);
+    struct Widened;
+    void answer(const LoneRay& ray, const Widened& widened, std::size_t k, const HitStream& hits);
     void search(const LoneRay& ray, const HitStream& hits, std::size_t i);
 
     template <class Real>
@@ -53,7 +55,10 @@ class StreamWorker {
     bool is_before_t_max(std::size_t lane, const LoneRay& ray) const;
     float t_at(std::size_t lane, const LoneRay& ray) const;
     double in_double(std::size_t lane, double t) const;
-    core::Vec3f normal_at(std::size_t lane, const LoneRay& ray) const;
+    Widened widen(std::span<const std::uint32_t> lanes, bool with_normals) const;
+    double double_t_of(const Widened& widened, std::size_t k) const;
+    core::Vec3f normal_of(const LoneRay& ray, const core::Hit<double>& hit, const Widened& widened,
+                          std::size_t k) const;
 
     const SceneData& scene_;
     Tracing tracing_;

@@ -31,17 +31,18 @@ class FinishAgain {
     }
 
     /// RefineKernels::widen
-    void widen(const std::size_t* places, std::size_t count, const WideNumbers& t) {
+    void widen(const std::size_t* places, std::size_t count, const WideCrossings& wide) {
         for (std::size_t k = 0; k < count; ++k) {
-            t.error[k] = __builtin_inf();
+            wide.error[k] = __builtin_inf();
+            if (wide.rounded != nullptr) wide.rounded[k] = 0;
             if (starts_on_shape(places[k])) continue;
             Packet& packet = wide_[index_of(places[k])];
             packet.of[packet.count] = k;
             packet.rays[packet.count++] = places[k];
-            if (packet.count == width) widen(packet, t);
+            if (packet.count == width) widen(packet, wide);
         }
         for (Packet& packet : wide_)
-            widen(packet, t);
+            widen(packet, wide);
     }
 
   private:
@@ -163,15 +164,20 @@ class FinishAgain {
         packet.count = 0;
     }
 
-    template <class Solver, class Number>
-    static Crossing<Certified<Number>> crossing_of(const Loaded& loaded) {
+    template <class Number>
+    static Rays<Certified<Number>> exact(const Rays<D>& rays) {
         using C = Certified<Number>;
-        const auto exact = [](const Vectors<D>& v) {
+        const auto vectors = [](const Vectors<D>& v) {
             return Vectors<C>{Floats<C>(v.x), Floats<C>(v.y), Floats<C>(v.z)};
         };
-        const Solver solver(ExactReader<Number>{loaded.reader});
-        Crossings<C> crossings = solver.crossings(
-            {exact(loaded.rays.origin), exact(loaded.rays.direction)}, starts_nowhere<C>());
+        return {vectors(rays.origin), vectors(rays.direction)};
+    }
+
+    template <class Number, class Solver>
+    static Crossing<Certified<Number>> crossing_of(const Solver& solver, const Loaded& loaded) {
+        using C = Certified<Number>;
+        Crossings<C> crossings =
+            solver.crossings(exact<Number>(loaded.rays), starts_nowhere<C>());
         for (Crossing<C>* const crossing : {&crossings.first, &crossings.second})
             crossing->exists = crossing->exists & is_after<C>(crossing->t, loaded.t_after);
         return first_ahead<C>(crossings, none<C>());
@@ -186,20 +192,21 @@ class FinishAgain {
         return is_after;
     }
 
-    void widen(Packet& packet, const WideNumbers& t) {
+    void widen(Packet& packet, const WideCrossings& wide) {
         if (packet.count == 0) return;
         const core::Kind kind = kind_of(packet);
         const Loaded loaded = load(packet, kind);
-        with_solver<Certified<Wide<D>>>(kind,
-                                        [&]<class Solver>() { store<Solver>(loaded, packet, t); });
+        with_solver<Certified<Wide<D>>>(
+            kind, [&]<class Solver>() { store<Solver>(loaded, packet, wide); });
         packet.count = 0;
     }
 
-    /// Stores t if the crossing is the one that was found.
+    /// Stores crossings that are those that were found.
     template <class Solver>
     [[gnu::noinline]] void store(const Loaded& loaded, const Packet& packet,
-                                 const WideNumbers& t) const {
-        const Crossing<Certified<Wide<D>>> first = crossing_of<Solver, Wide<D>>(loaded);
+                                 const WideCrossings& wide) const {
+        const Solver solver(ExactReader<Wide<D>>{loaded.reader});
+        const Crossing<Certified<Wide<D>>> first = crossing_of<Wide<D>>(solver, loaded);
         const std::uint32_t known = Lanes<D>::bits(
             first.exists.surely() & (first.face.error == zero<D>()) & first.entering.known);
         const std::uint32_t entering = Lanes<D>::bits(first.entering.answer);
@@ -208,16 +215,49 @@ class FinishAgain {
         first.t.value.high.store_unaligned(high);
         first.t.value.low.store_unaligned(low);
         first.t.error.store_unaligned(error);
+        std::uint32_t those = 0;
         for (std::size_t lane = 0; lane < packet.count; ++lane) {
             const std::uint32_t hit = found_.hit[packet.rays[lane]];
             const bool is_it = (known >> lane & 1) != 0 &&
                                static_cast<std::uint32_t>(face[lane]) == (hit & hit_face) &&
                                (entering >> lane & 1) == ((hit & hit_entering) != 0 ? 1U : 0U);
             if (!is_it) continue;
+            those |= 1U << lane;
             const std::size_t k = packet.of[lane];
-            t.high[k] = high[lane];
-            t.low[k] = low[lane];
-            t.error[k] = error[lane];
+            wide.high[k] = high[lane];
+            wide.low[k] = low[lane];
+            wide.error[k] = error[lane];
+        }
+        if (wide.rounded != nullptr && those != 0)
+            store_normals(solver, loaded, first, packet, those, wide);
+    }
+
+    /// Of some lanes of the packet.
+    template <class Solver>
+    static void store_normals(const Solver& solver, const Loaded& loaded,
+                              const Crossing<Certified<Wide<D>>>& crossing, const Packet& packet,
+                              std::uint32_t lanes, const WideCrossings& wide) {
+        using C = Certified<Wide<D>>;
+        const Rays<C> rays = exact<Wide<D>>(loaded.rays);
+        const Vectors<C> normal = solver.outward_normal(
+            mul_add<C>(crossing.t, rays.direction, rays.origin), crossing.face);
+        const Floats<C>* const components[] = {&normal.x, &normal.y, &normal.z};
+        for (int axis = 0; axis < 3; ++axis) {
+            const F value = components[axis]->in_double();
+            const F off = components[axis]->error +
+                          Digits<Wide<D>>::lost_in_double(components[axis]->value);
+            // Both sums are rounded.
+            const F error = select(off == zero<D>(), off, off + F(0x1p-50) * (off + abs(value)));
+            const std::uint32_t rounded =
+                lanes & Lanes<D>::bits(Lanes<D>::round_alike(value - error, value + error));
+            double values[width];
+            value.store_unaligned(values);
+            for (std::size_t lane = 0; lane < packet.count; ++lane) {
+                const std::size_t k = packet.of[lane];
+                wide.normal[axis][k] = static_cast<float>(values[lane]);
+                wide.rounded[k] = static_cast<std::uint8_t>(wide.rounded[k] |
+                                                            (rounded >> lane & 1) << axis);
+            }
         }
     }
 
@@ -225,7 +265,8 @@ class FinishAgain {
     template <class Solver, class Number>
     [[gnu::noinline]] static Finished<D> first_crossing(const Loaded& loaded, bool holds_points) {
         const F& length = loaded.length;
-        const Crossing<Certified<Number>> first = crossing_of<Solver, Number>(loaded);
+        const Crossing<Certified<Number>> first =
+            crossing_of<Number>(Solver(ExactReader<Number>{loaded.reader}), loaded);
         using Its = Digits<Number>;
         const F t = first.t.in_double();
         const F error = (first.t.error + Its::lost_in_double(first.t.value)) * F(1.0 + 0x1p-50);
@@ -271,8 +312,8 @@ void finish_again(const SceneView& scene, const Found& found) {
 
 template <class Arch>
 void widen(const SceneView& scene, const Found& found, const std::size_t* places, std::size_t count,
-           const WideNumbers& t) {
-    FinishAgain<Arch>(scene, found).widen(places, count, t);
+           const WideCrossings& wide) {
+    FinishAgain<Arch>(scene, found).widen(places, count, wide);
 }
 
 } // namespace raylane::simd
