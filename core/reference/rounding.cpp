@@ -69,25 +69,48 @@ Vec3<Real> wide_normal(const Scene& scene, const Ray<Real>& ray, const Real& t,
     });
 }
 
-/// A vector that is linear in t, at a root: components of it when it is brought to length 1.
-class ExactDirection {
+/// That of an apex.
+Vec3<Real> wide_apex_normal(const Scene& scene, const Ray<Real>& ray, const Hit<double>& hit) {
+    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Real> {
+        return normal_along(shape, ray, hit.face).apex;
+    });
+}
+
+/// A normal, of any length: linear in t, at a root. That of an apex is 0.
+class ExactNormal {
   public:
-    ExactDirection(const Scene& scene, const LeavingRay& from, const Hit<double>& hit)
+    ExactNormal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit)
         : root_(SharpHit(hit).root(scene, from)),
           along_(with_shape(scene, hit, [&](const auto& shape) {
               return normal_along(shape, ray_in<Dyadic>(from.ray), hit.face);
-          })) {
-        square_ = {squared_length(along_.slope), dot(along_.slope, along_.v),
-                   squared_length(along_.v)};
-        if (root_.sign_of(square_) != 0) return;
+          })) {}
+
+    int sign_of(int axis) const {
+        return root_.sign_of({0.0, 0.5 * along_.slope[axis], along_.v[axis]});
+    }
+
+  protected:
+    ExactRoot root_;
+    NormalAlong<Dyadic> along_;
+};
+
+/// Components of a normal that is brought to length 1, or of what stands in for it at an apex.
+class ExactDirection : private ExactNormal {
+  public:
+    explicit ExactDirection(const ExactNormal& normal)
+        : ExactNormal(normal), square_{squared_length(along_.slope), dot(along_.slope, along_.v),
+                                       squared_length(along_.v)},
+          at_apex_(root_.sign_of(square_) == 0) {
+        if (!at_apex_) return;
         along_ = {along_.apex};
         square_ = {0.0, 0.0, squared_length(along_.v)};
     }
 
+    bool at_apex() const { return at_apex_; }
+
     /// Nearest to the component, ties to even; it is one of those from `first` to `last`.
     float rounded(int axis, float first, float last) const {
-        const ExactQuadratic value{0.0, 0.5 * along_.slope[axis], along_.v[axis]};
-        const int sign = root_.sign_of(value);
+        const int sign = sign_of(axis);
         if (sign == 0) return 0.0F;
         if (sign < 0) first = -std::exchange(last, -first);
         // By their numbers, floats from 0 to 1 are in order.
@@ -107,7 +130,7 @@ class ExactDirection {
     }
     /// Within 2^-45.
     double approximately(int axis) const {
-        const int sign = root_.sign_of({0.0, 0.5 * along_.slope[axis], along_.v[axis]});
+        const int sign = sign_of(axis);
         double low = 0.0, high = 1.0;
         for (int step = 0; step < 46; ++step) {
             const double middle = 0.5 * (low + high);
@@ -125,9 +148,37 @@ class ExactDirection {
                               v * v - factor * square_.C});
     }
 
-    ExactRoot root_;
-    NormalAlong<Dyadic> along_;
     ExactQuadratic square_; // of its length
+    bool at_apex_;
+};
+
+/// Floats that the components of a direction are known to be between.
+class RoundedDirection {
+  public:
+    /// Brings it to length 1. True if each component rounds to one float, whatever its error.
+    bool is_sure(const Vec3<Real>& direction) {
+        const Real length = core::length(direction);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Bounded<double> component = in_double(direction[axis] / length);
+            if (!(component.error <= 1.0)) continue;
+            first_[axis] = static_cast<float>(below(component.value, component.error));
+            last_[axis] = static_cast<float>(above(component.value, component.error));
+        }
+        return first_ == last_;
+    }
+    /// The floats, which are sure.
+    Vec3f rounded() const { return first_ + Vec3f(0.0F); } // no -0
+    /// The floats, by exact numbers where these are not.
+    Vec3f rounded(const ExactDirection& exact) const {
+        Vec3f result = rounded();
+        for (int axis = 0; axis < 3; ++axis)
+            if (first_[axis] != last_[axis])
+                result[axis] = exact.rounded(axis, first_[axis], last_[axis]);
+        return result;
+    }
+
+  private:
+    Vec3f first_{-1.0F}, last_{1.0F};
 };
 
 } // namespace
@@ -184,26 +235,33 @@ float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& h
 
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
     const Ray<Real> ray = ray_in<Real>(from.ray);
-    Vec3f first(-1.0F), last(1.0F);
-    const auto is_sure = [&](const Real& t) {
-        const Vec3<Real> direction = wide_normal(scene, ray, t, hit);
-        const Real length = core::length(direction);
-        for (int axis = 0; axis < 3; ++axis) {
-            const Bounded<double> component = in_double(direction[axis] / length);
-            if (!(component.error <= 1.0)) continue;
-            first[axis] = static_cast<float>(below(component.value, component.error));
-            last[axis] = static_cast<float>(above(component.value, component.error));
-        }
-        return first == last;
-    };
+    RoundedDirection normal;
     // Vectors have tried with t as it is known in double.
-    if (!with_wide_t(scene, from, hit, is_sure)) {
-        const ExactDirection exact(scene, from, hit);
-        for (int axis = 0; axis < 3; ++axis)
-            if (first[axis] != last[axis])
-                first[axis] = exact.rounded(axis, first[axis], last[axis]);
-    }
-    return first + Vec3f(0.0F); // no -0
+    if (with_wide_t(scene, from, hit, [&](const Real& t) {
+            return normal.is_sure(wide_normal(scene, ray, t, hit));
+        }))
+        return normal.rounded();
+    const ExactDirection exact(ExactNormal(scene, from, hit));
+    if (exact.at_apex() && normal.is_sure(wide_apex_normal(scene, ray, hit)))
+        return normal.rounded();
+    return normal.rounded(exact);
+}
+
+Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
+                     const Vec3f& known) {
+    int unknown = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        unknown += std::isnan(known[axis]) ? 1 : 0;
+    if (unknown == 3) return rounded_normal(scene, from, hit);
+    // Digits never tell a component that is 0.
+    const ExactNormal exact(scene, from, hit);
+    Vec3f normal = known;
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::isnan(known[axis])) {
+            if (exact.sign_of(axis) != 0) return rounded_normal(scene, from, hit);
+            normal[axis] = 0.0F;
+        }
+    return normal + Vec3f(0.0F); // no -0
 }
 
 SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
@@ -246,7 +304,7 @@ SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
         result.normal = normalized(result.normal / largest(direction).magnitude());
         return result;
     }
-    const ExactDirection exact(scene, from, hit);
+    const ExactDirection exact(ExactNormal(scene, from, hit));
     for (int axis = 0; axis < 3; ++axis)
         result.normal[axis] = exact.approximately(axis);
     return result;

@@ -27,8 +27,10 @@ bool rounds_surely(const DoubleDouble& t, double error);
 /// The unit normal outside (in front) of the surface at the true point of a crossing, each
 /// component rounded to the nearest float, ties to even; 0 is +0. At an edge it is that of the
 /// lowest of the faces which the ray crosses there; at the apex of a cone the axis, to the outside;
-/// at that of a quadric z.
+/// at that of a quadric z. Components of it that are known already may be given, NaN for others.
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit);
+Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit,
+                     const Vec3f& known);
 
 /// The same in double, within 2^-40, and the point itself, within 2^-50 of its largest coordinate
 /// or of the shape's distance from it.

@@ -93,7 +93,10 @@ void StreamIntake::take(const RayStream<Real>& rays, std::size_t count, std::siz
 template <class Real>
 void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std::size_t to) {
     const std::span<const std::uint32_t> slots = shapes_.slots();
+    constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < count; ++i) {
+        if (i + ahead < count && rays.origin_shape[i + ahead] < slots.size())
+            __builtin_prefetch(&slots[rays.origin_shape[i + ahead]]);
         const std::size_t lane = to + i;
         const core::ShapeId shape = rays.origin_shape[i];
         const std::uint32_t tie_counts = paths_.origin_bits[lane];

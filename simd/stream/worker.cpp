@@ -160,7 +160,6 @@ struct StreamWorker::Widened {
     std::uint8_t rounded[most];
 
     core::DoubleDouble t(std::size_t k) const { return {high[k], low[k]}; }
-    bool knows_normal(std::size_t k) const { return rounded[k] == 7; }
 };
 
 /// t in double of lanes that have hits.
@@ -278,9 +277,13 @@ core::Vec3f StreamWorker::normal_of(const LoneRay& ray, const core::Hit<double>&
     const std::uint32_t lane = widened.lanes[k];
     if ((found.hit[lane] & (hit_normal_doubtful | hit_normal_unknown)) == 0)
         return in_float({found.normal[0][lane], found.normal[1][lane], found.normal[2][lane]});
-    if (!widened.knows_normal(k)) return core::rounded_normal(scene_.scene(), ray.leaving(), hit);
-    return core::Vec3f(widened.normal[0][k], widened.normal[1][k], widened.normal[2][k]) +
-           core::Vec3f(0.0F); // no -0
+    core::Vec3f known;
+    for (int axis = 0; axis < 3; ++axis)
+        known[axis] = (widened.rounded[k] >> axis & 1) != 0
+                          ? widened.normal[axis][k]
+                          : std::numeric_limits<float>::quiet_NaN();
+    if (widened.rounded[k] == 7) return known + core::Vec3f(0.0F); // no -0
+    return core::rounded_normal(scene_.scene(), ray.leaving(), hit, known);
 }
 
 /// Of the lane's hit.

@@ -212,16 +212,6 @@ class Finish {
             if ((active >> lane & 1) != 0) found_.hit[i + lane] = numbers[lane];
     }
 
-    /// True where each component of the normal rounds to one float, whatever its error.
-    static M is_rounded(const Finished<D>& finished) {
-        const auto alike = [](const F& value, const F& error) {
-            return Lanes<D>::round_alike(value - error, value + error);
-        };
-        return alike(finished.normal.x, finished.normal_error.x) &
-               alike(finished.normal.y, finished.normal_error.y) &
-               alike(finished.normal.z, finished.normal_error.z);
-    }
-
     [[gnu::always_inline]] static void store(const Vectors<D>& values, double* const out[3],
                                              std::size_t i, std::uint32_t active) {
         store(values.x, out[0] + i, active);

@@ -229,44 +229,59 @@ class FinishAgain {
             wide.error[k] = error[lane];
         }
         if (wide.rounded != nullptr && those != 0)
-            store_normals(solver, loaded, first, packet, those, wide);
+            store_normals(normal_of<Wide<D>>(solver, loaded, first), packet, those, wide);
+    }
+
+    template <class Number, class Solver>
+    static Vectors<Certified<Number>> normal_of(const Solver& solver, const Loaded& loaded,
+                                                const Crossing<Certified<Number>>& crossing) {
+        using C = Certified<Number>;
+        const Rays<C> rays = exact<Number>(loaded.rays);
+        return solver.outward_normal(mul_add<C>(crossing.t, rays.direction, rays.origin),
+                                     crossing.face);
+    }
+
+    /// In double, and what that may be off by.
+    template <class Number>
+    static void store(const Vectors<Certified<Number>>& normal, Finished<D>& finished) {
+        const auto error = [](const Floats<Certified<Number>>& component) {
+            const F off = component.error + Digits<Number>::lost_in_double(component.value);
+            // This sum is rounded, and those of the number and it.
+            return select(off == zero<D>(), off, off + F(0x1p-50) * (off + component.magnitude()));
+        };
+        finished.normal = {normal.x.in_double(), normal.y.in_double(), normal.z.in_double()};
+        finished.normal_error = {error(normal.x), error(normal.y), error(normal.z)};
     }
 
     /// Of some lanes of the packet.
-    template <class Solver>
-    static void store_normals(const Solver& solver, const Loaded& loaded,
-                              const Crossing<Certified<Wide<D>>>& crossing, const Packet& packet,
+    static void store_normals(const Vectors<Certified<Wide<D>>>& normal, const Packet& packet,
                               std::uint32_t lanes, const WideCrossings& wide) {
-        using C = Certified<Wide<D>>;
-        const Rays<C> rays = exact<Wide<D>>(loaded.rays);
-        const Vectors<C> normal = solver.outward_normal(
-            mul_add<C>(crossing.t, rays.direction, rays.origin), crossing.face);
-        const Floats<C>* const components[] = {&normal.x, &normal.y, &normal.z};
+        Finished<D> finished;
+        store(normal, finished);
+        const F* const values[] = {&finished.normal.x, &finished.normal.y, &finished.normal.z};
+        const F* const errors[] = {&finished.normal_error.x, &finished.normal_error.y,
+                                   &finished.normal_error.z};
         for (int axis = 0; axis < 3; ++axis) {
-            const F value = components[axis]->in_double();
-            const F off = components[axis]->error +
-                          Digits<Wide<D>>::lost_in_double(components[axis]->value);
-            // Both sums are rounded.
-            const F error = select(off == zero<D>(), off, off + F(0x1p-50) * (off + abs(value)));
             const std::uint32_t rounded =
-                lanes & Lanes<D>::bits(Lanes<D>::round_alike(value - error, value + error));
-            double values[width];
-            value.store_unaligned(values);
+                lanes & Lanes<D>::bits(round_alike<D>(*values[axis], *errors[axis]));
+            double numbers[width];
+            values[axis]->store_unaligned(numbers);
             for (std::size_t lane = 0; lane < packet.count; ++lane) {
                 const std::size_t k = packet.of[lane];
-                wide.normal[axis][k] = static_cast<float>(values[lane]);
-                wide.rounded[k] = static_cast<std::uint8_t>(wide.rounded[k] |
-                                                            (rounded >> lane & 1) << axis);
+                wide.normal[axis][k] = static_cast<float>(numbers[lane]);
+                wide.rounded[k] =
+                    static_cast<std::uint8_t>(wide.rounded[k] | (rounded >> lane & 1) << axis);
             }
         }
     }
 
-    /// First crossing of rays that do not start on the shape. The normal is not known.
+    /// First crossing of rays that do not start on the shape; and its normal, where those who ask
+    /// want floats.
     template <class Solver, class Number>
     [[gnu::noinline]] static Finished<D> first_crossing(const Loaded& loaded, bool holds_points) {
         const F& length = loaded.length;
-        const Crossing<Certified<Number>> first =
-            crossing_of<Number>(Solver(ExactReader<Number>{loaded.reader}), loaded);
+        const Solver solver(ExactReader<Number>{loaded.reader});
+        const Crossing<Certified<Number>> first = crossing_of<Number>(solver, loaded);
         using Its = Digits<Number>;
         const F t = first.t.in_double();
         const F error = (first.t.error + Its::lost_in_double(first.t.value)) * F(1.0 + 0x1p-50);
@@ -275,13 +290,16 @@ class FinishAgain {
         if (holds_points) certain = certain & holds_point(loaded.rays, t, error);
         // Of rays that stand for others the length is off by a few ulps, and so is the product.
         const F unit_t = t * length, rounding = select(length == F(1.0), zero<D>(), F(0x1p-50));
-        return {certain,
-                unit_t,
-                error * length + rounding * unit_t,
-                first.face.in_double(),
-                first.entering.answer,
-                {},
-                first.exists.surely_not()};
+        Finished<D> finished = {certain,
+                                unit_t,
+                                error * length + rounding * unit_t,
+                                first.face.in_double(),
+                                first.entering.answer,
+                                {},
+                                first.exists.surely_not()};
+        if (!holds_points && any<D>(certain))
+            store(normal_of<Number>(solver, loaded, first), finished);
+        return finished;
     }
 
     void store(const Finished<D>& finished, const Packet& packet, std::uint32_t certain) const {
@@ -290,12 +308,24 @@ class FinishAgain {
         finished.error.store_unaligned(error);
         finished.face.store_unaligned(face);
         const std::uint32_t entering = Lanes<D>::bits(finished.entering);
+        std::uint32_t with_normal = 0;
+        double normal[3][width];
+        if (!found_.holds_points) {
+            with_normal = Lanes<D>::bits(is_rounded(finished));
+            finished.normal.x.store_unaligned(normal[0]);
+            finished.normal.y.store_unaligned(normal[1]);
+            finished.normal.z.store_unaligned(normal[2]);
+        }
         for (std::size_t lane = 0; lane < packet.count; ++lane) {
             if ((certain >> lane & 1) == 0) continue;
             const std::size_t ray = packet.rays[lane];
+            const bool has_normal = (with_normal >> lane & 1) != 0;
+            for (int axis = 0; has_normal && axis < 3; ++axis)
+                found_.normal[axis][ray] = normal[axis][lane];
             found_.t[ray] = t[lane];
             found_.error[ray] = error[lane];
-            found_.hit[ray] = static_cast<std::uint32_t>(face[lane]) | hit_normal_unknown |
+            found_.hit[ray] = static_cast<std::uint32_t>(face[lane]) |
+                              (has_normal ? 0 : hit_normal_unknown) |
                               ((entering >> lane & 1) != 0 ? hit_entering : 0);
         }
     }

@@ -40,6 +40,19 @@ struct Finished {
     Vectors<Arch> normal_error = {zero<Arch>(), zero<Arch>(), zero<Arch>()};
 };
 
+/// True where all numbers within `error` of a value round to one float.
+template <class Arch>
+Mask<Arch> round_alike(const Floats<Arch>& value, const Floats<Arch>& error) {
+    return Lanes<Arch>::round_alike(value - error, value + error);
+}
+/// True where each component of the normal rounds to one float, whatever its error.
+template <class Arch>
+Mask<Arch> is_rounded(const Finished<Arch>& finished) {
+    return round_alike<Arch>(finished.normal.x, finished.normal_error.x) &
+           round_alike<Arch>(finished.normal.y, finished.normal_error.y) &
+           round_alike<Arch>(finished.normal.z, finished.normal_error.z);
+}
+
 /// The relative accuracy that a t must have, as core::needed_accuracy.
 inline constexpr double needed_accuracy = 0x1p-27;
 
