@@ -55,7 +55,10 @@ inline Rounded<DoubleDouble> sum(const DoubleDouble& a, const DoubleDouble& b) {
     return {two_sum(upper.high, rest.high), std::abs(cross.low) + std::abs(rest.low)};
 }
 inline Rounded<DoubleDouble> product(const DoubleDouble& a, const DoubleDouble& b) {
-    return with_roundoff(a * b, a.low == 0.0 && b.low == 0.0);
+    const DoubleDouble value = a * b;
+    // Not what has underflown.
+    if ((a.high == 0.0 || b.high == 0.0) && value.high == 0.0) return {value, 0.0};
+    return with_roundoff(value, a.low == 0.0 && b.low == 0.0);
 }
 /// True if quotient * divisor, each of one double, is just the dividend.
 inline bool divides(const DoubleDouble& quotient, const DoubleDouble& divisor,
@@ -66,6 +69,7 @@ inline bool divides(const DoubleDouble& quotient, const DoubleDouble& divisor,
 }
 inline Rounded<DoubleDouble> quotient(const DoubleDouble& a, const DoubleDouble& b) {
     const DoubleDouble value = a / b;
+    if (a.high == 0.0 && value.high == 0.0) return {value, 0.0};
     return with_roundoff(value, divides(value, b, a));
 }
 inline Rounded<DoubleDouble> root(const DoubleDouble& a) {

@@ -1,9 +1,72 @@
 #include "simd/isa.hpp"
+#include "tests/bounded_truth.hpp"
 #include "tests/catch.hpp"
+#include "tests/simd/bounded_lanes.hpp"
 #include "tests/simd/lanes_check.hpp"
 #include "tests/simd/queue_check.hpp"
 
+#include <cmath>
+#include <utility>
+
 using namespace raylane::simd;
+using raylane::ray_sets::Random;
+using raylane::tests::BoundedNumber;
+using raylane::tests::Operation;
+
+namespace {
+
+struct BoundedCounts {
+    int wrong = 0, without = 0;
+};
+
+BoundedCounts bounds_of(BoundedOperation operate) {
+    BoundedCounts counts;
+    Random random(1);
+    for (int i = 0; i < 4000; ++i)
+        for (const Operation operation : raylane::tests::all_operations) {
+            BoundedNumber a[8], b[8];
+            BoundedColumns from[2], result{};
+            for (int lane = 0; lane < 8; ++lane) {
+                a[lane] = raylane::tests::any_bounded(random, true);
+                if (operation == Operation::root) a[lane] = raylane::tests::with_root(a[lane]);
+                b[lane] = raylane::tests::any_bounded(random, true);
+                for (int k = 0; k < 2; ++k) {
+                    const BoundedNumber& number = k == 0 ? a[lane] : b[lane];
+                    from[k].high[lane] = number.high;
+                    from[k].low[lane] = number.low;
+                    from[k].error[lane] = number.error;
+                }
+            }
+            const int lanes = operate(static_cast<int>(operation), from[0], from[1], result);
+            for (int lane = 0; lane < lanes; ++lane) {
+                const BoundedNumber found{result.high[lane], result.low[lane], result.error[lane]};
+                for (int k = 0; k < 4; ++k)
+                    counts.wrong += raylane::tests::bounds_hold(operation, a[lane].end(k % 2 == 0),
+                                                                b[lane].end(k / 2 == 0), found)
+                                        ? 0
+                                        : 1;
+                const bool may_have_none = operation == Operation::quotient &&
+                                           !(b[lane].error < 0.25 * std::abs(b[lane].high));
+                counts.without += !may_have_none && !(found.error < HUGE_VAL) ? 1 : 0;
+            }
+        }
+    return counts;
+}
+
+} // namespace
+
+TEST_CASE("bounds hold in lanes, whatever operands are within theirs") {
+    constexpr std::pair<Isa, BoundedOperation> all[] = {{Isa::portable, bounded_operation_portable},
+                                                        {Isa::sse42, bounded_operation_sse42},
+                                                        {Isa::avx2, bounded_operation_avx2},
+                                                        {Isa::avx512, bounded_operation_avx512}};
+    for (const auto& [isa, operate] : all) {
+        if (!is_available(isa)) continue;
+        const BoundedCounts counts = bounds_of(operate);
+        CHECK(counts.wrong == 0);
+        CHECK(counts.without == 0);
+    }
+}
 
 TEST_CASE("lanes do what loops over numbers do") {
     CHECK(lanes_failures_portable() == 0);

@@ -65,11 +65,13 @@ struct Digits<Wide<Lesser>> {
         return {Value::two_sum(upper.high, rest.high), abs(cross.low) + abs(rest.low)};
     }
     static Rounded product(const Value& a, const Value& b) {
-        return with_roundoff(a * b, is_short(a) & is_short(b));
+        const Value value = a * b;
+        return without_roundoff((a.high == zero<D>()) | (b.high == zero<D>()),
+                                with_roundoff(value, is_short(a) & is_short(b)));
     }
     static Rounded quotient(const Value& a, const Value& b) {
         const Value value = a / b;
-        return with_roundoff(value, divides(value, b, a));
+        return without_roundoff(a.high == zero<D>(), with_roundoff(value, divides(value, b, a)));
     }
     static Rounded root(const Value& a) {
         const Value value = sqrt(a);
@@ -82,6 +84,11 @@ struct Digits<Wide<Lesser>> {
         const Value product = Value::two_product(quotient.high, divisor.high);
         return is_short(quotient) & is_short(divisor) & (product.high == dividend.high) &
                (product.low == dividend.low) & (abs(dividend.high) > F(0x1p-900));
+    }
+    /// Where it is 0 for a reason, not because it has underflown.
+    static Rounded without_roundoff(const M& lanes, const Rounded& rounded) {
+        return {rounded.value,
+                select(lanes & (rounded.value.high == zero<D>()), zero<D>(), rounded.error)};
     }
     static Rounded with_roundoff(const Value& value, const M& is_exact) {
         const F size = abs(value.high);
