@@ -66,6 +66,10 @@ struct MethodKernels {
     /// The same, and more: what is certain to be missed is said to be, and hit_normal_doubtful.
     void (*finish_all)(const SceneView& scene, const Found& found);
     RefineKernels refine; ///< null where nothing is
+    /// Both at once, in scenes without a hierarchy; null where that would not do. Candidates are in
+    /// and out, as TraceKernels::nearest has them; what came in is not finished.
+    void (*nearest_of_few)(const SceneView& scene, std::uint32_t kind_bits, const Found& found,
+                           const Candidates& candidates, TraceCounters& counters);
 };
 inline constexpr int method_count = 4;
 

@@ -17,7 +17,8 @@ struct KernelsOf {
 
     template <class Method>
     static constexpr MethodKernels method() {
-        return {Trace<Arch, Method>::table(), Method::finish, Method::finish_all, Method::refine()};
+        return {Trace<Arch, Method>::table(), Method::finish, Method::finish_all, Method::refine(),
+                Method::nearest_of_few};
     }
 
     static constexpr Kernels table(const char* name) {

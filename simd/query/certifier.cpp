@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace raylane::simd {
 
@@ -36,6 +37,7 @@ void Certifier::find_own_exits(const Paths& paths, const CandidateSearch& search
     std::uint32_t any = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane)
         any |= paths.origin_bits[lane];
+    own_exit_count_ = 0;
     if ((any & origin_may_return) == 0) return;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
@@ -47,6 +49,7 @@ void Certifier::find_own_exits(const Paths& paths, const CandidateSearch& search
         gathered_hits_.slot[i] = paths.origin_slot[lanes_[i]];
     }
     finish(gathered_hits_.found(gathered_, 0, count));
+    own_exit_count_ = count;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t lane = lanes_[i], hit = gathered_hits_.hit[i];
         if ((hit & hit_doubtful) != 0) {
@@ -82,6 +85,27 @@ void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candi
     std::copy_n(lanes_, contact_count_, at_contacts_);
 }
 
+void Certifier::find_of_few(const Paths& paths, const Candidates& candidates, const Hits& hits,
+                            EngineCounters& counters) {
+    contact_count_ = 0;
+    TraceCounters traced{};
+    tracing_.method().nearest_of_few(scene_.view(), scene_.listed_kinds(),
+                                     hits.found(paths, 0, paths.count), candidates, traced);
+    counters += traced;
+    for (std::size_t i = 0; i < own_exit_count_; ++i)
+        if (hits.slot[lanes_[i]] == gathered_hits_.slot[i]) hits.copy(gathered_hits_, i, lanes_[i]);
+    for (const std::uint32_t lane : break_ties(paths, candidates, hits))
+        finish_one(paths, lane, hits);
+}
+
+/// What has been found for one lane.
+void Certifier::finish_one(const Paths& paths, std::uint32_t lane, const Hits& hits) {
+    gathered_.copy_ray(paths, lane, 0);
+    gathered_hits_.slot[0] = hits.slot[lane];
+    finish(gathered_hits_.found(gathered_, 0, 1));
+    hits.copy(gathered_hits_, 0, lane);
+}
+
 void Certifier::finish(Found found) const {
     found.holds_points = asked_ == Asked::points;
     const MethodKernels& method = tracing_.method();
@@ -89,8 +113,11 @@ void Certifier::finish(Found found) const {
 }
 
 /// The kernels take of several crossings at the same t whichever they meet first, and note that
-/// there is another. That is rare: most packets are done with at a glance.
-void Certifier::break_ties(const Paths& paths, const Candidates& candidates, const Hits& hits) {
+/// there is another. That is rare: most packets are done with at a glance. Returns the lanes that
+/// meet another shape than was found.
+std::span<const std::uint32_t>
+Certifier::break_ties(const Paths& paths, const Candidates& candidates, const Hits& hits) {
+    std::size_t changed = 0;
     for (std::size_t begin = 0; begin < paths.count; begin += 16) {
         const float* const first = candidates.first + begin;
         const float* const second = candidates.second + begin;
@@ -101,9 +128,13 @@ void Certifier::break_ties(const Paths& paths, const Candidates& candidates, con
         for (std::size_t i = 0; i < 16 && begin + i < paths.count; ++i) {
             if (first[i] != second[i] || first[i] == infinity) continue;
             const std::size_t lane = begin + i;
-            hits.slot[lane] = tie_breaker_->first_at(first[i], paths, lane, hits.slot[lane]);
+            const std::uint32_t slot =
+                tie_breaker_->first_at(first[i], paths, lane, hits.slot[lane]);
+            if (std::exchange(hits.slot[lane], slot) != slot)
+                lanes_[changed++] = static_cast<std::uint32_t>(lane);
         }
     }
+    return {lanes_, changed};
 }
 
 /// The shape is decided; the numbers are those that the kernel has for it.
@@ -117,10 +148,8 @@ void Certifier::compare_in_double(const Paths& paths, std::span<const std::uint3
             continue;
         }
         if (!first.is_alone) at_contacts_[contact_count_++] = lane;
-        gathered_.copy_ray(paths, lane, 0);
-        gathered_hits_.slot[0] = scene_.slot_of(first.hit.kind, first.hit.place);
-        finish(gathered_hits_.found(gathered_, 0, 1));
-        hits.copy(gathered_hits_, 0, lane);
+        hits.slot[lane] = scene_.slot_of(first.hit.kind, first.hit.place);
+        finish_one(paths, lane, hits);
     }
 }
 

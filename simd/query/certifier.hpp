@@ -28,12 +28,18 @@ class Certifier {
     void certify(const Paths& paths, CandidateSearch& search, const Candidates& candidates,
                  const Hits& hits, EngineCounters& counters);
 
+    /// All of this at once, with a method that certifies nothing, of a few shapes.
+    void find_of_few(const Paths& paths, const Candidates& candidates, const Hits& hits,
+                     EngineCounters& counters);
+
     /// Lanes of the last rays; see Query.
     std::span<const std::uint32_t> at_contacts() const { return {at_contacts_, contact_count_}; }
     std::span<const HitPoint> points() const { return refinery_.points(); }
 
   private:
-    void break_ties(const Paths& paths, const Candidates& candidates, const Hits& hits);
+    std::span<const std::uint32_t> break_ties(const Paths& paths, const Candidates& candidates,
+                                              const Hits& hits);
+    void finish_one(const Paths& paths, std::uint32_t lane, const Hits& hits);
     void compare_in_double(const Paths& paths, std::span<const std::uint32_t> lanes,
                            const Hits& hits, EngineCounters& counters);
     void finish(Found found) const;
@@ -51,6 +57,7 @@ class Certifier {
     Paths gathered_{};
     Hits gathered_hits_{};
     std::uint32_t* lanes_ = nullptr;
+    std::size_t own_exit_count_ = 0; // the first of these, until they are of others
 };
 
 } // namespace raylane::simd

@@ -30,13 +30,15 @@ void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounte
     std::fill_n(candidates.second, padded, infinity);
     std::fill_n(candidates.slot, padded, no_slot);
 
-    search_.take(paths.columns());
+    const bool few = tracing_.method().nearest_of_few != nullptr && !scene_.has_tree();
+    if (!few) search_.take(paths.columns());
     if (t_most == nullptr)
         std::fill_n(candidates.first, padded, infinity);
     else // as if something unknown were there
         for (std::size_t lane = 0; lane < paths.count; ++lane)
             first_[lane] = rounded_up(search_.t_most(lane, t_most[lane]));
     certifier_.find_own_exits(paths, search_, candidates);
+    if (few) return certifier_.find_of_few(paths, candidates, hits_, counters);
     search_.nearest(coherence, candidates, counters);
     certifier_.certify(paths, search_, candidates, hits_, counters);
 }

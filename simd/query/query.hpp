@@ -13,7 +13,8 @@ namespace raylane::simd {
 class Query {
   public:
     Query(const SceneData& scene, const Tracing& tracing, Asked asked)
-        : scene_(scene), search_(scene, tracing), certifier_(scene, tracing, asked) {}
+        : scene_(scene), tracing_(tracing), search_(scene, tracing),
+          certifier_(scene, tracing, asked) {}
 
     /// Arrays for this many rays.
     void take_from(Arena& arena, std::size_t capacity);
@@ -37,6 +38,7 @@ class Query {
 
   private:
     const SceneData& scene_;
+    Tracing tracing_;
     CandidateSearch search_;
     Certifier certifier_;
     Hits hits_{};

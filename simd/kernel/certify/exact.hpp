@@ -31,6 +31,7 @@ struct ExactMethod : RaysInFloat<Arch> {
     static void finish_all(const SceneView& scene, const Found& found) {
         simd::finish<Arch, Wanted::all>(scene, found);
     }
+    static constexpr decltype(MethodKernels::nearest_of_few) nearest_of_few = nullptr;
     static constexpr RefineKernels refine() {
         return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>, widen<Arch>};
     }

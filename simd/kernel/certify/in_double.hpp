@@ -70,6 +70,7 @@ struct DoubleMethod {
         PlainFinish<D, false>(scene, found).all_rays();
     }
     static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
+    static constexpr decltype(MethodKernels::nearest_of_few) nearest_of_few = nullptr;
     static constexpr RefineKernels refine() { return {}; }
 
   private:

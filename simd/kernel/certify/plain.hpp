@@ -2,6 +2,7 @@
 
 #include "simd/kernel/certify/plain_finish.hpp"
 #include "simd/kernel/shapes/filter.hpp"
+#include "simd/kernel/traverse/every_shape/solved_once.hpp"
 
 namespace raylane::simd {
 
@@ -34,6 +35,7 @@ struct PlainMethod : RaysInFloat<Arch> {
     }
     static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
     static constexpr RefineKernels refine() { return {}; }
+    static constexpr auto nearest_of_few = SolvedOnce<Arch, textbook>::nearest;
 };
 
 } // namespace raylane::simd

@@ -1,0 +1,208 @@
+#pragma once
+
+#include "simd/kernel/certify/slots.hpp"
+#include "simd/kernel/traverse/rays.hpp"
+
+namespace raylane::simd {
+
+/// Every shape against packets of rays, as a method in float has it that certifies nothing: each
+/// crossing is solved once, and the nearest stays in registers until it is a hit.
+template <class Arch, bool textbook>
+class SolvedOnce : Streams<Arch> {
+  public:
+    /// MethodKernels::nearest_of_few
+    static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Found& found,
+                        const Candidates& candidates, TraceCounters& counters) {
+        std::uint64_t shapes = 0;
+        for (std::size_t i = 0; i < found.count; i += F::size) {
+            const Packet packet(found, i);
+            Nearest nearest(candidates, i);
+            S::for_each_kind(kind_bits, [&](core::Kind kind) {
+                const TableView& table = S::table_of(scene, kind);
+                with_solver<Arch, textbook>(kind, [&]<class Solver>() {
+                    shapes += F::size * test_all<Solver>(table, packet, nearest);
+                });
+            });
+            nearest.store(candidates, found, i);
+            finish(scene, packet, nearest, found, i);
+        }
+        counters.shapes += shapes;
+        counters.one_by_one += found.count;
+    }
+
+  private:
+    using S = Streams<Arch>;
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+    using V = Vectors<Arch>;
+
+    struct Packet {
+        Rays<Arch> rays;
+        F origin_first, origin_last;
+        bool leave_any; ///< some leave a shape
+
+        Packet(const Found& found, std::size_t i)
+            : rays{narrow(found.origin, i), narrow(found.direction, i)},
+              origin_first(S::load_bits(found.origin_first + i)),
+              origin_last(S::load_bits(found.origin_last + i)),
+              leave_any(
+                  Lanes<Arch>::bits(~Lanes<Arch>::in_range(origin_first, S::broadcast_bits(no_slot),
+                                                           S::broadcast_bits(no_slot))) != 0) {}
+
+        static V narrow(const double* const (&from)[3], std::size_t i) {
+            return {Lanes<Arch>::narrow(from[0] + i), Lanes<Arch>::narrow(from[1] + i),
+                    Lanes<Arch>::narrow(from[2] + i)};
+        }
+    };
+
+    /// What is known of a packet's hits.
+    struct Nearest {
+        F t, second, slot;
+        F code = zero<Arch>(); ///< face, and hit_entering
+
+        Nearest(const Candidates& candidates, std::size_t i)
+            : t(S::load(candidates.first + i)), second(S::load(candidates.second + i)),
+              slot(S::load_bits(candidates.slot + i)) {}
+
+        [[gnu::always_inline]] void take(const Crossing<Arch>& crossing, std::uint32_t this_slot) {
+            const F there = select(crossing.exists, crossing.t, S::infinity());
+            const M nearer = there < t;
+            second = min(second, max(there, t));
+            t = min(t, there);
+            slot = select(nearer, S::broadcast_bits(this_slot), slot);
+            code = select(
+                nearer,
+                select(crossing.entering, crossing.face + F(float{hit_entering}), crossing.face),
+                code);
+        }
+
+        void store(const Candidates& candidates, const Found& found, std::size_t i) const {
+            t.store_unaligned(candidates.first + i);
+            second.store_unaligned(candidates.second + i);
+            S::store_bits(slot, candidates.slot + i);
+            std::uint32_t* const hit = found.hit + i;
+            float codes[F::size];
+            code.store_unaligned(codes);
+            for (std::size_t lane = 0; lane < F::size; ++lane)
+                hit[lane] = static_cast<std::uint32_t>(static_cast<std::int32_t>(codes[lane]));
+        }
+    };
+
+    /// Takes account of all shapes of a table. Returns how many there are.
+    template <class Solver>
+    [[gnu::noinline, gnu::flatten]] static std::uint64_t
+    test_all(const TableView& table, const Packet& of_packet, Nearest& of_nearest) {
+        const Packet packet = of_packet;
+        Nearest nearest = of_nearest;
+        std::uint64_t count = 0;
+        for (std::uint32_t b = 0; b < table.block_count; ++b) {
+            const float* const block = S::block_of(table, b);
+            const std::uint32_t* const ids = S::ids_of(table, block);
+            const std::uint32_t slot = table.first_slot + 16 * b;
+            for (std::uint32_t lane = 0; lane < 16 && ids[lane] != no_slot; ++lane, ++count) {
+                const Solver solver(
+                    BroadcastReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
+                Crossing<Arch> crossing = first_ahead<Arch>(
+                    solver.crossings(packet.rays, starts_nowhere<Arch>()), none<Arch>());
+                if (packet.leave_any)
+                    crossing.exists =
+                        crossing.exists & ~Lanes<Arch>::in_range(S::broadcast_bits(ids[lane]),
+                                                                 packet.origin_first,
+                                                                 packet.origin_last);
+                nearest.take(crossing, slot + lane);
+            }
+        }
+        of_nearest = nearest;
+        return count;
+    }
+
+    /// Reads the floats of a shape per lane.
+    struct Reader {
+        const float* base;
+        const std::uint32_t* places;
+
+        F next() {
+            const F values = Lanes<Arch>::gather(base, places);
+            base += 16;
+            return values;
+        }
+    };
+
+    /// Points and normals, kind by kind.
+    static void finish(const SceneView& scene, const Packet& packet, const Nearest& nearest,
+                       const Found& found, std::size_t i) {
+        const std::size_t rest = found.count - i;
+        std::uint32_t left = ~in_range(nearest.slot, no_slot, no_slot) &
+                             (rest < F::size ? (1U << rest) - 1 : all_lanes);
+        if (left == 0) return;
+        const std::uint32_t* const slots = found.slot + i;
+        const V point = mul_add<Arch>(nearest.t, packet.rays.direction, packet.rays.origin);
+        store(nearest.t, found.t + i);
+        store(zero<Arch>(), found.error + i);
+        while (left != 0) {
+            const auto first = static_cast<unsigned>(__builtin_ctz(left));
+            const core::Kind kind = Slots<Arch>::kind_of(scene, slots[first]);
+            const TableView& table = S::table_of(scene, kind);
+            const std::uint32_t last_slot = table.first_slot + 16 * table.block_count - 1;
+            const std::uint32_t alike = left & in_range(nearest.slot, table.first_slot, last_slot);
+            std::uint32_t places[F::size];
+            for (std::size_t lane = 0; lane < F::size; ++lane) {
+                const bool is_alike = (alike >> lane & 1) != 0;
+                places[lane] = static_cast<std::uint32_t>(
+                    Slots<Arch>::offset(table, slots[is_alike ? lane : first]));
+            }
+            with_solver<Arch, textbook>(kind, [&]<class Solver>() {
+                store_normals<Solver>({table.blocks, places}, point, found, i, alike);
+            });
+            left &= ~alike;
+        }
+    }
+
+    template <class Solver>
+    [[gnu::noinline, gnu::flatten]] static void store_normals(const Reader& reader, const V& point,
+                                                              const Found& found, std::size_t i,
+                                                              std::uint32_t lanes) {
+        const Solver solver(reader);
+        float faces[F::size];
+        for (std::size_t lane = 0; lane < F::size; ++lane)
+            faces[lane] =
+                static_cast<float>(static_cast<std::int32_t>(found.hit[i + lane] & hit_face));
+        const V normal = solver.outward_normal(point, F::load_unaligned(faces));
+        store(normal, found.normal, i, lanes);
+        if (found.shading_normal[0] == nullptr) return;
+        if constexpr (requires { solver.shading_normal(point, normal); })
+            store(solver.shading_normal(point, normal), found.shading_normal, i, lanes);
+        else
+            store(normal, found.shading_normal, i, lanes);
+    }
+
+    static constexpr std::uint32_t all_lanes =
+        static_cast<std::uint32_t>((std::uint64_t{1} << F::size) - 1);
+    static std::uint32_t in_range(const F& slots, std::uint32_t first, std::uint32_t last) {
+        return Lanes<Arch>::bits(
+            Lanes<Arch>::in_range(slots, S::broadcast_bits(first), S::broadcast_bits(last)));
+    }
+
+    static void store(const V& values, double* const out[3], std::size_t i, std::uint32_t lanes) {
+        store(values.x, out[0] + i, lanes);
+        store(values.y, out[1] + i, lanes);
+        store(values.z, out[2] + i, lanes);
+    }
+    static void store(const F& values, double* out, std::uint32_t lanes = all_lanes) {
+        using D = Double<Arch>;
+        constexpr std::size_t half = Floats<D>::size;
+        for (int part = 0; part < 2; ++part) {
+            double* const to = out + static_cast<std::size_t>(part) * half;
+            const Floats<D> wide = Lanes<D>::widen(values, part);
+            if (lanes == all_lanes)
+                wide.store_unaligned(to);
+            else
+                select(Lanes<D>::from_bits(lanes >> (static_cast<unsigned>(part) * half) &
+                                           ((1U << half) - 1)),
+                       wide, Floats<D>::load_unaligned(to))
+                    .store_unaligned(to);
+        }
+    }
+};
+
+} // namespace raylane::simd
