@@ -29,8 +29,9 @@ struct AxialRay {
         axis_squared = squared_length(a);
         height_origin = dot(from_base, a);
         height_direction = dot(ray.direction, a);
-        across_origin = mul_add(Real(-(height_origin / axis_squared)), a, from_base);
-        across_direction = mul_add(Real(-(height_direction / axis_squared)), a, ray.direction);
+        const Divisor<Real> by_axis_squared(axis_squared);
+        across_origin = mul_add(Real(-(height_origin / by_axis_squared)), a, from_base);
+        across_direction = mul_add(Real(-(height_direction / by_axis_squared)), a, ray.direction);
     }
 
     /// True if the crossing lies between the ends, the rims included.

@@ -15,7 +15,8 @@ Crossings<Real> ball_crossings(const Vec3<Real>& origin, const Vec3<Real>& direc
     if (start.on_surface && !start.inward) return {};
 
     const Real dd = squared_length(direction);
-    const Real tau = -dot(origin, direction) / dd;
+    const Divisor<Real> by_dd(dd);
+    const Real tau = -dot(origin, direction) / by_dd;
     if (start.on_surface) return Crossing<Real>{not_behind(Real(tau + tau)), body, false};
 
     if (judge.textbook())
@@ -24,7 +25,7 @@ Crossings<Real> ball_crossings(const Vec3<Real>& origin, const Vec3<Real>& direc
     const Vec3<Real> foot = mul_add(tau, direction, origin);
     const Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
     if (judge.negative(discriminant)) return {};
-    const Real half_chord = sqrt(discriminant / dd);
+    const Real half_chord = sqrt(Real(discriminant / by_dd));
     return {{tau - half_chord, body, true}, {tau + half_chord, body, false}};
 }
 

@@ -35,8 +35,9 @@ class ClipInterval {
             if (judge_.negative(start) || judge_.less(end, start)) clip_all();
             return;
         }
-        const Real at_low = -start / slope;
-        const Real at_high = (end - start) / slope;
+        const Divisor<Real> by_slope(slope);
+        const Real at_low = Real(-start) / by_slope;
+        const Real at_high = Real(end - start) / by_slope;
         clip_front(direction > 0 ? at_low : at_high, direction > 0 ? low : high);
         clip_back(direction > 0 ? at_high : at_low, direction > 0 ? high : low);
     }

@@ -46,10 +46,11 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
     const AxialRay<Real> axial(cylinder.base, cylinder.axis, ray);
     const Real radius = Real(cylinder.radius);
     const Real speed_squared = squared_length(axial.across_direction);
+    const Divisor<Real> by_speed_squared(speed_squared);
     const bool parallel = judge.sign(speed_squared) == 0;
-    const Real tau = parallel
-                         ? Real(0.0)
-                         : Real(-dot(axial.across_origin, axial.across_direction) / speed_squared);
+    const Real tau =
+        parallel ? Real(0.0)
+                 : Real(-dot(axial.across_origin, axial.across_direction)) / by_speed_squared;
 
     ClipInterval<Real> interval(judge);
     const bool from_body = start.on_surface && start.face == body;
@@ -75,7 +76,7 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
             discriminant = Real(0.0);
         }
         if (!parallel) {
-            const Real half_chord = sqrt(discriminant / speed_squared);
+            const Real half_chord = sqrt(Real(discriminant / by_speed_squared));
             if (!start.on_surface) interval.clip_front(tau - half_chord, body);
             interval.clip_back(tau + half_chord, body);
         }

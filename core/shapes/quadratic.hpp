@@ -19,7 +19,9 @@ Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
     const Real discriminant = B * B - A * C;
     if (static_cast<double>(discriminant) < 0.0) return {};
     const Real root = sqrt(discriminant);
-    const Crossing<Real> in{(-B - root) / A, body, true}, out{(root - B) / A, body, false};
+    const Divisor<Real> by_A(A);
+    const Crossing<Real> in{Real(-B - root) / by_A, body, true};
+    const Crossing<Real> out{Real(root - B) / by_A, body, false};
     const bool in_first = a > 0.0 || static_cast<double>(discriminant) == 0.0;
     return in_first ? Crossings<Real>(in, out) : Crossings<Real>(out, in);
 }
@@ -49,9 +51,10 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     }
 
     // The discriminant B^2 - A C.
+    const Divisor<Real> by_A(A);
     const bool near_linear = std::abs(static_cast<double>(A)) < 0x1p-4 * static_cast<double>(scale);
     const Real discriminant =
-        near_linear ? mul_add(B, B, Real(-(A * C))) : Real(-(A * at_vertex(Real(-B / A))));
+        near_linear ? mul_add(B, B, Real(-(A * C))) : Real(-(A * at_vertex(Real(-B) / by_A)));
     if (judge.negative(discriminant)) return {};
     const Real root = sqrt(discriminant);
 
@@ -61,11 +64,12 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     if (static_cast<double>(q) == 0.0)
         return {crossing(Real(0.0), true), crossing(Real(0.0), false)};
     // F' at q / A has the sign of `root` if falling; at C / q the opposite.
-    const Crossing<Real> by_A = crossing(q / A, !falling);
-    const Crossing<Real> by_C = crossing(C / q, falling);
+    const Crossing<Real> root_by_A = crossing(q / by_A, !falling);
+    const Crossing<Real> root_by_C = crossing(C / q, falling);
     // In order: for A > 0 the ray enters first, for A < 0 it leaves first, unless it touches.
     const bool in_first = curvature > 0 || static_cast<double>(discriminant) == 0.0;
-    return by_A.entering == in_first ? Crossings<Real>(by_A, by_C) : Crossings<Real>(by_C, by_A);
+    return root_by_A.entering == in_first ? Crossings<Real>(root_by_A, root_by_C)
+                                          : Crossings<Real>(root_by_C, root_by_A);
 }
 
 } // namespace raylane::core

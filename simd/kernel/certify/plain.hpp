@@ -16,7 +16,8 @@ struct PlainFilter {
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const Crossing<Arch> first = first_ahead<Arch>(
-            solver.crossings({rays.origin, rays.direction}, starts_nowhere<Arch>()), none<Arch>());
+            solver.crossings(Rays<Arch>{rays.origin, rays.direction}, starts_nowhere<Arch>()),
+            none<Arch>());
         return {first.exists, first.t, first.exists, first.t};
     }
 };

@@ -2,6 +2,8 @@
 
 #include "simd/kernel/lanes/lanes.hpp"
 
+#include <type_traits>
+
 /// Arithmetic on registers of floats, in the very order of core/numbers/vector.hpp: same bits.
 namespace raylane::simd {
 
@@ -26,6 +28,30 @@ template <class Arch>
 Floats<Arch> zero() {
     return constant<Arch>(0.0F);
 }
+
+/// core::Divisor
+template <class Arch>
+class Divisor {
+  public:
+    explicit Divisor(const Floats<Arch>& value) : by_(value) {
+        if constexpr (in_float) by_ = constant<Arch>(1.0F) / value;
+    }
+    /// What it keeps, of which it can be made again.
+    Floats<Arch> kept() const { return by_; }
+    static Divisor of_kept(const Floats<Arch>& kept) { return {kept, 0}; }
+
+    friend Floats<Arch> operator/(const Floats<Arch>& a, const Divisor& divisor) {
+        if constexpr (in_float)
+            return a * divisor.by_;
+        else
+            return a / divisor.by_;
+    }
+
+  private:
+    static constexpr bool in_float = std::is_same_v<typename Floats<Arch>::value_type, float>;
+    Divisor(const Floats<Arch>& kept, int) : by_(kept) {}
+    Floats<Arch> by_;
+};
 
 /// One vector per lane.
 template <class Arch>

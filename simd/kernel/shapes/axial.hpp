@@ -27,19 +27,38 @@ struct AxialNumbers {
     }
 };
 
+/// An axis, and what rays ask of it.
+template <class Arch>
+struct Axis {
+    Vectors<Arch> base, axis;
+    Floats<Arch> squared;
+    Divisor<Arch> by_squared;
+
+    Axis(const Vectors<Arch>& base_, const Vectors<Arch>& axis_)
+        : base(base_), axis(axis_), squared(squared_length(axis_)), by_squared(squared) {}
+    template <class Reader>
+    explicit Axis(Derived<Reader>& reader)
+        : base(next_vector<Arch>(reader)), axis(next_vector<Arch>(reader)), squared(reader.next()),
+          by_squared(Divisor<Arch>::of_kept(reader.next())) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        visit_each(visit, base, axis, squared, by_squared.kept());
+    }
+};
+
 template <class Arch>
 struct AxialRays {
     Floats<Arch> axis_squared, height_origin, height_direction;
     Vectors<Arch> across_origin, across_direction;
 
-    AxialRays(const Vectors<Arch>& base, const Vectors<Arch>& axis, const Rays<Arch>& rays) {
-        const Vectors<Arch> from_base = rays.origin - base;
-        axis_squared = squared_length(axis);
-        height_origin = dot(from_base, axis);
-        height_direction = dot(rays.direction, axis);
-        across_origin = mul_add<Arch>(negated(height_origin / axis_squared), axis, from_base);
+    AxialRays(const Axis<Arch>& axis, const Rays<Arch>& rays) : axis_squared(axis.squared) {
+        const Vectors<Arch> from_base = rays.origin - axis.base;
+        height_origin = dot(from_base, axis.axis);
+        height_direction = dot(rays.direction, axis.axis);
+        across_origin =
+            mul_add<Arch>(negated(height_origin / axis.by_squared), axis.axis, from_base);
         across_direction =
-            mul_add<Arch>(negated(height_direction / axis_squared), axis, rays.direction);
+            mul_add<Arch>(negated(height_direction / axis.by_squared), axis.axis, rays.direction);
     }
 
     Mask<Arch> between_ends(const Floats<Arch>& t) const {

@@ -6,10 +6,12 @@ namespace raylane::simd {
 
 /// core::ball_crossings
 template <class Arch, bool textbook>
-Crossings<Arch> ball_crossings(const Vectors<Arch>& origin, const Vectors<Arch>& direction,
-                               const Floats<Arch>& radius, const Starts<Arch>& starts) {
-    const Floats<Arch> dd = squared_length(direction);
-    const Floats<Arch> tau = negated(dot(origin, direction)) / dd;
+Crossings<Arch> ball_crossings(const MeasuredRays<Arch>& rays, const Floats<Arch>& radius,
+                               const Starts<Arch>& starts) {
+    const Vectors<Arch>&origin = rays.origin, &direction = rays.direction;
+    const Floats<Arch>& dd = rays.squared_length;
+    const Divisor<Arch>& by_dd = rays.by_squared_length;
+    const Floats<Arch> tau = negated(dot(origin, direction)) / by_dd;
     const Mask<Arch> leaves = starts.on_surface & starts.inward;
     if constexpr (textbook) {
         Crossings<Arch> roots = solve_textbook<Arch>(dd, dot(origin, direction),
@@ -21,7 +23,7 @@ Crossings<Arch> ball_crossings(const Vectors<Arch>& origin, const Vectors<Arch>&
     }
     const Vectors<Arch> foot = mul_add<Arch>(tau, direction, origin);
     const Floats<Arch> discriminant = mul_add<Arch>(radius, radius, negated(squared_length(foot)));
-    const Floats<Arch> half_chord = sqrt(discriminant / dd);
+    const Floats<Arch> half_chord = sqrt(discriminant / by_dd);
 
     const Mask<Arch> meets = ~(discriminant < zero<Arch>()) & ~starts.on_surface;
     return {{meets, tau - half_chord, zero<Arch>(), all<Arch>()},

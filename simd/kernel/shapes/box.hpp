@@ -83,46 +83,56 @@ struct BoxFilter {
 
 /// core/shapes/box.hpp
 template <class Arch, bool>
-struct BoxSolver : BoxNumbers<Arch> {
-    using Numbers = BoxNumbers<Arch>;
-    using Numbers::Numbers, Numbers::corner, Numbers::edge_u, Numbers::edge_v, Numbers::edge_w;
+struct BoxSolver {
+    Vectors<Arch> corner, normals[3]; ///< outward where the edge coordinate is 1
+    Floats<Arch> volume;              ///< > 0
+
+    template <class Reader>
+    explicit BoxSolver(Reader reader) : BoxSolver(BoxNumbers<Arch>(reader)) {}
+    template <class Reader>
+    explicit BoxSolver(Derived<Reader> reader)
+        : corner(next_vector<Arch>(reader)), normals{next_vector<Arch>(reader),
+                                                     next_vector<Arch>(reader),
+                                                     next_vector<Arch>(reader)},
+          volume(reader.next()) {}
+    explicit BoxSolver(const BoxNumbers<Arch>& box)
+        : corner(box.corner), normals{cross(box.edge_v, box.edge_w), cross(box.edge_w, box.edge_u),
+                                      cross(box.edge_u, box.edge_v)},
+          volume(dot(normals[0], box.edge_u)) {
+        const Mask<Arch> left_handed = volume < zero<Arch>();
+        for (Vectors<Arch>& normal : normals)
+            normal = select(left_handed, -normal, normal);
+        volume = select(left_handed, negated(volume), volume);
+    }
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        visit_each(visit, corner, normals[0], normals[1], normals[2], volume);
+    }
+
     Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         const Vectors<Arch> from_corner = rays.origin - corner;
-        const Vectors<Arch> normals[3] = {cross(edge_v, edge_w), cross(edge_w, edge_u),
-                                          cross(edge_u, edge_v)};
-        const Floats<Arch> volume = dot(normals[0], edge_u);
-        const Mask<Arch> left_handed = volume < zero<Arch>();
-        const auto turned = [&](const Floats<Arch>& a) {
-            return select(left_handed, negated(a), a);
-        };
-
         ClipInterval<Arch> interval;
         for (int i = 0; i < 3; ++i) {
-            const Floats<Arch> position = turned(dot(normals[i], from_corner));
-            const Floats<Arch> slope = turned(dot(normals[i], rays.direction));
+            const Floats<Arch> position = dot(normals[i], from_corner);
+            const Floats<Arch> slope = dot(normals[i], rays.direction);
             const float low = static_cast<float>(2 * i), high = static_cast<float>(2 * i + 1);
-            interval.clip_slab(~starts.on_surface, position, slope, turned(volume), low, high);
+            interval.clip_slab(~starts.on_surface, position, slope, volume, low, high);
             const Mask<Arch> rises =
                 starts.on_surface & (slope > zero<Arch>()) & (starts.face != constant<Arch>(high));
             const Mask<Arch> falls =
                 starts.on_surface & (slope < zero<Arch>()) & (starts.face != constant<Arch>(low));
-            interval.clip_back(rises, (turned(volume) - position) / slope, constant<Arch>(high));
+            interval.clip_back(rises, (volume - position) / slope, constant<Arch>(high));
             interval.clip_back(falls, negated(position) / slope, constant<Arch>(low));
         }
         return inward_only(interval.crossings(starts.on_surface), starts);
     }
 
     Vectors<Arch> outward_normal(const Vectors<Arch>&, const Floats<Arch>& face) const {
-        const Vectors<Arch> normals[3] = {cross(edge_v, edge_w), cross(edge_w, edge_u),
-                                          cross(edge_u, edge_v)};
-        const Mask<Arch> left_handed = dot(normals[0], edge_u) < zero<Arch>();
         const auto is = [&](float f) { return face == constant<Arch>(f); };
-        const Vectors<Arch> normal =
-            select(is(0) | is(1), normals[0], select(is(2) | is(3), normals[1], normals[2]));
+        const Vectors<Arch> unit = normalized(
+            select(is(0) | is(1), normals[0], select(is(2) | is(3), normals[1], normals[2])));
         const Mask<Arch> through_corner = is(0) | is(2) | is(4);
-        const Mask<Arch> same = (left_handed & through_corner) | (~left_handed & ~through_corner);
-        const Vectors<Arch> unit = normalized(normal);
-        return select(same, unit, -unit);
+        return select(through_corner, -unit, unit);
     }
 };
 

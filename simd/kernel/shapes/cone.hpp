@@ -7,13 +7,28 @@ namespace raylane::simd {
 
 /// core/shapes/cone.hpp
 template <class Arch, bool capped, bool textbook>
-struct ConeSolver : AxialNumbers<Arch, true> {
-    using Numbers = AxialNumbers<Arch, true>;
-    using Numbers::Numbers, Numbers::base, Numbers::axis, Numbers::base_radius, Numbers::top_radius;
+struct ConeSolver {
+    Axis<Arch> axis;
+    Floats<Arch> base_radius, top_radius, slope;
+
+    template <class Reader>
+    explicit ConeSolver(Reader reader) : ConeSolver(AxialNumbers<Arch, true>(reader)) {}
+    template <class Reader>
+    explicit ConeSolver(Derived<Reader> reader)
+        : axis(reader), base_radius(reader.next()), top_radius(reader.next()),
+          slope(reader.next()) {}
+    explicit ConeSolver(const AxialNumbers<Arch, true>& cone)
+        : axis(cone.base, cone.axis), base_radius(cone.base_radius), top_radius(cone.top_radius),
+          slope((top_radius - base_radius) / axis.squared) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        axis.derived(visit);
+        visit_each(visit, base_radius, top_radius, slope);
+    }
+
     Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
         const Floats<Arch> o = zero<Arch>();
-        const AxialRays<Arch> axial(base, axis, rays);
-        const Floats<Arch> slope = (top_radius - base_radius) / axial.axis_squared;
+        const AxialRays<Arch> axial(axis, rays);
         const Floats<Arch> W = mul_add<Arch>(slope, axial.height_origin, base_radius);
         const Floats<Arch> M = slope * axial.height_direction;
         const Floats<Arch> across_squared = squared_length(axial.across_direction);
@@ -69,12 +84,12 @@ struct ConeSolver : AxialNumbers<Arch, true> {
 
     Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>& face) const {
         const Floats<Arch> o = zero<Arch>();
-        const Vectors<Arch> unit_axis = normalized(axis);
-        const Vectors<Arch> across = offset_from_axis(base, axis, point);
+        const Vectors<Arch> unit_axis = normalized(axis.axis);
+        const Vectors<Arch> across = offset_from_axis(axis.base, axis.axis, point);
         const Floats<Arch> narrowing = base_radius - top_radius;
         const Floats<Arch> width = sqrt(squared_length(across));
         const Vectors<Arch> gradient =
-            mul_add<Arch>(width * narrowing / squared_length(axis), axis, across);
+            mul_add<Arch>(width * narrowing / axis.squared, axis.axis, across);
         const Vectors<Arch> at_apex = select(narrowing > o, unit_axis, -unit_axis);
         const Vectors<Arch> on_body =
             select(squared_length(gradient) > o, normalized(gradient), at_apex);

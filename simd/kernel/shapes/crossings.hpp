@@ -16,6 +16,17 @@ struct Rays {
     Vectors<Arch> origin, direction;
 };
 
+/// With what many shapes ask of them.
+template <class Arch>
+struct MeasuredRays : Rays<Arch> {
+    Floats<Arch> squared_length; ///< of directions
+    Divisor<Arch> by_squared_length;
+
+    MeasuredRays(const Rays<Arch>& rays) // NOLINT: implicit
+        : Rays<Arch>(rays), squared_length(simd::squared_length(rays.direction)),
+          by_squared_length(squared_length) {}
+};
+
 /// core::Start per lane. Faces are small whole numbers held as floats: so all masks are of one
 /// type.
 template <class Arch>
@@ -111,8 +122,9 @@ class ClipInterval {
         const Mask<Arch> rises = slope > zero<Arch>(), falls = slope < zero<Arch>();
         const Mask<Arch> beside = (start < zero<Arch>()) | (end < start);
         clip_all(lanes & ~rises & ~falls & beside);
-        const Floats<Arch> at_low = negated(start) / slope;
-        const Floats<Arch> at_high = (end - start) / slope;
+        const Divisor<Arch> by_slope(slope);
+        const Floats<Arch> at_low = negated(start) / by_slope;
+        const Floats<Arch> at_high = (end - start) / by_slope;
         const Floats<Arch> low_face = constant<Arch>(low), high_face = constant<Arch>(high);
         const Mask<Arch> crosses = lanes & (rises | falls);
         clip_front(crosses, select(rises, at_low, at_high), select(rises, low_face, high_face));

@@ -142,6 +142,11 @@ struct ToBall {
         }
     }
 
+    template <class Reader>
+    explicit ToBall(Derived<Reader> reader)
+        : rows{next_vector<Arch>(reader), next_vector<Arch>(reader), next_vector<Arch>(reader)},
+          radius(reader.next()) {}
+
     Vectors<Arch> operator()(const Vectors<Arch>& v) const {
         return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
     }
@@ -153,18 +158,29 @@ struct ToBall {
 
 /// core/shapes/ellipsoid.hpp
 template <class Arch, bool textbook>
-struct EllipsoidSolver : EllipsoidNumbers<Arch> {
-    using Numbers = EllipsoidNumbers<Arch>;
-    using Numbers::Numbers, Numbers::center;
+struct EllipsoidSolver {
+    Vectors<Arch> center;
+    ToBall<Arch> to_ball;
+
+    template <class Reader>
+    explicit EllipsoidSolver(Reader reader) : EllipsoidSolver(EllipsoidNumbers<Arch>(reader)) {}
+    template <class Reader>
+    explicit EllipsoidSolver(Derived<Reader> reader)
+        : center(next_vector<Arch>(reader)), to_ball(reader) {}
+    explicit EllipsoidSolver(const EllipsoidNumbers<Arch>& e) : center(e.center), to_ball(e) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        visit_each(visit, center, to_ball.rows[0], to_ball.rows[1], to_ball.rows[2],
+                   to_ball.radius);
+    }
 
     Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
-        const ToBall<Arch> to_ball(*this);
-        return ball_crossings<Arch, textbook>(to_ball(rays.origin - center),
-                                              to_ball(rays.direction), to_ball.radius, starts);
+        return ball_crossings<Arch, textbook>(
+            Rays<Arch>{to_ball(rays.origin - center), to_ball(rays.direction)}, to_ball.radius,
+            starts);
     }
 
     Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>&) const {
-        const ToBall<Arch> to_ball(*this);
         return normalized(to_ball.normal(to_ball(point - center)));
     }
 };

@@ -13,7 +13,8 @@ Crossings<Arch> solve_textbook(const Floats<Arch>& A, const Floats<Arch>& B,
     const Floats<Arch> discriminant = B * B - A * C;
     const Mask<Arch> curved = ~linear & ~(discriminant < o);
     const Floats<Arch> root = sqrt(discriminant);
-    const Floats<Arch> in = (negated(B) - root) / A, out = (root - B) / A;
+    const Divisor<Arch> by_A(A);
+    const Floats<Arch> in = (negated(B) - root) / by_A, out = (root - B) / by_A;
     const Mask<Arch> falling = B < o, sloped = linear & ((B > o) | falling);
     const Mask<Arch> in_first = opens_up | (~linear & (discriminant == o));
     return {{curved | sloped, select(linear, negated(C) / (B + B), select(in_first, in, out)), o,
@@ -28,21 +29,22 @@ Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, co
     if constexpr (textbook) return solve_textbook<Arch>(A, B, C);
     const Floats<Arch> o = zero<Arch>();
     const Mask<Arch> opens_up = A > o, linear = ~opens_up & ~(A < o);
+    const Divisor<Arch> by_A(A);
     const Mask<Arch> near_linear = either_way(abs(A) < constant<Arch>(0x1p-4F) * scale);
     const Floats<Arch> discriminant = select(near_linear, mul_add<Arch>(B, B, negated(A * C)),
-                                             negated(A * at_vertex(negated(B) / A)));
+                                             negated(A * at_vertex(negated(B) / by_A)));
     const Mask<Arch> curved = ~linear & ~(discriminant < o);
     const Floats<Arch> root = sqrt(discriminant);
 
     const Mask<Arch> falls = B < o, falling = either_way(falls);
     const Floats<Arch> q = select(falling, root - B, negated(root) - B);
     const Mask<Arch> tangent = q == o;
-    const Floats<Arch> by_A = q / A, by_C = C / q;
-    // by_A leaves where B falls, so it comes first where it enters first, or neither.
+    const Floats<Arch> root_by_A = q / by_A, root_by_C = C / q;
+    // The one by A leaves where B falls, so it comes first where it enters first, or neither.
     const Mask<Arch> in_first = opens_up | (discriminant == o);
     const Mask<Arch> A_first = (in_first & ~falling) | (~in_first & falling);
-    const Floats<Arch> first = select(A_first, by_A, by_C);
-    const Floats<Arch> second = select(A_first, by_C, by_A);
+    const Floats<Arch> first = select(A_first, root_by_A, root_by_C);
+    const Floats<Arch> second = select(A_first, root_by_C, root_by_A);
 
     const Mask<Arch> sloped = linear & ((B > o) | falls);
     const Floats<Arch> on_line = negated(C) / (B + B);

@@ -60,10 +60,34 @@ class BroadcastReader {
     int lane_;
 };
 
+/// In the order that the braces say. Where the numbers were named first, GCC 12 would keep a copy
+/// of them in memory.
 template <class Arch, class Reader>
 [[gnu::always_inline]] inline Vectors<Arch> next_vector(Reader& reader) {
-    const Floats<Arch> x = reader.next(), y = reader.next(), z = reader.next();
-    return {x, y, z};
+    return {reader.next(), reader.next(), reader.next()};
+}
+
+/// Reads what a solver has derived from its shape's floats, and shows by derived(visit): numbers of
+/// each shape that are the same for all rays.
+template <class Reader>
+struct Derived {
+    Reader reader;
+    auto next() { return reader.next(); }
+};
+
+/// Calls visit(number) for the numbers of some vectors and numbers.
+template <class Visit, class... Values>
+[[gnu::always_inline]] inline void visit_each(const Visit& visit, const Values&... values) {
+    const auto one = [&](const auto& value) __attribute__((always_inline)) {
+        if constexpr (requires { value.x; }) {
+            visit(value.x);
+            visit(value.y);
+            visit(value.z);
+        } else {
+            visit(value);
+        }
+    };
+    (one(values), ...);
 }
 
 /// Reads on behalf of another reader.

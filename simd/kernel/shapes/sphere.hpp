@@ -127,8 +127,9 @@ struct SphereSolver : SphereNumbers<Arch> {
     using Numbers = SphereNumbers<Arch>;
     using Numbers::Numbers, Numbers::center, Numbers::radius;
 
-    Crossings<Arch> crossings(const Rays<Arch>& rays, const Starts<Arch>& starts) const {
-        return ball_crossings<Arch, textbook>(rays.origin - center, rays.direction, radius, starts);
+    Crossings<Arch> crossings(MeasuredRays<Arch> rays, const Starts<Arch>& starts) const {
+        rays.origin = rays.origin - center;
+        return ball_crossings<Arch, textbook>(rays, radius, starts);
     }
 
     Vectors<Arch> outward_normal(const Vectors<Arch>& point, const Floats<Arch>&) const {

@@ -14,17 +14,20 @@ class SolvedOnce : Streams<Arch> {
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Found& found,
                         const Candidates& candidates, TraceCounters& counters) {
         std::uint64_t shapes = 0;
+        const DerivedNumbers derived(scene, kind_bits);
         for (std::size_t i = 0; i < found.count; i += F::size) {
             const Packet packet(found, i);
             Nearest nearest(candidates, i);
             S::for_each_kind(kind_bits, [&](core::Kind kind) {
                 const TableView& table = S::table_of(scene, kind);
                 with_solver<Arch, textbook>(kind, [&]<class Solver>() {
-                    shapes += F::size * test_all<Solver>(table, packet, nearest);
+                    const auto test =
+                        packet.leave_any ? test_all<Solver, true> : test_all<Solver, false>;
+                    shapes += F::size * test(table, derived.of(kind), packet, nearest);
                 });
             });
             nearest.store(candidates, found, i);
-            finish(scene, packet, nearest, found, i);
+            finish(scene, derived, packet, nearest, found, i);
         }
         counters.shapes += shapes;
         counters.one_by_one += found.count;
@@ -36,13 +39,56 @@ class SolvedOnce : Streams<Arch> {
     using M = Mask<Arch>;
     using V = Vectors<Arch>;
 
+    template <class Solver>
+    static constexpr bool derives = requires(const Solver& solver) {
+        solver.derived([](const F&) {});
+    };
+
+    using Rows = const float (*)[16];
+
+    /// What solvers derive from shapes, of kinds that have up to 16, by way of their blocks.
+    class DerivedNumbers {
+      public:
+        DerivedNumbers(const SceneView& scene, std::uint32_t kind_bits) {
+            S::for_each_kind(kind_bits, [&](core::Kind kind) {
+                const TableView& table = S::table_of(scene, kind);
+                with_solver<Arch, textbook>(kind, [&]<class Solver>() {
+                    if constexpr (derives<Solver>)
+                        if (table.block_count == 1) derive<Solver>(kind, S::block_of(table, 0));
+                });
+            });
+        }
+
+        /// Null: there are none.
+        Rows of(core::Kind kind) const { return of_kind_[static_cast<int>(kind)]; }
+
+      private:
+        template <class Solver>
+        void derive(core::Kind kind, const float* block) {
+            const int first = used_;
+            for (std::size_t lane = 0; lane < 16; lane += F::size) {
+                int row = first;
+                const Solver solver(BlockReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
+                solver.derived(
+                    [&](const F& number) { number.store_unaligned(rows_[row++] + lane); });
+                used_ = row;
+            }
+            of_kind_[static_cast<int>(kind)] = rows_ + first;
+        }
+
+        static constexpr int most = 16; // of a shape
+        alignas(64) float rows_[most * core::kind_count][16];
+        Rows of_kind_[core::kind_count] = {};
+        int used_ = 0;
+    };
+
     struct Packet {
-        Rays<Arch> rays;
+        MeasuredRays<Arch> rays;
         F origin_first, origin_last;
         bool leave_any; ///< some leave a shape
 
         Packet(const Found& found, std::size_t i)
-            : rays{narrow(found.origin, i), narrow(found.direction, i)},
+            : rays(Rays<Arch>{narrow(found.origin, i), narrow(found.direction, i)}),
               origin_first(S::load_bits(found.origin_first + i)),
               origin_last(S::load_bits(found.origin_last + i)),
               leave_any(
@@ -76,22 +122,29 @@ class SolvedOnce : Streams<Arch> {
                 code);
         }
 
+        F face() const {
+            return select(code < F(float{hit_entering}), code, code - F(float{hit_entering}));
+        }
+
+        /// Candidates are stored where there are several, for who has to choose.
         void store(const Candidates& candidates, const Found& found, std::size_t i) const {
-            t.store_unaligned(candidates.first + i);
-            second.store_unaligned(candidates.second + i);
+            if (Lanes<Arch>::bits((t == second) & (t < S::infinity())) != 0) [[unlikely]] {
+                t.store_unaligned(candidates.first + i);
+                second.store_unaligned(candidates.second + i);
+            }
             S::store_bits(slot, candidates.slot + i);
-            std::uint32_t* const hit = found.hit + i;
             float codes[F::size];
             code.store_unaligned(codes);
             for (std::size_t lane = 0; lane < F::size; ++lane)
-                hit[lane] = static_cast<std::uint32_t>(static_cast<std::int32_t>(codes[lane]));
+                found.hit[i + lane] =
+                    static_cast<std::uint32_t>(static_cast<std::int32_t>(codes[lane]));
         }
     };
 
     /// Takes account of all shapes of a table. Returns how many there are.
-    template <class Solver>
+    template <class Solver, bool leave_any>
     [[gnu::noinline, gnu::flatten]] static std::uint64_t
-    test_all(const TableView& table, const Packet& of_packet, Nearest& of_nearest) {
+    test_all(const TableView& table, Rows derived, const Packet& of_packet, Nearest& of_nearest) {
         const Packet packet = of_packet;
         Nearest nearest = of_nearest;
         std::uint64_t count = 0;
@@ -100,16 +153,24 @@ class SolvedOnce : Streams<Arch> {
             const std::uint32_t* const ids = S::ids_of(table, block);
             const std::uint32_t slot = table.first_slot + 16 * b;
             for (std::uint32_t lane = 0; lane < 16 && ids[lane] != no_slot; ++lane, ++count) {
-                const Solver solver(
-                    BroadcastReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
-                Crossing<Arch> crossing = first_ahead<Arch>(
-                    solver.crossings(packet.rays, starts_nowhere<Arch>()), none<Arch>());
-                if (packet.leave_any)
-                    crossing.exists =
-                        crossing.exists & ~Lanes<Arch>::in_range(S::broadcast_bits(ids[lane]),
-                                                                 packet.origin_first,
-                                                                 packet.origin_last);
-                nearest.take(crossing, slot + lane);
+                const int place = static_cast<int>(lane);
+                const auto test = [&](const Solver& solver) __attribute__((always_inline)) {
+                    Crossing<Arch> crossing = first_ahead<Arch>(
+                        solver.crossings(packet.rays, starts_nowhere<Arch>()), none<Arch>());
+                    if constexpr (leave_any)
+                        crossing.exists =
+                            crossing.exists & ~Lanes<Arch>::in_range(S::broadcast_bits(ids[lane]),
+                                                                     packet.origin_first,
+                                                                     packet.origin_last);
+                    nearest.take(crossing, slot + lane);
+                };
+                if constexpr (derives<Solver>) {
+                    if (derived != nullptr) {
+                        test(Solver(Derived<BroadcastReader<Arch>>{{derived, place}}));
+                        continue;
+                    }
+                }
+                test(Solver(BroadcastReader<Arch>(S::rows_of(block), place)));
             }
         }
         of_nearest = nearest;
@@ -129,45 +190,50 @@ class SolvedOnce : Streams<Arch> {
     };
 
     /// Points and normals, kind by kind.
-    static void finish(const SceneView& scene, const Packet& packet, const Nearest& nearest,
-                       const Found& found, std::size_t i) {
+    static void finish(const SceneView& scene, const DerivedNumbers& derived, const Packet& packet,
+                       const Nearest& nearest, const Found& found, std::size_t i) {
         const std::size_t rest = found.count - i;
         std::uint32_t left = ~in_range(nearest.slot, no_slot, no_slot) &
                              (rest < F::size ? (1U << rest) - 1 : all_lanes);
         if (left == 0) return;
-        const std::uint32_t* const slots = found.slot + i;
         const V point = mul_add<Arch>(nearest.t, packet.rays.direction, packet.rays.origin);
+        const F face = nearest.face();
+        std::uint32_t slots[F::size];
+        S::store_bits(nearest.slot, slots);
         store(nearest.t, found.t + i);
         store(zero<Arch>(), found.error + i);
         while (left != 0) {
-            const auto first = static_cast<unsigned>(__builtin_ctz(left));
-            const core::Kind kind = Slots<Arch>::kind_of(scene, slots[first]);
+            const core::Kind kind = Slots<Arch>::kind_of(scene, slots[__builtin_ctz(left)]);
             const TableView& table = S::table_of(scene, kind);
-            const std::uint32_t last_slot = table.first_slot + 16 * table.block_count - 1;
-            const std::uint32_t alike = left & in_range(nearest.slot, table.first_slot, last_slot);
-            std::uint32_t places[F::size];
+            const std::uint32_t first_slot = table.first_slot, count = 16 * table.block_count;
+            const auto block_floats = static_cast<std::uint32_t>(table.block_floats);
+            const std::uint32_t alike =
+                left & in_range(nearest.slot, first_slot, first_slot + count - 1);
+            std::uint32_t places[F::size]; // of a few shapes, so that they are no larger
             for (std::size_t lane = 0; lane < F::size; ++lane) {
-                const bool is_alike = (alike >> lane & 1) != 0;
-                places[lane] = static_cast<std::uint32_t>(
-                    Slots<Arch>::offset(table, slots[is_alike ? lane : first]));
+                const std::uint32_t place = slots[lane] - first_slot;
+                const std::uint32_t there = place < count ? place : 0;
+                places[lane] = there / 16 * block_floats + there % 16;
             }
             with_solver<Arch, textbook>(kind, [&]<class Solver>() {
-                store_normals<Solver>({table.blocks, places}, point, found, i, alike);
+                if constexpr (derives<Solver>) {
+                    if (const Rows rows = derived.of(kind); rows != nullptr) {
+                        const Derived<Reader> reader{{rows[0], places}};
+                        return store_normals<Solver>(reader, point, face, found, i, alike);
+                    }
+                }
+                store_normals<Solver>(Reader{table.blocks, places}, point, face, found, i, alike);
             });
             left &= ~alike;
         }
     }
 
-    template <class Solver>
-    [[gnu::noinline, gnu::flatten]] static void store_normals(const Reader& reader, const V& point,
-                                                              const Found& found, std::size_t i,
-                                                              std::uint32_t lanes) {
+    template <class Solver, class AnyReader>
+    [[gnu::noinline, gnu::flatten]] static void
+    store_normals(const AnyReader& reader, const V& point, const F& face, const Found& found,
+                  std::size_t i, std::uint32_t lanes) {
         const Solver solver(reader);
-        float faces[F::size];
-        for (std::size_t lane = 0; lane < F::size; ++lane)
-            faces[lane] =
-                static_cast<float>(static_cast<std::int32_t>(found.hit[i + lane] & hit_face));
-        const V normal = solver.outward_normal(point, F::load_unaligned(faces));
+        const V normal = solver.outward_normal(point, face);
         store(normal, found.normal, i, lanes);
         if (found.shading_normal[0] == nullptr) return;
         if constexpr (requires { solver.shading_normal(point, normal); })
