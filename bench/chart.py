@@ -18,6 +18,14 @@ COLORS = {
     "Embree": "#009e73",
     "raylane": "#0072b2",
 }
+MEANINGS = {
+    "fast": "fast: float, textbook formulas",
+    "robust": "robust: float, its best formulas",
+    "exact": "exact: float bounds, double certified, exact where in doubt",
+    "double": "double: robust's formulas in double",
+    "Embree": "Embree 3: float, its own solvers; the faster way to call it",
+}
+CEILING = "the plainest loop in float, of this kind alone"
 GREY = "#999999"
 
 
@@ -79,9 +87,12 @@ def pareto_front(marks):
 
 
 def methods_figure(source, rays, isa):
-    by_shape, places = {}, {}
+    by_shape, places, ceilings = {}, {}, {}
     for (shape, which, method, on), runs in runs_of(source, "methods").items():
         if which != rays or on != isa:
+            continue
+        if method == "ceiling":
+            ceilings[shape] = median(runs, "items_per_second") / 1e6
             continue
         name = "Embree" if method.startswith("embree") else method
         mark = (median(runs, "items_per_second") / 1e6, runs[0]["ulps_p99"], name, runs[0]["wrong"])
@@ -95,15 +106,20 @@ def methods_figure(source, rays, isa):
 
     floor = 0.1  # ulps: what is drawn at the bottom
     begin("Nearest of 12 shapes, normals included: %s rays, one thread, %s" % (rays, isa),
-          "%d,4" % (len(by_shape) // 4 + 1),  # with the key in the last panel
+          "%d,4" % (len(by_shape) // 4 + 1),  # with the key in the last row
           "million rays/s", "ulps of t, 99th percentile")
     for shape in sorted(by_shape, key=places.get):
         marks = [(speed, max(error, floor), name, wrong)
                  for speed, error, name, wrong in by_shape[shape].values()]
         print("set title '%s' offset 0,-0.6" % shape.replace("_", " "))
-        print("set xrange [0:%g]\nset yrange [%g:%g]" %
-              (1.2 * max(mark[0] for mark in marks), floor, 8 * max(mark[1] for mark in marks)))
+        ceiling = ceilings.get(shape)
+        top = 8 * max(mark[1] for mark in marks)
+        fastest = 1.2 * max([mark[0] for mark in marks] + [ceiling or 0])
+        print("set xrange [0:%g]\nset xtics %g\nset yrange [%g:%g]" %
+              (fastest, 50 if fastest > 100 else 20, floor, top))
         plot = Plot()
+        if ceiling:
+            plot.add([(ceiling, floor), (ceiling, top)], "with lines lw 1.5 lc 'black' notitle")
         plot.add([mark[:2] for mark in pareto_front(marks)],
                  "with lines lc '%s' dt 2 notitle" % GREY)
         for speed, error, name, wrong in marks:
@@ -114,16 +130,17 @@ def methods_figure(source, rays, isa):
                        COLORS[name])
         plot.draw()
     named = {name for marks in by_shape.values() for name in marks}
-    draw_key(["NaN with points pt 7 ps 1.4 lc '%s' title '%s'" % (color, name)
+    draw_key(["NaN with points pt 7 ps 1.4 lc '%s' title \"%s\"" % (color, MEANINGS[name])
               for name, color in COLORS.items() if name in named] +
-             ["NaN with lines lc '%s' dt 2 title 'the best there is'" % GREY])
+             ["NaN with lines lw 1.5 lc 'black' title '%s'" % CEILING,
+              "NaN with lines lc '%s' dt 2 title 'the best of these'" % GREY])
 
 
 def draw_key(entries):
-    """In a panel of its own."""
+    """In the last row, which it has for itself."""
     print("unset title\nunset border\nunset tics\nunset grid\nunset logscale\nunset xlabel\n"
           "unset ylabel\nset xrange [0:1]\nset yrange [0:1]\n"
-          "set key at 0.95,0.85 samplen 1.5 spacing 1.6 font ',12'")
+          "set key at 0,0.95 left top Left reverse samplen 1.5 spacing 1.5 font ',11'")
     print("plot", ", ".join(entries))
     print("unset multiplot")
 
