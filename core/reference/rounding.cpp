@@ -77,33 +77,31 @@ Vec3<Real> wide_apex_normal(const Scene& scene, const Ray<Real>& ray, const Hit<
 }
 
 /// A normal, of any length: linear in t, at a root. That of an apex is 0.
-class ExactNormal {
-  public:
+struct ExactNormal {
+    ExactRoot root;
+    NormalAlong<Dyadic> along;
+
     ExactNormal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit)
-        : root_(SharpHit(hit).root(scene, from)),
-          along_(with_shape(scene, hit, [&](const auto& shape) {
+        : root(SharpHit(hit).root(scene, from)),
+          along(with_shape(scene, hit, [&](const auto& shape) {
               return normal_along(shape, ray_in<Dyadic>(from.ray), hit.face);
           })) {}
 
     int sign_of(int axis) const {
-        return root_.sign_of({0.0, 0.5 * along_.slope[axis], along_.v[axis]});
+        return root.sign_of({0.0, 0.5 * along.slope[axis], along.v[axis]});
     }
-
-  protected:
-    ExactRoot root_;
-    NormalAlong<Dyadic> along_;
 };
 
 /// Components of a normal that is brought to length 1, or of what stands in for it at an apex.
 class ExactDirection : private ExactNormal {
   public:
     explicit ExactDirection(const ExactNormal& normal)
-        : ExactNormal(normal), square_{squared_length(along_.slope), dot(along_.slope, along_.v),
-                                       squared_length(along_.v)},
-          at_apex_(root_.sign_of(square_) == 0) {
+        : ExactNormal(normal), square_{squared_length(along.slope), dot(along.slope, along.v),
+                                       squared_length(along.v)},
+          at_apex_(root.sign_of(square_) == 0) {
         if (!at_apex_) return;
-        along_ = {along_.apex};
-        square_ = {0.0, 0.0, squared_length(along_.v)};
+        along = {along.apex};
+        square_ = {0.0, 0.0, squared_length(along.v)};
     }
 
     bool at_apex() const { return at_apex_; }
@@ -114,8 +112,8 @@ class ExactDirection : private ExactNormal {
         if (sign == 0) return 0.0F;
         if (sign < 0) first = -std::exchange(last, -first);
         // By their numbers, floats from 0 to 1 are in order.
-        std::uint32_t low = std::bit_cast<std::uint32_t>(std::clamp(first, 0.0F, 1.0F) + 0.0F);
-        std::uint32_t high = std::bit_cast<std::uint32_t>(std::clamp(last, 0.0F, 1.0F) + 0.0F);
+        auto low = std::bit_cast<std::uint32_t>(std::clamp(first, 0.0F, 1.0F) + 0.0F);
+        auto high = std::bit_cast<std::uint32_t>(std::clamp(last, 0.0F, 1.0F) + 0.0F);
         while (low < high) {
             const std::uint32_t next = low + (high - low) / 2;
             const double middle = 0.5 * static_cast<double>(std::bit_cast<float>(next)) +
@@ -142,10 +140,10 @@ class ExactDirection : private ExactNormal {
   private:
     /// Order of the component's size and this: -1 if it is less, 1 if it is more.
     int compare_square(int axis, double size) const {
-        const Dyadic &v = along_.v[axis], &slope = along_.slope[axis];
+        const Dyadic &v = along.v[axis], &slope = along.slope[axis];
         const Dyadic factor = Dyadic(size) * size;
-        return root_.sign_of({slope * slope - factor * square_.A, slope * v - factor * square_.B,
-                              v * v - factor * square_.C});
+        return root.sign_of({slope * slope - factor * square_.A, slope * v - factor * square_.B,
+                             v * v - factor * square_.C});
     }
 
     ExactQuadratic square_; // of its length
@@ -237,9 +235,8 @@ Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<doubl
     const Ray<Real> ray = ray_in<Real>(from.ray);
     RoundedDirection normal;
     // Vectors have tried with t as it is known in double.
-    if (with_wide_t(scene, from, hit, [&](const Real& t) {
-            return normal.is_sure(wide_normal(scene, ray, t, hit));
-        }))
+    if (with_wide_t(scene, from, hit,
+                    [&](const Real& t) { return normal.is_sure(wide_normal(scene, ray, t, hit)); }))
         return normal.rounded();
     const ExactDirection exact(ExactNormal(scene, from, hit));
     if (exact.at_apex() && normal.is_sure(wide_apex_normal(scene, ray, hit)))

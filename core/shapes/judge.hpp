@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 namespace raylane::core {
 
@@ -42,8 +43,8 @@ class Judge {
 template <class Real>
 class Divisor {
   public:
-    explicit Divisor(const Real& value) : by_(value) {
-        if constexpr (std::is_same_v<Real, float>) by_ = 1.0F / value;
+    explicit Divisor(Real value) : by_(std::move(value)) {
+        if constexpr (std::is_same_v<Real, float>) by_ = 1.0F / by_;
     }
     friend Real operator/(const Real& a, const Divisor& divisor) {
         if constexpr (std::is_same_v<Real, float>)

@@ -64,12 +64,11 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     if (static_cast<double>(q) == 0.0)
         return {crossing(Real(0.0), true), crossing(Real(0.0), false)};
     // F' at q / A has the sign of `root` if falling; at C / q the opposite.
-    const Crossing<Real> root_by_A = crossing(q / by_A, !falling);
-    const Crossing<Real> root_by_C = crossing(C / q, falling);
+    const Crossing<Real> of_A = crossing(q / by_A, !falling);
+    const Crossing<Real> of_C = crossing(C / q, falling);
     // In order: for A > 0 the ray enters first, for A < 0 it leaves first, unless it touches.
     const bool in_first = curvature > 0 || static_cast<double>(discriminant) == 0.0;
-    return root_by_A.entering == in_first ? Crossings<Real>(root_by_A, root_by_C)
-                                          : Crossings<Real>(root_by_C, root_by_A);
+    return of_A.entering == in_first ? Crossings<Real>(of_A, of_C) : Crossings<Real>(of_C, of_A);
 }
 
 } // namespace raylane::core

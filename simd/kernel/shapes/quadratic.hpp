@@ -39,12 +39,12 @@ Crossings<Arch> solve_quadratic(const Floats<Arch>& A, const Floats<Arch>& B, co
     const Mask<Arch> falls = B < o, falling = either_way(falls);
     const Floats<Arch> q = select(falling, root - B, negated(root) - B);
     const Mask<Arch> tangent = q == o;
-    const Floats<Arch> root_by_A = q / by_A, root_by_C = C / q;
+    const Floats<Arch> of_A = q / by_A, of_C = C / q;
     // The one by A leaves where B falls, so it comes first where it enters first, or neither.
     const Mask<Arch> in_first = opens_up | (discriminant == o);
     const Mask<Arch> A_first = (in_first & ~falling) | (~in_first & falling);
-    const Floats<Arch> first = select(A_first, root_by_A, root_by_C);
-    const Floats<Arch> second = select(A_first, root_by_C, root_by_A);
+    const Floats<Arch> first = select(A_first, of_A, of_C);
+    const Floats<Arch> second = select(A_first, of_C, of_A);
 
     const Mask<Arch> sloped = linear & ((B > o) | falls);
     const Floats<Arch> on_line = negated(C) / (B + B);
