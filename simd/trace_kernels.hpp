@@ -152,8 +152,8 @@ inline constexpr float candidate_grace = 1.0F + 0x1p-18F;
 /// Crossings in twice the digits: t as the sum of two doubles, and what that may be off by.
 struct WideCrossings {
     double *high, *low, *error;
-    /// Outward normals of length 1, each component correctly rounded where `rounded` is 1: a bit for
-    /// each of the three. Null if nobody asks.
+    /// Outward normals of length 1, each component correctly rounded where `rounded` is 1: a bit
+    /// for each of the three. Null if nobody asks.
     float* normal[3] = {};
     std::uint8_t* rounded = nullptr;
 };

@@ -240,9 +240,7 @@ template <class Real>
 void StreamWorker::answer(const RayStream<Real>& rays, std::span<std::uint32_t> lanes,
                           const HitStream& hits) {
     const Hits& found = query_.hits();
-    const auto is_found = [&](std::uint32_t lane) {
-        return (found.hit[lane] & hit_doubtful) == 0;
-    };
+    const auto is_found = [&](std::uint32_t lane) { return (found.hit[lane] & hit_doubtful) == 0; };
     const auto lost = std::partition(lanes.begin(), lanes.end(), is_found);
     for (auto lane = lost; lane != lanes.end(); ++lane)
         search(intake_.lone(rays, *lane, *lane), hits, *lane);
@@ -262,8 +260,8 @@ void StreamWorker::answer(const LoneRay& ray, const Widened& widened, std::size_
     core::Hit<double> hit = hit_at(lane);
     if (is_exact()) hit = core::SharpHit(hit, widened.t(k), widened.error[k]).sharpened();
     const float t = is_exact() ? ray.t_of(scene, hit) : t_at(lane, ray);
-    const bool counts = ray.by_floats ? static_cast<double>(t) <= ray.t_max
-                                      : ray.is_before_t_max(scene, hit);
+    const bool counts =
+        ray.by_floats ? static_cast<double>(t) <= ray.t_max : ray.is_before_t_max(scene, hit);
     if (!counts) return store_none(hits, lane);
     core::Vec3f normal(0.0F);
     if (wants_normals(hits)) normal = normal_of(ray, hit, widened, k);

@@ -176,8 +176,7 @@ class FinishAgain {
     template <class Number, class Solver>
     static Crossing<Certified<Number>> crossing_of(const Solver& solver, const Loaded& loaded) {
         using C = Certified<Number>;
-        Crossings<C> crossings =
-            solver.crossings(exact<Number>(loaded.rays), starts_nowhere<C>());
+        Crossings<C> crossings = solver.crossings(exact<Number>(loaded.rays), starts_nowhere<C>());
         for (Crossing<C>* const crossing : {&crossings.first, &crossings.second})
             crossing->exists = crossing->exists & is_after<C>(crossing->t, loaded.t_after);
         return first_ahead<C>(crossings, none<C>());
