@@ -65,6 +65,20 @@ struct AxialFilter {
         }
         body_error = r0 * F(16 * half_ulp);
     }
+    template <class Reader>
+    explicit AxialFilter(Derived<Reader> reader)
+        : base(next_vector<Arch>(reader)), axis(next_vector<Arch>(reader)),
+          whole_axis(next_vector<Arch>(reader)), largest_radius(reader.next()),
+          half_length(reader.next()), base_radius(reader.next()), narrowing(reader.next()),
+          reach(reader.next()), ordinary(reader.next() > zero<Arch>()), body_factor(reader.next()),
+          body_error(reader.next()), slope_factor(reader.next()), slope_error(reader.next()) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        const F o = zero<Arch>();
+        visit_each(visit, base, axis, whole_axis, largest_radius, half_length, base_radius,
+                   narrowing, reach, select(ordinary, F(1.0F), o), tapers ? body_factor : o,
+                   body_error, tapers ? slope_factor : o, slope_error);
+    }
 
     /// True where a ray may meet the shape, for less than its bounds.
     ///

@@ -53,6 +53,19 @@ struct BoxFilter {
         middle_error =
             fast_mul_add<Arch>(Floats<Arch>(0.75F * half_ulp), Floats<Arch>(8.0F) * size, tiny);
     }
+    template <class Reader>
+    explicit BoxFilter(Derived<Reader> reader)
+        : corner(next_vector<Arch>(reader)), normals{next_vector<Arch>(reader),
+                                                     next_vector<Arch>(reader),
+                                                     next_vector<Arch>(reader)},
+          normal_sizes{next_vector<Arch>(reader), next_vector<Arch>(reader),
+                       next_vector<Arch>(reader)},
+          middle(reader.next()), middle_error(reader.next()) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        visit_each(visit, corner, normals[0], normals[1], normals[2], normal_sizes[0],
+                   normal_sizes[1], normal_sizes[2], middle, middle_error);
+    }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;

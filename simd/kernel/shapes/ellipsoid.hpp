@@ -82,6 +82,18 @@ struct EllipsoidFilter {
                 F(8 * half_ulp) * fast_mul_add<Arch>(products, per_volume, F(1.0F));
         ordinary = (abs(volume) > F(0x1p-40F)) & (error < F(0.25F));
     }
+    template <class Reader>
+    explicit EllipsoidFilter(Derived<Reader> reader)
+        : center(next_vector<Arch>(reader)), rows{next_vector<Arch>(reader),
+                                                  next_vector<Arch>(reader),
+                                                  next_vector<Arch>(reader)},
+          unit(reader.next()), per_unit(reader.next()), error(reader.next()), sigma(reader.next()),
+          size(reader.next()), ordinary(reader.next() > zero<Arch>()) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        visit_each(visit, center, rows[0], rows[1], rows[2], unit, per_unit, error, sigma, size,
+                   select(ordinary, F(1.0F), zero<Arch>()));
+    }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const F o = zero<Arch>(), one(1.0F);

@@ -86,6 +86,18 @@ struct QuadricFilter {
         const Vectors<Arch> size = absolute(linear);
         linear_size = size.x + size.y + size.z;
     }
+    template <class Reader>
+    explicit QuadricFilter(Derived<Reader> reader)
+        : center(next_vector<Arch>(reader)), xx(reader.next()), yy(reader.next()),
+          zz(reader.next()), xy(reader.next()), xz(reader.next()), yz(reader.next()),
+          linear(next_vector<Arch>(reader)), one(reader.next()), middle(next_vector<Arch>(reader)),
+          half(next_vector<Arch>(reader)), extent(next_vector<Arch>(reader)),
+          matrix_size(reader.next()), linear_size(reader.next()) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        visit_each(visit, center, xx, yy, zz, xy, xz, yz, linear, one, middle, half, extent,
+                   matrix_size, linear_size);
+    }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         const Vectors<Arch> from_center = rays.origin - center, d = rays.direction;

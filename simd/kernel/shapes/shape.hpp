@@ -67,8 +67,8 @@ template <class Arch, class Reader>
     return {reader.next(), reader.next(), reader.next()};
 }
 
-/// Reads what a solver has derived from its shape's floats, and shows by derived(visit): numbers of
-/// each shape that are the same for all rays.
+/// Reads what a solver or filter has derived from its shape's floats, and shows by derived(visit):
+/// numbers of each shape that are the same for all rays.
 template <class Reader>
 struct Derived {
     Reader reader;

@@ -67,6 +67,15 @@ struct TriangleFilter {
         normal = fast_cross(edge_e, edge_g);
         normal_size = absolute_cross(edge_e, edge_g, Floats<Arch>(underflow));
     }
+    template <class Reader>
+    explicit TriangleFilter(Derived<Reader> reader)
+        : a(next_vector<Arch>(reader)), edge_e(next_vector<Arch>(reader)),
+          edge_g(next_vector<Arch>(reader)), normal(next_vector<Arch>(reader)),
+          normal_size(next_vector<Arch>(reader)) {}
+    template <class Visit>
+    void derived(const Visit& visit) const {
+        visit_each(visit, a, edge_e, edge_g, normal, normal_size);
+    }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {
         using F = Floats<Arch>;

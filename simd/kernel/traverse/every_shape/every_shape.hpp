@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/traverse/block_spheres.hpp"
+#include "simd/kernel/traverse/every_shape/derived.hpp"
 #include "simd/kernel/traverse/ray_lanes.hpp"
 
 namespace raylane::simd {
@@ -52,6 +53,14 @@ struct EveryShape : Streams<Arch> {
         }
     };
 
+    struct WithFilter {
+        template <class Visit>
+        static void with(core::Kind kind, const Visit& visit) {
+            Method::with_filter(kind, visit);
+        }
+    };
+    using Numbers = DerivedNumbers<Arch, WithFilter>;
+
     /// True if a filter is costly, and cannot tell for less that there is nothing to meet.
     template <class Filter>
     static constexpr bool is_slow = requires {
@@ -59,65 +68,107 @@ struct EveryShape : Streams<Arch> {
     }
     &&!has_may_meet<Filter, typename Method::Rays>;
 
-    /// Calls visit(filter, id, slot) for each shape of the kinds that some of the rays may meet.
-    /// `t_most` may change underway.
-    template <class Visit>
-    static void for_each_shape(const SceneView& scene, std::uint32_t kind_bits,
-                               const Spheres& spheres, const FilterRays<Arch>& rays,
-                               const F& t_most, const Visit& visit) {
+    using Packet = RayLanes<Arch, Method>;
+
+    /// What all packets ask of the shapes.
+    struct Shapes {
+        const SceneView& scene;
+        Spheres spheres;
+        Numbers derived;
+
+        Shapes(const SceneView& view, std::uint32_t kind_bits)
+            : scene(view), spheres(view, kind_bits), derived(view, kind_bits) {}
+    };
+
+    static const F& limit_of(const LaneCandidates<Arch>& found) { return found.first; }
+    static const F& limit_of(const LaneOcclusions<Arch>& found) { return found.t_most; }
+    template <class Filter>
+    [[gnu::always_inline]] static void test(LaneCandidates<Arch>& found, const Filter& filter,
+                                            std::uint32_t id, std::uint32_t slot, const SceneView&,
+                                            const Packet& packet) {
+        found.test(filter, id, slot, packet);
+    }
+    template <class Filter>
+    [[gnu::always_inline]] static void test(LaneOcclusions<Arch>& found, const Filter& filter,
+                                            std::uint32_t id, std::uint32_t slot,
+                                            const SceneView& scene, const Packet& packet) {
+        found.test(filter, id, S::is_plain(scene, slot), packet);
+    }
+
+    /// Tests a packet against all shapes of a kind that some of its rays may meet. By itself, as
+    /// only so what belongs to the rays stays in registers. Returns how many shapes these are, and
+    /// counts the blocks that have spheres.
+    template <class Filter, class Found>
+    [[gnu::noinline, gnu::flatten]] static std::uint64_t
+    test_kind(const Shapes& shapes, core::Kind kind, const Packet& of_packet, Found& of_found,
+              int& sphere_block) {
+        constexpr bool costly = is_slow<Filter>;
+        const Packet packet = of_packet;
+        Found found = of_found;
+        const TableView& table = S::table_of(shapes.scene, kind);
+        const typename Numbers::Rows rows = shapes.derived.of(kind);
+        std::uint64_t count = 0;
+        for (std::uint32_t b = 0; b < table.block_count; ++b) {
+            const float* block = S::block_of(table, b);
+            const std::uint32_t* ids = S::ids_of(table, block);
+            for (int lane = 0; lane < 16 && ids[lane] != no_slot; ++lane) {
+                if (costly &&
+                    !shapes.spheres.may_meet(sphere_block, lane, packet.rays, limit_of(found)))
+                    continue;
+                ++count;
+                const std::uint32_t slot =
+                    table.first_slot + 16 * b + static_cast<std::uint32_t>(lane);
+                if constexpr (Derives<Arch, Filter>) {
+                    if (rows != nullptr) {
+                        test(found, Filter(Derived<BroadcastReader<Arch>>{{rows, lane}}), ids[lane],
+                             slot, shapes.scene, packet);
+                        continue;
+                    }
+                }
+                test(found, Filter(BroadcastReader<Arch>(S::rows_of(block), lane)), ids[lane], slot,
+                     shapes.scene, packet);
+            }
+            if (costly) ++sphere_block;
+        }
+        of_found = found;
+        return count;
+    }
+
+    template <class Found>
+    static std::uint64_t test_all(const Shapes& shapes, std::uint32_t kind_bits,
+                                  const Packet& packet, Found& found) {
+        std::uint64_t count = 0;
         int sphere_block = 0;
         S::for_each_kind(kind_bits, [&](core::Kind kind) {
-            const TableView& table = S::table_of(scene, kind);
             Method::with_filter(kind, [&]<class Filter>() {
-                constexpr bool costly = is_slow<Filter>;
-                for (std::uint32_t b = 0; b < table.block_count; ++b) {
-                    const float* block = S::block_of(table, b);
-                    const std::uint32_t* ids = S::ids_of(table, block);
-                    for (int lane = 0; lane < 16 && ids[lane] != no_slot; ++lane) {
-                        if (costly && !spheres.may_meet(sphere_block, lane, rays, t_most)) continue;
-                        visit(Filter(BroadcastReader<Arch>(S::rows_of(block), lane)), ids[lane],
-                              table.first_slot + 16 * b + static_cast<std::uint32_t>(lane));
-                    }
-                    if (costly) ++sphere_block;
-                }
+                count += test_kind<Filter>(shapes, kind, packet, found, sphere_block);
             });
         });
+        return F::size * count;
     }
 
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
                         const RoundedRays& stream, const Candidates& candidates,
                         TraceCounters& counters) {
-        const Spheres spheres(scene, kind_bits);
-        std::uint64_t shapes = 0;
+        const Shapes shapes(scene, kind_bits);
         for (std::size_t i = 0; i < count; i += F::size) {
-            const RayLanes<Arch, Method> packet(stream, i);
+            const Packet packet(stream, i);
             LaneCandidates<Arch> found(candidates, i);
-            for_each_shape(scene, kind_bits, spheres, packet.rays, found.first,
-                           [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {
-                               found.test(filter, id, slot, packet);
-                               shapes += F::size;
-                           });
+            counters.shapes += test_all(shapes, kind_bits, packet, found);
             found.store(candidates, i);
         }
-        counters.shapes += shapes;
     }
 
     static void occluded(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
                          const RoundedRays& stream, const Occlusions& occlusions,
                          TraceCounters& counters) {
-        const Spheres spheres(scene, kind_bits);
-        std::uint64_t shapes = 0;
+        const Shapes shapes(scene, kind_bits);
         for (std::size_t i = 0; i < count; i += F::size) {
-            const RayLanes<Arch, Method> packet(stream, i);
+            const Packet packet(stream, i);
             LaneOcclusions<Arch> found(occlusions, i);
-            for_each_shape(scene, kind_bits, spheres, packet.rays, found.t_most,
-                           [&](const auto& filter, std::uint32_t id, std::uint32_t slot) {
-                               found.test(filter, id, S::is_plain(scene, slot), packet);
-                               shapes += F::size;
-                           });
+            counters.shapes += test_all(shapes, kind_bits, packet, found);
             found.store(occlusions.state + i, count - i);
         }
-        counters.shapes += shapes;
     }
 };
 

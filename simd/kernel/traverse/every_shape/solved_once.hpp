@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernel/certify/slots.hpp"
-#include "simd/kernel/traverse/rays.hpp"
+#include "simd/kernel/traverse/every_shape/derived.hpp"
 
 namespace raylane::simd {
 
@@ -14,7 +14,7 @@ class SolvedOnce : Streams<Arch> {
     static void nearest(const SceneView& scene, std::uint32_t kind_bits, const Found& found,
                         const Candidates& candidates, TraceCounters& counters) {
         std::uint64_t shapes = 0;
-        const DerivedNumbers derived(scene, kind_bits);
+        const Numbers derived(scene, kind_bits);
         for (std::size_t i = 0; i < found.count; i += F::size) {
             const Packet packet(found, i);
             Nearest nearest(candidates, i);
@@ -39,48 +39,14 @@ class SolvedOnce : Streams<Arch> {
     using M = Mask<Arch>;
     using V = Vectors<Arch>;
 
-    template <class Solver>
-    static constexpr bool derives = requires(const Solver& solver) {
-        solver.derived([](const F&) {});
-    };
-
-    using Rows = const float (*)[16];
-
-    /// What solvers derive from shapes, of kinds that have up to 16, by way of their blocks.
-    class DerivedNumbers {
-      public:
-        DerivedNumbers(const SceneView& scene, std::uint32_t kind_bits) {
-            S::for_each_kind(kind_bits, [&](core::Kind kind) {
-                const TableView& table = S::table_of(scene, kind);
-                with_solver<Arch, textbook>(kind, [&]<class Solver>() {
-                    if constexpr (derives<Solver>)
-                        if (table.block_count == 1) derive<Solver>(kind, S::block_of(table, 0));
-                });
-            });
+    struct WithSolver {
+        template <class Visit>
+        static void with(core::Kind kind, const Visit& visit) {
+            with_solver<Arch, textbook>(kind, visit);
         }
-
-        /// Null: there are none.
-        Rows of(core::Kind kind) const { return of_kind_[static_cast<int>(kind)]; }
-
-      private:
-        template <class Solver>
-        void derive(core::Kind kind, const float* block) {
-            const int first = used_;
-            for (std::size_t lane = 0; lane < 16; lane += F::size) {
-                int row = first;
-                const Solver solver(BlockReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
-                solver.derived(
-                    [&](const F& number) { number.store_unaligned(rows_[row++] + lane); });
-                used_ = row;
-            }
-            of_kind_[static_cast<int>(kind)] = rows_ + first;
-        }
-
-        static constexpr int most = 16; // of a shape
-        alignas(64) float rows_[most * core::kind_count][16];
-        Rows of_kind_[core::kind_count] = {};
-        int used_ = 0;
     };
+    using Numbers = DerivedNumbers<Arch, WithSolver>;
+    using Rows = typename Numbers::Rows;
 
     struct Packet {
         MeasuredRays<Arch> rays;
@@ -164,7 +130,7 @@ class SolvedOnce : Streams<Arch> {
                                                                      packet.origin_last);
                     nearest.take(crossing, slot + lane);
                 };
-                if constexpr (derives<Solver>) {
+                if constexpr (Derives<Arch, Solver>) {
                     if (derived != nullptr) {
                         test(Solver(Derived<BroadcastReader<Arch>>{{derived, place}}));
                         continue;
@@ -190,7 +156,7 @@ class SolvedOnce : Streams<Arch> {
     };
 
     /// Points and normals, kind by kind.
-    static void finish(const SceneView& scene, const DerivedNumbers& derived, const Packet& packet,
+    static void finish(const SceneView& scene, const Numbers& derived, const Packet& packet,
                        const Nearest& nearest, const Found& found, std::size_t i) {
         const std::size_t rest = found.count - i;
         std::uint32_t left = ~in_range(nearest.slot, no_slot, no_slot) &
@@ -216,7 +182,7 @@ class SolvedOnce : Streams<Arch> {
                 places[lane] = there / 16 * block_floats + there % 16;
             }
             with_solver<Arch, textbook>(kind, [&]<class Solver>() {
-                if constexpr (derives<Solver>) {
+                if constexpr (Derives<Arch, Solver>) {
                     if (const Rows rows = derived.of(kind); rows != nullptr) {
                         const Derived<Reader> reader{{rows[0], places}};
                         return store_normals<Solver>(reader, point, face, found, i, alike);
