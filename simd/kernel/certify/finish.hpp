@@ -89,7 +89,8 @@ class Finish {
     /// The lanes `active` of packet i, which all found shapes of one table; and where these are all
     /// lanes, the packets behind it for which that is so, too. Where the rest starts.
     template <class Finisher>
-    [[gnu::noinline, gnu::flatten]] std::size_t finish_run(const TableView& table, std::size_t i, std::uint32_t active) const {
+    [[gnu::noinline, gnu::flatten]] std::size_t finish_run(const TableView& table, std::size_t i,
+                                                           std::uint32_t active) const {
         Spots<Arch> spots;
         spots.base = table.blocks;
         while (true) {
