@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/numbers/float4.hpp"
 #include "core/shapes/bounds.hpp"
 #include "core/shapes/shapes.hpp"
 
@@ -9,22 +10,7 @@
 
 namespace raylane::core {
 
-/// Four floats at a time, by the compilers' own vector types: the builder of the hierarchy is held
-/// up by memory and by minima. The fourth goes along and means nothing.
-using Float4 [[gnu::vector_size(16)]] = float;
-using Int4 [[gnu::vector_size(16)]] = std::int32_t;
-
-inline Float4 all4(float value) {
-    return Float4{value, value, value, value};
-}
-inline Float4 least(const Float4& a, const Float4& b) {
-    return a < b ? a : b;
-}
-inline Float4 greatest(const Float4& a, const Float4& b) {
-    return a > b ? a : b;
-}
-
-/// Bounds for building with; empty to begin with.
+/// Bounds for building with; empty to begin with. The fourth number goes along and means nothing.
 struct Box4 {
     Float4 lower = all4(std::numeric_limits<float>::infinity());
     Float4 upper = -all4(std::numeric_limits<float>::infinity());
