@@ -41,23 +41,32 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
     return rendering;
 }
 
+/// With a quality, tiles consist of whole squares.
+int fitting(int tile, const core::Settings& settings) {
+    if (settings.quality == 0.0F) return tile;
+    constexpr int square = core::RegionSamples::square_size;
+    return (tile + square - 1) / square * square;
+}
+
 template <class Real>
 Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
                            const RenderOptions& options) {
     using Tracer = core::ReferenceTracer<Real>;
     const int tile = options.tile != 0 ? options.tile : 16;
     return render_by<Tracer>(
-        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); }, tile,
-        settings, options);
+        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); },
+        fitting(tile, settings), settings, options);
 }
 
 } // namespace
 
 Rendering render_vector(const SceneData& scene, const core::Settings& settings,
                         const RenderOptions& options, const Tracing& tracing) {
-    const int tile = options.tile != 0 ? std::clamp(options.tile, 1, Wavefront::max_region) : 32;
-    return render_by<Wavefront>([&] { return Wavefront(scene, settings, tracing); }, tile, settings,
-                                options);
+    const int tile = options.tile != 0          ? std::clamp(options.tile, 1, Wavefront::max_region)
+                     : settings.quality != 0.0F ? Wavefront::max_region
+                                                : 32;
+    return render_by<Wavefront>([&] { return Wavefront(scene, settings, tracing); },
+                                fitting(tile, settings), settings, options);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,

@@ -31,7 +31,9 @@ struct Progress {
 struct RenderOptions {
     Engine engine = Engine::vector;
     Isa isa = best_isa(); ///< of the vector engine, an available one
-    int tile = 0;         ///< pixels on a tile's side, in [8, 64]; 0: as suits the engine
+    /// Pixels on a tile's side, in [8, 64]; 0: as suits the engine. With a quality, rounded up to a
+    /// multiple of 16.
+    int tile = 0;
     core::Precision precision = core::Precision::exact;
     int threads = 0; ///< 0: all that the machine has
     Progress* progress = nullptr;

@@ -29,13 +29,37 @@ ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& setti
       searcher_(scene, search, precision) {
     crossings_.reserve(64);
     pending_.reserve(64);
+    if (settings.quality != 0.0F) to_quality_.emplace(scene, settings);
 }
 
 template <class Real>
 void ReferenceTracer<Real>::render(const Region& region, Film& film) {
-    for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x)
-            film.at(x, y) = pixel(x, y);
+    if (settings_.quality == 0.0F) {
+        for (int y = region.y0; y < region.y1; ++y)
+            for (int x = region.x0; x < region.x1; ++x)
+                film.at(x, y) = pixel(x, y);
+        return;
+    }
+    RegionSamples& samples = *to_quality_;
+    const auto for_each_pixel = [&](const auto& visit) {
+        std::size_t number = 0;
+        for (int y = region.y0; y < region.y1; ++y)
+            for (int x = region.x0; x < region.x1; ++x)
+                visit(x, y, number++);
+    };
+    samples.begin(region);
+    do {
+        for_each_pixel([&](int x, int y, std::size_t pixel) {
+            for (int wanted = samples.wanted(pixel); wanted > 0; --wanted) {
+                const SamplePoint place = samples.place(x, y, samples.taken(pixel));
+                first_hit_ = {};
+                const Vector color = trace(camera_rays_.ray(x, y, {Real(place.x), Real(place.y)}));
+                samples.add(pixel, {convert<double>(color), first_hit_.shape,
+                                    static_cast<double>(first_hit_.t)});
+            }
+        });
+    } while (samples.end_round());
+    for_each_pixel([&](int x, int y, std::size_t pixel) { film.at(x, y) = samples.mean(pixel); });
 }
 
 template <class Real>
@@ -83,6 +107,7 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     const Encounter<Real> encounter = searcher_.nearest(
         path.ray, path.origins, [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
+    if (path.depth == 0 && path.crossings == 0 && hit.any()) first_hit_ = hit;
     if (!hit.any()) return path.throughput * color_at_infinity(path);
 
     const Surface surface = surface_at(path, encounter);

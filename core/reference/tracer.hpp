@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/beams/region_samples.hpp"
 #include "core/optics/media.hpp"
 #include "core/reference/search.hpp"
 #include "core/scene/camera_rays.hpp"
@@ -20,9 +21,11 @@ class ReferenceTracer {
     ReferenceTracer(const Scene& scene, const Settings& settings, Search search = Search::hierarchy,
                     Precision precision = precision_of<Real>);
 
+    /// With a quality, the region consists of whole squares (RegionSamples::square_size).
     void render(const Region& region, Film& film);
 
-    /// The mean of a pixel's samples, added in their order. Linear RGB.
+    /// The mean of a pixel's samples, added in their order, as many as `settings.grid` says. Linear
+    /// RGB.
     Color pixel(int x, int y);
 
     /// The linear RGB colour seen along a ray; its direction is a unit vector.
@@ -115,6 +118,9 @@ class ReferenceTracer {
     std::vector<Hit<Real>> crossings_; // of a shadow ray
     Vector start_{};                   // of the last ray from the camera
     std::optional<Media> start_media_; // around it
+
+    std::optional<RegionSamples> to_quality_; // if the picture has one
+    Hit<Real> first_hit_;                     // of the last ray from the camera
 };
 
 extern template class ReferenceTracer<float>;

@@ -80,8 +80,9 @@ class CameraRays {
                 Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
     }
 
-    Ray<Real> ray(int x, int y, int sample) const {
-        const PicturePoint at = point_at(x, y, in_pixel(x, y, sample));
+    Ray<Real> ray(int x, int y, int sample) const { return ray(x, y, in_pixel(x, y, sample)); }
+    Ray<Real> ray(int x, int y, const InPixel& in_pixel) const {
+        const PicturePoint at = point_at(x, y, in_pixel);
         const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
         if (orthographic_) return {from_ + offset, forward_};
         return {from_, normalized(Vec3<Real>(forward_ + offset))};

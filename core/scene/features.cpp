@@ -44,7 +44,7 @@ Features features_of(const Scene& scene, const Settings& settings) {
         features.one_sided |= material.visible != Visible::both;
     }
     features.fog = scene.fog().kind != FogKind::none;
-    features.supersampling = settings.grid > 1;
+    features.supersampling = settings.grid > 1 || settings.quality != 0.0F;
     return features;
 }
 

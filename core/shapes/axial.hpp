@@ -64,8 +64,10 @@ template <class Real>
 Crossings<Real> keep_between_ends(const Crossings<Real>& crossings, const AxialRay<Real>& axial,
                                   Judge<Real>& judge) {
     Crossings<Real> kept;
-    for (const Crossing<Real>& crossing : crossings)
-        if (axial.between_ends(crossing.t, judge)) kept.add(crossing);
+    for (Crossing<Real> crossing : crossings)
+        if (judge.counts(crossing,
+                         [&](const Crossing<Real>& it) { return axial.between_ends(it.t, judge); }))
+            kept.add(crossing);
     return kept;
 }
 

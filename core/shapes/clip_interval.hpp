@@ -3,6 +3,8 @@
 #include "core/shapes/judge.hpp"
 #include "core/shapes/ray.hpp"
 
+#include <utility>
+
 namespace raylane::core {
 
 /// The part of a line inside a convex solid, found by clipping the line against one constraint
@@ -15,14 +17,20 @@ class ClipInterval {
 
     /// The line is inside only for t >= `t`.
     void clip_front(const Real& t, Face face) {
-        if (!has_front_ || judge_.less(front_.t, t)) front_ = {t, face, true};
-        has_front_ = true;
+        const Crossing<Real> front{t, face, true};
+        if (!std::exchange(has_front_, true))
+            front_ = front;
+        else
+            judge_.keep_last(front_, front);
     }
 
     /// The line is inside only for t <= `t`.
     void clip_back(const Real& t, Face face) {
-        if (!has_back_ || judge_.less(t, back_.t)) back_ = {t, face, false};
-        has_back_ = true;
+        const Crossing<Real> back{t, face, false};
+        if (!std::exchange(has_back_, true))
+            back_ = back;
+        else
+            judge_.keep_first(back_, back);
     }
 
     void clip_all() { empty_ = true; }
@@ -30,6 +38,8 @@ class ClipInterval {
     /// Clips against 0 <= start + t slope <= end, the faces at 0 and at `end` being `low` and
     /// `high`.
     void clip_slab(const Real& start, const Real& slope, const Real& end, Face low, Face high) {
+        if constexpr (requires { judge_.is_along(start, slope, end); })
+            if (judge_.is_along(start, slope, end)) return;
         const int direction = judge_.sign(slope);
         if (direction == 0) {
             if (judge_.negative(start) || judge_.less(end, start)) clip_all();
@@ -44,6 +54,8 @@ class ClipInterval {
 
     /// Both ends, if anything is left. A solid is bounded, so whatever is left has two.
     Crossings<Real> crossings() const {
+        if constexpr (requires { judge_.settle(&front_, &back_); })
+            judge_.settle(has_front_ ? &front_ : nullptr, has_back_ ? &back_ : nullptr);
         if (empty_ || !has_front_ || !has_back_ || judge_.less(back_.t, front_.t)) return {};
         return {front_, back_};
     }

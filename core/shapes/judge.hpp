@@ -33,6 +33,18 @@ class Judge {
     bool positive(const Real& a) { return a > Real(0.0); }
     bool less(const Real& a, const Real& b) { return a < b; }
     bool doubt() const { return false; }
+    /// The first of both, where a line leaves a convex solid, or the last, where it enters.
+    void keep_first(Crossing<Real>& kept, const Crossing<Real>& other) {
+        if (less(other.t, kept.t)) kept = other;
+    }
+    void keep_last(Crossing<Real>& kept, const Crossing<Real>& other) {
+        if (less(kept.t, other.t)) kept = other;
+    }
+    /// True if a crossing counts, given is_in(crossing) of it.
+    template <class IsIn>
+    bool counts(Crossing<Real>& crossing, const IsIn& is_in) {
+        return is_in(crossing);
+    }
 
   private:
     bool textbook_ = false;
@@ -78,6 +90,16 @@ class Judge<Bounded<T>> {
     bool negative(const Real& a) { return sign(a) < 0; }
     bool positive(const Real& a) { return sign(a) > 0; }
     bool less(const Real& a, const Real& b) { return negative(a - b); }
+    void keep_first(Crossing<Real>& kept, const Crossing<Real>& other) {
+        if (less(other.t, kept.t)) kept = other;
+    }
+    void keep_last(Crossing<Real>& kept, const Crossing<Real>& other) {
+        if (less(kept.t, other.t)) kept = other;
+    }
+    template <class IsIn>
+    bool counts(Crossing<Real>& crossing, const IsIn& is_in) {
+        return is_in(crossing);
+    }
     /// Judges a t; to be called of every one that is a result.
     void result(const Bounded<double>& t) {
         doubt_ |= !(t.error <= needed_accuracy * t.magnitude());

@@ -185,6 +185,7 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         sampling.number("grid", settings.grid);
         sampling.text("pattern",
                       settings.samples == core::SamplePattern::regular ? "regular" : "stratified");
+        if (settings.quality != 0.0F) sampling.number("quality", settings.quality);
     }
     root.key("limits");
     {

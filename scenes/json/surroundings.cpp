@@ -16,7 +16,8 @@ void read_image(const JsonValue& value, core::Settings& settings) {
 }
 
 void read_sampling(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"grid", "pattern"});
+    value.allow_only({"grid", "pattern", "quality"});
+    if (const auto quality = value.find("quality")) settings.quality = quality->number();
     if (const auto grid = value.find("grid")) settings.grid = grid->integer();
     if (const auto pattern = value.find("pattern"))
         settings.samples =

@@ -80,6 +80,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"width", settings.width},
             {"height", settings.height},
             {"samples_per_pixel", settings.grid * settings.grid},
+            {"quality", as_printed(settings.quality)},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
             {"transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear"},
@@ -151,7 +152,8 @@ void print(const Json& info) {
     line("fog", info["fog"]);
     line("camera", info["camera"]);
     line("picture", number("width") + " x " + number("height") + " pixels, " +
-                        number("samples_per_pixel") + " samples each, " +
+                        (info["quality"] == 0 ? number("samples_per_pixel") + " samples each, "
+                                              : number("quality") + " dB, ") +
                         info["transfer"].get<std::string>() + " transfer");
     line("limits", "depth " + number("max_depth") + ", weight " + number("min_weight"));
     line("needs", joined(info["needed"]));

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <thread>
@@ -21,7 +22,7 @@ namespace raylane::scenes {
 namespace {
 
 struct RenderArguments {
-    Argument scene, output, size, samples, max_depth, min_weight, threads, transfer, stats;
+    Argument scene, output, size, samples, quality, max_depth, min_weight, threads, transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
 };
 
@@ -71,6 +72,9 @@ struct Overrides {
         if (arguments.size) size = size_argument("--size", *arguments.size);
         if (arguments.samples)
             grid = square_argument("--spp", *arguments.samples, Settings::max_grid);
+        if (arguments.quality)
+            quality = number_argument("--quality", *arguments.quality, 10.0F, 80.0F);
+        if (quality && grid) throw BadInput("--quality", "", "goes without --spp");
         if (arguments.max_depth)
             max_depth =
                 whole_argument("--max-depth", *arguments.max_depth, 0, Settings::depth_limit);
@@ -85,6 +89,7 @@ struct Overrides {
     core::Settings applied_to(core::Settings settings) const {
         if (size) std::tie(settings.width, settings.height) = *size;
         settings.grid = grid.value_or(settings.grid);
+        settings.quality = quality.value_or(grid ? 0.0F : settings.quality);
         settings.max_depth = max_depth.value_or(settings.max_depth);
         settings.min_weight = min_weight.value_or(settings.min_weight);
         settings.transfer = transfer.value_or(settings.transfer);
@@ -93,7 +98,7 @@ struct Overrides {
 
     std::optional<std::pair<int, int>> size;
     std::optional<int> grid, max_depth;
-    std::optional<float> min_weight;
+    std::optional<float> quality, min_weight;
     std::optional<core::Transfer> transfer;
 };
 
@@ -138,6 +143,12 @@ std::string isa_in_use(const std::string& engine) {
     return engine == "vector" ? std::string(simd::name_of(simd::best_isa())) : "none";
 }
 
+/// The mean, if they are as many as a quality takes.
+double samples_per_pixel(const core::Settings& settings, const simd::EngineCounters& counters) {
+    return static_cast<double>(counters.primary) /
+           (static_cast<double>(settings.width) * settings.height);
+}
+
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
                                 const core::Settings& settings, const simd::RenderOptions& options,
                                 const simd::EngineCounters& counters, const Times& times) {
@@ -150,7 +161,8 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"threads", options.threads},
             {"width", settings.width},
             {"height", settings.height},
-            {"samples_per_pixel", settings.grid * settings.grid},
+            {"quality", as_printed(settings.quality)},
+            {"samples_per_pixel", samples_per_pixel(settings, counters)},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
             {"shapes", scene.shape_count()},
@@ -212,9 +224,10 @@ int render(const RenderArguments& arguments) {
     }
     if (::isatty(STDERR_FILENO) == 1)
         std::fprintf(
-            stderr, "%s: %d x %d pixels, %d samples each, in %s, %srays/s\n",
+            stderr, "%s: %d x %d pixels, %.8g samples each, in %s, %srays/s\n",
             printable(files.output, 4096).c_str(), settings.width, settings.height,
-            settings.grid * settings.grid, duration_text(times.render).c_str(),
+            std::round(100.0 * samples_per_pixel(settings, rendering.counters)) / 100.0,
+            duration_text(times.render).c_str(),
             with_prefix(static_cast<double>(rendering.counters.rays()) / times.render).c_str());
     return 0;
 }
@@ -236,6 +249,10 @@ Command add_render_command(CLI::App& app) {
     add("--size", arguments->size, "Pixels (default: as the scene says)", "WxH");
     add("--spp", arguments->samples,
         "Samples per pixel, a square number (default: as the scene says)", "N");
+    add("--quality", arguments->quality,
+        "Decibels (PSNR) that the picture is to have against a converged one, 10 to 80, instead of "
+        "--spp; 40 is good print (default: as the scene says)",
+        "DB");
     add("--max-depth", arguments->max_depth,
         "Reflections and refractions one after the other (default: as the scene says)", "N");
     add("--min-weight", arguments->min_weight,

@@ -51,6 +51,11 @@ CameraView view_of(const core::CameraRays<double>& rays) {
     return view;
 }
 
+core::Settings without_quality(core::Settings settings) {
+    settings.quality = 0.0F;
+    return settings;
+}
+
 } // namespace
 
 Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing)
@@ -59,7 +64,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_coherence_(coherence_of(camera_)), with_media_(scene.scene().transmissive().any),
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
-      reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
+      reference_(scene.scene(), without_quality(settings), core::Search::hierarchy,
+                 tracing.precision),
       finder_(scene, tracing), shadows_(scene, tracing, reference_), sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
@@ -67,7 +73,14 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     if (camera_rays_.regular())
         for (int number = 0; number < settings.grid * settings.grid; ++number)
             cells_.push_back(camera_rays_.in_pixel(0, 0, number));
-    sums_.reserve(static_cast<std::size_t>(max_region) * max_region);
+    constexpr std::size_t most_pixels = static_cast<std::size_t>(max_region) * max_region;
+    if (settings.quality == 0.0F) {
+        sums_.reserve(most_pixels);
+        return;
+    }
+    to_quality_.emplace(scene.scene(), settings);
+    first_shape_.resize(chunk_samples);
+    first_t_.resize(chunk_samples);
 }
 
 void Wavefront::take_from(Arena& arena) {
@@ -101,52 +114,111 @@ EngineCounters Wavefront::counters() const {
 }
 
 void Wavefront::render(const core::Region& region, core::Film& film) {
-    const int width = region.x1 - region.x0, height = region.y1 - region.y0;
-    const int samples = settings_.grid * settings_.grid;
-    sums_.assign(static_cast<std::size_t>(width) * height, core::Vec3d(0.0));
+    if (settings_.quality == 0.0F)
+        render_grid(region, film);
+    else
+        render_to_quality(region, film);
+}
 
-    std::size_t filled = 0;
-    const auto flush = [&] {
-        start(filled);
-        trace();
-        std::size_t i = 0;
-        for (const Samples& some : samples_) {
-            core::Vec3d& total =
-                sums_[static_cast<std::size_t>(some.y - region.y0) * width + some.x - region.x0];
-            core::Vec3d sum = total;
-            for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
-                sum += core::Vec3d(radiance_[0][i], radiance_[1][i], radiance_[2][i]);
-            total = sum;
-        }
-        samples_.clear();
-        filled = 0;
+/// As many samples of each pixel as the settings' grid says.
+void Wavefront::render_grid(const core::Region& region, core::Film& film) {
+    const int width = region.x1 - region.x0;
+    const int samples = settings_.grid * settings_.grid;
+    sums_.assign(static_cast<std::size_t>(region.pixels()), core::Vec3d(0.0));
+    const auto add = [&](const Samples& some, std::size_t i) {
+        core::Vec3d& total = sums_[some.pixel];
+        core::Vec3d sum = total;
+        for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
+            sum += core::Vec3d(radiance_[0][i], radiance_[1][i], radiance_[2][i]);
+        total = sum;
     };
+    for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
+        take({x, y, pixel, 0, samples}, add);
+    });
+    flush(add);
+    for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x)
+            film.at(x, y) = core::convert<float>(
+                sums_[static_cast<std::size_t>(y - region.y0) * width + x - region.x0] /
+                static_cast<double>(samples));
+}
+
+/// Round after round, the samples that each pixel still wants.
+void Wavefront::render_to_quality(const core::Region& region, core::Film& film) {
+    core::RegionSamples& pixels = *to_quality_;
+    const auto add = [&](const Samples& some, std::size_t i) {
+        for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
+            pixels.add(some.pixel, {{radiance_[0][i], radiance_[1][i], radiance_[2][i]},
+                                    first_shape_[i],
+                                    first_t_[i]});
+    };
+    pixels.begin(region);
+    do {
+        for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
+            take({x, y, pixel, pixels.taken(pixel), pixels.wanted(pixel)}, add);
+        });
+        flush(add);
+    } while (pixels.end_round());
+    std::size_t pixel = 0;
+    for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x)
+            film.at(x, y) = pixels.mean(pixel++);
+}
+
+/// Calls visit(x, y, number in the region, row by row) in the order of Morton codes.
+template <class Visit>
+void Wavefront::for_each_pixel(const core::Region& region, const Visit& visit) {
+    const int width = region.x1 - region.x0;
     for (const auto& pixel : pixel_order) {
         const int x = region.x0 + pixel.x, y = region.y0 + pixel.y;
-        if (x >= region.x1 || y >= region.y1) continue;
-        for (int first = 0; first < samples;) {
-            const int count = std::min(samples - first, static_cast<int>(chunk_samples - filled));
-            samples_.push_back({x, y, first, count});
-            filled += static_cast<std::size_t>(count);
-            first += count;
-            if (filled == chunk_samples) flush();
-        }
+        if (x < region.x1 && y < region.y1)
+            visit(x, y, static_cast<std::size_t>(pixel.y) * static_cast<unsigned>(width) + pixel.x);
     }
-    if (filled != 0) flush();
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            film.at(region.x0 + x, region.y0 + y) = core::convert<float>(
-                sums_[static_cast<std::size_t>(y) * width + x] / static_cast<double>(samples));
+}
+
+/// Traces samples as soon as they fill a chunk. Calls add(samples, their first place in it) of
+/// what has been traced.
+template <class Add>
+void Wavefront::take(Samples samples, const Add& add) {
+    while (samples.count != 0) {
+        Samples some = samples;
+        some.count = std::min(samples.count, static_cast<int>(chunk_samples - filled_));
+        samples_.push_back(some);
+        filled_ += static_cast<std::size_t>(some.count);
+        samples.first += some.count;
+        samples.count -= some.count;
+        if (filled_ == chunk_samples) flush(add);
+    }
+}
+
+template <class Add>
+void Wavefront::flush(const Add& add) {
+    if (filled_ == 0) return;
+    start(filled_);
+    trace();
+    std::size_t i = 0;
+    for (const Samples& some : samples_) {
+        add(some, i);
+        i += static_cast<std::size_t>(some.count);
+    }
+    samples_.clear();
+    filled_ = 0;
+}
+
+core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& some, int number) const {
+    if (to_quality_) {
+        const core::SamplePoint place = to_quality_->place(some.x, some.y, number);
+        return {static_cast<double>(place.x), static_cast<double>(place.y)};
+    }
+    return camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]
+                                  : camera_rays_.in_pixel(some.x, some.y, number);
 }
 
 void Wavefront::start(std::size_t count) {
     std::size_t filled = 0;
     for (const Samples& some : samples_)
         for (int number = some.first; number < some.first + some.count; ++number) {
-            const auto point = camera_rays_.point_at(
-                some.x, some.y,
-                camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]
-                                       : camera_rays_.in_pixel(some.x, some.y, number));
+            const auto point = camera_rays_.point_at(some.x, some.y, in_pixel(some, number));
             across_[filled] = point.across;
             upward_[filled++] = point.upward;
         }
@@ -212,8 +284,18 @@ void Wavefront::trace_wave(int depth) {
     for (const std::uint32_t lane : finder_.at_contacts())
         follow(lane, depth); // several surfaces meet there
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts());
+    if (to_quality_ && depth == 0) note_first_hits();
     see_background();
     shade(depth);
+}
+
+void Wavefront::note_first_hits() {
+    for (std::size_t lane = 0; lane < paths_.count; ++lane) {
+        const std::uint32_t slot = finder_.hits().slot[lane], sample = paths_.sample[lane];
+        const bool any = slot != no_slot;
+        first_shape_[sample] = any ? scene_.id_of(slot) : core::no_shape;
+        first_t_[sample] = any ? finder_.hits().t[lane] : 0.0;
+    }
 }
 
 /// The reference goes on with a lane.

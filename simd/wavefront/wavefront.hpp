@@ -1,11 +1,13 @@
 #pragma once
 
+#include "core/beams/region_samples.hpp"
 #include "core/scene/camera_rays.hpp"
 #include "core/scene/film.hpp"
 #include "core/scene/region.hpp"
 #include "simd/wavefront/hit_sorter.hpp"
 #include "simd/wavefront/shadow_tracer.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace raylane::simd {
@@ -20,6 +22,7 @@ class Wavefront {
   public:
     Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing);
 
+    /// With a quality, the region consists of whole squares (core::RegionSamples::square_size).
     void render(const core::Region& region, core::Film& film);
 
     Wavefront(const Wavefront&) = delete; // parts of it refer to others
@@ -39,7 +42,9 @@ class Wavefront {
 
     /// Consecutive samples of a pixel.
     struct Samples {
-        int x, y, first, count;
+        int x, y;
+        std::size_t pixel; ///< of the region, row by row
+        int first, count;
     };
     struct Deferred {
         std::size_t begin;
@@ -48,7 +53,17 @@ class Wavefront {
     };
 
     void take_from(Arena& arena);
+    void render_grid(const core::Region& region, core::Film& film);
+    void render_to_quality(const core::Region& region, core::Film& film);
+    template <class Visit>
+    void for_each_pixel(const core::Region& region, const Visit& visit);
+    template <class Add>
+    void take(Samples samples, const Add& add);
+    template <class Add>
+    void flush(const Add& add);
+    core::CameraRays<double>::InPixel in_pixel(const Samples& some, int number) const;
     void start(std::size_t count);
+    void note_first_hits();
     void start_in_media();
     void trace();
     void trace_wave(int depth);
@@ -88,8 +103,13 @@ class Wavefront {
     double* across_ = nullptr;
     double* upward_ = nullptr;
     double* radiance_[3] = {};      // by sample
+    std::size_t filled_ = 0;        // samples of the chunk
     std::vector<core::Vec3d> sums_; // by pixel of the region
 
+    // If the picture has a quality.
+    std::optional<core::RegionSamples> to_quality_;
+    std::vector<core::ShapeId> first_shape_; // by sample: that the camera's ray hits
+    std::vector<double> first_t_;
     // A wave, sorted.
     HitSorter sorted_;
     bool coherent_ = false; ///< it was hit by rays from the camera

@@ -133,7 +133,7 @@ typedef struct raylane_settings {
     int width, height, grid;
     uint8_t samples, transfer;
     int max_depth;
-    float min_weight;
+    float min_weight, quality;
 } raylane_settings;
 
 /** The values that C++ starts with. */

@@ -63,6 +63,9 @@ struct Settings {
     int height = 512; ///< pixels, 1 to 65535
     int grid = 1;     ///< samples per pixel: grid x grid, 1 to 256
     SamplePattern samples = SamplePattern::regular;
+    /// 0, or decibels (PSNR) that the picture is to have against a converged one, 10 to 80: then
+    /// each pixel gets the samples that it needs, and `grid` and `samples` do not count.
+    float quality = 0.0F;
     Transfer transfer = Transfer::srgb; ///< for write_image
     int max_depth = 8;                  ///< reflections and refractions on one path, 0 to 1000
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]

@@ -76,6 +76,7 @@ TEST_CASE("everything else comes back as it was given") {
                         .height = 40,
                         .grid = 2,
                         .samples = SamplePattern::stratified,
+                        .quality = 40,
                         .transfer = Transfer::linear,
                         .max_depth = 5,
                         .min_weight = 0.25F};
@@ -117,6 +118,7 @@ TEST_CASE("everything else comes back as it was given") {
     const Settings settings = scene.settings();
     CHECK((settings.width == 30 && settings.height == 40 && settings.grid == 2));
     CHECK(settings.samples == SamplePattern::stratified);
+    CHECK(settings.quality == 40);
     CHECK(settings.transfer == Transfer::linear);
     CHECK((settings.max_depth == 5 && settings.min_weight == 0.25F));
 

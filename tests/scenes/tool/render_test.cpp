@@ -78,6 +78,13 @@ TEST_CASE("the size, the samples and the transfer can be overridden") {
     CHECK(bytes_of(Workshop(sampled), "nine.pfm", {}) == nine);
     CHECK(bytes_of(Workshop(sampled), "one.pfm", {"--spp", "1"}) == one);
 
+    const std::string good = bytes_of(workshop, "good.pfm", {"--quality", "40"});
+    CHECK(good != one);
+    sampled = ball;
+    sampled.insert(1, R"("sampling": {"grid": 3, "quality": 40}, )");
+    CHECK(bytes_of(Workshop(sampled), "good.pfm", {}) == good);
+    CHECK(bytes_of(Workshop(sampled), "nine.pfm", {"--spp", "9"}) == nine);
+
     // The background is half of blue.
     CHECK(pixel(picture(workshop, {"--transfer", "linear"}, "p.png"), 0, 0)[2] == 128.0F / 255.0F);
     CHECK(pixel(picture(workshop, {"--transfer", "srgb"}, "p.png"), 0, 0)[2] == 188.0F / 255.0F);
@@ -129,6 +136,7 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "threads",
                                            "width",
                                            "height",
+                                           "quality",
                                            "samples_per_pixel",
                                            "max_depth",
                                            "min_weight",
@@ -151,6 +159,7 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(figures["threads"] == 1);
     CHECK(figures["width"] == 8);
     CHECK(figures["height"] == 6);
+    CHECK(figures["quality"] == 0);
     CHECK(figures["samples_per_pixel"] == 4);
     CHECK(figures["max_depth"] == 3);
     CHECK(figures["min_weight"].dump() == "0.1");

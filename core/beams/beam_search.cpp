@@ -1,0 +1,202 @@
+#include "core/beams/beam_search.hpp"
+
+#include <algorithm>
+
+namespace raylane::core {
+
+namespace {
+
+constexpr float far = std::numeric_limits<float>::infinity();
+
+Bounds everywhere() {
+    return {Vec3f(-far), Vec3f(far)};
+}
+
+template <class Shape>
+BlockBounds bounds_of_block(const Block<Shape>& block) {
+    BlockBounds bounds;
+    for (int lane = 0; lane < block_size; ++lane) {
+        Bounds of_shape; // empty
+        if (block.ids[lane] != no_shape) of_shape = bounds_of(block.get(lane));
+        for (int axis = 0; axis < 3; ++axis) {
+            bounds.lower[axis][lane] = of_shape.lower[axis];
+            bounds.upper[axis][lane] = of_shape.upper[axis];
+        }
+    }
+    return bounds;
+}
+
+} // namespace
+
+BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
+    for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
+        if constexpr (is_bounded<Shape>) {
+            auto& bounds = bounds_[static_cast<std::size_t>(kind_of<Shape>)];
+            bounds.reserve(table.blocks().size());
+            for (const Block<Shape>& block : table.blocks())
+                bounds.push_back(bounds_of_block(block));
+        } else {
+            std::uint32_t number = 0;
+            for_each_shape(table, [&](const Shape&, ShapeId id) {
+                const Place place{number / block_size,
+                                  static_cast<std::uint8_t>(number % block_size)};
+                unbounded_.push_back({everywhere(), place, kind_of<Shape>, id, 0.0F});
+                ++number;
+            });
+        }
+    });
+    pending_.reserve(512);
+}
+
+bool BeamSearch::collect(const Beam& beam, double t_most, std::vector<BeamCandidate>& candidates) {
+    candidates = unbounded_;
+    const BigArray<WideNode>& nodes = scene_.hierarchy().nodes;
+    if (nodes.empty()) return true;
+    const BeamSlabs slabs(beam);
+    const auto last = std::nextafter(static_cast<float>(t_most), far);
+    float near[block_size];
+    pending_.assign(1, Child::node(0));
+    while (!pending_.empty()) {
+        const Child child = pending_.back();
+        pending_.pop_back();
+        if (!child.is_block()) {
+            const WideNode& node = nodes[child.index()];
+            slabs.near(node, near);
+            for (int entry = 0; entry < block_size; ++entry)
+                if (near[entry] < last && !node.children[entry].empty())
+                    pending_.push_back(node.children[entry]);
+            continue;
+        }
+        const BlockBounds& bounds = bounds_[static_cast<std::size_t>(child.kind())][child.index()];
+        slabs.near(bounds, near);
+        for (int lane = 0; lane < block_size; ++lane)
+            if (near[lane] < last) add(child, lane, bounds, near[lane], candidates);
+        if (candidates.size() > most_candidates) return false;
+    }
+    return true;
+}
+
+void BeamSearch::narrow(const Beam& beam, std::vector<BeamCandidate>& candidates) {
+    const BeamSlabs slabs(beam);
+    for (BeamCandidate& candidate : candidates)
+        candidate.near = slabs.near(candidate.bounds);
+    std::erase_if(candidates, [](const BeamCandidate& c) { return !(c.near < far); });
+}
+
+void BeamSearch::add(const Child& block, int lane, const BlockBounds& all, float near,
+                     std::vector<BeamCandidate>& candidates) const {
+    const Place place{block.index(), static_cast<std::uint8_t>(lane)};
+    const ShapeId id = with_table(scene_.shapes(), block.kind(),
+                                  [&](const auto& table) { return table.id(place); });
+    if (id == no_shape) return;
+    Bounds bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        bounds.lower[axis] = all.lower[axis][lane];
+        bounds.upper[axis] = all.upper[axis][lane];
+    }
+    candidates.push_back({bounds, place, block.kind(), id, near});
+}
+
+namespace {
+
+/// crossings(), all of it in one function.
+template <class Shape>
+[[gnu::flatten]] Crossings<Affine> cross(const Shape& shape, const Beam& beam, const Start& start,
+                                         Judge<Affine>& judge) {
+    return crossings(shape, beam, start, judge);
+}
+
+/// A crossing that is not behind the first of any ray that meets the shape. Where nothing is known,
+/// it may be infinitely far in front.
+template <class Shape>
+Crossing<Affine> first_possible(const Shape& shape, const Beam& beam, const Start& start) {
+    Judge<Affine> judge = Judge<Affine>::that_lets_none_miss();
+    const Crossings<Affine> all = cross(shape, beam, start, judge);
+    if (judge.doubt() || all.begin() == all.end())
+        return {Affine(0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()), body};
+    return *all.begin();
+}
+
+} // namespace
+
+/// Where a beam meets a shape first, on the side that can be seen.
+BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& beam,
+                                 const BeamCone& cone, const Departure& from) const {
+    const bool is_left = candidate.id == from.id;
+    if (!is_left && from.id != no_shape && from.coplanar.contains(candidate.id))
+        return {Met::missed};
+    if (candidate.kind == Kind::sphere && !is_left) {
+        const Block<Sphere>& block =
+            std::get<Table<Sphere>>(scene_.shapes()).blocks()[candidate.place.block];
+        const Sphere sphere = block.get(candidate.place.lane);
+        if (cone.misses(sphere.center, sphere.radius)) return {Met::missed};
+    }
+    const Start start = is_left ? from.start : Start{};
+    const Material& material = scene_.material_of(candidate.id);
+    return with_table(scene_.shapes(), candidate.kind, [&](const auto& table) -> Met {
+        Judge<Affine> judge;
+        const Crossings<Affine> all = cross(table.get(candidate.place), beam, start, judge);
+        if (judge.doubt())
+            return {Met::partly, first_possible(table.get(candidate.place), beam, start)};
+        for (const Crossing<Affine>& crossing : all) {
+            if (!is_left && crossing.t.upper() < 0.0) continue;
+            if (!(crossing.t.lower() > 0.0)) return {Met::partly, crossing};
+            if (Judge<Affine>::is_doubtful(crossing)) return {Met::partly, crossing};
+            if (material.is_seen(crossing.entering)) return {Met::whole, crossing};
+        }
+        return {Met::missed};
+    });
+}
+
+BeamHit BeamSearch::first(const Beam& beam, const Departure& from,
+                          std::vector<BeamCandidate>& candidates) {
+    const BeamCone cone(beam);
+    std::sort(candidates.begin(), candidates.end(),
+              [](const BeamCandidate& a, const BeamCandidate& b) {
+                  return a.near != b.near ? a.near < b.near : a.id < b.id;
+              });
+
+    BeamHit best;
+    met_.clear();
+    std::size_t count = 0;
+    for (const BeamCandidate& candidate : candidates) {
+        if (best.is_covered() && static_cast<double>(candidate.near) > best.crossing.t.upper())
+            break;
+        const Met met = meet(candidate, beam, cone, from);
+        if (met.what == Met::missed) continue;
+        const Affine& t = met.crossing.t;
+        if (met.what == Met::whole && (!best.is_covered() || (t - best.crossing.t).upper() < 0.0))
+            best = {BeamHit::surface, candidate, met.crossing};
+        met_.push_back(t);
+        candidates[count++] = candidate;
+    }
+    // But for those that are surely behind it.
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!best.is_covered() || candidates[i].id == best.shape.id ||
+            !((met_[i] - best.crossing.t).lower() > 0.0))
+            candidates[kept++] = candidates[i];
+    candidates.resize(kept);
+    if (kept > (best.is_covered() ? 1U : 0U)) best.what = BeamHit::doubt;
+    return best;
+}
+
+BeamSearch::Light BeamSearch::arrives(const Beam& beam, const Departure& from, double t_most,
+                                      std::vector<BeamCandidate>& candidates) {
+    const BeamCone cone(beam);
+    Light light = Light::arrives;
+    std::size_t kept = 0;
+    for (const BeamCandidate& candidate : candidates) {
+        const Met met = meet(candidate, beam, cone, from);
+        if (met.what == Met::missed || (met.what == Met::whole && met.crossing.t.lower() >= t_most))
+            continue;
+        const bool blocks = met.what == Met::whole && met.crossing.t.upper() < t_most;
+        if (blocks && !scene_.material_of(candidate.id).transmits()) return Light::blocked;
+        candidates[kept++] = candidate;
+        light = Light::doubt;
+    }
+    candidates.resize(kept);
+    return light;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,83 @@
+#pragma once
+
+#include "core/beams/beam.hpp"
+#include "core/scene/scene.hpp"
+
+#include <array>
+#include <vector>
+
+/// What a beam meets: as a ray's search, with answers that hold for all of its rays or for none.
+namespace raylane::core {
+
+/// A shape that a beam may meet.
+struct BeamCandidate {
+    Bounds bounds; ///< infinite if it has none
+    Place place;
+    Kind kind;
+    ShapeId id = no_shape;
+    float near; ///< lower bound on t
+};
+
+/// The surface that a beam starts on, all of it on one side.
+struct Departure {
+    ShapeId id = no_shape;
+    IdRange coplanar{no_shape, no_shape};
+    Start start{};
+};
+
+struct BeamHit {
+    enum What : std::uint8_t {
+        nothing, ///< no ray meets anything
+        surface, ///< all rays meet this one face of this one shape first
+        doubt,   ///< there may be an edge
+    } what = nothing;
+    BeamCandidate shape{};
+    Crossing<Affine> crossing{};
+
+    /// True if all rays meet `shape`, whatever some may meet before.
+    bool is_covered() const { return shape.id != no_shape; }
+};
+
+class BeamSearch {
+  public:
+    explicit BeamSearch(const Scene& scene);
+
+    /// Most candidates that are looked at; where a beam may meet more, all is in doubt.
+    static constexpr std::size_t most_candidates = 4096;
+
+    /// Fills in all shapes whose bounds a beam may meet at t <= t_most; false if they are too many.
+    bool collect(const Beam& beam, double t_most, std::vector<BeamCandidate>& candidates);
+
+    /// Of the candidates of a beam those of a part of it.
+    static void narrow(const Beam& part, std::vector<BeamCandidate>& candidates);
+
+    /// The first surface of all that may be met. Keeps of the candidates those that a part of the
+    /// beam may meet first.
+    BeamHit first(const Beam& beam, const Departure& from, std::vector<BeamCandidate>& candidates);
+
+    enum class Light : std::uint8_t { arrives, blocked, doubt };
+
+    /// If anything is in the way of a beam's rays, from t = 0 to t_most.
+    Light arrives(const Beam& beam, const Departure& from, double t_most,
+                  std::vector<BeamCandidate>& candidates);
+
+  private:
+    struct Met {
+        enum What : std::uint8_t { missed, whole, partly } what;
+        Crossing<Affine> crossing{}; ///< if partly: not behind any
+    };
+
+    Met meet(const BeamCandidate& candidate, const Beam& beam, const BeamCone& cone,
+             const Departure& from) const;
+
+    void add(const Child& block, int lane, const BlockBounds& all, float near,
+             std::vector<BeamCandidate>& candidates) const;
+
+    const Scene& scene_;
+    std::array<std::vector<BlockBounds>, kind_count> bounds_; // of blocks, by kind
+    std::vector<BeamCandidate> unbounded_;
+    std::vector<Child> pending_;
+    std::vector<Affine> met_; // t of candidates
+};
+
+} // namespace raylane::core

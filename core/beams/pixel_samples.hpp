@@ -1,0 +1,67 @@
+#pragma once
+
+#include "core/scene/sample_sequence.hpp"
+#include "core/shapes/shape.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace raylane::core {
+
+/// What a sample shows.
+struct Sample {
+    Vec3d color;              ///< linear RGB
+    ShapeId shape = no_shape; ///< that the camera's ray hits first
+    double t = 0.0;           ///< where it does
+};
+
+/// The samples of one pixel so far.
+class PixelSamples {
+  public:
+    int count() const { return count_; }
+    Color mean() const { return convert<float>(Vec3d(sum_ / static_cast<double>(count_))); }
+
+    /// To be called in the order of the samples' numbers.
+    void add(const Sample& sample) {
+        ++count_;
+        sum_ += sample.color;
+        for (int channel = 0; channel < 3; ++channel) {
+            const double seen = std::clamp(sample.color[channel], 0.0, 1.0);
+            seen_sum_[channel] += seen;
+            seen_squares_[channel] += seen * seen;
+        }
+        farthest_ =
+            std::max(farthest_,
+                     sample.shape == no_shape ? std::numeric_limits<double>::infinity() : sample.t);
+        if (!has_seen(sample.shape) && shapes_count_ < most_shapes)
+            shapes_[shapes_count_++] = sample.shape;
+    }
+
+    /// True if a sample has hit the shape, or, for no_shape, none. Of the first `most_shapes`.
+    bool has_seen(ShapeId shape) const {
+        return std::find(shapes_.begin(), shapes_.begin() + shapes_count_, shape) !=
+               shapes_.begin() + shapes_count_;
+    }
+
+    /// Shapes that have been hit, and one more if a sample hit none; `most_shapes` at most.
+    int different_shapes() const { return shapes_count_; }
+
+    /// The largest t at which a sample hits; infinite if one hits nothing.
+    double farthest() const { return farthest_; }
+
+    /// True if the mean is probably off by no more than that, as the film shows it: 1 is white.
+    bool is_within(double tolerance, Transfer transfer) const;
+
+    static constexpr int most_shapes = 8;
+
+  private:
+    int count_ = 0;
+    int shapes_count_ = 0;
+    double farthest_ = 0.0;
+    std::array<ShapeId, most_shapes> shapes_{};
+    Vec3d sum_{0.0};
+    Vec3d seen_sum_{0.0}, seen_squares_{0.0}; // of colours as the film has them, 1 at most
+};
+
+} // namespace raylane::core

@@ -1,0 +1,176 @@
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+#include "tests/random.hpp"
+#include "tests/sanitized.hpp"
+
+#include <cmath>
+
+/// Pictures of a quality: samples where there is something to see.
+using namespace raylane;
+using namespace little_scene;
+using ray_sets::Random;
+using ray_sets::rounded;
+
+namespace {
+
+/// Balls and sticks on a checked floor, some of them mirrors, some of glass.
+Scene workshop(float quality) {
+    Builder builder;
+    builder.settings.width = 96;
+    builder.settings.height = 64;
+    builder.settings.max_depth = 4;
+    builder.settings.quality = quality;
+    builder.background = {0.7F, 0.8F, 1.0F};
+    builder.camera.from = {1, 2, 9};
+    builder.camera.field_of_view = 40.0F;
+    Material floor = luminous(Color(0.9F));
+    floor.pattern.kind = PatternKind::checker;
+    floor.pattern.colors[1] = Color(0.2F);
+    floor.ambient = 0.2F;
+    floor.diffuse = 0.7F;
+    builder.add_shape(Plane{{0, -1.5F, 0}, {0, 1, 0}}, floor);
+    Random random(3);
+    for (int i = 0; i < 12; ++i) {
+        Material material = luminous(rounded(Vec3d(0.5) + random.cube(0.4)));
+        material.ambient = 0.2F;
+        material.diffuse = 0.7F;
+        material.specular = 0.3F;
+        material.exponent = 20.0F;
+        if (i % 4 == 1) material.reflectivity = 0.5F;
+        if (i % 6 == 2) material.transmission = 0.8F;
+        const Vec3f place = rounded(random.cube(2.0));
+        builder.add_shape(Sphere{place, 0.3F + 0.05F * static_cast<float>(i)}, material);
+        builder.add_shape(CappedCylinder{place, rounded(random.cube(2.0)), 0.05F}, material);
+    }
+    Light lamp;
+    lamp.position = {3, 8, 6};
+    return builder.finish(lamp);
+}
+
+simd::Rendering rendered(const Scene& scene, float quality,
+                         const simd::RenderOptions& options = {}) {
+    Settings settings = scene.settings();
+    settings.quality = quality;
+    return simd::render(scene, settings, options);
+}
+
+Film converged(const Scene& scene, int grid = 32) {
+    Settings settings = scene.settings();
+    settings.quality = 0.0F;
+    settings.grid = grid;
+    settings.samples = SamplePattern::stratified;
+    return simd::render(scene, settings, {}).film;
+}
+
+/// Decibels, of what the film shows of it.
+double psnr(const Film& a, const Film& b) {
+    const auto shown = [](float linear) {
+        const double x = std::clamp(static_cast<double>(linear), 0.0, 1.0);
+        return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+    };
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.pixels().size(); ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+            const double off = shown(a.pixels()[i][channel]) - shown(b.pixels()[i][channel]);
+            sum += off * off / 3.0;
+        }
+    return -10.0 * std::log10(sum / static_cast<double>(a.pixels().size()));
+}
+
+} // namespace
+
+TEST_CASE("a picture has the quality that is asked for", "[long]") {
+    const Scene scene = workshop(0.0F);
+    const Film truth = converged(scene, tests::sanitized ? 12 : 32);
+    std::uint64_t last = 0;
+    for (const float quality : {30.0F, 36.0F, 42.0F}) {
+        const simd::Rendering rendering = rendered(scene, quality);
+        CAPTURE(quality);
+        CHECK(psnr(rendering.film, truth) >= static_cast<double>(quality));
+        CHECK(rendering.counters.primary > last);
+        last = rendering.counters.primary;
+    }
+}
+
+TEST_CASE("a picture of smooth shapes has few samples") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 128;
+    builder.camera.from = {0, 0, 6};
+    Material matte = luminous(Color(0.8F));
+    matte.ambient = 0.2F;
+    matte.diffuse = 0.8F;
+    builder.add_shape(Sphere{{0, 0, 0}, 1.5F}, matte);
+    builder.add_shape(CappedCylinder{{-2, -2, 0}, {4, 0.1F, 0}, 0.3F}, matte);
+    const Scene scene = builder.finish();
+    const simd::Rendering rendering = rendered(scene, 42.0F);
+    CHECK(rendering.counters.primary < 128U * 128U * 6U);
+    CHECK(psnr(rendering.film, converged(scene)) > 42.0);
+}
+
+TEST_CASE("a picture of a quality depends on neither threads, tiles nor instructions", "[long]") {
+    const Scene scene = workshop(0.0F);
+    simd::RenderOptions options;
+    options.threads = 1;
+    const simd::Rendering expected = rendered(scene, 38.0F, options);
+    for (const int tile : {8, 16, 40, 64})
+        for (const int threads : {1, 3}) {
+            options.tile = tile;
+            options.threads = threads;
+            const simd::Rendering rendering = rendered(scene, 38.0F, options);
+            CHECK(rendering.film.pixels() == expected.film.pixels());
+            CHECK(rendering.counters.primary == expected.counters.primary);
+        }
+    for (const simd::Isa isa : simd::all_isas) {
+        if (!simd::is_available(isa)) continue;
+        options.isa = isa;
+        CHECK(rendered(scene, 38.0F, options).film.pixels() == expected.film.pixels());
+    }
+}
+
+TEST_CASE("the reference draws a quality likewise", "[long]") {
+    const Scene scene = workshop(0.0F);
+    simd::RenderOptions options;
+    options.engine = simd::Engine::reference;
+    const simd::Rendering reference = rendered(scene, 32.0F, options);
+    const simd::Rendering vector = rendered(scene, 32.0F);
+    CHECK(psnr(reference.film, vector.film) > 60.0);
+    CHECK(static_cast<double>(reference.counters.primary) ==
+          Approx(static_cast<double>(vector.counters.primary)).epsilon(0.001));
+}
+
+TEST_CASE("sticks and specks far thinner than a pixel are not lost", "[long]") {
+    int visible = 0, lost = 0;
+    double samples = 0.0;
+    constexpr int size = 64;
+    constexpr double pixel = 2.0 / size; // the camera's height is 2
+    for (int picture = 0; picture < (tests::sanitized ? 2 : 24); ++picture) {
+        Random random(static_cast<std::uint64_t>(picture));
+        Builder builder;
+        builder.settings.width = builder.settings.height = size;
+        builder.camera.projection = Projection::orthographic;
+        builder.camera.from = {0, 0, 5};
+        builder.background = Color(1.0F);
+        for (int i = 0; i < 10; ++i) {
+            Vec3d place = random.cube(0.9);
+            const double angle = random.uniform(0.0, 6.3), length = random.log_uniform(1.0, 20.0);
+            const Vec3d along = pixel * length * Vec3d(std::cos(angle), std::sin(angle), 0.1);
+            builder.add_shape(
+                CappedCylinder{rounded(place), rounded(along), rounded(pixel / 100.0)}, black());
+            place = random.cube(0.9);
+            builder.add_shape(Sphere{rounded(place), rounded(pixel * 0.08)}, black());
+        }
+        const Scene scene = builder.finish();
+        const Film full = converged(scene);
+        const simd::Rendering rendering = rendered(scene, 40.0F);
+        samples += static_cast<double>(rendering.counters.primary) / (size * size) / 24.0;
+        for (std::size_t i = 0; i < full.pixels().size(); ++i) {
+            if (full.pixels()[i].x > 0.99F) continue;
+            ++visible;
+            lost += rendering.film.pixels()[i].x < 0.999999F ? 0 : 1;
+        }
+    }
+    CAPTURE(visible, samples);
+    CHECK(visible > 100);
+    CHECK(lost == 0);
+}
