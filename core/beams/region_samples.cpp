@@ -36,6 +36,12 @@ RegionSamples::RegionSamples(const Scene& scene, const Settings& settings)
       tolerance_(of_mean * core::pow(10.0, -static_cast<double>(settings.quality) / 20.0)),
       beams_(scene, settings) {}
 
+/// What the filters of a square's pixels reach.
+Square RegionSamples::seen_by(const PixelSquare& square) const {
+    const double beyond = reach_of(settings_.filter) - 0.5;
+    return {square.x - beyond, square.y - beyond, square.size + 2.0 * beyond};
+}
+
 void RegionSamples::begin(const Region& region) {
     region_ = region;
     width_ = region.x1 - region.x0;
@@ -112,10 +118,7 @@ void RegionSamples::find_even(const PixelSquare& square) {
     if (square.x >= region_.x1 || square.y >= region_.y1) return;
     double t_likely = 0.0;
     if (looks_even(square, t_likely)) {
-        const Sight sight =
-            beams_.sight_of({static_cast<double>(square.x), static_cast<double>(square.y),
-                             static_cast<double>(square.size)},
-                            t_likely);
+        const Sight sight = beams_.sight_of(seen_by(square), t_likely);
         const bool is_even = sight == Sight::even;
         if (is_even || sight == Sight::uneven) {
             for_each_pixel(square, [&](Pixel& pixel) {
@@ -184,7 +187,7 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
             return pixel.least == most_unseen && count == look.at;
         });
     if (is_first_look || closer != std::end(looks)) {
-        const Square square{static_cast<double>(x), static_cast<double>(y), 1.0};
+        const Square square = seen_by({x, y, 1});
         const Sight sight = beams_.surfaces_in(square, likely_beyond * samples.farthest());
         pixel.least = sight == Sight::edge ? most_unseen : sight == Sight::step ? least_on_step : 1;
         shown_.clear();

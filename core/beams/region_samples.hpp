@@ -35,7 +35,8 @@ class RegionSamples {
     /// Pixels are numbered row by row.
     int wanted(std::size_t pixel) const { return states_[pixel].wanted; }
     int taken(std::size_t pixel) const { return states_[pixel].samples.count(); }
-    /// Where in pixel (x, y) its sample `number` is, from its upper left corner.
+    /// Where in pixel (x, y) its sample `number` is, from its upper left corner, but for the
+    /// filter.
     SamplePoint place(int x, int y, int number) const;
     void add(std::size_t pixel, const Sample& sample) {
         states_[pixel].samples.add(sample);
@@ -67,6 +68,7 @@ class RegionSamples {
     template <class Visit>
     void for_each_pixel(const PixelSquare& square, const Visit& visit);
     void find_even(const PixelSquare& square);
+    Square seen_by(const PixelSquare& square) const;
     bool looks_even(const PixelSquare& square, double& t_likely) const;
     void look_closer(std::size_t number, int x, int y);
     bool hides(Pixel& pixel, int x, int y);

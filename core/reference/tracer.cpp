@@ -53,7 +53,8 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
             for (int wanted = samples.wanted(pixel); wanted > 0; --wanted) {
                 const SamplePoint place = samples.place(x, y, samples.taken(pixel));
                 first_hit_ = {};
-                const Vector color = trace(camera_rays_.ray(x, y, {Real(place.x), Real(place.y)}));
+                const Vector color = trace(
+                    camera_rays_.ray(x, y, camera_rays_.filtered({Real(place.x), Real(place.y)})));
                 samples.add(pixel, {convert<double>(color), first_hit_.shape,
                                     static_cast<double>(first_hit_.t)});
             }

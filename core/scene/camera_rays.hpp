@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/numbers/elementary.hpp"
+#include "core/scene/pixel_filter.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/ray.hpp"
 
@@ -37,6 +38,8 @@ class CameraRays {
   public:
     CameraRays(const Camera& camera, const Settings& settings)
         : grid_(settings.grid), pattern_(settings.samples),
+          filter_(settings.filter == PixelFilter::box ? nullptr
+                                                      : &FilterPlaces::of(settings.filter)),
           orthographic_(camera.projection == Projection::orthographic), width_(settings.width),
           height_(settings.height) {
         const Vec3d from = convert<double>(camera.from);
@@ -55,7 +58,8 @@ class CameraRays {
         up_ = convert<Real>(up * per_half_pixel);
     }
 
-    /// Place of a sample in its pixel, from its upper left corner, in [0, 1)^2.
+    /// Place of a sample in its pixel, from its upper left corner: in [0, 1)^2, or further out by
+    /// filters that reach further.
     struct InPixel {
         Real column;
         Real row;
@@ -66,8 +70,15 @@ class CameraRays {
         const SamplePoint point =
             sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                          static_cast<std::uint32_t>(sample));
-        return {(Real(sample % grid_) + Real(point.x)) / Real(grid_),
-                (Real(sample / grid_) + Real(point.y)) / Real(grid_)}; // NOLINT: whole rows
+        return filtered(
+            {(Real(sample % grid_) + Real(point.x)) / Real(grid_),
+             (Real(sample / grid_) + Real(point.y)) / Real(grid_)}); // NOLINT: whole rows
+    }
+    /// Where the filter has a sample of those that are spread evenly over [0, 1)^2.
+    InPixel filtered(const InPixel& even) const {
+        if (filter_ == nullptr) return even;
+        return {Real(filter_->place(static_cast<double>(even.column))),
+                Real(filter_->place(static_cast<double>(even.row)))};
     }
 
     /// Its point in the picture, from the middle to the right and upwards, in halves of a pixel.
@@ -98,6 +109,7 @@ class CameraRays {
   private:
     int grid_;
     SamplePattern pattern_;
+    const FilterPlaces* filter_; // null: the box
     bool orthographic_;
     int width_;
     int height_;

@@ -49,6 +49,13 @@ enum class SamplePattern : std::uint8_t {
     stratified, ///< a point in each cell, by a hash of pixel and sample
 };
 
+/// What of its surroundings a pixel shows, and with which weight.
+enum class PixelFilter : std::uint8_t {
+    box,             ///< its own square, all of it alike
+    gaussian,        ///< of deviation 1/2 pixel, cut off 1.5 pixels from the middle
+    blackman_harris, ///< Harris' window of four terms, 3 pixels wide
+};
+
 /// Settings that a scene has for its picture; every value can be overridden when it is rendered.
 struct Settings {
     int width = 512;  ///< pixels
@@ -58,6 +65,7 @@ struct Settings {
     /// Decibels of the picture's PSNR against a converged one, 10 to 80, that samples are taken
     /// for, pixel by pixel, in place of `grid`; 0: each pixel has the samples of `grid`.
     float quality = 0.0F;
+    PixelFilter filter = PixelFilter::box;
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
     int max_depth = 8;         ///< reflections and refractions on one path; 0: primary rays alone
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]

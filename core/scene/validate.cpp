@@ -101,6 +101,7 @@ void validate(const Settings& settings) {
                                         std::to_string(settings.height));
     require_count("grid", settings.grid, 1, Settings::max_grid);
     require_enumerator("samples", settings.samples, SamplePattern::stratified);
+    require_enumerator("filter", settings.filter, PixelFilter::blackman_harris);
     if (settings.quality != 0.0F && !(settings.quality >= 10.0F && settings.quality <= 80.0F))
         refuse("quality", "must be 0 or between 10 and 80 decibels", settings.quality);
     require_enumerator("transfer", settings.transfer, Transfer::linear);

@@ -145,12 +145,13 @@ Settings from_c(const raylane_settings& s) {
     settings.max_depth = s.max_depth;
     settings.min_weight = s.min_weight;
     settings.quality = s.quality;
+    settings.filter = enum_from<PixelFilter>(s.filter);
     return settings;
 }
 
 raylane_settings to_c(const Settings& s) {
-    return {s.width,     s.height,     s.grid,   number_of(s.samples), number_of(s.transfer),
-            s.max_depth, s.min_weight, s.quality};
+    return {s.width,     s.height,     s.grid,    number_of(s.samples), number_of(s.transfer),
+            s.max_depth, s.min_weight, s.quality, number_of(s.filter)};
 }
 
 raylane_progress to_c(const Progress& progress) {

@@ -185,6 +185,10 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         sampling.number("grid", settings.grid);
         sampling.text("pattern",
                       settings.samples == core::SamplePattern::regular ? "regular" : "stratified");
+        if (settings.filter != core::PixelFilter::box)
+            sampling.text("filter", settings.filter == core::PixelFilter::gaussian
+                                        ? "gaussian"
+                                        : "blackman-harris");
         if (settings.quality != 0.0F) sampling.number("quality", settings.quality);
     }
     root.key("limits");

@@ -16,7 +16,12 @@ void read_image(const JsonValue& value, core::Settings& settings) {
 }
 
 void read_sampling(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"grid", "pattern", "quality"});
+    value.allow_only({"grid", "pattern", "quality", "filter"});
+    if (const auto filter = value.find("filter"))
+        settings.filter = filter->choice<core::PixelFilter>(
+            {{"box", core::PixelFilter::box},
+             {"gaussian", core::PixelFilter::gaussian},
+             {"blackman-harris", core::PixelFilter::blackman_harris}});
     if (const auto quality = value.find("quality")) settings.quality = quality->number();
     if (const auto grid = value.find("grid")) settings.grid = grid->integer();
     if (const auto pattern = value.find("pattern"))

@@ -100,6 +100,7 @@ void copy(const From& from, To& to) {
     copy(from.grid, to.grid);
     copy(from.samples, to.samples);
     copy(from.quality, to.quality);
+    copy(from.filter, to.filter);
     copy(from.transfer, to.transfer);
     copy(from.max_depth, to.max_depth);
     copy(from.min_weight, to.min_weight);

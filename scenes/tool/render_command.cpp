@@ -22,7 +22,8 @@ namespace raylane::scenes {
 namespace {
 
 struct RenderArguments {
-    Argument scene, output, size, samples, quality, max_depth, min_weight, threads, transfer, stats;
+    Argument scene, output, size, samples, quality, filter, max_depth, min_weight, threads,
+        transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
 };
 
@@ -75,6 +76,12 @@ struct Overrides {
         if (arguments.quality)
             quality = number_argument("--quality", *arguments.quality, 10.0F, 80.0F);
         if (quality && grid) throw BadInput("--quality", "", "goes without --spp");
+        if (arguments.filter)
+            filter = choice_argument<core::PixelFilter>(
+                "--filter", *arguments.filter,
+                {{"box", core::PixelFilter::box},
+                 {"gaussian", core::PixelFilter::gaussian},
+                 {"blackman-harris", core::PixelFilter::blackman_harris}});
         if (arguments.max_depth)
             max_depth =
                 whole_argument("--max-depth", *arguments.max_depth, 0, Settings::depth_limit);
@@ -89,6 +96,7 @@ struct Overrides {
     core::Settings applied_to(core::Settings settings) const {
         if (size) std::tie(settings.width, settings.height) = *size;
         settings.grid = grid.value_or(settings.grid);
+        settings.filter = filter.value_or(settings.filter);
         settings.quality = quality.value_or(grid ? 0.0F : settings.quality);
         settings.max_depth = max_depth.value_or(settings.max_depth);
         settings.min_weight = min_weight.value_or(settings.min_weight);
@@ -100,6 +108,7 @@ struct Overrides {
     std::optional<int> grid, max_depth;
     std::optional<float> quality, min_weight;
     std::optional<core::Transfer> transfer;
+    std::optional<core::PixelFilter> filter;
 };
 
 simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
@@ -253,6 +262,10 @@ Command add_render_command(CLI::App& app) {
         "Decibels (PSNR) that the picture is to have against a converged one, 10 to 80, instead of "
         "--spp; 40 is good print (default: as the scene says)",
         "DB");
+    add("--filter", arguments->filter,
+        "What of its surroundings a pixel shows: box (its own square), gaussian or "
+        "blackman-harris, which reach 1.5 pixels far and are smoother (default: as the scene says)",
+        "NAME");
     add("--max-depth", arguments->max_depth,
         "Reflections and refractions one after the other (default: as the scene says)", "N");
     add("--min-weight", arguments->min_weight,

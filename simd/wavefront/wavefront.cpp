@@ -208,7 +208,7 @@ void Wavefront::flush(const Add& add) {
 core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& some, int number) const {
     if (to_quality_) {
         const core::SamplePoint place = to_quality_->place(some.x, some.y, number);
-        return {static_cast<double>(place.x), static_cast<double>(place.y)};
+        return camera_rays_.filtered({static_cast<double>(place.x), static_cast<double>(place.y)});
     }
     return camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]
                                   : camera_rays_.in_pixel(some.x, some.y, number);

@@ -76,6 +76,7 @@ TEST_CASE("a scene that is written as JSON is the same scene") {
         CHECK(again.settings().grid == scene.settings().grid);
         CHECK(again.settings().samples == scene.settings().samples);
         CHECK(again.settings().quality == scene.settings().quality);
+        CHECK(again.settings().filter == scene.settings().filter);
         CHECK(again.settings().max_depth == scene.settings().max_depth);
         CHECK(again.settings().min_weight == scene.settings().min_weight);
         CHECK(picture_of(again) == picture_of(scene));
@@ -88,7 +89,7 @@ TEST_CASE("every value of a scene goes into JSON") {
         "camera": {"type": "orthographic", "from": [0.1, 2, 9], "at": [0, 1, 0], "up": [0, 1, 0.2],
                    "height": 3.3},
         "image": {"width": 30, "height": 20, "transfer": "linear"},
-        "sampling": {"grid": 3, "pattern": "stratified", "quality": 41},
+        "sampling": {"grid": 3, "pattern": "stratified", "quality": 41, "filter": "blackman-harris"},
         "limits": {"max_depth": 3, "min_weight": 0.03},
         "background": [0.1, 0.2, 0.3],
         "fog": {"type": "exponential", "density": 0.05, "color": [1, 0, 0.5]},

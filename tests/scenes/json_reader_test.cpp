@@ -54,7 +54,7 @@ TEST_CASE("everything around the objects lands in the scene") {
             "$schema": "raylane-scene.schema.json", /* one
                over lines */
             "image": {"width": 300, "height": 2e2, "transfer": "linear"},
-            "sampling": {"grid": 4.0, "pattern": "stratified", "quality": 38.5},
+            "sampling": {"grid": 4.0, "pattern": "stratified", "quality": 38.5, "filter": "gaussian"},
             "limits": {"max_depth": 0, "min_weight": 0.25},
             "camera": {"type": "orthographic", "from": [1, 2, 3], "at": [4, 5, 6.5], "up": [0, 0, 2], "height": 3.5},
             "background": [0.1, 0.2, 0.3],
@@ -71,6 +71,7 @@ TEST_CASE("everything around the objects lands in the scene") {
     CHECK(scene.settings().grid == 4);
     CHECK(scene.settings().samples == core::SamplePattern::stratified);
     CHECK(scene.settings().quality == 38.5F);
+    CHECK(scene.settings().filter == core::PixelFilter::gaussian);
     CHECK(scene.settings().max_depth == 0);
     CHECK(scene.settings().min_weight == 0.25F);
     CHECK(scene.camera().projection == core::Projection::orthographic);

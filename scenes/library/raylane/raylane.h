@@ -95,6 +95,7 @@ enum { RAYLANE_NO_FOG, RAYLANE_LINEAR_Z_FOG, RAYLANE_LINEAR_FOG, RAYLANE_EXPONEN
 enum { RAYLANE_PERSPECTIVE, RAYLANE_ORTHOGRAPHIC };
 enum { RAYLANE_SRGB, RAYLANE_LINEAR };
 enum { RAYLANE_REGULAR, RAYLANE_STRATIFIED };
+enum { RAYLANE_BOX_FILTER, RAYLANE_GAUSSIAN, RAYLANE_BLACKMAN_HARRIS };
 enum { RAYLANE_FAST, RAYLANE_ROBUST, RAYLANE_EXACT, RAYLANE_PLAIN_DOUBLE, RAYLANE_AUTOMATIC };
 
 typedef struct raylane_material {
@@ -134,6 +135,7 @@ typedef struct raylane_settings {
     uint8_t samples, transfer;
     int max_depth;
     float min_weight, quality;
+    uint8_t filter;
 } raylane_settings;
 
 /** The values that C++ starts with. */

@@ -57,6 +57,13 @@ enum class SamplePattern : std::uint8_t {
     stratified, ///< a point in each cell, by a hash of pixel and sample
 };
 
+/// What of its surroundings a pixel shows, and with which weight.
+enum class PixelFilter : std::uint8_t {
+    box,             ///< its own square, all of it alike
+    gaussian,        ///< of deviation 1/2 pixel, cut off 1.5 pixels from the middle
+    blackman_harris, ///< Harris' window of four terms, 3 pixels wide
+};
+
 /// Settings that a scene has for its picture.
 struct Settings {
     int width = 512;  ///< pixels, 1 to 65535; the picture has at most 2^28
@@ -66,6 +73,7 @@ struct Settings {
     /// 0, or decibels (PSNR) that the picture is to have against a converged one, 10 to 80: then
     /// each pixel gets the samples that it needs, and `grid` and `samples` do not count.
     float quality = 0.0F;
+    PixelFilter filter = PixelFilter::box;
     Transfer transfer = Transfer::srgb; ///< for write_image
     int max_depth = 8;                  ///< reflections and refractions on one path, 0 to 1000
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]

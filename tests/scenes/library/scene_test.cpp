@@ -77,6 +77,7 @@ TEST_CASE("everything else comes back as it was given") {
                         .grid = 2,
                         .samples = SamplePattern::stratified,
                         .quality = 40,
+                        .filter = PixelFilter::gaussian,
                         .transfer = Transfer::linear,
                         .max_depth = 5,
                         .min_weight = 0.25F};
@@ -119,6 +120,7 @@ TEST_CASE("everything else comes back as it was given") {
     CHECK((settings.width == 30 && settings.height == 40 && settings.grid == 2));
     CHECK(settings.samples == SamplePattern::stratified);
     CHECK(settings.quality == 40);
+    CHECK(settings.filter == PixelFilter::gaussian);
     CHECK(settings.transfer == Transfer::linear);
     CHECK((settings.max_depth == 5 && settings.min_weight == 0.25F));
 
@@ -190,6 +192,8 @@ TEST_CASE("each enumerator is the one of that name inside") {
     CHECK(same(Projection::orthographic, core::Projection::orthographic));
     CHECK(same(Transfer::linear, core::Transfer::linear));
     CHECK(same(SamplePattern::stratified, core::SamplePattern::stratified));
+    CHECK(same(PixelFilter::gaussian, core::PixelFilter::gaussian));
+    CHECK(same(PixelFilter::blackman_harris, core::PixelFilter::blackman_harris));
     CHECK(no_shape == core::no_shape);
 }
 
@@ -342,6 +346,12 @@ TEST_CASE("a number that is no enumerator is refused") {
     CHECK(built([](SceneBuilder& b) {
               b.settings.samples = static_cast<SamplePattern>(2);
           }).starts_with("settings/samples: must be"));
+    CHECK(built([](SceneBuilder& b) {
+              b.settings.filter = static_cast<PixelFilter>(3);
+          }).starts_with("settings/filter: must be"));
+    CHECK(built([](SceneBuilder& b) {
+              b.settings.quality = 5;
+          }).starts_with("settings/quality: must be"));
     CHECK(built([](SceneBuilder& b) {
               b.settings.transfer = static_cast<Transfer>(2);
           }).starts_with("settings/transfer: must be"));
