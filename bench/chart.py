@@ -153,21 +153,18 @@ def pictures_figure(source):
     if not scenes:
         sys.exit("chart.sh: no measurements of pictures in %s" % source)
 
-    floor = 1e-9  # RMSE: what is drawn at the bottom
-    begin("What pictures cost and what they are off by, by samples per pixel: 200 pixels a row, "
-          "one thread", "2,3", "milliseconds", "RMSE to 64 samples in double")
-    print("set logscale x\nset format y '10^{%L}'\nset yrange [3e-10:1]\nset key off")
+    begin("What pictures cost and what they are off by, by samples per pixel: 400 pixels a row, "
+          "one thread", "2,3", "milliseconds", "RMSE to 1,024 samples")
+    print("set logscale x\nset format y '10^{%L}'\nset yrange [3e-4:1]\nset key off")
     print("set lmargin 9")
     for index, (scene, series) in enumerate(scenes.items()):
         print("set title '%s' offset 0,-0.6" % scene)
         plot = Plot()
         if index == 0:
-            print("set key at graph 0.03,0.5 left top reverse Left samplen 2 spacing 1.1 font ',9'")
+            print("set key at graph 0.97,0.97 right top samplen 2 spacing 1.1 font ',9'")
         for precision, color in COLORS.items():
             points = sorted(series.get(("samples", precision), []))
-            # The last of double's is what all are compared with.
-            points = [(ms, max(error, floor), str(samples)) for samples, ms, error in points
-                      if precision != "double" or error > 0]
+            points = [(ms, error, str(samples)) for samples, ms, error in points]
             if not points:
                 continue
             plot.add(points, "with linespoints pt 7 ps 0.7 lw 1.5 lc '%s' title '%s'" %
@@ -175,7 +172,8 @@ def pictures_figure(source):
             if precision == "exact":
                 plot.again("using 1:2:3 with labels right offset -0.7,-0.4 font ',8' tc '%s' "
                            "notitle" % color)
-        for what, title, mark, color in (("depth", "64 samples, fewer reflections", 6, "#7b3294"),
+        for what, title, mark, color in (("quality", "exact, to a quality", 5, "#cc79a7"),
+                                         ("depth", "64 samples, fewer reflections", 6, "#7b3294"),
                                          ("weight", "64 samples, fewer faint paths", 4, "#008080")):
             points = [(ms, error) for _, ms, error in sorted(series.get((what, "exact"), []))
                       if error > 0]

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Draws speed against accuracy from raylane-bench, in two figures: solvers, one panel per shape and
 # one mark per precision (and for Embree, where raylane-bench was built with it); and whole pictures,
-# seconds against their difference from one of 64 samples in double. Or else, from what
+# seconds against their difference from converged ones. Or else, from what
 # bench/peers/run.sh has measured, rays per second against the number of shapes, beside Embree's.
 #
 #   bench/chart.sh [BUILD [FOLDER]]   BUILD: a Release build with raylane-bench; default

@@ -11,29 +11,30 @@
 #include <memory>
 #include <string>
 
-/// Cost of a picture, and its distance from one of 64 samples a pixel, long paths and double
-/// precision: by precision and samples; and, with exact's, by the depth of reflections and by the
-/// throughput below which paths are left.
+/// Cost of a picture, and its distance from a converged one: of 1,024 samples a pixel at places of
+/// their own, long paths and double precision. By precision and samples; by quality; and by the
+/// depth of reflections and the throughput below which paths are left.
 ///
-/// picture/SCENE/WHAT/PRECISION/VALUE: WHAT is `samples` (a pixel), `depth` or `weight` (per
-/// mille), with counters `seconds` of wall time by one thread and `rmse` of linear light.
+/// picture/SCENE/WHAT/PRECISION/VALUE: WHAT is `samples` (a pixel), `quality` (decibels), `depth`
+/// or `weight` (per mille), with counters `seconds` of wall time by one thread and `rmse` of linear
+/// light.
 
 namespace {
 
 using namespace raylane;
 using Clock = std::chrono::steady_clock;
 
-constexpr int best_grid = 8, usual_grid = 2;
+constexpr int converged_grid = 32, best_grid = 8, usual_grid = 2;
 
-/// A scene and its best picture, made when first asked for.
+/// A scene and its converged picture, made when first asked for.
 struct Subject {
     core::Scene scene;
     core::Settings settings; ///< small enough to measure many
-    core::Film best;
+    core::Film converged;
 
     explicit Subject(core::Scene loaded)
         : scene(std::move(loaded)), settings(small(scene.settings())),
-          best(render(with_grid(best_grid), core::Precision::plain_double).film) {}
+          converged(render(to_converge(), core::Precision::plain_double).film) {}
 
     static const Subject& of(const std::string& name) {
         static std::map<std::string, std::unique_ptr<Subject>> all;
@@ -58,9 +59,17 @@ struct Subject {
     }
 
   private:
+    /// Samples elsewhere than those that are held to it.
+    core::Settings to_converge() const {
+        core::Settings changed = with_grid(converged_grid);
+        changed.samples = core::SamplePattern::stratified;
+        return changed;
+    }
+
     static core::Settings small(core::Settings settings) {
-        settings.height = 200 * settings.height / settings.width;
-        settings.width = 200;
+        settings.height = 400 * settings.height / settings.width;
+        settings.width = 400;
+        settings.quality = 0.0F;
         settings.max_depth = 16;
         settings.min_weight = 0.0002F;
         return settings;
@@ -91,7 +100,7 @@ void draw(benchmark::State& state, const std::string& name, core::Precision prec
         seconds += std::chrono::duration<double>(Clock::now() - start).count();
     }
     state.counters["seconds"] = seconds / static_cast<double>(state.iterations());
-    state.counters["rmse"] = rmse(film, subject.best);
+    state.counters["rmse"] = rmse(film, subject.converged);
 }
 
 void add(const std::string& scene, const char* what, core::Precision precision, Change change,
@@ -114,6 +123,13 @@ const bool registered = [] {
                         settings.grid = static_cast<int>(std::lround(std::sqrt(samples)));
                     },
                     grid * grid);
+        for (const int decibels : {30, 34, 38, 42, 46, 50})
+            add(
+                scene, "quality", core::Precision::exact,
+                [](core::Settings& settings, int value) {
+                    settings.quality = static_cast<float>(value);
+                },
+                decibels);
         for (const int depth : {0, 1, 2, 3, 5, 8})
             add(
                 scene, "depth", core::Precision::exact,
