@@ -124,6 +124,9 @@ const bool registered = [] {
     add({"sin", &Unit::sin, [](double x, double) { return core::sin(x); },
          [](double x, double) { return std::sin(x); }, [](Long x, Long) { return std::sin(x); },
          -100.0, 100.0});
+    add({"atan", &Unit::atan, [](double x, double) { return core::atan(x); },
+         [](double x, double) { return std::atan(x); }, [](Long x, Long) { return std::atan(x); },
+         -10.0, 10.0});
     return true;
 }();
 

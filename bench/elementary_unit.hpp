@@ -8,7 +8,7 @@ namespace raylane::bench {
 /// leaves y alone.
 struct ElementaryUnit {
     using Function = void (*)(const double* x, const double* y, double* out, int count);
-    Function exp, expm1, pow, sin;
+    Function exp, expm1, pow, sin, atan;
 };
 
 template <class Arch>
@@ -31,7 +31,8 @@ struct ElementaryArrays {
     }
 
     static constexpr ElementaryUnit unit = {of_one<Functions::exp>, of_one<Functions::expm1>,
-                                            of_two<Functions::pow>, of_one<Functions::sin>};
+                                            of_two<Functions::pow>, of_one<Functions::sin>,
+                                            of_one<Functions::atan>};
 };
 
 ElementaryUnit elementary_portable();

@@ -1,19 +1,8 @@
 #include "core/numbers/elementary.hpp"
 
-namespace raylane::core {
+#include "core/numbers/primitives.hpp"
 
-template <>
-struct Primitives<double> {
-    using Bits = std::uint64_t;
-    using Mask = bool;
-    static constexpr int lanes = 1;
-    static Bits bits(double x) { return __builtin_bit_cast(Bits, x); }
-    static double number(Bits bits) { return __builtin_bit_cast(double, bits); }
-    static double select(Mask mask, double a, double b) { return mask ? a : b; }
-    static bool any(Mask mask) { return mask; }
-    static double load(const double* from) { return *from; }
-    static void store(double x, double* to) { *to = x; }
-};
+namespace raylane::core {
 
 double exp(double x) {
     return Elementary<double>::exp(x);
@@ -48,6 +37,13 @@ double cos(double x) {
 }
 float cos(float x) {
     return static_cast<float>(cos(static_cast<double>(x)));
+}
+
+double atan(double x) {
+    return Elementary<double>::atan(x);
+}
+float atan(float x) {
+    return static_cast<float>(atan(static_cast<double>(x)));
 }
 
 } // namespace raylane::core

@@ -176,6 +176,26 @@ TEST_CASE("sin and cos are within an ulp for all angles") {
     check_sin_cos("huge", huge);
 }
 
+TEST_CASE("atan is within two ulps") {
+    Random random;
+    Errors steep, usual, tiny, edges;
+    const auto add = [](Errors& errors, double x) {
+        errors.add(core::atan(x), mp::atan(Number(x)));
+    };
+    for (int i = 0; i < rounds / 4; ++i) {
+        add(usual, random.uniform(-3.0, 3.0));
+        add(steep, random.sign() * std::exp(random.uniform(0.0, 700.0)));
+        add(tiny, random.sign() * std::exp(random.uniform(-700.0, 0.0)));
+        // Where one formula follows the other.
+        add(edges, 0.41421356237309503 + random.uniform(-1e-12, 1e-12));
+        add(edges, 2.4142135623730949 + random.uniform(-1e-12, 1e-12));
+    }
+    usual.check("atan", 1.5);
+    steep.check("atan, steep", 1.0);
+    tiny.check("atan, tiny", 1.5);
+    edges.check("atan, edges", 2.0);
+}
+
 TEST_CASE("elementary functions at the ends of their domains") {
     CHECK(core::exp(0.0) == 1.0);
     CHECK(core::exp(-0.0) == 1.0);
@@ -198,6 +218,12 @@ TEST_CASE("elementary functions at the ends of their domains") {
     CHECK(core::pow(1.0 + 0x1p-52, 1e308) == infinity);
     CHECK(core::pow(0x1p-1074, 0.5) == 0x1p-537);
     CHECK(core::sin(0.0) == 0.0);
+    CHECK(core::atan(0.0) == 0.0);
+    CHECK(std::signbit(core::atan(-0.0)));
+    CHECK(core::atan(infinity) == 1.5707963267948966);
+    CHECK(core::atan(-infinity) == -1.5707963267948966);
+    CHECK(core::atan(1.0) == 0.78539816339744828);
+    CHECK(core::atan(0x1p-1074) == 0x1p-1074);
     CHECK(core::cos(0.0) == 1.0);
     CHECK(core::pow(0.25F, 1.5F) == 0.125F);
     CHECK(core::exp(-1.0F) == static_cast<float>(core::exp(-1.0)));

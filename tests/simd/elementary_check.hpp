@@ -14,6 +14,7 @@ struct ElementaryArrays {
     double* pow;
     double* sin;
     double* cos;
+    double* atan;
     int count;
 };
 
@@ -31,6 +32,7 @@ struct ElementaryCheck {
             const auto both = Functions::sin_cos(x);
             both.sine.store_unaligned(arrays.sin + i);
             both.cosine.store_unaligned(arrays.cos + i);
+            Functions::atan(x).store_unaligned(arrays.atan + i);
         }
     }
 };

@@ -60,14 +60,16 @@ void check(void (*fill)(const ElementaryArrays&)) {
     std::vector<double> y = numbers(count, 2);
     for (std::size_t i = 0; i < 36; ++i) // each special number with each
         y[i] = y[(i * 7) % 18];
-    std::vector<double> exp(count), expm1(count), pow(count), sin(count), cos(count);
-    fill({x.data(), y.data(), exp.data(), expm1.data(), pow.data(), sin.data(), cos.data(), count});
+    std::vector<double> exp(count), expm1(count), pow(count), sin(count), cos(count), atan(count);
+    fill({x.data(), y.data(), exp.data(), expm1.data(), pow.data(), sin.data(), cos.data(),
+          atan.data(), count});
     CHECK(differing(exp, x, y, [](double a, double) { return core::exp(a); }) == 0);
     CHECK(differing(expm1, x, y, [](double a, double) { return core::expm1(a); }) == 0);
     CHECK(differing(pow, x, y,
                     [](double a, double b) { return core::pow(std::abs(a), std::abs(b)); }) == 0);
     CHECK(differing(sin, x, y, [](double a, double) { return core::sin(a); }) == 0);
     CHECK(differing(cos, x, y, [](double a, double) { return core::cos(a); }) == 0);
+    CHECK(differing(atan, x, y, [](double a, double) { return core::atan(a); }) == 0);
 }
 
 } // namespace

@@ -6,10 +6,14 @@
 /// `core::Elementary` of registers of doubles: the scalar functions' bits in every lane.
 namespace raylane::simd {
 
-/// select(), where a member of that name hides it.
+/// select() and sqrt(), where members of these names hide them.
 template <class Mask, class Number>
 Number selected(const Mask& mask, const Number& a, const Number& b) {
     return select(mask, a, b);
+}
+template <class Number>
+Number root_of(const Number& x) {
+    return sqrt(x);
 }
 
 template <class Arch>
@@ -24,6 +28,7 @@ struct DoublePrimitives {
         return selected(mask, a, b);
     }
     static bool any(const Mask& mask) { return DoubleLanes<Arch>::bits(mask) != 0; }
+    static Number sqrt(const Number& x) { return root_of(x); }
     static Number load(const double* from) { return Number::load_unaligned(from); }
     static void store(const Number& x, double* to) { x.store_unaligned(to); }
 };
