@@ -150,7 +150,10 @@ void SceneData::view_surroundings() {
                            static_cast<double>(material.absorption[2])}});
     }
     for (const core::Light& light : scene_.lights())
-        lights_.push_back(view_of(light));
+        if (core::is_soft(light.kind))
+            soft_lights_.push_back(core::prepared(light));
+        else
+            lights_.push_back(view_of(light));
 }
 
 void SceneData::view_tables() {

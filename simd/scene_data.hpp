@@ -25,7 +25,9 @@ class SceneData {
     const core::Scene& scene() const { return scene_; }
     const SceneView& view() const { return view_; }
     const std::vector<MaterialView>& materials() const { return materials_; }
+    /// Those without a size.
     const std::vector<LightView>& lights() const { return lights_; }
+    const std::vector<core::SoftLight>& soft_lights() const { return soft_lights_; }
     const FogView& fog() const { return fog_; }
 
     /// The kinds that are tested one by one: all in a scene of a few shapes, else the unbounded.
@@ -106,6 +108,7 @@ class SceneData {
     std::vector<MaterialView> materials_;
     std::vector<Medium> media_; // empty space, then what each material is inside
     std::vector<LightView> lights_;
+    std::vector<core::SoftLight> soft_lights_;
     FogView fog_{};
     std::uint32_t slots_ = 0;
     std::uint32_t bounded_kinds_ = 0, unbounded_kinds_ = 0; // that there are, as bits

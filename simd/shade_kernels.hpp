@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/appearance.hpp"
+#include "core/optics/soft_light.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -95,6 +95,11 @@ struct ShadeKernels {
     /// The shadow rays that are worth tracing.
     void (*light)(const Run& run, const LightView& light, const Surfaces& surfaces,
                   SpawnedRays& shadows);
+
+    /// The same to points of a light with a size: (u, v), by position, says which, and each sample
+    /// counts for `part` of the light.
+    void (*soft_light)(const Run& run, const core::SoftLight& light, double part, const double* u,
+                       const double* v, const Surfaces& surfaces, SpawnedRays& shadows);
 
     /// Reflected rays, and transmitted ones where the material transmits. What weighs less than
     /// `min_weight` is dropped. `media` as above.

@@ -84,6 +84,8 @@ constexpr std::size_t list_entries(std::size_t rays, std::uint32_t levels) {
 
 struct CameraView {
     double from[3], forward[3], right[3], up[3]; ///< right and up are half a pixel long
+    double lens_right[3], lens_up[3];            ///< unit
+    double focus;                                ///< distance of the plane that is sharp
     bool orthographic;
 };
 
@@ -109,8 +111,10 @@ constexpr Coherence neighbours{{}, false, false, true, false};
 
 /// Kernels for rays before and after they are traced.
 struct RayKernels {
+    /// Through points of the picture and, if there is a lens, of that: null if there is none.
     void (*camera_rays)(const CameraView& camera, std::size_t count, const double* across,
-                        const double* upward, double* const origin[3], double* const direction[3]);
+                        const double* upward, const double* lens_right, const double* lens_up,
+                        double* const origin[3], double* const direction[3]);
 
     /// Fills origin, direction and slack, by the others.
     void (*round_rays)(std::size_t count, const RoundedRays& rays);

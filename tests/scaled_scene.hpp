@@ -23,12 +23,18 @@ class ScaledScene {
         builder.camera.from *= factor_;
         builder.camera.at *= factor_;
         builder.camera.height *= factor_;
+        builder.camera.lens_radius *= factor_;
+        builder.camera.focus_distance *= factor_;
         builder.fog = scene_.fog();
         builder.fog.start *= factor_;
         builder.fog.end *= factor_;
         builder.fog.density /= factor_;
         for (core::Light light : scene_.lights()) {
             light.position *= factor_;
+            light.radius *= factor_;
+            light.edge_u *= factor_;
+            light.edge_v *= factor_;
+            light.reach *= factor_;
             builder.add_light(light);
         }
         for (const core::Material& material : scene_.materials())

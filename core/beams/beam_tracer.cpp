@@ -61,7 +61,10 @@ BeamTracer::BeamTracer(const Scene& scene, const Settings& settings)
     : scene_(scene), settings_(settings), rays_(scene.camera(), settings), search_(scene),
       tolerance_(0.5 * core::pow(10.0, -static_cast<double>(settings.quality) / 20.0)) {
     for (const Light& light : scene.lights())
-        brightest_ += largest(light.color);
+        if (is_soft(light.kind))
+            has_soft_lights_ = true;
+        else
+            brightest_ += largest(light.color);
 }
 
 Beam BeamTracer::camera_beam(const Square& square) const {
@@ -76,8 +79,16 @@ Beam BeamTracer::camera_beam(const Square& square) const {
         const Affine start(rays_.from()[axis]), forward(rays_.forward()[axis]);
         beam.origin[axis] = rays_.orthographic() ? start + offset : start;
         beam.direction[axis] = rays_.orthographic() ? forward : forward + offset;
+        if (!rays_.has_lens()) continue;
+        // From anywhere on the lens, to whatever is sharp there.
+        const double aside = rays_.lens_radius() *
+                             (std::abs(rays_.lens_right()[axis]) + std::abs(rays_.lens_up()[axis]));
+        const Affine on_lens(0.0, 0.0, 0.0, aside * (1.0 + 0x1p-40));
+        beam.origin[axis] = beam.origin[axis] + on_lens;
+        beam.direction[axis] =
+            beam.direction[axis] + on_lens * Affine((1.0 + 0x1p-40) / rays_.focus());
     }
-    if (!rays_.orthographic()) beam.direction = normalized(beam.direction);
+    if (!rays_.orthographic() || rays_.has_lens()) beam.direction = normalized(beam.direction);
     return beam;
 }
 
@@ -89,6 +100,7 @@ Sight BeamTracer::sight_of(const Square& square, double t_likely) {
     const Surface surface = surface_at(beam, hit);
     if (!is_unbroken(surface.material.pattern, surface.point) || !is_lit_evenly(surface, 1.0))
         return Sight::step;
+    if (is_lit_softly(surface)) return Sight::soft;
     if (!is_smooth(surface, 1.0, square.size)) return Sight::uneven;
     return unknown_behind(surface, 1.0, square.size, 0) <= 2.0 * tolerance_ ? Sight::even
                                                                             : Sight::uneven;
@@ -173,11 +185,18 @@ BeamTracer::Surface BeamTracer::surface_at(const Beam& beam, const BeamHit& hit)
             beam.direction};
 }
 
+bool BeamTracer::is_lit_softly(const Surface& surface) const {
+    return has_soft_lights_ &&
+           (surface.material.diffuse != 0.0F || surface.material.specular != 0.0F);
+}
+
+/// By lights without a size.
 bool BeamTracer::is_lit_evenly(const Surface& surface, double weight) {
     if (surface.material.diffuse == 0.0F && surface.material.specular == 0.0F) return true;
     const auto& lights = scene_.lights();
-    return std::all_of(lights.begin(), lights.end(),
-                       [&](const Light& light) { return is_light_known(surface, light, weight); });
+    return std::all_of(lights.begin(), lights.end(), [&](const Light& light) {
+        return is_soft(light.kind) || is_light_known(surface, light, weight);
+    });
 }
 
 bool BeamTracer::is_light_known(const Surface& surface, const Light& light, double weight) {
@@ -266,8 +285,8 @@ double BeamTracer::unknown_along(const Beam& beam, const Departure& from, double
     if (hit.what == BeamHit::nothing) return 0.0;
     if (hit.what == BeamHit::doubt) return weight;
     const Surface surface = surface_at(beam, hit);
-    if (!is_unbroken(surface.material.pattern, surface.point) || !is_lit_evenly(surface, weight) ||
-        !is_smooth(surface, weight, size))
+    if (!is_unbroken(surface.material.pattern, surface.point) || is_lit_softly(surface) ||
+        !is_lit_evenly(surface, weight) || !is_smooth(surface, weight, size))
         return weight;
     return unknown_behind(surface, weight, size, depth);
 }

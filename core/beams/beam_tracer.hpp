@@ -14,6 +14,7 @@ namespace raylane::core {
 enum class Sight : std::uint8_t {
     even,   ///< nothing hides in it: each pixel's middle shows its mean
     uneven, ///< one surface, evenly lit; but what it mirrors or lets through may have edges
+    soft,   ///< one surface; what it shows of lights with a size is to be sampled
     step,   ///< one surface; a shadow or a colour of its paint may begin or end on it
     edge,   ///< a surface may begin or end in it
 };
@@ -60,6 +61,7 @@ class BeamTracer {
     BeamHit first_in(const Beam& beam, double t_likely);
     Beam camera_beam(const Square& square) const;
     Surface surface_at(const Beam& beam, const BeamHit& hit) const;
+    bool is_lit_softly(const Surface& surface) const;
     bool is_lit_evenly(const Surface& surface, double weight);
     bool is_light_known(const Surface& surface, const Light& light, double weight);
     void find_shown(const Square& square, const std::vector<BeamCandidate>& shown, int halvings,
@@ -75,7 +77,8 @@ class BeamTracer {
     CameraRays<double> rays_;
     BeamSearch search_;
     double tolerance_;       // of a linear component
-    double brightest_ = 0.0; // of the lights, together
+    double brightest_ = 0.0; // of the lights without a size, together
+    bool has_soft_lights_ = false;
     std::vector<BeamCandidate> shown_, in_the_way_, mirrored_;
     std::vector<ShapeId> found_, parts_shown_;
     std::array<std::vector<BeamCandidate>, most_halvings> closer_; // by halvings that are left

@@ -18,10 +18,12 @@ constexpr double least_slope = 1.055 / 2.4;
 } // namespace
 
 /// The mean of n points of a (0, 2)-sequence is off by some n^(-3/4) of the deviation where an edge
-/// goes through, as each of their cells is a small pixel.
-bool PixelSamples::is_within(double tolerance, Transfer transfer) const {
+/// goes through, as each of their cells is a small pixel; by some n^(-5/8) if the edge depends on
+/// two such points at a time.
+bool PixelSamples::is_within(double tolerance, Transfer transfer, bool is_blurred) const {
     const double n = count_;
-    const double accuracy = 1.0 / std::sqrt(n * std::sqrt(n));
+    const double root = std::sqrt(n);
+    const double accuracy = 1.0 / std::sqrt(n * (is_blurred ? std::sqrt(root) : root));
     for (int channel = 0; channel < 3; ++channel) {
         const double mean = seen_sum_[channel] / n;
         const double variance = std::max(0.0, seen_squares_[channel] / n - mean * mean);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/sample_sequence.hpp"
+#include "core/scene/surroundings.hpp"
 #include "core/shapes/shape.hpp"
 
 #include <algorithm>
@@ -51,7 +51,8 @@ class PixelSamples {
     double farthest() const { return farthest_; }
 
     /// True if the mean is probably off by no more than that, as the film shows it: 1 is white.
-    bool is_within(double tolerance, Transfer transfer) const;
+    /// `is_blurred`: what is seen depends on the place on a lens, too.
+    bool is_within(double tolerance, Transfer transfer, bool is_blurred) const;
 
     static constexpr int most_shapes = 8;
 

@@ -34,7 +34,9 @@ double largest(const Vec3d& v) {
 RegionSamples::RegionSamples(const Scene& scene, const Settings& settings)
     : scene_(scene), settings_(settings),
       tolerance_(of_mean * core::pow(10.0, -static_cast<double>(settings.quality) / 20.0)),
-      beams_(scene, settings) {}
+      is_grainy_(std::any_of(scene.lights().begin(), scene.lights().end(),
+                             [](const Light& light) { return is_soft(light.kind); })),
+      is_blurred_(scene.camera().lens_radius > 0.0F), beams_(scene, settings) {}
 
 /// What the filters of a square's pixels reach.
 Square RegionSamples::seen_by(const PixelSquare& square) const {
@@ -51,7 +53,8 @@ void RegionSamples::begin(const Region& region) {
 
 SamplePoint RegionSamples::place(int x, int y, int number) const {
     if (is_first_round_) return {0.5F, 0.5F};
-    return sequence_point(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+    return sequence_point(sequence_key(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                       SequenceUse::in_pixel),
                           static_cast<std::uint32_t>(number));
 }
 
@@ -91,7 +94,7 @@ void RegionSamples::mark_edges() {
                 differs(y % square_size != 0, x, y - 1) ||
                 differs(x + 1 < region_.x1 && (x + 1) % square_size != 0, x + 1, y) ||
                 differs(y + 1 < region_.y1 && (y + 1) % square_size != 0, x, y + 1);
-            states_[number].wanted = is_edge ? 8 : 4;
+            states_[number].wanted = is_blurred_ ? least_on_step : is_edge ? 8 : 4;
         }
 }
 
@@ -120,13 +123,13 @@ void RegionSamples::find_even(const PixelSquare& square) {
     if (looks_even(square, t_likely)) {
         const Sight sight = beams_.sight_of(seen_by(square), t_likely);
         const bool is_even = sight == Sight::even;
-        if (is_even || sight == Sight::uneven) {
+        if (is_even || sight == Sight::uneven || sight == Sight::soft) {
             for_each_pixel(square, [&](Pixel& pixel) {
                 if (is_even) pixel.wanted = 0;
                 pixel.least = 1;
             });
             // Of small squares samples take less time than beams.
-            if (is_even || square.size <= least_uneven) return;
+            if (sight != Sight::uneven || square.size <= least_uneven) return;
         }
     }
     if (square.size == 2) return;
@@ -151,6 +154,7 @@ bool RegionSamples::looks_even(const PixelSquare& square, double& t_likely) cons
             const Sample& sample = states_[number_of(x, y)].first;
             if (sample.shape != first.shape) return false;
             t_likely = std::max(t_likely, sample.shape == no_shape ? infinity : sample.t);
+            if (is_grainy_) continue;
             const Vec3d& left = states_[number_of(std::max(x - 1, square.x), y)].first.color;
             const Vec3d& above = states_[number_of(x, std::max(y - 1, square.y))].first.color;
             if (largest(absolute(sample.color - left)) > step_most ||
@@ -167,7 +171,8 @@ void RegionSamples::look_closer(std::size_t number, int x, int y) {
     const int count = pixel.samples.count();
     const bool is_done =
         count >= most_samples ||
-        (pixel.samples.is_within(pixel.tolerance, settings_.transfer) && !hides(pixel, x, y));
+        (pixel.samples.is_within(pixel.tolerance, settings_.transfer, is_blurred_) &&
+         !hides(pixel, x, y));
     pixel.wanted = is_done ? 0 : count;
 }
 
@@ -190,6 +195,12 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
         const Square square = seen_by({x, y, 1});
         const Sight sight = beams_.surfaces_in(square, likely_beyond * samples.farthest());
         pixel.least = sight == Sight::edge ? most_unseen : sight == Sight::step ? least_on_step : 1;
+        if (is_blurred_ && sight == Sight::edge) {
+            // All that its rays may meet is much more than what shows: as if all were white, and
+            // half of what so many samples may miss.
+            pixel.least = std::max(least_on_step, static_cast<int>(0.5 / tolerance_));
+            return count < pixel.least;
+        }
         shown_.clear();
         for (const BeamCandidate& shown : beams_.shown())
             shown_.push_back(shown.id);

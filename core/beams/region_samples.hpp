@@ -81,6 +81,8 @@ class RegionSamples {
     const Scene& scene_;
     Settings settings_;
     double tolerance_;
+    bool is_grainy_;  ///< neighbours' samples differ by lights with a size, or by the lens
+    bool is_blurred_; ///< by a lens
     BeamTracer beams_;
     Region region_{};
     int width_ = 0;

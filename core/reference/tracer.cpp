@@ -1,6 +1,7 @@
 #include "core/reference/tracer.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/primitives.hpp"
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
@@ -29,6 +30,8 @@ ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& setti
       searcher_(scene, search, precision) {
     crossings_.reserve(64);
     pending_.reserve(64);
+    for (const Light& light : scene.lights())
+        if (is_soft(light.kind)) soft_lights_.push_back(prepared(light));
     if (settings.quality != 0.0F) to_quality_.emplace(scene, settings);
 }
 
@@ -51,10 +54,11 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
     do {
         for_each_pixel([&](int x, int y, std::size_t pixel) {
             for (int wanted = samples.wanted(pixel); wanted > 0; --wanted) {
-                const SamplePoint place = samples.place(x, y, samples.taken(pixel));
+                sample_ = {x, y, samples.taken(pixel)};
+                const SamplePoint place = samples.place(x, y, sample_.number);
                 first_hit_ = {};
-                const Vector color = trace(
-                    camera_rays_.ray(x, y, camera_rays_.filtered({Real(place.x), Real(place.y)})));
+                const Vector color = trace(camera_rays_.ray(
+                    sample_, camera_rays_.filtered({Real(place.x), Real(place.y)})));
                 samples.add(pixel, {convert<double>(color), first_hit_.shape,
                                     static_cast<double>(first_hit_.t)});
             }
@@ -67,8 +71,10 @@ template <class Real>
 Color ReferenceTracer<Real>::pixel(int x, int y) {
     const int samples = settings_.grid * settings_.grid;
     Vector sum(0);
-    for (int sample = 0; sample < samples; ++sample)
+    for (int sample = 0; sample < samples; ++sample) {
+        sample_ = {x, y, sample};
         sum += trace(camera_rays_.ray(x, y, sample));
+    }
     return convert<float>(Vector(sum / Real(samples)));
 }
 
@@ -172,7 +178,7 @@ Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface
     return light;
 }
 
-/// Ambient light, and each light that is on this side of the surface.
+/// Ambient light, and that of each light that is on this side of the surface.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) {
     const Material& material = surface.material;
@@ -181,6 +187,7 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
     if (material.diffuse == 0.0F && material.specular == 0.0F) return color;
 
     for (const Light& light : scene_.lights()) {
+        if (is_soft(light.kind)) continue;
         Vector to_light = -convert<Real>(light.direction);
         if (light.kind == LightKind::point)
             to_light = convert<Real>(light.position) - surface.point;
@@ -190,19 +197,72 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
         if (light.kind == LightKind::directional) distance = infinity<Real>;
         if (dot(surface.flat_normal, to_light) <= Real(0)) continue;
 
-        const Vector halfway = to_light - path.ray.direction;
         const Real cos_light = std::max(dot(surface.normal, to_light), Real(0));
-        Vector share = Real(material.diffuse) * cos_light * own;
-        if (material.specular > 0.0F && squared_length(halfway) > Real(0)) {
-            const Real cos_halfway = std::max(dot(surface.normal, normalized(halfway)), Real(0));
-            share += Real(material.specular) * core::pow(cos_halfway, Real(material.exponent));
-        }
+        const Vector share =
+            Real(material.diffuse) * cos_light * own + Vector(highlight(path, surface, to_light));
         if (share == Vector(0)) continue;
         ++searcher_.counters.shadow;
         color +=
             light_let_through({surface.point, to_light},
                               surface.origins(/*through=*/false, to_light), path.media, distance) *
             convert<Real>(light.color) * share;
+    }
+    return soft_lights_.empty() ? color : color + lit_softly(path, surface, own);
+}
+
+/// Blinn's highlight of light from a direction.
+template <class Real>
+Real ReferenceTracer<Real>::highlight(const Path& path, const Surface& surface,
+                                      const Vector& to_light) const {
+    const Vector halfway = to_light - path.ray.direction;
+    if (surface.material.specular == 0.0F || !(squared_length(halfway) > Real(0))) return Real(0);
+    const Real cos_halfway = std::max(dot(surface.normal, normalized(halfway)), Real(0));
+    return Real(surface.material.specular) *
+           core::pow(cos_halfway, Real(surface.material.exponent));
+}
+
+/// The mean of the samples of each light with a size. The sky makes no highlights.
+template <class Real>
+Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& surface,
+                                             const Vector& own) {
+    const Directed<double> point{static_cast<double>(surface.point.x),
+                                 static_cast<double>(surface.point.y),
+                                 static_cast<double>(surface.point.z)};
+    const Directed<double> normal{static_cast<double>(surface.normal.x),
+                                  static_cast<double>(surface.normal.y),
+                                  static_cast<double>(surface.normal.z)};
+    const auto lights = static_cast<std::uint32_t>(soft_lights_.size());
+    const auto count = static_cast<std::uint32_t>(settings_.light_samples);
+    Vector color(0);
+    for (std::uint32_t number = 0; number < lights; ++number) {
+        const SoftLight& light = soft_lights_[number];
+        const bool is_sky = light.kind == LightKind::sky;
+        const SoftLightSampler<double> sampler(light);
+        const std::uint64_t key = light_key(sample_, path.depth, number, lights);
+        for (std::uint32_t k = 0; k < count; ++k) {
+            const SamplePoint at =
+                shuffled_point(key, static_cast<std::uint32_t>(sample_.number) * count + k);
+            const LightSample<double> sample =
+                sampler.sample(point, normal, static_cast<double>(at.x), static_cast<double>(at.y));
+            const Vector to_light(Real(sample.direction.x), Real(sample.direction.y),
+                                  Real(sample.direction.z));
+            if (dot(surface.flat_normal, to_light) <= Real(0)) continue;
+            const Real cos_light = std::max(dot(surface.normal, to_light), Real(0));
+            Vector share = Real(surface.material.diffuse) * (is_sky ? Real(1) : cos_light) * own;
+            if (!is_sky) share += Vector(highlight(path, surface, to_light));
+            for (int channel = 0; channel < 3; ++channel) {
+                const double zenith = light.color[channel], ground = light.ground[channel];
+                const double radiance =
+                    is_sky ? ground + sample.height * (zenith - ground) : zenith;
+                share[channel] *= Real(radiance * (sample.share / static_cast<double>(count)));
+            }
+            if (share == Vector(0)) continue;
+            ++searcher_.counters.shadow;
+            color += light_let_through({surface.point, to_light},
+                                       surface.origins(/*through=*/false, to_light), path.media,
+                                       Real(sample.distance)) *
+                     share;
+        }
     }
     return color;
 }

@@ -2,6 +2,7 @@
 
 #include "core/beams/region_samples.hpp"
 #include "core/optics/media.hpp"
+#include "core/optics/soft_light.hpp"
 #include "core/reference/search.hpp"
 #include "core/scene/camera_rays.hpp"
 #include "core/scene/film.hpp"
@@ -35,6 +36,9 @@ class ReferenceTracer {
     const Counters& counters() const { return searcher_.counters; }
 
     using Vector = Vec3<Real>;
+
+    /// Whose samples of lights with a size are taken from now on.
+    void set_sample(const SampleName& sample) { sample_ = sample; }
 
     /// A ray underway.
     struct Path {
@@ -93,6 +97,8 @@ class ReferenceTracer {
     Surface surface_at(const Path& path, const Encounter<Real>& encounter) const;
     Vector shade(const Path& path, const Surface& surface, const Vector& throughput);
     Vector lit(const Path& path, const Surface& surface);
+    Vector lit_softly(const Path& path, const Surface& surface, const Vector& own);
+    Real highlight(const Path& path, const Surface& surface, const Vector& to_light) const;
     void reflect(const Path& path, const Surface& surface, const Vector& throughput);
     void transmit(const Path& path, const Surface& surface, const Vector& throughput,
                   const Vector& direction);
@@ -116,6 +122,8 @@ class ReferenceTracer {
     MediaStacks media_;
     std::vector<Path> pending_;        // the next one last
     std::vector<Hit<Real>> crossings_; // of a shadow ray
+    std::vector<SoftLight> soft_lights_;
+    SampleName sample_{};
     Vector start_{};                   // of the last ray from the camera
     std::optional<Media> start_media_; // around it
 

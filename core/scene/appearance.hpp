@@ -14,6 +14,13 @@ enum class Reflection : std::uint8_t {
     dielectric, ///< Fresnel's equations for an unpolarised ray, from `index`
 };
 
+enum class LightKind : std::uint8_t { point, directional, sky, sphere, disc, rectangle };
+
+/// True for lights that are seen in more than one direction.
+constexpr bool is_soft(LightKind kind) {
+    return kind != LightKind::point && kind != LightKind::directional;
+}
+
 enum class FogKind : std::uint8_t {
     none,
     linear_z,    ///< by world z: none at z = start, all at z = end

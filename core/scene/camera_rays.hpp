@@ -2,6 +2,7 @@
 
 #include "core/numbers/elementary.hpp"
 #include "core/scene/pixel_filter.hpp"
+#include "core/scene/sample_sequence.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/ray.hpp"
 
@@ -9,13 +10,8 @@
 
 namespace raylane::core {
 
-/// Place of a sample in its cell of the grid, in [0, 1)^2.
-struct SamplePoint {
-    float x;
-    float y;
-};
-
-/// The same for each pixel and sample, whatever is rendered around it.
+/// Place of a sample in its cell of the grid. The same for each pixel and sample, whatever is
+/// rendered around it.
 inline SamplePoint sample_point(SamplePattern pattern, std::uint32_t x, std::uint32_t y,
                                 std::uint32_t sample) {
     if (pattern == SamplePattern::regular) return {0.5F, 0.5F};
@@ -41,7 +37,7 @@ class CameraRays {
           filter_(settings.filter == PixelFilter::box ? nullptr
                                                       : &FilterPlaces::of(settings.filter)),
           orthographic_(camera.projection == Projection::orthographic), width_(settings.width),
-          height_(settings.height) {
+          height_(settings.height), lens_radius_(static_cast<double>(camera.lens_radius)) {
         const Vec3d from = convert<double>(camera.from);
         const Vec3d forward = normalized(convert<double>(camera.at) - from);
         const Vec3d right = normalized(cross(forward, convert<double>(camera.up)));
@@ -56,6 +52,10 @@ class CameraRays {
         forward_ = convert<Real>(forward);
         right_ = convert<Real>(right * per_half_pixel);
         up_ = convert<Real>(up * per_half_pixel);
+        lens_right_ = convert<Real>(right);
+        lens_up_ = convert<Real>(up);
+        focus_ = camera.focus_distance > 0.0F ? Real(camera.focus_distance)
+                                              : Real(length(convert<double>(camera.at) - from));
     }
 
     /// Place of a sample in its pixel, from its upper left corner: in [0, 1)^2, or further out by
@@ -91,14 +91,43 @@ class CameraRays {
                 Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
     }
 
-    Ray<Real> ray(int x, int y, int sample) const { return ray(x, y, in_pixel(x, y, sample)); }
-    Ray<Real> ray(int x, int y, const InPixel& in_pixel) const {
-        const PicturePoint at = point_at(x, y, in_pixel);
-        const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
-        if (orthographic_) return {from_ + offset, forward_};
-        return {from_, normalized(Vec3<Real>(forward_ + offset))};
+    /// Where a sample goes through the lens, to the right of its middle and upwards, in units of
+    /// length: evenly all over it.
+    struct LensPoint {
+        double right, up;
+    };
+    LensPoint on_lens(int x, int y, int sample) const {
+        const SamplePoint point =
+            shuffled_point(sequence_key(static_cast<std::uint32_t>(x),
+                                        static_cast<std::uint32_t>(y), SequenceUse::on_lens),
+                           static_cast<std::uint32_t>(sample));
+        constexpr double turn = 6.283185307179586;
+        const double r = lens_radius_ * std::sqrt(static_cast<double>(point.x));
+        const double azimuth = turn * static_cast<double>(point.y);
+        return {r * core::cos(azimuth), r * core::sin(azimuth)};
     }
 
+    Ray<Real> ray(int x, int y, int sample) const {
+        return ray({x, y, sample}, in_pixel(x, y, sample));
+    }
+    Ray<Real> ray(const SampleName& sample, const InPixel& in_pixel) const {
+        const PicturePoint at = point_at(sample.x, sample.y, in_pixel);
+        const Vec3<Real> offset = mul_add(at.across, right_, Vec3<Real>(at.upward * up_));
+        const Vec3<Real> start = orthographic_ ? from_ + offset : from_;
+        if (!has_lens())
+            return {start, orthographic_ ? forward_ : normalized(Vec3<Real>(forward_ + offset))};
+        const LensPoint lens = on_lens(sample.x, sample.y, sample.number);
+        const Vec3<Real> aside =
+            mul_add(Real(lens.right), lens_right_, Vec3<Real>(Real(lens.up) * lens_up_));
+        const Vec3<Real> sharp = orthographic_ ? forward_ : forward_ + offset;
+        return {start + aside, normalized(mul_add(focus_, sharp, Vec3<Real>(-aside)))};
+    }
+
+    bool has_lens() const { return lens_radius_ > 0.0; }
+    double lens_radius() const { return lens_radius_; }
+    Real focus() const { return focus_; } ///< distance of the plane that is sharp
+    const Vec3<Real>& lens_right() const { return lens_right_; } ///< unit
+    const Vec3<Real>& lens_up() const { return lens_up_; }       ///< unit
     bool regular() const { return pattern_ == SamplePattern::regular; }
     bool orthographic() const { return orthographic_; }
     const Vec3<Real>& from() const { return from_; }
@@ -114,6 +143,9 @@ class CameraRays {
     int width_;
     int height_;
     Vec3<Real> from_, forward_, right_, up_; // right and up are half a pixel long
+    double lens_radius_;
+    Vec3<Real> lens_right_, lens_up_;
+    Real focus_;
 };
 
 } // namespace raylane::core

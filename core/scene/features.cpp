@@ -1,13 +1,17 @@
 #include "core/scene/features.hpp"
 
+#include <algorithm>
+
 namespace raylane::core {
 
-std::array<std::pair<std::string_view, bool>, 13> Features::named() const {
+std::array<std::pair<std::string_view, bool>, 15> Features::named() const {
     return {{{"hierarchy", bounded_shapes},
              {"planes", planes},
              {"smooth normals", smooth_normals},
              {"patterns", patterns},
              {"light and shadow rays", shading},
+             {"soft light", soft_light},
+             {"lens", lens},
              {"highlights", highlights},
              {"reflected rays", reflection},
              {"Fresnel weights", fresnel},
@@ -43,6 +47,10 @@ Features features_of(const Scene& scene, const Settings& settings) {
         features.absorption |= material.transmits() && material.absorption != Vec3f(0.0F);
         features.one_sided |= material.visible != Visible::both;
     }
+    features.soft_light =
+        features.shading && std::any_of(scene.lights().begin(), scene.lights().end(),
+                                        [](const Light& light) { return is_soft(light.kind); });
+    features.lens = scene.camera().lens_radius > 0.0F;
     features.fog = scene.fog().kind != FogKind::none;
     features.supersampling = settings.grid > 1 || settings.quality != 0.0F;
     return features;

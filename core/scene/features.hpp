@@ -15,6 +15,8 @@ struct Features {
     bool smooth_normals = false; ///< smooth triangles
     bool patterns = false;       ///< colours other than solid
     bool shading = false;        ///< diffuse or specular light, so shadow rays
+    bool soft_light = false;     ///< lights with a size, so many rays to each
+    bool lens = false;           ///< so camera rays that start side by side
     bool highlights = false;     ///< specular light
     bool reflection = false;     ///< so reflected rays
     bool fresnel = false;        ///< a reflected fraction that depends on the angle
@@ -25,7 +27,7 @@ struct Features {
     bool supersampling = false; ///< more than one sample per pixel
 
     /// Each with its name, in words.
-    std::array<std::pair<std::string_view, bool>, 13> named() const;
+    std::array<std::pair<std::string_view, bool>, 15> named() const;
 };
 
 /// Shapes decide which materials are in use. `settings` may differ from the scene's own.

@@ -160,6 +160,10 @@ void consider_floats(MethodEstimate& method, const Scene& scene, const Settings&
         method.objection = "reflections and refractions magnify its errors";
     } else if (features.patterns) {
         method.objection = "patterns are read where it takes the surface to be";
+    } else if (features.soft_light) {
+        method.objection = "its error in the shadows of lights with a size is not bounded";
+    } else if (features.lens) {
+        method.objection = "a lens' rays start beside each other";
     } else if (scene.shape_count() > most_shapes) {
         method.objection = "too many shapes to compare each with each";
     } else {

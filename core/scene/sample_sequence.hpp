@@ -1,8 +1,20 @@
 #pragma once
 
-#include "core/scene/camera_rays.hpp"
+#include <cstdint>
 
 namespace raylane::core {
+
+/// A point of [0, 1)^2.
+struct SamplePoint {
+    float x;
+    float y;
+};
+
+/// A sample of a pixel.
+struct SampleName {
+    int x, y;   ///< the pixel
+    int number; ///< of its samples
+};
 
 namespace detail {
 
@@ -27,26 +39,53 @@ constexpr std::uint32_t flipped_by_lower(std::uint32_t x, std::uint32_t seed) {
 
 } // namespace detail
 
-/// Points of a pixel one after the other, any number of them: Sobol's (0, 2)-sequence, scrambled as
-/// Owen has it by a hash of the pixel (Burley, "Practical Hash-based Owen Scrambling", 2020). The
-/// first 2^k of them have one in each cell of every division of the pixel into 2^k equal
-/// rectangles, and so has each 2^k that follow.
-inline SamplePoint sequence_point(std::uint32_t x, std::uint32_t y, std::uint32_t number) {
-    std::uint64_t key = (static_cast<std::uint64_t>(y) << 32 | x) + 0x9E3779B97F4A7C15ULL;
+/// What a pixel's samples choose by a sequence of its own; soft lights follow, depth by depth.
+enum SequenceUse : std::uint32_t { in_pixel = 0, on_lens = 1, on_first_light = 2 };
+
+/// Names the sequence of pixel (x, y) for that use.
+inline std::uint64_t sequence_key(std::uint32_t x, std::uint32_t y, std::uint32_t use) {
+    std::uint64_t key = (static_cast<std::uint64_t>(y) << 32 | x) +
+                        0x9E3779B97F4A7C15ULL * (use + std::uint64_t{1});
     key = (key ^ key >> 30) * 0xBF58476D1CE4E5B9ULL;
     key = (key ^ key >> 27) * 0x94D049BB133111EBULL;
-    key ^= key >> 31;
+    return key ^ key >> 31;
+}
 
-    std::uint32_t second = 0; // by Sobol's second matrix, Pascal's triangle
-    std::uint32_t column = 1U << 31;
-    for (std::uint32_t bits = number; bits != 0; bits >>= 1, column ^= column >> 1)
-        if ((bits & 1U) != 0) second ^= column;
+/// Points one after the other, any number of them: Sobol's (0, 2)-sequence, scrambled as Owen has
+/// it by a hash of the key (Burley, "Practical Hash-based Owen Scrambling", 2020). The first 2^k of
+/// them have one in each cell of every division of the square into 2^k equal rectangles, and so has
+/// each 2^k that follow.
+inline SamplePoint sequence_point(std::uint64_t key, std::uint32_t number) {
+    // Sobol's second matrix, Pascal's triangle: each bit is the sum of those at all places that
+    // have its place's bits.
+    std::uint32_t second = number;
+    second ^= second >> 1 & 0x55555555U;
+    second ^= second >> 2 & 0x33333333U;
+    second ^= second >> 4 & 0x0F0F0F0FU;
+    second ^= second >> 8 & 0x00FF00FFU;
+    second ^= second >> 16;
     const auto scrambled = [](std::uint32_t reversed, std::uint32_t seed) {
         const std::uint32_t bits = detail::reversed_bits(detail::flipped_by_lower(reversed, seed));
         return static_cast<float>(bits >> 8) * 0x1p-24F;
     };
     return {scrambled(number, static_cast<std::uint32_t>(key)),
-            scrambled(detail::reversed_bits(second), static_cast<std::uint32_t>(key >> 32))};
+            scrambled(second, static_cast<std::uint32_t>(key >> 32))};
+}
+
+/// The same points, each 2^k of them in another order: so that what has the same number in another
+/// sequence, or in a grid, says nothing of where they are.
+inline SamplePoint shuffled_point(std::uint64_t key, std::uint32_t number) {
+    const auto seed = static_cast<std::uint32_t>(key * 0x9E3779B97F4A7C15ULL >> 32);
+    return sequence_point(
+        key, detail::reversed_bits(detail::flipped_by_lower(detail::reversed_bits(number), seed)));
+}
+
+/// Of a sample's points on one of its soft lights, from what it meets at that depth.
+inline std::uint64_t light_key(const SampleName& sample, int depth, std::uint32_t light,
+                               std::uint32_t lights) {
+    return sequence_key(static_cast<std::uint32_t>(sample.x), static_cast<std::uint32_t>(sample.y),
+                        SequenceUse::on_first_light + static_cast<std::uint32_t>(depth) * lights +
+                            light);
 }
 
 } // namespace raylane::core

@@ -3,20 +3,30 @@
 #include "core/scene/material.hpp"
 
 #include <cstdint>
+#include <limits>
 
 /// Contents of a scene besides its shapes: lights, fog, the camera, and the settings of the
 /// picture.
 namespace raylane::core {
 
-enum class LightKind : std::uint8_t { point, directional };
-
-/// A light has no size and does not fade with distance. It casts shadows.
+/// A light casts shadows; what it is itself is not seen. A point or a directional light has no size
+/// and does not fade with distance. Of the others `color` is the radiance, in all directions and of
+/// both sides: a surface shows as much of it as these fill of the hemisphere above it, by the
+/// cosine of their angle to it. Light from all over the sky shows like one light without a size
+/// from straight above.
 struct Light {
     LightKind kind = LightKind::point;
-    Vec3f position{0.0F}; ///< point: where it is
-    Vec3f direction{0.0F, -1.0F,
-                    0.0F}; ///< directional: where the light travels to, any length but zero
-    Color color{1.0F};     ///< >= 0
+    Vec3f position{0.0F}; ///< point, sphere, disc: the middle; rectangle: a corner
+    /// directional: where the light travels to; sky: the same from the zenith; disc: its normal.
+    /// Any length but zero.
+    Vec3f direction{0.0F, -1.0F, 0.0F};
+    Color color{1.0F};              ///< >= 0; sky: of the zenith
+    float radius = 1.0F;            ///< sphere, disc: > 0
+    Vec3f edge_u{1.0F, 0.0F, 0.0F}; ///< rectangle: from the corner along its edges, which are
+    Vec3f edge_v{0.0F, 0.0F, 1.0F}; ///< perpendicular
+    Color ground{1.0F}; ///< sky: the color of the nadir, >= 0; in between it changes evenly
+    /// sky: what is farther away than that, > 0, does not shade a surface from it.
+    float reach = std::numeric_limits<float>::infinity();
 };
 
 /// Fog of fraction f in [0, 1]: a segment shows (1 - f) * colour + f * fog colour. It acts on every
@@ -40,6 +50,12 @@ struct Camera {
     float field_of_view =
         45.0F; ///< perspective: degrees from the picture's lower to its upper edge, in (0, 180)
     float height = 2.0F; ///< orthographic: of the picture, > 0, in units of length
+    /// Of a thin lens around `from` that all rays of a pixel's point go through, in units of
+    /// length; 0: a pinhole, and all is sharp.
+    float lens_radius = 0.0F;
+    /// From the lens to the plane that is sharp, along the line of sight, in units of length; 0: it
+    /// goes through `at`.
+    float focus_distance = 0.0F;
 };
 
 enum class Transfer : std::uint8_t { srgb, linear };
@@ -66,6 +82,8 @@ struct Settings {
     /// for, pixel by pixel, in place of `grid`; 0: each pixel has the samples of `grid`.
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
+    /// Rays to each light with a size, from each point that a sample sees.
+    int light_samples = 8;
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
     int max_depth = 8;         ///< reflections and refractions on one path; 0: primary rays alone
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
@@ -74,6 +92,7 @@ struct Settings {
     static constexpr std::int64_t max_pixels = 1LL << 28; ///< 3 GiB of film
     static constexpr int max_grid = 256;
     static constexpr int depth_limit = 1000;
+    static constexpr int max_light_samples = 4096;
 };
 
 } // namespace raylane::core

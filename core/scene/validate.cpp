@@ -48,10 +48,35 @@ void validate(const Material& material) {
 }
 
 void validate(const Light& light) {
-    require_enumerator("kind", light.kind, LightKind::directional);
+    require_enumerator("kind", light.kind, LightKind::rectangle);
     require_point("position", light.position);
-    if (light.kind == LightKind::directional) require_direction("direction", light.direction);
+    if (light.kind == LightKind::directional || light.kind == LightKind::sky ||
+        light.kind == LightKind::disc)
+        require_direction("direction", light.direction);
     validate_color("color", light.color);
+    switch (light.kind) {
+    case LightKind::point:
+    case LightKind::directional:
+        break;
+    case LightKind::sky:
+        validate_color("ground", light.ground);
+        if (!(light.reach > 0.0F)) refuse("reach", "must be positive", light.reach);
+        break;
+    case LightKind::sphere:
+    case LightKind::disc:
+        require_positive("radius", light.radius);
+        break;
+    case LightKind::rectangle:
+        require_direction("edge_u", light.edge_u);
+        require_direction("edge_v", light.edge_v);
+        // They are rounded, each by itself.
+        if (!(std::abs(dot(normalized(convert<double>(light.edge_u)),
+                           normalized(convert<double>(light.edge_v)))) < 0x1p-20))
+            throw InvalidValue("edge_v", "must be perpendicular to edge_u's " +
+                                             text_of(light.edge_u) + ", got " +
+                                             text_of(light.edge_v));
+        break;
+    }
 }
 
 void validate(const Fog& fog) {
@@ -90,6 +115,8 @@ void validate(const Camera& camera) {
                 "must be between 0 and 180 degrees, both excluded", camera.field_of_view);
     else
         require_positive("height", camera.height);
+    require_not_negative("lens_radius", camera.lens_radius);
+    require_not_negative("focus_distance", camera.focus_distance);
 }
 
 void validate(const Settings& settings) {
@@ -104,6 +131,7 @@ void validate(const Settings& settings) {
     require_enumerator("filter", settings.filter, PixelFilter::blackman_harris);
     if (settings.quality != 0.0F && !(settings.quality >= 10.0F && settings.quality <= 80.0F))
         refuse("quality", "must be 0 or between 10 and 80 decibels", settings.quality);
+    require_count("light_samples", settings.light_samples, 1, Settings::max_light_samples);
     require_enumerator("transfer", settings.transfer, Transfer::linear);
     require_count("max_depth", settings.max_depth, 0, Settings::depth_limit);
     require_fraction("min_weight", settings.min_weight);

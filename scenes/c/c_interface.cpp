@@ -118,8 +118,15 @@ Material from_c(const raylane_material& m) {
 }
 
 Light from_c(const raylane_light& light) {
-    return {enum_from<LightKind>(light.kind), from_c(light.position), from_c(light.direction),
-            from_c(light.color)};
+    return {enum_from<LightKind>(light.kind),
+            from_c(light.position),
+            from_c(light.direction),
+            from_c(light.color),
+            light.radius,
+            from_c(light.edge_u),
+            from_c(light.edge_v),
+            from_c(light.ground),
+            light.reach};
 }
 
 Fog from_c(const raylane_fog& fog) {
@@ -132,7 +139,9 @@ Camera from_c(const raylane_camera& camera) {
             from_c(camera.at),
             from_c(camera.up),
             camera.field_of_view,
-            camera.height};
+            camera.height,
+            camera.lens_radius,
+            camera.focus_distance};
 }
 
 Settings from_c(const raylane_settings& s) {
@@ -146,12 +155,13 @@ Settings from_c(const raylane_settings& s) {
     settings.min_weight = s.min_weight;
     settings.quality = s.quality;
     settings.filter = enum_from<PixelFilter>(s.filter);
+    settings.light_samples = s.light_samples;
     return settings;
 }
 
 raylane_settings to_c(const Settings& s) {
     return {s.width,     s.height,     s.grid,    number_of(s.samples), number_of(s.transfer),
-            s.max_depth, s.min_weight, s.quality, number_of(s.filter)};
+            s.max_depth, s.min_weight, s.quality, number_of(s.filter),  s.light_samples};
 }
 
 raylane_progress to_c(const Progress& progress) {
@@ -275,7 +285,9 @@ raylane_material raylane_default_material(void) {
 
 raylane_light raylane_default_light(void) {
     const Light light;
-    return {number_of(light.kind), to_c(light.position), to_c(light.direction), to_c(light.color)};
+    return {number_of(light.kind), to_c(light.position), to_c(light.direction),
+            to_c(light.color),     light.radius,         to_c(light.edge_u),
+            to_c(light.edge_v),    to_c(light.ground),   light.reach};
 }
 
 raylane_fog raylane_default_fog(void) {
@@ -285,8 +297,9 @@ raylane_fog raylane_default_fog(void) {
 
 raylane_camera raylane_default_camera(void) {
     const Camera camera;
-    return {number_of(camera.projection), to_c(camera.from), to_c(camera.at), to_c(camera.up),
-            camera.field_of_view,         camera.height};
+    return {
+        number_of(camera.projection), to_c(camera.from), to_c(camera.at),    to_c(camera.up),
+        camera.field_of_view,         camera.height,     camera.lens_radius, camera.focus_distance};
 }
 
 raylane_settings raylane_default_settings(void) {

@@ -189,6 +189,8 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
             sampling.text("filter", settings.filter == core::PixelFilter::gaussian
                                         ? "gaussian"
                                         : "blackman-harris");
+        if (settings.light_samples != core::Settings{}.light_samples)
+            sampling.number("light_samples", settings.light_samples);
         if (settings.quality != 0.0F) sampling.number("quality", settings.quality);
     }
     root.key("limits");
@@ -210,6 +212,8 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
             object.number("field_of_view", camera.field_of_view);
         else
             object.number("height", camera.height);
+        if (camera.lens_radius > 0.0F) object.number("lens_radius", camera.lens_radius);
+        if (camera.focus_distance > 0.0F) object.number("focus_distance", camera.focus_distance);
     }
     root.vector("background", scene.background());
     const core::Fog& fog = scene.fog();
@@ -234,10 +238,41 @@ void write_lights(Object& root, TextFile& file, const core::Scene& scene) {
     const char* separator = "\n";
     for (const core::Light& light : scene.lights()) {
         file << std::exchange(separator, ",\n");
-        const bool point = light.kind == core::LightKind::point;
         Object object(file);
-        object.text("type", point ? "point" : "directional");
-        object.vector(point ? "position" : "direction", point ? light.position : light.direction);
+        switch (light.kind) {
+        case core::LightKind::point:
+            object.text("type", "point");
+            object.vector("position", light.position);
+            break;
+        case core::LightKind::directional:
+            object.text("type", "directional");
+            object.vector("direction", light.direction);
+            break;
+        case core::LightKind::sky:
+            object.text("type", "sky");
+            object.vector("direction", light.direction);
+            object.vector("ground", light.ground);
+            if (light.reach < std::numeric_limits<float>::infinity())
+                object.number("reach", light.reach);
+            break;
+        case core::LightKind::sphere:
+            object.text("type", "sphere");
+            object.vector("position", light.position);
+            object.number("radius", light.radius);
+            break;
+        case core::LightKind::disc:
+            object.text("type", "disc");
+            object.vector("position", light.position);
+            object.vector("direction", light.direction);
+            object.number("radius", light.radius);
+            break;
+        case core::LightKind::rectangle:
+            object.text("type", "rectangle");
+            object.vector("position", light.position);
+            object.vector("edge_u", light.edge_u);
+            object.vector("edge_v", light.edge_v);
+            break;
+        }
         object.vector("color", light.color);
     }
     file << "]";

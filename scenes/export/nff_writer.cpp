@@ -22,7 +22,8 @@ class NffWriter {
         if (scene_.fog().kind != core::FogKind::none) differences_.insert("fog");
         for (const core::Light& light : scene_.lights()) {
             if (light.kind != core::LightKind::point) {
-                differences_.insert("directional lights");
+                differences_.insert(core::is_soft(light.kind) ? "lights with a size"
+                                                              : "directional lights");
                 continue;
             }
             file_ << "l ";
@@ -56,6 +57,7 @@ class NffWriter {
         const core::Camera& camera = scene_.camera();
         if (camera.projection != core::Projection::perspective)
             throw core::InvalidValue("camera", "must be a perspective one, for NFF has no other");
+        if (camera.lens_radius > 0.0F) differences_.insert("the camera's lens");
         constexpr double radians = 3.14159265358979323846 / 180.0;
         const int rows = scene_.settings().height;
         double half = std::tan(static_cast<double>(camera.field_of_view) / 2.0 * radians);

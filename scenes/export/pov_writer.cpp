@@ -62,6 +62,7 @@ class PovWriter {
         const core::Settings& settings = scene_.settings();
         const core::CameraRays<double> rays(camera, settings);
         const bool perspective = camera.projection == core::Projection::perspective;
+        if (camera.lens_radius > 0.0F) differences_.insert("the camera's lens");
         file_ << "camera { " << (perspective ? "perspective" : "orthographic");
         vector("location", camera.from);
         vector("direction", rays.forward());
@@ -81,15 +82,39 @@ class PovWriter {
     }
 
     void write_light(const core::Light& light) {
-        file_ << "light_source { ";
-        if (light.kind == core::LightKind::point) {
+        switch (light.kind) {
+        case core::LightKind::point:
+            file_ << "light_source { ";
             vector(light.position) << " ";
             color(light.color) << " }\n";
             return;
+        case core::LightKind::directional: {
+            constexpr double far = -1e6;
+            file_ << "light_source { ";
+            vector(Vec3d(far * core::normalized(core::convert<double>(light.direction)))) << " ";
+            color(light.color) << " parallel point_at <0, 0, 0> }\n";
+            return;
         }
-        constexpr double far = -1e6;
-        vector(Vec3d(far * core::normalized(core::convert<double>(light.direction)))) << " ";
-        color(light.color) << " parallel point_at <0, 0, 0> }\n";
+        case core::LightKind::sphere: {
+            // It fades by 2 / (1 + (d / fade_distance)^2) there, and by (radius / d)^2 here.
+            constexpr float fade = 1.0F / 1024;
+            file_ << "light_source { ";
+            vector(light.position) << " ";
+            color(light.color * (0.5F / (fade * fade)));
+            vector("area_light", Vec3f(2.0F * light.radius, 0.0F, 0.0F)) << ",";
+            vector("", Vec3f(0.0F, 2.0F * light.radius, 0.0F))
+                << ", 9, 9 circular orient adaptive 1 jitter fade_power 2 fade_distance "
+                << fade * light.radius << " }\n";
+            return;
+        }
+        case core::LightKind::sky:
+            differences_.insert("sky lights");
+            return;
+        case core::LightKind::disc:
+        case core::LightKind::rectangle:
+            differences_.insert("lights that are discs and rectangles");
+            return;
+        }
     }
 
     void write_pigment(const core::Material& material) {

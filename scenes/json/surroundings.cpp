@@ -16,13 +16,15 @@ void read_image(const JsonValue& value, core::Settings& settings) {
 }
 
 void read_sampling(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"grid", "pattern", "quality", "filter"});
+    value.allow_only({"grid", "pattern", "quality", "filter", "light_samples"});
     if (const auto filter = value.find("filter"))
         settings.filter = filter->choice<core::PixelFilter>(
             {{"box", core::PixelFilter::box},
              {"gaussian", core::PixelFilter::gaussian},
              {"blackman-harris", core::PixelFilter::blackman_harris}});
     if (const auto quality = value.find("quality")) settings.quality = quality->number();
+    if (const auto samples = value.find("light_samples"))
+        settings.light_samples = samples->integer();
     if (const auto grid = value.find("grid")) settings.grid = grid->integer();
     if (const auto pattern = value.find("pattern"))
         settings.samples =
@@ -42,15 +44,18 @@ core::Camera read_camera(const JsonValue& value) {
         camera.projection = type->choice<Projection>(
             {{"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}});
     if (camera.projection == Projection::perspective) {
-        value.allow_only({"type", "from", "at", "up", "field_of_view"});
+        value.allow_only(
+            {"type", "from", "at", "up", "field_of_view", "lens_radius", "focus_distance"});
         if (const auto angle = value.find("field_of_view")) camera.field_of_view = angle->number();
     } else {
-        value.allow_only({"type", "from", "at", "up", "height"});
+        value.allow_only({"type", "from", "at", "up", "height", "lens_radius", "focus_distance"});
         camera.height = value.at("height").number();
     }
     camera.from = value.at("from").vector();
     camera.at = value.at("at").vector();
     if (const auto up = value.find("up")) camera.up = up->vector();
+    if (const auto radius = value.find("lens_radius")) camera.lens_radius = radius->number();
+    if (const auto focus = value.find("focus_distance")) camera.focus_distance = focus->number();
     return camera;
 }
 
@@ -73,16 +78,48 @@ core::Fog read_fog(const JsonValue& value) {
 
 core::Light read_light(const JsonValue& value) {
     core::Light light;
-    light.kind = value.at("type").choice<LightKind>(
-        {{"point", LightKind::point}, {"directional", LightKind::directional}});
-    if (light.kind == LightKind::point) {
+    light.kind = value.at("type").choice<LightKind>({{"point", LightKind::point},
+                                                     {"directional", LightKind::directional},
+                                                     {"sky", LightKind::sky},
+                                                     {"sphere", LightKind::sphere},
+                                                     {"disc", LightKind::disc},
+                                                     {"rectangle", LightKind::rectangle}});
+    if (const auto color = value.find("color")) light.color = color->color();
+    switch (light.kind) {
+    case LightKind::point:
         value.allow_only({"type", "position", "color"});
         light.position = value.at("position").vector();
-    } else {
+        break;
+    case LightKind::directional:
         value.allow_only({"type", "direction", "color"});
         light.direction = value.at("direction").vector();
+        break;
+    case LightKind::sky: {
+        value.allow_only({"type", "direction", "color", "ground", "reach"});
+        if (const auto direction = value.find("direction")) light.direction = direction->vector();
+        const auto ground = value.find("ground");
+        light.ground = ground ? ground->color() : light.color;
+        if (const auto reach = value.find("reach")) light.reach = reach->number();
+        break;
     }
-    if (const auto color = value.find("color")) light.color = color->color();
+    case LightKind::sphere:
+        value.allow_only({"type", "position", "radius", "color"});
+        light.position = value.at("position").vector();
+        light.radius = value.at("radius").number();
+        break;
+    case LightKind::disc:
+        value.allow_only({"type", "position", "direction", "radius", "color"});
+        light.position = value.at("position").vector();
+        light.direction = value.at("direction").vector();
+        light.radius = value.at("radius").number();
+        break;
+    case LightKind::rectangle:
+        value.allow_only({"type", "position", "edge_u", "edge_v", "color"});
+        light.position = value.at("position").vector();
+        light.edge_u = value.at("edge_u").vector();
+        light.edge_v = value.at("edge_v").vector();
+        break;
+    }
     return light;
 }
 

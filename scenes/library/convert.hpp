@@ -69,6 +69,11 @@ void copy(const From& from, To& to) {
     copy(from.position, to.position);
     copy(from.direction, to.direction);
     copy(from.color, to.color);
+    copy(from.radius, to.radius);
+    copy(from.edge_u, to.edge_u);
+    copy(from.edge_v, to.edge_v);
+    copy(from.ground, to.ground);
+    copy(from.reach, to.reach);
 }
 
 template <class From, class To>
@@ -90,6 +95,8 @@ void copy(const From& from, To& to) {
     copy(from.up, to.up);
     copy(from.field_of_view, to.field_of_view);
     copy(from.height, to.height);
+    copy(from.lens_radius, to.lens_radius);
+    copy(from.focus_distance, to.focus_distance);
 }
 
 template <class From, class To>
@@ -101,6 +108,7 @@ void copy(const From& from, To& to) {
     copy(from.samples, to.samples);
     copy(from.quality, to.quality);
     copy(from.filter, to.filter);
+    copy(from.light_samples, to.light_samples);
     copy(from.transfer, to.transfer);
     copy(from.max_depth, to.max_depth);
     copy(from.min_weight, to.min_weight);

@@ -22,8 +22,8 @@ namespace raylane::scenes {
 namespace {
 
 struct RenderArguments {
-    Argument scene, output, size, samples, quality, filter, max_depth, min_weight, threads,
-        transfer, stats;
+    Argument scene, output, size, samples, quality, filter, light_samples, max_depth, min_weight,
+        threads, transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
 };
 
@@ -82,6 +82,9 @@ struct Overrides {
                 {{"box", core::PixelFilter::box},
                  {"gaussian", core::PixelFilter::gaussian},
                  {"blackman-harris", core::PixelFilter::blackman_harris}});
+        if (arguments.light_samples)
+            light_samples = whole_argument("--light-samples", *arguments.light_samples, 1,
+                                           Settings::max_light_samples);
         if (arguments.max_depth)
             max_depth =
                 whole_argument("--max-depth", *arguments.max_depth, 0, Settings::depth_limit);
@@ -97,6 +100,7 @@ struct Overrides {
         if (size) std::tie(settings.width, settings.height) = *size;
         settings.grid = grid.value_or(settings.grid);
         settings.filter = filter.value_or(settings.filter);
+        settings.light_samples = light_samples.value_or(settings.light_samples);
         settings.quality = quality.value_or(grid ? 0.0F : settings.quality);
         settings.max_depth = max_depth.value_or(settings.max_depth);
         settings.min_weight = min_weight.value_or(settings.min_weight);
@@ -105,7 +109,7 @@ struct Overrides {
     }
 
     std::optional<std::pair<int, int>> size;
-    std::optional<int> grid, max_depth;
+    std::optional<int> grid, light_samples, max_depth;
     std::optional<float> quality, min_weight;
     std::optional<core::Transfer> transfer;
     std::optional<core::PixelFilter> filter;
@@ -266,6 +270,10 @@ Command add_render_command(CLI::App& app) {
         "What of its surroundings a pixel shows: box (its own square), gaussian or "
         "blackman-harris, which reach 1.5 pixels far and are smoother (default: as the scene says)",
         "NAME");
+    add("--light-samples", arguments->light_samples,
+        "Rays to each light with a size, from each point that a sample sees (default: as the scene "
+        "says)",
+        "N");
     add("--max-depth", arguments->max_depth,
         "Reflections and refractions one after the other (default: as the scene says)", "N");
     add("--min-weight", arguments->min_weight,

@@ -48,10 +48,19 @@ void ShadowTracer::take_from(Arena& arena, std::size_t capacity, bool with_media
 }
 
 void ShadowTracer::trace(const LightView& light, EngineCounters& counters) {
+    // Deeper waves hit here and there: too much is between them and the light.
+    trace(coherence_of(light), wave_->coherent || !scene_.has_tree(), counters);
+}
+
+void ShadowTracer::trace_softly(EngineCounters& counters) {
+    trace(neighbours, !scene_.has_tree(), counters);
+}
+
+/// `together`: whether what is in the way is looked for by many rays at a time.
+void ShadowTracer::trace(const Coherence& coherence, bool together, EngineCounters& counters) {
     counters.shadow += rays_.count;
-    const Coherence coherence = coherence_of(light);
     start();
-    find_blocked(coherence, counters);
+    find_blocked(together ? &coherence : nullptr, counters);
 
     walk_.count = 0;
     for (std::size_t k = 0; k < rays_.count; ++k)
@@ -82,11 +91,9 @@ void ShadowTracer::start() {
     }
 }
 
-void ShadowTracer::find_blocked(const Coherence& coherence, EngineCounters& counters) {
-    // Deeper waves hit here and there: too much is between them and the light.
-    const bool together = wave_->coherent || !scene_.has_tree();
+void ShadowTracer::find_blocked(const Coherence* coherence, EngineCounters& counters) {
     walker_.query().occluded(columns_of(rays_, origin_first_, origin_last_), rays_.distance, state_,
-                             together ? &coherence : nullptr, counters);
+                             coherence, counters);
 }
 
 void ShadowTracer::start_walk(std::size_t ray) {

@@ -34,12 +34,15 @@ class ShadowTracer {
     void look_at(const Wave& wave);
     /// Weakens the rays' weights by what is in the way, or blocks them.
     void trace(const LightView& light, EngineCounters& counters);
+    /// The same of rays to all sides.
+    void trace_softly(EngineCounters& counters);
 
     bool arrives(std::size_t ray) const { return state_[ray] != blocked; }
 
   private:
+    void trace(const Coherence& coherence, bool together, EngineCounters& counters);
     void start();
-    void find_blocked(const Coherence& coherence, EngineCounters& counters);
+    void find_blocked(const Coherence* coherence, EngineCounters& counters);
     void walk(const Coherence& coherence, EngineCounters& counters);
     void start_walk(std::size_t ray);
     void follow(std::size_t lane);

@@ -46,7 +46,10 @@ CameraView view_of(const core::CameraRays<double>& rays) {
         view.forward[axis] = rays.forward()[axis];
         view.right[axis] = rays.right()[axis];
         view.up[axis] = rays.up()[axis];
+        view.lens_right[axis] = rays.lens_right()[axis];
+        view.lens_up[axis] = rays.lens_up()[axis];
     }
+    view.focus = rays.focus();
     view.orthographic = rays.orthographic();
     return view;
 }
@@ -61,7 +64,8 @@ core::Settings without_quality(core::Settings settings) {
 Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing)
     : scene_(scene), settings_(settings), tracing_(tracing),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
-      camera_coherence_(coherence_of(camera_)), with_media_(scene.scene().transmissive().any),
+      camera_coherence_(camera_rays_.has_lens() ? neighbours : coherence_of(camera_)),
+      with_media_(scene.scene().transmissive().any),
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), without_quality(settings), core::Search::hierarchy,
@@ -69,6 +73,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       finder_(scene, tracing), shadows_(scene, tracing, reference_), sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
+    names_.resize(chunk_samples);
+    light_keys_.resize(scene.soft_lights().empty() ? 0 : wave_rays);
     pending_.reserve(64);
     if (camera_rays_.regular())
         for (int number = 0; number < settings.grid * settings.grid; ++number)
@@ -90,6 +96,10 @@ void Wavefront::take_from(Arena& arena) {
     way_ = arena.take<double>(wave_rays);
     across_ = arena.take<double>(chunk_samples);
     upward_ = arena.take<double>(chunk_samples);
+    if (camera_rays_.has_lens()) {
+        lens_right_ = arena.take<double>(chunk_samples);
+        lens_up_ = arena.take<double>(chunk_samples);
+    }
     arena.take(radiance_, chunk_samples);
     sorted_.take_from(arena, wave_rays);
     for (auto* columns :
@@ -104,6 +114,10 @@ void Wavefront::take_from(Arena& arena) {
         take_spawned(arena, transmitted_, wave_rays);
     }
     shadows_.take_from(arena, wave_rays, with_media_);
+    if (!scene_.soft_lights().empty()) {
+        light_u_ = arena.take<double>(wave_rays);
+        light_v_ = arena.take<double>(wave_rays);
+    }
     deferred_.take_from(arena, deferred_rays, with_media_); // last: rarely touched
 }
 
@@ -220,18 +234,25 @@ void Wavefront::start(std::size_t count) {
         for (int number = some.first; number < some.first + some.count; ++number) {
             const auto point = camera_rays_.point_at(some.x, some.y, in_pixel(some, number));
             across_[filled] = point.across;
-            upward_[filled++] = point.upward;
+            upward_[filled] = point.upward;
+            names_[filled++] = {some.x, some.y, number};
+        }
+    if (camera_rays_.has_lens())
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto point = camera_rays_.on_lens(names_[i].x, names_[i].y, names_[i].number);
+            lens_right_[i] = point.right;
+            lens_up_[i] = point.up;
         }
     for (double* channel : radiance_)
         std::fill_n(channel, count, 0.0);
     paths_.count = count;
-    tracing_.kernels->rays.camera_rays(camera_, count, across_, upward_, paths_.origin,
-                                       paths_.direction);
+    tracing_.kernels->rays.camera_rays(camera_, count, across_, upward_, lens_right_, lens_up_,
+                                       paths_.origin, paths_.direction);
     for (double* channel : paths_.throughput)
         std::fill_n(channel, count, 1.0);
     std::iota(paths_.sample, paths_.sample + count, 0U);
     paths_.start_nowhere(0, count);
-    if (with_media_ && camera_.orthographic)
+    if (with_media_ && (camera_.orthographic || camera_rays_.has_lens()))
         start_in_media();
     else if (with_media_)
         std::fill_n(paths_.media, count, reference_.media_around(ray_of(paths_, 0).origin));
@@ -303,6 +324,7 @@ void Wavefront::follow(std::size_t lane, int depth) {
     ++counters_.followed;
     const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                  paths_.throughput[2][lane]);
+    reference_.set_sample(names_[paths_.sample[lane]]);
     const core::Vec3d light =
         reference_.light_along({ray_of(paths_, lane), origin_surfaces_of(scene_, paths_, lane),
                                 paths_.media_at(lane), throughput, depth});
@@ -382,12 +404,19 @@ void Wavefront::shade(int depth) {
     for (std::size_t i = 0; i < sorted_.hit_count(); ++i)
         add(paths_.sample[sorted_.order()[i]], surfaces_.radiance[0][i], surfaces_.radiance[1][i],
             surfaces_.radiance[2][i]);
+    looked_ = false;
     add_lights();
+    add_soft_lights(depth);
     if (depth < settings_.max_depth) spawn(depth);
 }
 
+/// Before the first rays of a wave to any light.
+void Wavefront::look_at_lights() {
+    if (std::exchange(looked_, true)) return;
+    shadows_.look_at({paths_, finder_.hits(), sorted_.order(), sorted_.hit_count(), coherent_});
+}
+
 void Wavefront::add_lights() {
-    bool looked = false;
     for (const LightView& light : scene_.lights()) {
         SpawnedRays& rays = shadows_.rays();
         rays.count = 0;
@@ -395,15 +424,52 @@ void Wavefront::add_lights() {
             if (run.material->diffuse > 0.0 || run.material->specular > 0.0)
                 shade_.light(run, light, surfaces_, rays);
         if (rays.count == 0) continue;
-        if (!std::exchange(looked, true))
-            shadows_.look_at(
-                {paths_, finder_.hits(), sorted_.order(), sorted_.hit_count(), coherent_});
+        look_at_lights();
         shadows_.trace(light, counters_);
-        for (std::size_t k = 0; k < rays.count; ++k)
-            if (shadows_.arrives(k))
-                add(paths_.sample[sorted_.order()[static_cast<std::size_t>(rays.parent[k])]],
-                    rays.weight[0][k], rays.weight[1][k], rays.weight[2][k]);
+        add_what_arrives();
     }
+}
+
+/// As core::ReferenceTracer::lit_softly has it: sample after sample of each light.
+void Wavefront::add_soft_lights(int depth) {
+    const std::vector<core::SoftLight>& lights = scene_.soft_lights();
+    const auto samples = static_cast<std::uint32_t>(settings_.light_samples);
+    const std::size_t count = sorted_.hit_count();
+    for (std::uint32_t number = 0; number < lights.size(); ++number) {
+        const core::SoftLight& light = lights[number];
+        for (std::size_t i = 0; i < count; ++i)
+            light_keys_[i] = core::light_key(names_[paths_.sample[sorted_.order()[i]]], depth,
+                                             number, static_cast<std::uint32_t>(lights.size()));
+        for (std::uint32_t k = 0; k < samples; ++k) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto first =
+                    static_cast<std::uint32_t>(names_[paths_.sample[sorted_.order()[i]]].number);
+                const core::SamplePoint point =
+                    core::shuffled_point(light_keys_[i], first * samples + k);
+                light_u_[i] = static_cast<double>(point.x);
+                light_v_[i] = static_cast<double>(point.y);
+            }
+            SpawnedRays& rays = shadows_.rays();
+            rays.count = 0;
+            for (const Run& run : sorted_.runs())
+                if (run.material->diffuse > 0.0 ||
+                    (run.material->specular > 0.0 && light.kind != core::LightKind::sky))
+                    shade_.soft_light(run, light, 1.0 / static_cast<double>(samples), light_u_,
+                                      light_v_, surfaces_, rays);
+            if (rays.count == 0) continue;
+            look_at_lights();
+            shadows_.trace_softly(counters_);
+            add_what_arrives();
+        }
+    }
+}
+
+void Wavefront::add_what_arrives() {
+    const SpawnedRays& rays = shadows_.rays();
+    for (std::size_t k = 0; k < rays.count; ++k)
+        if (shadows_.arrives(k))
+            add(paths_.sample[sorted_.order()[static_cast<std::size_t>(rays.parent[k])]],
+                rays.weight[0][k], rays.weight[1][k], rays.weight[2][k]);
 }
 
 void Wavefront::spawn(int depth) {
@@ -422,7 +488,7 @@ void Wavefront::spawn(int depth) {
     counters_.reflected += reflected.count;
     counters_.refracted += transmitted_.count;
     if (depth == 0)
-        second_coherence_ = transmitted_.count == 0
+        second_coherence_ = transmitted_.count == 0 && !camera_rays_.has_lens()
                                 ? coherence_off_mirror(camera_, scene_, surfaces_, sorted_.order(),
                                                        finder_.hits().slot, reflected)
                                 : neighbours;

@@ -71,7 +71,10 @@ class Wavefront {
     void see_background();
     void shade(int depth);
     void fill_media();
+    void look_at_lights();
     void add_lights();
+    void add_soft_lights(int depth);
+    void add_what_arrives();
     void spawn(int depth);
     void add_to_next(const SpawnedRays& spawned, bool through);
     void split_next(int depth);
@@ -102,9 +105,12 @@ class Wavefront {
     double* way_ = nullptr;                                // HitPaths::way, where it differs from t
     double* across_ = nullptr;
     double* upward_ = nullptr;
-    double* radiance_[3] = {};      // by sample
-    std::size_t filled_ = 0;        // samples of the chunk
-    std::vector<core::Vec3d> sums_; // by pixel of the region
+    double* lens_right_ = nullptr; // if there is a lens
+    double* lens_up_ = nullptr;
+    double* radiance_[3] = {};            // by sample
+    std::vector<core::SampleName> names_; // by sample
+    std::size_t filled_ = 0;              // samples of the chunk
+    std::vector<core::Vec3d> sums_;       // by pixel of the region
 
     // If the picture has a quality.
     std::optional<core::RegionSamples> to_quality_;
@@ -112,8 +118,12 @@ class Wavefront {
     std::vector<double> first_t_;
     // A wave, sorted.
     HitSorter sorted_;
-    bool coherent_ = false; ///< it was hit by rays from the camera
+    bool coherent_ = false; // it was hit by rays from the camera
+    bool looked_ = false;   // ShadowTracer::look_at
     Surfaces surfaces_{};
+    double* light_u_ = nullptr; // by position, if there are lights with a size
+    double* light_v_ = nullptr;
+    std::vector<std::uint64_t> light_keys_;
     MediumColumns media_{};
     SpawnedRays transmitted_{};
 };

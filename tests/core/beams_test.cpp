@@ -67,7 +67,7 @@ void look(const Scene& scene, Random& random, Counts& counts) {
                 return random.integer(0, 4) == 0 ? random.integer(0, 1) * side
                                                  : random.uniform(0.0, side);
             };
-            const Ray<double> ray = camera.ray(x, y, {place(), place()});
+            const Ray<double> ray = camera.ray({x, y, 0}, {place(), place()});
             const Hit<double> hit = tracer.nearest(ray, {}).hit;
             if (k == 0) first = hit;
             if (hit.shape != first.shape || hit.face != first.face) ++counts.mixed;
@@ -127,10 +127,12 @@ TEST_CASE("a beam on a mirror follows what it shows", "[long]") {
             const Square square{static_cast<double>(x), static_cast<double>(y), 1.0};
             if (beams.sight_of(square, std::numeric_limits<double>::infinity()) != Sight::even)
                 continue;
-            const double middle = tracer.trace(camera.ray(x, y, {0.5, 0.5})).x;
+            const double middle = tracer.trace(camera.ray({x, y, 0}, {0.5, 0.5})).x;
             double sum = 0.0;
             for (int k = 0; k < 64; ++k)
-                sum += tracer.trace(camera.ray(x, y, {(k % 8 + 0.5) / 8.0, (k / 8 + 0.5) / 8.0})).x;
+                sum +=
+                    tracer.trace(camera.ray({x, y, 0}, {(k % 8 + 0.5) / 8.0, (k / 8 + 0.5) / 8.0}))
+                        .x;
             ++even;
             off += std::abs(sum / 64.0 - middle) > 0.01 ? 1 : 0;
         }

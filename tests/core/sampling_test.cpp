@@ -28,14 +28,49 @@ TEST_CASE("points of a pixel's sequence are spread over it, wherever one begins"
         for (int power = 0; power <= 10; ++power) {
             const std::uint32_t count = 1U << power;
             for (const std::uint32_t first : {0U, count, 5U * count}) {
-                std::vector<SamplePoint> points;
-                for (std::uint32_t i = 0; i < count; ++i)
-                    points.push_back(sequence_point(pixel, 3 * pixel, first + i));
-                for (int across = 0; across <= power; ++across)
+                std::vector<SamplePoint> points, shuffled;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const std::uint64_t key = sequence_key(pixel, 3 * pixel, 0);
+                    points.push_back(sequence_point(key, first + i));
+                    shuffled.push_back(shuffled_point(key, first + i));
+                }
+                for (int across = 0; across <= power; ++across) {
                     CHECK(is_net(points, 1 << across, 1 << (power - across)));
+                    CHECK(is_net(shuffled, 1 << across, 1 << (power - across)));
+                }
             }
         }
-    CHECK(sequence_point(3, 4, 5).x != sequence_point(4, 3, 5).x);
+    const auto first_of = [](std::uint32_t x, std::uint32_t y, std::uint32_t use) {
+        return sequence_point(sequence_key(x, y, use), 5).x;
+    };
+    CHECK(first_of(3, 4, 0) != first_of(4, 3, 0));
+    CHECK(first_of(3, 4, 0) != first_of(3, 4, 1));
+}
+
+/// Else a picture has what one side of the lens sees on one side of its pixels.
+TEST_CASE("shuffled points of one sequence say nothing of another's") {
+    constexpr std::uint32_t pixels = 256, count = 64, grid = 8;
+    const auto side = [](double x) { return x < 0.5 ? -1.0 : 1.0; };
+    double with_sequence = 0.0, with_column = 0.0, with_row = 0.0; // squares of correlations
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+        double sequence = 0.0, column = 0.0, row = 0.0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double here = side(static_cast<double>(
+                shuffled_point(sequence_key(pixel, 0, SequenceUse::on_lens), i).x));
+            const double there = static_cast<double>(
+                sequence_point(sequence_key(pixel, 0, SequenceUse::in_pixel), i).x);
+            sequence += here * side(there) / count;
+            column += here * side((i % grid + 0.5) / grid) / count;
+            row += here * side((i / grid + 0.5) / grid) / count;
+        }
+        with_sequence += sequence * sequence / pixels;
+        with_column += column * column / pixels;
+        with_row += row * row / pixels;
+    }
+    // Of what has the same order it is 1; of what has nothing in common, 1 / 64.
+    CHECK(with_sequence < 0.05);
+    CHECK(with_column < 0.05);
+    CHECK(with_row < 0.05);
 }
 
 TEST_CASE("a filter's samples have its density") {

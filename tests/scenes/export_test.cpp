@@ -87,14 +87,21 @@ TEST_CASE("every value of a scene goes into JSON") {
     const tests::TemporaryDirectory directory;
     const core::Scene scene = tests::scene_of(R"({
         "camera": {"type": "orthographic", "from": [0.1, 2, 9], "at": [0, 1, 0], "up": [0, 1, 0.2],
-                   "height": 3.3},
+                   "height": 3.3, "lens_radius": 0.25, "focus_distance": 7.5},
         "image": {"width": 30, "height": 20, "transfer": "linear"},
-        "sampling": {"grid": 3, "pattern": "stratified", "quality": 41, "filter": "blackman-harris"},
+        "sampling": {"grid": 3, "pattern": "stratified", "quality": 41, "filter": "blackman-harris",
+                     "light_samples": 3},
         "limits": {"max_depth": 3, "min_weight": 0.03},
         "background": [0.1, 0.2, 0.3],
         "fog": {"type": "exponential", "density": 0.05, "color": [1, 0, 0.5]},
         "lights": [{"type": "directional", "direction": [1, -2, 0.1], "color": [2, 1, 1]},
-                   {"type": "point", "position": [3, 4, 5]}],
+                   {"type": "point", "position": [3, 4, 5]},
+                   {"type": "sky", "direction": [0, -1, -1], "color": [1, 2, 3],
+                    "ground": [0.1, 0.2, 0.3], "reach": 8.5},
+                   {"type": "sphere", "position": [3, 4, 5], "radius": 0.75},
+                   {"type": "disc", "position": [3, 4, 6], "direction": [0, 0, -1], "radius": 1.25},
+                   {"type": "rectangle", "position": [3, 4, 7], "edge_u": [1, 0, 0],
+                    "edge_v": [0, 2.5, 0]}],
         "materials": {
             "s": {"pattern": {"type": "stripes", "colors": [[1, 0, 0], [0, 1, 0]], "width": 0.3,
                               "direction": [1, 2, 3]}, "visible": "inside"},
@@ -127,9 +134,12 @@ TEST_CASE("every value of a scene goes into JSON") {
     CHECK(text_of(twice) == text_of(copy));
     for (const char* part :
          {R"("transfer": "linear")", R"("pattern": "stratified")", R"("height": 3.3)",
-          R"("axes": "yz")", R"("visible": "inside")", R"("visible": "outside")",
-          R"("reflection": "schlick")", R"("reflection": "dielectric")", R"("density": 0.05)",
-          R"("absorption": [0.1, 0.2, 0.3])", R"("direction": [1, -2, 0.1])"}) {
+          R"("lens_radius": 0.25)", R"("focus_distance": 7.5)", R"("light_samples": 3)",
+          R"("reach": 8.5)", R"("radius": 0.75)", R"("radius": 1.25)",
+          R"("ground": [0.1, 0.2, 0.3])", R"("edge_v": [0, 2.5, 0])", R"("axes": "yz")",
+          R"("visible": "inside")", R"("visible": "outside")", R"("reflection": "schlick")",
+          R"("reflection": "dielectric")", R"("density": 0.05)", R"("absorption": [0.1, 0.2, 0.3])",
+          R"("direction": [1, -2, 0.1])"}) {
         CAPTURE(part);
         CHECK(text_of(copy).find(part) != std::string::npos);
     }

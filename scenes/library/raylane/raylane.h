@@ -90,7 +90,14 @@ typedef struct raylane_ellipsoid {
 enum { RAYLANE_SOLID, RAYLANE_CHECKER, RAYLANE_STRIPES, RAYLANE_GRADIENT, RAYLANE_BACK_PLANE };
 enum { RAYLANE_CONSTANT, RAYLANE_SCHLICK, RAYLANE_DIELECTRIC };
 enum { RAYLANE_BOTH_SIDES, RAYLANE_OUTSIDE, RAYLANE_INSIDE };
-enum { RAYLANE_POINT_LIGHT, RAYLANE_DIRECTIONAL_LIGHT };
+enum {
+    RAYLANE_POINT_LIGHT,
+    RAYLANE_DIRECTIONAL_LIGHT,
+    RAYLANE_SKY_LIGHT,
+    RAYLANE_SPHERE_LIGHT,
+    RAYLANE_DISC_LIGHT,
+    RAYLANE_RECTANGLE_LIGHT
+};
 enum { RAYLANE_NO_FOG, RAYLANE_LINEAR_Z_FOG, RAYLANE_LINEAR_FOG, RAYLANE_EXPONENTIAL_FOG };
 enum { RAYLANE_PERSPECTIVE, RAYLANE_ORTHOGRAPHIC };
 enum { RAYLANE_SRGB, RAYLANE_LINEAR };
@@ -116,6 +123,9 @@ typedef struct raylane_material {
 typedef struct raylane_light {
     uint8_t kind;
     raylane_vec3 position, direction, color;
+    float radius;
+    raylane_vec3 edge_u, edge_v, ground;
+    float reach;
 } raylane_light;
 
 typedef struct raylane_fog {
@@ -127,7 +137,7 @@ typedef struct raylane_fog {
 typedef struct raylane_camera {
     uint8_t projection;
     raylane_vec3 from, at, up;
-    float field_of_view, height;
+    float field_of_view, height, lens_radius, focus_distance;
 } raylane_camera;
 
 typedef struct raylane_settings {
@@ -136,6 +146,7 @@ typedef struct raylane_settings {
     int max_depth;
     float min_weight, quality;
     uint8_t filter;
+    int light_samples;
 } raylane_settings;
 
 /** The values that C++ starts with. */

@@ -4,19 +4,34 @@
 #include "raylane/vector.hpp"
 
 #include <cstdint>
+#include <limits>
 
 /// Contents of a scene besides its shapes: lights, fog, the camera, and the settings of the
 /// picture.
 namespace RAYLANE_API raylane {
 
-enum class LightKind : std::uint8_t { point, directional };
+enum class LightKind : std::uint8_t { point, directional, sky, sphere, disc, rectangle };
 
-/// A light has no size and does not fade with distance. It casts shadows.
+/// A light casts shadows; what it is itself is not seen. A point or a directional light has no size
+/// and does not fade with distance. Of the others `color` is the radiance, in all directions and of
+/// both sides: a diffuse surface shows as much of it as they fill of the hemisphere above it, by
+/// the cosine of their angle to it. A sky of one colour that nothing hides is as bright as a light
+/// without a size straight above.
 struct Light {
     LightKind kind = LightKind::point;
-    Vec3 position{};                   ///< point: where it is; not on a surface
-    Vec3 direction{0.0F, -1.0F, 0.0F}; ///< directional: where the light travels to, not zero
-    Color color{1.0F, 1.0F, 1.0F};     ///< >= 0
+    Vec3 position{}; ///< point: where it is, not on a surface; sphere, disc: middle; rectangle:
+                     ///< corner
+    /// directional: where the light travels to; sky: the same from the zenith; disc: its normal.
+    /// Any length but zero.
+    Vec3 direction{0.0F, -1.0F, 0.0F};
+    Color color{1.0F, 1.0F, 1.0F}; ///< >= 0; sky: of the zenith
+    float radius = 1.0F;           ///< sphere, disc: > 0, in units of length
+    Vec3 edge_u{1.0F, 0.0F, 0.0F}; ///< rectangle: from the corner along its edges, which are
+    Vec3 edge_v{0.0F, 0.0F, 1.0F}; ///< perpendicular
+    Color ground{1.0F, 1.0F,
+                 1.0F}; ///< sky: the colour of the nadir, >= 0; in between it changes evenly
+    /// sky: what is farther away than that, > 0, does not shade a surface from it.
+    float reach = std::numeric_limits<float>::infinity();
 };
 
 enum class FogKind : std::uint8_t {
@@ -47,6 +62,10 @@ struct Camera {
     /// perspective: degrees from the picture's lower to its upper edge, in (0, 180)
     float field_of_view = 45.0F;
     float height = 2.0F; ///< orthographic: of the picture, > 0, in units of length
+    /// Of a thin lens, in units of length, that blurs what is not in focus; 0: a pinhole.
+    float lens_radius = 0.0F;
+    /// From the lens to the plane that is sharp, in units of length; 0: it goes through `at`.
+    float focus_distance = 0.0F;
 };
 
 /// Transfer from linear RGB to the 8 bits of a PNG file: the curve of IEC 61966-2-1, or none.
@@ -74,6 +93,8 @@ struct Settings {
     /// each pixel gets the samples that it needs, and `grid` and `samples` do not count.
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
+    /// Rays to each light with a size, from each point that a sample sees, 1 to 4096.
+    int light_samples = 8;
     Transfer transfer = Transfer::srgb; ///< for write_image
     int max_depth = 8;                  ///< reflections and refractions on one path, 0 to 1000
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]

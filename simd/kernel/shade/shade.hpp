@@ -172,21 +172,62 @@ struct Shading {
             const V normal = load(surfaces.normal, i);
             const F cos_light = max(dot<Arch>(normal, to_light), zero);
             V share = scaled(F(material.diffuse) * cos_light, load(surfaces.own, i));
-            if (material.specular > 0.0) {
-                const V halfway = to_light - load(surfaces.direction, i);
-                const F squared = squared_length<Arch>(halfway);
-                const F cosine_of_halfway = max(dot<Arch>(normal, halfway) / sqrt(squared), zero);
-                const F highlight = select(
-                    squared > zero,
-                    F(material.specular) * core::Elementary<F>::pow(min(cosine_of_halfway, F(1.0)),
-                                                                    F(material.exponent)),
-                    zero);
-                share = share + V{highlight, highlight, highlight};
-            }
+            if (material.specular > 0.0)
+                share = share + highlight(material, normal, to_light, load(surfaces.direction, i));
             wanted &= Lanes<Arch>::bits((share.x > zero) | (share.y > zero) | (share.z > zero));
             const V weight = product(product(load(surfaces.throughput, i), share),
                                      broadcast_vector<Arch>(light.color));
             Lanes<Arch>::compress_store(shadows.distance + shadows.count, distance, wanted);
+            append(shadows, wanted, point, to_light, weight, numbers_from(i));
+        }
+    }
+
+    /// Blinn's, of light from a direction.
+    static V highlight(const MaterialView& material, const V& normal, const V& to_light,
+                       const V& incident) {
+        const F zero(0.0);
+        const V halfway = to_light - incident;
+        const F squared = squared_length<Arch>(halfway);
+        const F cosine = max(dot<Arch>(normal, halfway) / sqrt(squared), zero);
+        const F share =
+            select(squared > zero,
+                   F(material.specular) *
+                       core::Elementary<F>::pow(min(cosine, F(1.0)), F(material.exponent)),
+                   zero);
+        return {share, share, share};
+    }
+
+    static void soft_light(const Run& run, const core::SoftLight& light, double part,
+                           const double* us, const double* vs, const Surfaces& surfaces,
+                           SpawnedRays& shadows) {
+        const MaterialView& material = *run.material;
+        const F zero(0.0);
+        const bool is_sky = light.kind == core::LightKind::sky;
+        const core::SoftLightSampler<F> sampler(light);
+        for (std::size_t i = run.begin; i < run.end; i += lanes) {
+            const V point = load(surfaces.point, i), normal = load(surfaces.normal, i);
+            const core::LightSample<F> sample =
+                sampler.sample({point.x, point.y, point.z}, {normal.x, normal.y, normal.z},
+                               load(us + i), load(vs + i));
+            const V to_light{sample.direction.x, sample.direction.y, sample.direction.z};
+            const M facing = dot<Arch>(load(surfaces.flat_normal, i), to_light) > zero;
+            std::uint32_t wanted = Lanes<Arch>::bits(facing) & present(i, run.end);
+            if (wanted == 0) continue;
+
+            const F cosine = is_sky ? F(1.0) : max(dot<Arch>(normal, to_light), zero);
+            V share = scaled(F(material.diffuse) * cosine, load(surfaces.own, i));
+            V radiance = broadcast_vector<Arch>(light.color);
+            if (is_sky) {
+                const V ground = broadcast_vector<Arch>(light.ground);
+                radiance = mul_add<Arch>(sample.height, radiance - ground, ground);
+            } else if (material.specular > 0.0) {
+                share = share + highlight(material, normal, to_light, load(surfaces.direction, i));
+            }
+            const V weight = product(product(load(surfaces.throughput, i), share),
+                                     scaled(F(part) * sample.share, radiance));
+            wanted &= Lanes<Arch>::bits((weight.x > zero) | (weight.y > zero) | (weight.z > zero));
+            if (wanted == 0) continue;
+            Lanes<Arch>::compress_store(shadows.distance + shadows.count, sample.distance, wanted);
             append(shadows, wanted, point, to_light, weight, numbers_from(i));
         }
     }
@@ -251,7 +292,7 @@ struct Shading {
     /// Kernels that do not depend on media or fog are made once.
     static constexpr ShadeKernels table() {
         return {surfaces, Shading<Arch, false, false>::light,
-                Shading<Arch, with_media, false>::spawn};
+                Shading<Arch, false, false>::soft_light, Shading<Arch, with_media, false>::spawn};
     }
 };
 

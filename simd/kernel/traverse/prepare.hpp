@@ -16,8 +16,8 @@ struct Prepare : Streams<Arch> {
 
     /// core::CameraRays, in double.
     static void camera_rays(const CameraView& camera, std::size_t count, const double* across,
-                            const double* upward, double* const origin[3],
-                            double* const direction[3]) {
+                            const double* upward, const double* lens_right, const double* lens_up,
+                            double* const origin[3], double* const direction[3]) {
         const auto broadcast = [](const double(&v)[3]) {
             return Vectors<D>{Number(v[0]), Number(v[1]), Number(v[2])};
         };
@@ -28,8 +28,16 @@ struct Prepare : Streams<Arch> {
             const Number y = Number::load_unaligned(upward + i);
             const Vectors<D> offset{x * right.x + y * up.x, x * right.y + y * up.y,
                                     x * right.z + y * up.z};
-            const Vectors<D> o = camera.orthographic ? from + offset : from;
-            const Vectors<D> d = camera.orthographic ? forward : normalized<D>(forward + offset);
+            Vectors<D> o = camera.orthographic ? from + offset : from;
+            Vectors<D> d = camera.orthographic ? forward : normalized<D>(forward + offset);
+            if (lens_right != nullptr) {
+                const Vectors<D> aside = mul_add<D>(
+                    Number::load_unaligned(lens_right + i), broadcast(camera.lens_right),
+                    scaled(Number::load_unaligned(lens_up + i), broadcast(camera.lens_up)));
+                const Vectors<D> sharp = camera.orthographic ? forward : forward + offset;
+                o = o + aside;
+                d = normalized<D>(mul_add<D>(Number(camera.focus), sharp, -aside));
+            }
             const Number* const values[] = {&o.x, &o.y, &o.z, &d.x, &d.y, &d.z};
             double* const columns[] = {origin[0],    origin[1],    origin[2],
                                        direction[0], direction[1], direction[2]};

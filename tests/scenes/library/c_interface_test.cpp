@@ -151,6 +151,10 @@ TEST_CASE("C has the defaults of C++") {
     CHECK(raylane_default_camera().field_of_view == Camera{}.field_of_view);
     CHECK(raylane_default_fog().end == Fog{}.end);
     CHECK(raylane_default_light().direction.y == Light{}.direction.y);
+    CHECK(raylane_default_light().edge_v.z == Light{}.edge_v.z);
+    CHECK(raylane_default_light().reach == Light{}.reach);
+    CHECK(raylane_default_camera().focus_distance == Camera{}.focus_distance);
+    CHECK(raylane_default_settings().light_samples == Settings{}.light_samples);
     CHECK(raylane_default_settings().max_depth == Settings{}.max_depth);
 }
 

@@ -68,7 +68,9 @@ TEST_CASE("everything else comes back as it was given") {
                       .at = {4, 5, 6.5F},
                       .up = {0, 0, 2},
                       .field_of_view = 30,
-                      .height = 3.5F};
+                      .height = 3.5F,
+                      .lens_radius = 0.5F,
+                      .focus_distance = 6};
     builder.background = {0.1F, 0.2F, 0.3F};
     builder.fog = {
         .kind = FogKind::linear_z, .color = {0.4F, 0.5F, 0.6F}, .start = 7, .end = 8, .density = 9};
@@ -78,11 +80,15 @@ TEST_CASE("everything else comes back as it was given") {
                         .samples = SamplePattern::stratified,
                         .quality = 40,
                         .filter = PixelFilter::gaussian,
+                        .light_samples = 3,
                         .transfer = Transfer::linear,
                         .max_depth = 5,
                         .min_weight = 0.25F};
     builder.add_light({.position = {1, 2, 3}, .color = {4, 5, 6}});
     builder.add_light({.kind = LightKind::directional, .direction = {7, 8, 9}});
+    builder.add_light({.kind = LightKind::sky, .ground = {0.5F, 0.25F, 0}, .reach = 4});
+    builder.add_light(
+        {.kind = LightKind::rectangle, .radius = 2, .edge_u = {0, 3, 0}, .edge_v = {4, 0, 0}});
     builder.add_material({});
     const MaterialIndex m = builder.add_material({.pattern = {.kind = PatternKind::gradient,
                                                               .colors = {{1, 2, 3}, {4, 5, 6}},
@@ -111,6 +117,7 @@ TEST_CASE("everything else comes back as it was given") {
     CHECK(camera.up == Vec3{0, 0, 2});
     CHECK(camera.field_of_view == 30);
     CHECK(camera.height == 3.5F);
+    CHECK((camera.lens_radius == 0.5F && camera.focus_distance == 6));
     CHECK(scene.background() == Vec3{0.1F, 0.2F, 0.3F});
     const Fog fog = scene.fog();
     CHECK(fog.kind == FogKind::linear_z);
@@ -121,16 +128,24 @@ TEST_CASE("everything else comes back as it was given") {
     CHECK(settings.samples == SamplePattern::stratified);
     CHECK(settings.quality == 40);
     CHECK(settings.filter == PixelFilter::gaussian);
+    CHECK(settings.light_samples == 3);
     CHECK(settings.transfer == Transfer::linear);
     CHECK((settings.max_depth == 5 && settings.min_weight == 0.25F));
 
     const std::vector<Light> lights = scene.lights();
-    REQUIRE(lights.size() == 2);
+    REQUIRE(lights.size() == 4);
     CHECK(lights[0].kind == LightKind::point);
     CHECK(lights[0].position == Vec3{1, 2, 3});
     CHECK(lights[0].color == Vec3{4, 5, 6});
     CHECK(lights[1].kind == LightKind::directional);
     CHECK(lights[1].direction == Vec3{7, 8, 9});
+    CHECK(lights[2].kind == LightKind::sky);
+    CHECK(lights[2].ground == Vec3{0.5F, 0.25F, 0});
+    CHECK(lights[2].reach == 4);
+    CHECK(lights[3].kind == LightKind::rectangle);
+    CHECK(lights[3].radius == 2);
+    CHECK(lights[3].edge_u == Vec3{0, 3, 0});
+    CHECK(lights[3].edge_v == Vec3{4, 0, 0});
 
     REQUIRE(scene.material_count() == 2);
     CHECK(scene.material_of(0) == m);
@@ -330,7 +345,7 @@ TEST_CASE("a number that is no enumerator is refused") {
     CHECK(material({.reflection = static_cast<Reflection>(3)}).starts_with("reflection: must be"));
     CHECK(material({.visible = static_cast<Visible>(255)}).starts_with("visible: must be"));
     CHECK(message([&] {
-              builder.add_light({.kind = static_cast<LightKind>(2)});
+              builder.add_light({.kind = static_cast<LightKind>(6)});
           }).starts_with("kind: must be"));
     const auto built = [&](auto change) {
         SceneBuilder wrong;

@@ -92,6 +92,8 @@ TEST_CASE("an option's value that is none is told in one line") {
         {{"--spp", "66049"}, spp + "\"66049\""},
         {{"--spp", "4.0"}, spp + "\"4.0\""},
         {{"--filter", "tent"}, "--filter: must be box, gaussian or blackman-harris, got \"tent\""},
+        {{"--light-samples", "0"},
+         "--light-samples: must be a whole number from 1 to 4096, got \"0\""},
         {{"--quality", "5"}, "--quality: must be a number from 10 to 80, got \"5\""},
         {{"--quality", "best"}, "--quality: must be a number from 10 to 80, got \"best\""},
         {{"--quality", "40", "--spp", "4"}, "--quality: goes without --spp"},
