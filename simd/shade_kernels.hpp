@@ -96,6 +96,11 @@ struct ShadeKernels {
     void (*light)(const Run& run, const LightView& light, const Surfaces& surfaces,
                   SpawnedRays& shadows);
 
+    /// Points in [0, 1)^2: core::shuffled_point of keys and of the numbers that are `more` than
+    /// these.
+    void (*light_points)(std::size_t count, const std::uint64_t* keys, const std::uint32_t* numbers,
+                         std::uint32_t more, double* u, double* v);
+
     /// The same to points of a light with a size: (u, v), by position, says which, and each sample
     /// counts for `part` of the light.
     void (*soft_light)(const Run& run, const core::SoftLight& light, double part, const double* u,

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/sample_sequence.hpp"
 #include "core/scene/pixel_filter.hpp"
-#include "core/scene/sample_sequence.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/ray.hpp"
 

@@ -75,6 +75,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     samples_.reserve(chunk_samples);
     names_.resize(chunk_samples);
     light_keys_.resize(scene.soft_lights().empty() ? 0 : wave_rays);
+    first_points_.resize(light_keys_.size());
     pending_.reserve(64);
     if (camera_rays_.regular())
         for (int number = 0; number < settings.grid * settings.grid; ++number)
@@ -437,18 +438,15 @@ void Wavefront::add_soft_lights(int depth) {
     const std::size_t count = sorted_.hit_count();
     for (std::uint32_t number = 0; number < lights.size(); ++number) {
         const core::SoftLight& light = lights[number];
-        for (std::size_t i = 0; i < count; ++i)
-            light_keys_[i] = core::light_key(names_[paths_.sample[sorted_.order()[i]]], depth,
-                                             number, static_cast<std::uint32_t>(lights.size()));
+        for (std::size_t i = 0; i < count; ++i) {
+            const core::SampleName& sample = names_[paths_.sample[sorted_.order()[i]]];
+            light_keys_[i] =
+                core::light_key(sample, depth, number, static_cast<std::uint32_t>(lights.size()));
+            first_points_[i] = static_cast<std::uint32_t>(sample.number) * samples;
+        }
         for (std::uint32_t k = 0; k < samples; ++k) {
-            for (std::size_t i = 0; i < count; ++i) {
-                const auto first =
-                    static_cast<std::uint32_t>(names_[paths_.sample[sorted_.order()[i]]].number);
-                const core::SamplePoint point =
-                    core::shuffled_point(light_keys_[i], first * samples + k);
-                light_u_[i] = static_cast<double>(point.x);
-                light_v_[i] = static_cast<double>(point.y);
-            }
+            shade_.light_points(count, light_keys_.data(), first_points_.data(), k, light_u_,
+                                light_v_);
             SpawnedRays& rays = shadows_.rays();
             rays.count = 0;
             for (const Run& run : sorted_.runs())

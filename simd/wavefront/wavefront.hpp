@@ -124,6 +124,7 @@ class Wavefront {
     double* light_u_ = nullptr; // by position, if there are lights with a size
     double* light_v_ = nullptr;
     std::vector<std::uint64_t> light_keys_;
+    std::vector<std::uint32_t> first_points_;
     MediumColumns media_{};
     SpawnedRays transmitted_{};
 };

@@ -1,5 +1,5 @@
+#include "core/numbers/sample_sequence.hpp"
 #include "core/scene/pixel_filter.hpp"
-#include "core/scene/sample_sequence.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 

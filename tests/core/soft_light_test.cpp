@@ -1,7 +1,7 @@
 #include "core/numbers/primitives.hpp"
+#include "core/numbers/sample_sequence.hpp"
 #include "core/numbers/vector.hpp"
 #include "core/optics/soft_light.hpp"
-#include "core/scene/sample_sequence.hpp"
 #include "core/scene/surroundings.hpp"
 #include "tests/catch.hpp"
 #include "tests/random.hpp"

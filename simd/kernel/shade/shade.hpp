@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/numbers/sample_sequence.hpp"
 #include "simd/kernel/shade/optics.hpp"
 #include "simd/kernel/shade/patterns.hpp"
 #include "simd/kernels.hpp"
@@ -197,6 +198,17 @@ struct Shading {
         return {share, share, share};
     }
 
+    /// Compilers make registers of this loop.
+    static void light_points(std::size_t count, const std::uint64_t* keys,
+                             const std::uint32_t* numbers, std::uint32_t more, double* u,
+                             double* v) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const core::SamplePoint point = core::shuffled_point(keys[i], numbers[i] + more);
+            u[i] = static_cast<double>(point.x);
+            v[i] = static_cast<double>(point.y);
+        }
+    }
+
     static void soft_light(const Run& run, const core::SoftLight& light, double part,
                            const double* us, const double* vs, const Surfaces& surfaces,
                            SpawnedRays& shadows) {
@@ -292,7 +304,8 @@ struct Shading {
     /// Kernels that do not depend on media or fog are made once.
     static constexpr ShadeKernels table() {
         return {surfaces, Shading<Arch, false, false>::light,
-                Shading<Arch, false, false>::soft_light, Shading<Arch, with_media, false>::spawn};
+                Shading<Arch, false, false>::light_points, Shading<Arch, false, false>::soft_light,
+                Shading<Arch, with_media, false>::spawn};
     }
 };
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+/// Points of squares that samples choose, for scalars and, as all of it is inlined, kernels.
 namespace raylane::core {
 
 /// A point of [0, 1)^2.
@@ -18,7 +19,7 @@ struct SampleName {
 
 namespace detail {
 
-constexpr std::uint32_t reversed_bits(std::uint32_t x) {
+[[gnu::always_inline]] constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = x >> 16 | x << 16;
     x = (x & 0xFF00FF00U) >> 8 | (x & 0x00FF00FFU) << 8;
     x = (x & 0xF0F0F0F0U) >> 4 | (x & 0x0F0F0F0FU) << 4;
@@ -28,13 +29,18 @@ constexpr std::uint32_t reversed_bits(std::uint32_t x) {
 
 /// Each bit is flipped or not by a hash of those below it: Laine and Karras, "Stratified sampling
 /// for stochastic transparency" (2011), with the constants of Vegdahl (2021).
-constexpr std::uint32_t flipped_by_lower(std::uint32_t x, std::uint32_t seed) {
+[[gnu::always_inline]] constexpr std::uint32_t flipped_by_lower(std::uint32_t x,
+                                                                std::uint32_t seed) {
     x ^= x * 0x3D20ADEAU;
     x += seed;
     x *= (seed >> 16) | 1U;
     x ^= x * 0x05526C56U;
     x ^= x * 0x53A22864U;
     return x;
+}
+
+[[gnu::always_inline]] constexpr float scrambled(std::uint32_t reversed, std::uint32_t seed) {
+    return static_cast<float>(reversed_bits(flipped_by_lower(reversed, seed)) >> 8) * 0x1p-24F;
 }
 
 } // namespace detail
@@ -55,7 +61,8 @@ inline std::uint64_t sequence_key(std::uint32_t x, std::uint32_t y, std::uint32_
 /// it by a hash of the key (Burley, "Practical Hash-based Owen Scrambling", 2020). The first 2^k of
 /// them have one in each cell of every division of the square into 2^k equal rectangles, and so has
 /// each 2^k that follow.
-inline SamplePoint sequence_point(std::uint64_t key, std::uint32_t number) {
+[[gnu::always_inline]] constexpr SamplePoint sequence_point(std::uint64_t key,
+                                                            std::uint32_t number) {
     // Sobol's second matrix, Pascal's triangle: each bit is the sum of those at all places that
     // have its place's bits.
     std::uint32_t second = number;
@@ -64,17 +71,14 @@ inline SamplePoint sequence_point(std::uint64_t key, std::uint32_t number) {
     second ^= second >> 4 & 0x0F0F0F0FU;
     second ^= second >> 8 & 0x00FF00FFU;
     second ^= second >> 16;
-    const auto scrambled = [](std::uint32_t reversed, std::uint32_t seed) {
-        const std::uint32_t bits = detail::reversed_bits(detail::flipped_by_lower(reversed, seed));
-        return static_cast<float>(bits >> 8) * 0x1p-24F;
-    };
-    return {scrambled(number, static_cast<std::uint32_t>(key)),
-            scrambled(second, static_cast<std::uint32_t>(key >> 32))};
+    return {detail::scrambled(number, static_cast<std::uint32_t>(key)),
+            detail::scrambled(second, static_cast<std::uint32_t>(key >> 32))};
 }
 
 /// The same points, each 2^k of them in another order: so that what has the same number in another
 /// sequence, or in a grid, says nothing of where they are.
-inline SamplePoint shuffled_point(std::uint64_t key, std::uint32_t number) {
+[[gnu::always_inline]] constexpr SamplePoint shuffled_point(std::uint64_t key,
+                                                            std::uint32_t number) {
     const auto seed = static_cast<std::uint32_t>(key * 0x9E3779B97F4A7C15ULL >> 32);
     return sequence_point(
         key, detail::reversed_bits(detail::flipped_by_lower(detail::reversed_bits(number), seed)));
