@@ -4,6 +4,7 @@ chart.sh.
     chart.py JSON methods RAYS ISA
     chart.py JSON pictures
     chart.py JSON peers
+    chart.py JSON errors
 """
 
 import json
@@ -231,6 +232,33 @@ def peers_figure(source):
     print("unset multiplot")
 
 
+def errors_figure(source):
+    with open(source) as file:
+        data = json.load(file)
+    scenes = list(dict.fromkeys(row["scene"] for row in data["rows"]))
+    begin("Time of the whole program, one thread, and what a picture of %d x %d is off by" %
+          (data["size"], data["size"]), "1,%d" % len(scenes), "seconds", "dB to its converged one")
+    print("unset logscale y\nset logscale x\nset format '%g'\nset yrange [20:60]\nset lmargin 8")
+    print("set key bottom right samplen 2 spacing 1.2 font ',9'")
+    names = {"raylane": ("raylane, as many samples in each pixel", COLORS["raylane"], 7),
+             "raylane --quality": ("raylane --quality", "#cc79a7", 5),
+             "povray": ("POV-Ray, +A +AM2 +R", COLORS["Embree"], 9),
+             "tachyon": ("Tachyon, -aasamples", COLORS["robust"], 11)}
+    for scene in scenes:
+        print("set title '%s' offset 0,-0.6" % scene)
+        plot = Plot()
+        for name, (title, color, mark) in names.items():
+            points = [(row["seconds"], row["psnr"]) for row in data["rows"]
+                      if row["scene"] == scene and row["by"] == name and row["psnr"]]
+            if points:
+                plot.add(points, "with linespoints pt %d ps 0.8 lw 1.5 lc '%s' title '%s'" %
+                         (mark, color, title))
+        plot.draw()
+        print("set key off")
+    print("unset multiplot")
+
+
 if __name__ == "__main__":
-    figures = {"methods": methods_figure, "pictures": pictures_figure, "peers": peers_figure}
+    figures = {"methods": methods_figure, "pictures": pictures_figure, "peers": peers_figure,
+               "errors": errors_figure}
     figures[sys.argv[2]](sys.argv[1], *sys.argv[3:])

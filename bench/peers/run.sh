@@ -3,16 +3,18 @@
 # same rays, the same threads, medians of several runs. Prints one table.
 #
 #   bench/peers/run.sh [BUILD [FOLDER]]   BUILD: a Release build of raylane; default build/release.
-#                                         FOLDER: where peers.json and the scenes go; default
-#                                         build/peers
+#                                         FOLDER: where peers.json, errors.json and the scenes
+#                                         go; default build/peers
 #
 # Embree 3 or 4, where it was there when raylane was configured (Debian's libembree-dev): rays of several
 # sorts on 10 to 10,000,000 balls and on a lattice of 1,000,000 balls and sticks; building; two
 # threads; and whole pictures by raylane's wavefront with Embree's calls inside. POV-Ray 3.7 and
-# Tachyon 0.99 (Debian's povray and tachyon): whole pictures, whole processes. It wants python3.
+# Tachyon 0.99 (Debian's povray and tachyon): whole pictures, whole processes; and the same by all
+# their settings of anti-aliasing, against what these are off by. It wants python3.
 #
-# Environment: QUICK=1, to see within a minute or two that it works; SIZE, of pictures in pixels
-# (1024); REPETITIONS (5); THREADS, of whole processes (1).
+# Environment: QUICK=1, to see within some minutes that it works; SIZE, of pictures in pixels
+# (1024); ERROR_SIZE, of those that are held to converged ones (half of it); REPETITIONS (5); THREADS, of
+# whole processes (1).
 #
 # Scenes: balls, rings and tree of the Standard Procedural Databases in ../shared/scenes, where they
 # are, a sphereflake of 66,430 balls and a lattice of 16 x 16 x 16, as raylane convert writes them.
@@ -72,7 +74,17 @@ cat >"$folder/lattice-16.json" <<END
      "n": 16, "spacing": 0.16, "sphere_radius": 0.045, "strut_radius": 0.012}]
 }
 END
-for scene in sphereflake-5 lattice-16; do
+# The protein under one light, as all can draw it, and under the sky; as near as Tachyon sees it.
+protein() { # lights
+    sed -e '/"lights": \[/,/^    \],/d' -e "s/^    \"materials\"/    \"lights\": [$1],\n&/" \
+        -e 's/"from": [^]]*\]/"from": [8.4, 12.3, 46.8]/' \
+        -e 's/"field_of_view": 36/"field_of_view": 53.130102/' scenes/protein.json
+}
+lamp='{"type": "point", "position": [-60, 90, 70], "color": '
+protein "$lamp[1, 1, 1]}" >"$folder/protein.json"
+protein "{\"type\": \"sky\", \"color\": [0.9, 0.9, 0.9]}, $lamp[0.3, 0.3, 0.3]}" >"$folder/protein-sky.json"
+"$build/bin/raylane" convert "$folder/protein-sky.json" "$folder/protein-sky.nff" 2>/dev/null
+for scene in sphereflake-5 lattice-16 protein; do
     "$build/bin/raylane" convert "$folder/$scene.json" "$folder/$scene.nff" 2>/dev/null
     "$build/bin/raylane" convert "$folder/$scene.nff" "$folder/$scene.pov" 2>/dev/null
 done
@@ -106,4 +118,6 @@ all="camera scanlines mirror shadow incoherent occlusion"
 }
 python3 bench/peers/pictures.py "$folder/parts/pictures.json" "$build/bin/raylane" "$folder" \
     "$size" "${THREADS:-1}" "$repetitions"
+python3 bench/peers/errors.py "$folder/errors.json" "$build/bin/raylane" "$folder" \
+    "${ERROR_SIZE:-$((size / 2))}" "${THREADS:-1}" 1 lattice-16 sphereflake-5 protein protein-sky
 python3 bench/peers/table.py "$folder/peers.json" "$folder"/parts/*.json

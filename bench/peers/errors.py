@@ -1,0 +1,109 @@
+"""Times whole pictures against what they are off by: raylane's and the peers' that are found.
+
+    errors.py JSON RAYLANE FOLDER SIZE THREADS REPETITIONS SCENES...
+
+FOLDER holds SCENE.nff and SCENE.pov; or SCENE.json and SCENE.nff of a scene under the sky, which Tachyon
+gets by its options. Each program's pictures, of 8 bits, are compared with its own converged one, as
+no two of them shade quite alike. Rows go to JSON: {"scene", "by", "setting", "seconds", "psnr"}.
+"""
+
+import json
+import os
+import pathlib
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+
+output, raylane, folder, size, threads, repetitions = sys.argv[1:7]
+folder = pathlib.Path(folder)
+
+
+class Program:
+    """`command` makes of a scene, options and the picture's name what draws it."""
+
+    def __init__(self, name, command, settings, truth):
+        self.name, self.command, self.settings, self.truth = name, command, settings, truth
+
+    def draw(self, scene, options, picture):
+        start = time.perf_counter()
+        done = subprocess.run(self.command(scene, options, str(picture)), stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, env={**os.environ, "HOME": str(folder)})
+        passed = time.perf_counter() - start
+        if done.returncode != 0:
+            sys.exit("run.sh: %s failed:\n%s" %
+                     (self.name, done.stdout.decode(errors="replace")[-2000:]))
+        return passed
+
+
+def file_of(scene, ending):
+    return str(folder / (scene + ending))
+
+
+def programs(scene):
+    under_sky = not pathlib.Path(file_of(scene, ".pov")).exists()
+    source = ".json" if under_sky else ".nff"
+    every = []
+    for name, settings in (
+            ("raylane", [(str(n * n), ["--spp", str(n * n)]) for n in (1, 2, 3, 4, 6, 8)]),
+            ("raylane --quality", [(str(q), ["--quality", str(q)]) for q in (30, 34, 38, 42, 46, 50)])):
+        every.append(Program(
+            name, lambda scene, options, picture: [
+                raylane, "render", file_of(scene, source), "-o", picture, "--size",
+                size + "x" + size, "--threads", threads] + options,
+            settings, ["--spp", "1024"]))
+    if shutil.which("povray") and not under_sky:
+        every.append(Program(
+            "povray", lambda scene, options, picture: [
+                "povray", "+I" + file_of(scene, ".pov"), "+O" + picture, "+FN", "+W" + size,
+                "+H" + size, "-J", "-D", "-V", "+WT" + threads] + options,
+            [("+A" + a + " +AM2 +R" + r, ["+A" + a, "+AM2", "+R" + r])
+             for a, r in (("0.3", "2"), ("0.1", "2"), ("0.1", "3"), ("0.03", "3"), ("0.01", "3"))],
+            ["+A0.0", "+AM2", "+R5"]))
+    if shutil.which("tachyon"):
+        sky = ["-add_skylight", "0.9", "-skylight_samples", "16"] if under_sky else []
+        every.append(Program(
+            "tachyon", lambda scene, options, picture: [
+                "tachyon", file_of(scene, ".nff"), "-res", size, size, "-numthreads", threads,
+                "-fullshade", "-raydepth", "5", "-format", "PNG", "-o", picture] + sky + options,
+            [(str(n), ["-aasamples", str(n)]) for n in (0, 3, 8, 15, 35)],
+            ["-aasamples", "400" if under_sky else "1023"]))
+    return every
+
+
+def psnr(picture, truth):
+    """Decibels; raylane compare says 1 where pictures differ."""
+    said = subprocess.run([raylane, "compare", str(picture), str(truth)], stdout=subprocess.PIPE)
+    for line in said.stdout.decode().splitlines():
+        if line.startswith("PSNR"):
+            return float(line.split()[1])
+    return None  # the same picture
+
+
+def measure(scene):
+    rows, truths = [], {}
+    for program in programs(scene):
+        truth = folder / ("%s.%s.truth.png" % (scene, program.name.split()[0]))
+        if truth not in truths:
+            truths[truth] = program.draw(scene, program.truth, truth)
+        picture = folder / "picture.png"
+        for setting, options in program.settings:
+            program.draw(scene, options, picture)
+            seconds = statistics.median(
+                program.draw(scene, options, picture) for _ in range(int(repetitions)))
+            rows.append({"scene": scene, "by": program.name, "setting": setting,
+                         "seconds": seconds, "psnr": psnr(picture, truth)})
+            print("  %-14s %-18s %-18s %8.3f s %6.2f dB" %
+                  (scene, program.name, setting, seconds, rows[-1]["psnr"] or 0), flush=True)
+    return rows
+
+
+def main():
+    print("time against error: %s x %s pixels, %s thread(s)" % (size, size, threads))
+    rows = [row for scene in sys.argv[7:] for row in measure(scene)]
+    with open(output, "w") as file:
+        json.dump({"size": int(size), "rows": rows}, file, indent=2)
+
+
+main()
