@@ -47,7 +47,7 @@ def programs(scene):
     every = []
     for name, settings in (
             ("raylane", [(str(n * n), ["--spp", str(n * n)]) for n in (1, 2, 3, 4, 6, 8)]),
-            ("raylane --quality", [(str(q), ["--quality", str(q)]) for q in (30, 34, 38, 42, 46, 50)])):
+            ("raylane --quality", [(str(q), ["--quality", str(q)]) for q in (30, 36, 42, 48)])):
         every.append(Program(
             name, lambda scene, options, picture: [
                 raylane, "render", file_of(scene, source), "-o", picture, "--size",
@@ -60,7 +60,7 @@ def programs(scene):
                 "+H" + size, "-J", "-D", "-V", "+WT" + threads] + options,
             [("+A" + a + " +AM2 +R" + r, ["+A" + a, "+AM2", "+R" + r])
              for a, r in (("0.3", "2"), ("0.1", "2"), ("0.1", "3"), ("0.03", "3"), ("0.01", "3"))],
-            ["+A0.0", "+AM2", "+R5"]))
+            ["+A0.0", "+AM2", "+R4"]))
     if shutil.which("tachyon"):
         sky = ["-add_skylight", "0.9", "-skylight_samples", "16"] if under_sky else []
         every.append(Program(
@@ -68,7 +68,7 @@ def programs(scene):
                 "tachyon", file_of(scene, ".nff"), "-res", size, size, "-numthreads", threads,
                 "-fullshade", "-raydepth", "5", "-format", "PNG", "-o", picture] + sky + options,
             [(str(n), ["-aasamples", str(n)]) for n in (0, 3, 8, 15, 35)],
-            ["-aasamples", "400" if under_sky else "1023"]))
+            ["-aasamples", "400"]))
     return every
 
 

@@ -3,6 +3,7 @@
 #include "core/numbers/elementary.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace raylane::core {
@@ -13,6 +14,15 @@ namespace {
 constexpr double of_mean = 1.25;
 /// A square's other pixels may be worse where some are even, as if no less than this were not.
 constexpr double least_share = 1.0 / 16.0;
+
+/// What all of n samples have missed is some 1 / n of the pixel or less; n is this much per error
+/// that the pixel may have.
+constexpr double of_unseen = 8.0;
+
+int most_unseen_of(double tolerance) {
+    const double most = std::min<double>(RegionSamples::most_samples, of_unseen / tolerance);
+    return static_cast<int>(std::bit_floor(static_cast<unsigned>(most)));
+}
 
 /// Other rays of a beam may go a little further than its samples.
 constexpr double likely_beyond = 1.125;
@@ -36,7 +46,8 @@ RegionSamples::RegionSamples(const Scene& scene, const Settings& settings)
       tolerance_(of_mean * core::pow(10.0, -static_cast<double>(settings.quality) / 20.0)),
       is_grainy_(std::any_of(scene.lights().begin(), scene.lights().end(),
                              [](const Light& light) { return is_soft(light.kind); })),
-      is_blurred_(scene.camera().lens_radius > 0.0F), beams_(scene, settings) {}
+      is_blurred_(scene.camera().lens_radius > 0.0F), most_unseen_(most_unseen_of(tolerance_)),
+      beams_(scene, settings) {}
 
 /// What the filters of a square's pixels reach.
 Square RegionSamples::seen_by(const PixelSquare& square) const {
@@ -186,15 +197,15 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
     struct CloserLook {
         int at, halvings, least_parts;
     };
-    static constexpr CloserLook looks[] = {{16, 2, 1}, {64, 4, 3}};
-    const auto* closer =
-        std::find_if(std::begin(looks), std::end(looks), [&](const CloserLook& look) {
-            return pixel.least == most_unseen && count == look.at;
-        });
-    if (is_first_look || closer != std::end(looks)) {
+    constexpr CloserLook looks[] = {{16, 2, 1}, {64, 4, 3}};
+    const bool is_closer = pixel.least == most_unseen_ && pixel.closer_looks < std::size(looks) &&
+                           count >= looks[pixel.closer_looks].at;
+    if (is_first_look || is_closer) {
         const Square square = seen_by({x, y, 1});
         const Sight sight = beams_.surfaces_in(square, likely_beyond * samples.farthest());
-        pixel.least = sight == Sight::edge ? most_unseen : sight == Sight::step ? least_on_step : 1;
+        pixel.least = sight == Sight::edge   ? most_unseen_
+                      : sight == Sight::step ? least_on_step
+                                             : 1;
         if (is_blurred_ && sight == Sight::edge) {
             // All that its rays may meet is much more than what shows: as if all were white, and
             // half of what so many samples may miss.
@@ -207,9 +218,10 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
         // Beside one shape alone there is something, too.
         if (shown_.size() == 1) shown_.push_back(no_shape);
         std::erase_if(shown_, [&](ShapeId id) { return has_seen(samples, id); });
-        if (closer != std::end(looks) && !shown_.empty()) {
+        if (is_closer && !shown_.empty()) {
+            const CloserLook& look = looks[pixel.closer_looks++];
             in_pixel_ = beams_.shown();
-            beams_.keep_shown(square, in_pixel_, closer->halvings, closer->least_parts, shown_);
+            beams_.keep_shown(square, in_pixel_, look.halvings, look.least_parts, shown_);
             if (shown_.empty()) pixel.least = 1;
         }
         pixel.hidden_count = static_cast<int>(std::min<std::size_t>(shown_.size(), most_hidden));
@@ -217,7 +229,7 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
         if (sight == Sight::edge && beams_.shown().empty()) pixel.least = least_unknown;
         if (count >= pixel.least) return false;
     }
-    if (pixel.least != most_unseen) return true;
+    if (pixel.least != most_unseen_) return true;
     return !std::all_of(pixel.hidden.begin(), pixel.hidden.begin() + pixel.hidden_count,
                         [&](ShapeId id) { return has_seen(samples, id); });
 }

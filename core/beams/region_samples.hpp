@@ -24,8 +24,6 @@ class RegionSamples {
     /// but at the picture's right and lower edges.
     static constexpr int square_size = 16;
     static constexpr int most_samples = 1024;
-    /// Samples of a pixel in which something is known to be that none of them shows.
-    static constexpr int most_unseen = 1024;
     /// Samples of a pixel in which so much may show that it is not known.
     static constexpr int least_unknown = 64;
     /// Samples of a pixel in which a shadow or a colour may begin or end.
@@ -61,6 +59,7 @@ class RegionSamples {
         double tolerance = 0.0; ///< what its mean may be off by
         int least = 0;          ///< samples, if not all of `hidden` is seen; 0: not known yet
         int hidden_count = 0;
+        std::uint8_t closer_looks = 0;
         std::array<ShapeId, most_hidden> hidden{}; ///< that may show
     };
 
@@ -83,6 +82,8 @@ class RegionSamples {
     double tolerance_;
     bool is_grainy_;  ///< neighbours' samples differ by lights with a size, or by the lens
     bool is_blurred_; ///< by a lens
+    /// Samples of a pixel in which something may show that none of them does.
+    int most_unseen_;
     BeamTracer beams_;
     Region region_{};
     int width_ = 0;

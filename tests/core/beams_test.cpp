@@ -1,4 +1,5 @@
 #include "core/beams/beam_tracer.hpp"
+#include "core/beams/region_samples.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/random.hpp"
@@ -160,4 +161,25 @@ TEST_CASE("a beam knows what is hidden behind others, and what shows between the
     beams.keep_shown({8, 7, 1}, shown, 2, 1, asked);
     CHECK(asked == std::vector<ShapeId>{speck});
     CHECK(beams.surfaces_in({7, 8, 1}, far) != Sight::edge);
+}
+
+TEST_CASE("a speck too small to matter is let go, however long a pixel's samples differ") {
+    Builder builder;
+    builder.settings.width = builder.settings.height = 16;
+    builder.settings.quality = 50.0F;
+    builder.camera.from = {0, 0, 10};
+    builder.camera.field_of_view = 20.0F;
+    const ShapeId wall =
+        builder.add_shape(Box{{-9, -9, -1}, {18, 0, 0}, {0, 18, 0}, {0, 0, 0.5F}}, matte(0.5F));
+    builder.add_shape(Sphere{{0.05F, 0.05F, 0}, 0.001F}, matte(0.1F));
+    const Scene scene = builder.finish();
+    RegionSamples samples(scene, scene.settings());
+    samples.begin({0, 0, 16, 16});
+    const std::size_t with_speck = 7 * 16 + 8;
+    do
+        for (std::size_t pixel = 0; pixel < 256; ++pixel)
+            for (int wanted = samples.wanted(pixel), i = 0; i < wanted; ++i)
+                samples.add(pixel, {Vec3d(wanted == 1 ? 0.5 : i % 2), wall, 10.5});
+    while (samples.end_round());
+    CHECK(samples.taken(with_speck) <= 256);
 }
