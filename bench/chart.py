@@ -237,9 +237,10 @@ def errors_figure(source):
         data = json.load(file)
     scenes = list(dict.fromkeys(row["scene"] for row in data["rows"]))
     begin("Time of the whole program, one thread, and what a picture of %d x %d is off by" %
-          (data["size"], data["size"]), "1,%d" % len(scenes), "seconds", "dB to its converged one")
-    print("unset logscale y\nset logscale x\nset format '%g'\nset yrange [20:60]\nset lmargin 8")
-    print("set key bottom right samplen 2 spacing 1.2 font ',9'")
+          (data["size"], data["size"]), "%d,2" % ((len(scenes) + 1) // 2), "seconds",
+          "dB to its converged one")
+    print("unset logscale y\nset logscale x\nset format '%g'\nset yrange [15:60]\nset xrange [0.01:100]")
+    print("set lmargin 10\nset ylabel offset 0\nset key bottom right samplen 2 spacing 1.2 font ',9'")
     names = {"raylane": ("raylane, as many samples in each pixel", COLORS["raylane"], 7),
              "raylane --quality": ("raylane --quality", "#cc79a7", 5),
              "povray": ("POV-Ray, +A +AM2 +R", COLORS["Embree"], 9),

@@ -46,7 +46,7 @@ draw() { # figure, size, arguments of chart.py
 if [ -n "${PEERS:-}" ]; then
     draw peers 1200,480 "$PEERS" peers
     errors=$(dirname "$PEERS")/errors.json
-    [ ! -f "$errors" ] || draw errors 1500,420 "$errors" errors
+    [ ! -f "$errors" ] || draw errors 1100,760 "$errors" errors
     exit
 fi
 
