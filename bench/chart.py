@@ -161,7 +161,7 @@ def pictures_figure(source):
     for index, (scene, series) in enumerate(scenes.items()):
         print("set title '%s' offset 0,-0.6" % scene)
         plot = Plot()
-        if index == 0:
+        if index == len(scenes) // 2:  # below, left: there is room above its marks
             print("set key at graph 0.97,0.97 right top samplen 2 spacing 1.1 font ',9'")
         for precision, color in COLORS.items():
             points = sorted(series.get(("samples", precision), []))
