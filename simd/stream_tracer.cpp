@@ -1,45 +1,15 @@
 #include "simd/stream_tracer.hpp"
 
+#include "simd/stream/row_worker.hpp"
 #include "simd/stream/worker.hpp"
 #include "simd/threads.hpp"
 
 #include <algorithm>
-#include <new>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 namespace raylane::simd {
-
-/// A worker as long as it is used.
-class StreamTracer::Lease {
-  public:
-    explicit Lease(const StreamTracer& tracer) : tracer_(tracer) {
-        {
-            const std::lock_guard lock(tracer.mutex_);
-            if (!tracer.idle_.empty()) {
-                worker_ = std::move(tracer.idle_.back());
-                tracer.idle_.pop_back();
-            }
-        }
-        if (worker_ == nullptr)
-            worker_ =
-                std::make_unique<StreamWorker>(*tracer.data_, tracer.tracing_, tracer.shapes_);
-    }
-    ~Lease() {
-        const std::lock_guard lock(tracer_.mutex_);
-        try {
-            tracer_.idle_.push_back(std::move(worker_));
-        } catch (const std::bad_alloc&) { // one less to keep
-        }
-    }
-    Lease(const Lease&) = delete;
-    Lease& operator=(const Lease&) = delete;
-
-    StreamWorker& operator*() const { return *worker_; }
-
-  private:
-    const StreamTracer& tracer_;
-    std::unique_ptr<StreamWorker> worker_;
-};
 
 StreamTracer::StreamTracer(const core::Scene& scene, int threads, Isa isa,
                            core::Precision precision)
@@ -48,26 +18,59 @@ StreamTracer::StreamTracer(const core::Scene& scene, int threads, Isa isa,
 
 StreamTracer::~StreamTracer() = default;
 
+/// All threads get some of what there is.
+StreamTracer::Parts StreamTracer::parts_of(std::size_t count) const {
+    const int threads = threads_ > 0 ? threads_ : default_threads();
+    const std::size_t share = count / (std::size_t{4} * static_cast<std::size_t>(threads));
+    const std::size_t size = std::max(share / fewest * fewest, fewest);
+    if (threads == 1 || count <= size) return {count, 1};
+    return {size, (count + size - 1) / size};
+}
+
 /// Calls answer(worker, first, count) for ranges that together are all rays.
 template <class Answer>
 void StreamTracer::answer(std::size_t count, const Answer& answer) const {
     if (count == 0) return;
-    // All threads get some of what there is.
-    const int threads = threads_ > 0 ? threads_ : default_threads();
-    const std::size_t share = count / (std::size_t{4} * static_cast<std::size_t>(threads));
-    const std::size_t range = std::max(share / fewest * fewest, fewest);
-    if (threads == 1 || count <= range) {
-        const Lease worker(*this);
-        answer(*worker, 0, count);
+    const auto make = [&] { return std::make_unique<StreamWorker>(*data_, tracing_, shapes_); };
+    const Parts parts = parts_of(count);
+    const auto answer_part = [&](std::size_t number) {
+        const Pool<StreamWorker>::Lease worker(workers_, make);
+        const std::size_t first = number * parts.size;
+        answer(*worker, first, std::min(parts.size, count - first));
+    };
+    if (parts.count == 1) return answer_part(0);
+    on_threads(threads_, [&] { parallel_for(parts.count, answer_part); });
+}
+
+/// Calls answer(worker, first, count, rows, part) for the same, each part with rows of its own.
+template <class AnyRows, class Answer>
+void StreamTracer::answer_in_rows(std::size_t count, AnyRows& rows, const Answer& answer) const {
+    rows = {};
+    if (count == 0) return;
+    const auto make = [&] { return std::make_unique<RowWorker>(*data_, tracing_, shapes_); };
+    const Parts parts = parts_of(count);
+    std::vector<AnyRows> found(parts.count);
+    const auto answer_part = [&](std::size_t number) {
+        const Pool<RowWorker>::Lease worker(row_workers_, make);
+        const std::size_t first = number * parts.size;
+        answer(*worker, first, std::min(parts.size, count - first), found[number]);
+    };
+    if (parts.count == 1) {
+        answer_part(0);
+        rows = std::move(found[0]);
         return;
     }
-    on_threads(threads_, [&] {
-        parallel_for((count + range - 1) / range, [&](std::size_t number) {
-            const Lease worker(*this);
-            const std::size_t first = number * range;
-            answer(*worker, first, std::min(range, count - first));
+    on_threads(threads_, [&] { parallel_for(parts.count, answer_part); });
+    rows.first.reserve(count + 1);
+    for (AnyRows& part : found) {
+        const std::uint64_t before = rows.first.back();
+        for (std::size_t i = 1; i < part.first.size(); ++i)
+            rows.first.push_back(before + part.first[i]);
+        for_each_column(rows, part, [](auto& all, auto& some) {
+            all.insert(all.end(), some.begin(), some.end());
+            some = {};
         });
-    });
+    }
 }
 
 template <class Real>
@@ -84,9 +87,49 @@ void StreamTracer::occluded(const RayStream<Real>& rays, std::uint8_t* occluded)
     });
 }
 
-template void StreamTracer::nearest(const RayStream<float>&, const HitStream&) const;
-template void StreamTracer::nearest(const RayStream<double>&, const HitStream&) const;
-template void StreamTracer::occluded(const RayStream<float>&, std::uint8_t*) const;
-template void StreamTracer::occluded(const RayStream<double>&, std::uint8_t*) const;
+template <class Real>
+void StreamTracer::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                             CrossingRows& rows, CrossingCounters& counters) const {
+    std::mutex mutex;
+    answer_in_rows(
+        rays.count, rows,
+        [&](RowWorker& worker, std::size_t first, std::size_t count, CrossingRows& some) {
+            CrossingCounters counted;
+            worker.crossings(part_of(rays, first, count), wanted, some, counted);
+            const std::lock_guard lock(mutex);
+            counters += counted;
+        });
+}
+
+template <class Real>
+void StreamTracer::path_lengths(const RayStream<Real>& rays, LengthRows& rows) const {
+    answer_in_rows(rays.count, rows,
+                   [&](RowWorker& worker, std::size_t first, std::size_t count, LengthRows& some) {
+                       worker.path_lengths(part_of(rays, first, count), some);
+                   });
+}
+
+template <class Real>
+void StreamTracer::containing(const PointStream<Real>& points, SolidRows& rows) const {
+    answer_in_rows(
+        points.count, rows,
+        [&](RowWorker& worker, std::size_t first, std::size_t count, SolidRows& some) {
+            worker.containing(
+                PointStream<Real>{
+                    count, {points.at[0] + first, points.at[1] + first, points.at[2] + first}},
+                some);
+        });
+}
+
+#define RAYLANE_INSTANTIATE(Real)                                                                  \
+    template void StreamTracer::nearest(const RayStream<Real>&, const HitStream&) const;           \
+    template void StreamTracer::occluded(const RayStream<Real>&, std::uint8_t*) const;             \
+    template void StreamTracer::crossings(const RayStream<Real>&, const CrossingRequest&,          \
+                                          CrossingRows&, CrossingCounters&) const;                 \
+    template void StreamTracer::path_lengths(const RayStream<Real>&, LengthRows&) const;           \
+    template void StreamTracer::containing(const PointStream<Real>&, SolidRows&) const;
+RAYLANE_INSTANTIATE(float)
+RAYLANE_INSTANTIATE(double)
+#undef RAYLANE_INSTANTIATE
 
 } // namespace raylane::simd

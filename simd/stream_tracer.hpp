@@ -2,6 +2,8 @@
 
 #include "core/scene/scene.hpp"
 #include "simd/isa.hpp"
+#include "simd/stream/pool.hpp"
+#include "simd/stream/rows.hpp"
 #include "simd/stream/shapes_by_name.hpp"
 #include "simd/stream/streams.hpp"
 #include "simd/tracing.hpp"
@@ -9,13 +11,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
-#include <vector>
 
 namespace raylane::simd {
 
+class RowWorker;
 class SceneData;
 class StreamWorker;
+struct CrossingCounters;
+struct CrossingRequest;
 
 /// Answers streams of rays about one scene, which must outlive it. May be called by any number of
 /// threads at a time. The answer to a ray depends on the scene and that ray alone.
@@ -40,11 +43,32 @@ class StreamTracer {
     template <class Real>
     void occluded(const RayStream<Real>& rays, std::uint8_t* occluded) const;
 
-  private:
-    class Lease;
+    /// All crossings in their order, or the first ones. Rows are replaced. What counts, does so as
+    /// above; of triangles of one polygon that meet at an edge, the one with the lower id. Whatever
+    /// the precision, this and the following are exact.
+    template <class Real>
+    void crossings(const RayStream<Real>& rays, const CrossingRequest& wanted, CrossingRows& rows,
+                   CrossingCounters& counters) const;
 
+    /// How much of each ray, between its limits, is inside of each material's solids: as if these
+    /// were one solid, in the scene's unit, within an ulp. Sides that cannot be seen count.
+    template <class Real>
+    void path_lengths(const RayStream<Real>& rays, LengthRows& rows) const;
+
+    /// The solids that points are in.
+    template <class Real>
+    void containing(const PointStream<Real>& points, SolidRows& rows) const;
+
+  private:
+    /// How a call is shared out among threads: so many parts, each of so many.
+    struct Parts {
+        std::size_t size, count;
+    };
+    Parts parts_of(std::size_t count) const;
     template <class Answer>
     void answer(std::size_t count, const Answer& answer) const;
+    template <class AnyRows, class Answer>
+    void answer_in_rows(std::size_t count, AnyRows& rows, const Answer& answer) const;
 
     static constexpr std::size_t fewest = 1024; ///< rays that are worth a thread
 
@@ -54,9 +78,8 @@ class StreamTracer {
 
     ShapesByName shapes_;
 
-    // Workers that nobody uses now: their memory is made once.
-    mutable std::mutex mutex_;
-    mutable std::vector<std::unique_ptr<StreamWorker>> idle_;
+    mutable Pool<StreamWorker> workers_;
+    mutable Pool<RowWorker> row_workers_;
 };
 
 } // namespace raylane::simd

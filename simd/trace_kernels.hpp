@@ -162,6 +162,26 @@ struct WideCrossings {
     std::uint8_t* rounded = nullptr;
 };
 
+/// Pairs of a ray and a shape that it may cross. Those that there is no room for are only counted.
+struct PairList {
+    std::uint32_t *ray, *slot;
+    std::size_t room, count;
+};
+
+/// Rays and shapes of which all crossings with t > 0 are asked, of rays that do not start on them.
+struct CrossingPairs {
+    std::size_t count;
+    const double* origin[3]; ///< of rays, by ray
+    const double* direction[3];
+    const std::uint32_t* ray; ///< of a pair
+    const std::uint32_t* slot;
+
+    /// Out: of pair k the crossings 2 k and 2 k + 1, in order. t is the sum of two doubles, and is
+    /// off by at most the error.
+    double *high, *low, *error;
+    std::uint32_t* hit; ///< hit_none, hit_doubtful where little is known, or face and hit_entering
+};
+
 /// Kernels for rays that are left in doubt.
 struct RefineKernels {
     /// Lists all that ray i may cross before the limit, in the kinds and the hierarchy as
@@ -177,6 +197,12 @@ struct RefineKernels {
     /// rays that start on the shape.
     void (*widen)(const SceneView& scene, const Found& found, const std::size_t* places,
                   std::size_t count, const WideCrossings& wide);
+    /// Adds all that rays may cross before t_most, each as TraceKernels::nearest has it, in any
+    /// order; nothing of rays where that is not more than 0.
+    void (*list_all)(const SceneView& scene, std::uint32_t kind_bits, std::size_t count,
+                     const RoundedRays& rays, const float* t_most, const Pending& pending,
+                     PairList& list);
+    void (*cross_all)(const SceneView& scene, const CrossingPairs& pairs);
 };
 
 } // namespace raylane::simd

@@ -31,12 +31,13 @@ class Unwritable : public std::runtime_error {
 Arguments parse(CLI::App& app, int argc, char** argv) {
     Arguments arguments;
     std::vector<std::string> sets = arguments.wanted, isas;
-    sets.insert(sets.end(), {"build", "picture"});
+    sets.insert(sets.end(), {"crossings", "build", "picture"});
     for (const simd::Isa isa : simd::all_isas)
         if (simd::is_available(isa)) isas.emplace_back(name_of(isa));
     app.add_option("SCENE", arguments.scenes, "spheres/N, sticks/N, or a file");
     app.add_option("--rays", arguments.wanted,
-                   "what to measure (all sorts of rays); build: the hierarchy, on one thread; "
+                   "what to measure (all sorts of rays); crossings: all that a ray meets, in "
+                   "order, on one thread; build: the hierarchy, on one thread; "
                    "picture: a whole one, and the same with Embree's calls for our traversal")
         ->check(CLI::IsMember(sets));
     app.add_option("--isa", arguments.isa, "which Embree is held to as well (the best there is)")
@@ -64,6 +65,7 @@ void measure(const std::string& name, const std::vector<std::string>& wanted, co
     const auto wants = [&](const char* what) {
         return std::find(wanted.begin(), wanted.end(), what) != wanted.end();
     };
+    if (wants("crossings")) report(measure_crossings(data, how));
     if (wants("build")) report(measure_building(scene, how));
     if (wants("picture")) report(measure_picture(data, how));
 }

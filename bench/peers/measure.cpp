@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 namespace raylane::bench {
 
@@ -61,6 +62,14 @@ std::optional<double> Row::ratio() const {
     if (!best) return std::nullopt;
     const double own = users().median;
     return is_speed ? own / *best : *best / own;
+}
+
+void Result::in_millions_per_second(std::size_t count) {
+    const auto speed = [&](double seconds) { return static_cast<double>(count) / seconds / 1e6; };
+    median = speed(median);
+    least = std::exchange(most, speed(least));
+    least = speed(least);
+    if (alone) alone = speed(*alone);
 }
 
 const Result& Row::users() const {

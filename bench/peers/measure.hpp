@@ -29,6 +29,9 @@ struct Result {
     double median, least, most;       ///< in the row's unit
     std::optional<std::size_t> wrong; ///< number of wrong answers
     std::optional<double> alone;      ///< the median by one thread, where there are several
+
+    /// Seconds for so many become a speed.
+    void in_millions_per_second(std::size_t count);
 };
 
 /// One measurement of all contenders, raylane's engine first. What is raylane's is called so, or
@@ -64,6 +67,9 @@ std::vector<Result> alternate(const std::vector<TimedRun>& runs, const Measuring
 /// Rays of the sorts that are `wanted`, of ray_set_names. Each row is handed over when it is done.
 void measure_rays(const simd::SceneData& scene, const std::vector<std::string>& wanted,
                   const Measuring& how, const std::function<void(const Row&)>& report);
+
+/// All crossings of `incoherent` rays, in order, by one thread.
+Row measure_crossings(const simd::SceneData& scene, const Measuring& how);
 
 /// Time to build a hierarchy, by one thread, until the first ray can be traced.
 Row measure_building(const core::Scene& scene, const Measuring& how);

@@ -1,4 +1,5 @@
 #include "bench/peers/contender.hpp"
+#include "bench/peers/crossings.hpp"
 #include "bench/peers/measure.hpp"
 
 /// Stand-in for Embree where it is not there.
@@ -10,6 +11,11 @@ const char* embree_version() {
 
 Contenders make_embree(const core::Scene& /*scene*/, simd::Isa /*isa*/) {
     return {};
+}
+
+std::unique_ptr<Gatherer> embree_gatherer(const core::Scene& /*scene*/, simd::Isa /*isa*/,
+                                          const RaySet& /*rays*/) {
+    return nullptr;
 }
 
 std::optional<TimedRun> embree_building(const core::Scene& /*scene*/, simd::Isa /*isa*/) {

@@ -94,15 +94,8 @@ Row measure_set(const simd::SceneData& scene, const RaySet& rays, const Contende
     }
     row.by = alternate(runs, how);
     count_wrong(scene, rays, contenders, row.by);
-    const auto speed = [&](double seconds) {
-        return static_cast<double>(rays.count) / seconds / 1e6;
-    };
-    for (Result& result : row.by) {
-        result.median = speed(result.median);
-        result.least = std::exchange(result.most, speed(result.least));
-        result.least = speed(result.least);
-        if (result.alone) result.alone = speed(*result.alone);
-    }
+    for (Result& result : row.by)
+        result.in_millions_per_second(rays.count);
     return row;
 }
 

@@ -12,6 +12,13 @@ Dyadic doubled(const Dyadic& a) {
     return a + a;
 }
 
+Dyadic power_of_2(int exponent) {
+    Dyadic power = 1.0;
+    for (; exponent < -1000; exponent += 1000)
+        power = power * Dyadic(0x1p-1000);
+    return power * Dyadic(std::ldexp(1.0, exponent));
+}
+
 } // namespace
 
 /// Sign of G at the root. With t = (-B + s sqrt(D)) / A for D = B^2 - A C, s = 1 where F rises, and
@@ -71,6 +78,17 @@ Bounded<DoubleDouble> ExactRoot::in_wide(double t, double error) const {
         middle = middle + DoubleDouble(side * half);
     }
     return {middle, half + 0x1p-101 * std::abs(t)};
+}
+
+Dyadic ExactRoot::near(double t, double error, int exponent) const {
+    Dyadic middle = t;
+    if (error == 0.0) return middle;
+    for (int half = std::ilogb(error); half >= exponent; --half) {
+        const int side = sign_of(ExactQuadratic::minus(middle));
+        if (side == 0) break;
+        middle = side > 0 ? middle + power_of_2(half) : middle - power_of_2(half);
+    }
+    return middle;
 }
 
 } // namespace raylane::core

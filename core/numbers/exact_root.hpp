@@ -40,6 +40,8 @@ class ExactRoot {
     float rounded_between(float low, float high, int exponent) const;
     /// Within 2^-100 of itself. Double knows it already, but for an error.
     Bounded<DoubleDouble> in_wide(double t, double error) const;
+    /// Within 2^exponent, likewise.
+    Dyadic near(double t, double error, int exponent) const;
 
   private:
     bool is_linear() const { return F_.A.sign() == 0; }

@@ -28,4 +28,18 @@ struct Counters {
     }
 };
 
+/// Counts of comparisons of crossings, by what decided them.
+struct OrderCounters {
+    std::uint64_t by_bounds = 0; ///< intervals in double
+    std::uint64_t by_digits = 0; ///< twice as many, with bounds
+    std::uint64_t exactly = 0;   ///< signs of resultants
+
+    OrderCounters& operator+=(const OrderCounters& other) {
+        by_bounds += other.by_bounds;
+        by_digits += other.by_digits;
+        exactly += other.exactly;
+        return *this;
+    }
+};
+
 } // namespace raylane::core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/reference/counters.hpp"
 #include "core/reference/origin_surfaces.hpp"
 #include "core/shapes/solve.hpp"
 
@@ -112,18 +113,21 @@ class SharpHit {
 /// Orders the crossings of one ray: by intervals, then in double-double, then exactly.
 class CrossingOrder {
   public:
-    CrossingOrder(const Scene& scene, const LeavingRay& from) : scene_(scene), from_(from) {}
+    /// Counts comparisons if there are counters.
+    CrossingOrder(const Scene& scene, const LeavingRay& from, OrderCounters* counters = nullptr)
+        : scene_(scene), from_(from), counters_(counters) {}
 
     /// -1 if a comes first by its t, 0 if both are at the same t.
     int compare(const SharpHit& a, const SharpHit& b) const {
-        if (a.hit().is_surely_before(b.hit())) return -1;
-        if (b.hit().is_surely_before(a.hit())) return 1;
+        if (a.hit().is_surely_before(b.hit())) return decided(&OrderCounters::by_bounds, -1);
+        if (b.hit().is_surely_before(a.hit())) return decided(&OrderCounters::by_bounds, 1);
         a.widen(scene_, from_);
         b.widen(scene_, from_);
-        if (a.is_surely_before(b)) return -1;
-        if (b.is_surely_before(a)) return 1;
-        if (a.is_surely_at(b)) return 0;
-        return core::compare(a.root(scene_, from_), b.root(scene_, from_));
+        if (a.is_surely_before(b)) return decided(&OrderCounters::by_digits, -1);
+        if (b.is_surely_before(a)) return decided(&OrderCounters::by_digits, 1);
+        if (a.is_surely_at(b)) return decided(&OrderCounters::by_digits, 0);
+        return decided(&OrderCounters::exactly,
+                       core::compare(a.root(scene_, from_), b.root(scene_, from_)));
     }
     /// Order of two hits. At the same t, what is entered comes before what is left, then the lower
     /// shape.
@@ -133,8 +137,14 @@ class CrossingOrder {
     }
 
   private:
+    int decided(std::uint64_t OrderCounters::*by, int order) const {
+        if (counters_ != nullptr) ++(counters_->*by);
+        return order;
+    }
+
     const Scene& scene_;
     LeavingRay from_;
+    OrderCounters* counters_;
 };
 
 } // namespace raylane::core

@@ -81,7 +81,7 @@ class Searcher {
               std::vector<Hit<Real>>& hits) {
         if constexpr (std::is_same_v<Real, double>)
             if (is_exact()) {
-                const CrossingOrder order(scene_, {ray, origins});
+                const CrossingOrder order(scene_, {ray, origins}, &order_counters);
                 sharp_.assign(hits.begin(), hits.end());
                 std::sort(sharp_.begin(), sharp_.end(), [&](const SharpHit& a, const SharpHit& b) {
                     return order.is_before(a, b);
@@ -100,6 +100,7 @@ class Searcher {
     }
 
     Counters counters;
+    OrderCounters order_counters; ///< of sort()
 
   private:
     static Hit<Real> contact_hit(const Contact<Real>& contact) {

@@ -4,6 +4,8 @@
 #include "core/shapes/form.hpp"
 #include "core/shapes/judge.hpp"
 
+#include <array>
+
 /// Shared parts of cylinders and cones.
 namespace raylane::core {
 
@@ -95,9 +97,12 @@ struct ScaledAxialRay {
         return {
             axis_squared * squared_length(direction) - height_direction * height_direction,
             axis_squared * dot(from_base, direction) - height_origin * height_direction,
-            axis_squared * (squared_length(from_base) - radius * radius) -
-                height_origin * height_origin,
+            pipe_at_origin(radius),
         };
+    }
+    Real pipe_at_origin(const Real& radius) const {
+        return axis_squared * (squared_length(from_base) - radius * radius) -
+               height_origin * height_origin;
     }
     NormalAlong<Real> across() const {
         return {axis_squared * from_base - height_origin * axis,
@@ -107,6 +112,10 @@ struct ScaledAxialRay {
     ExactQuadratic cap(Face face) const {
         if (face == base_cap) return {0.0, -0.5 * height_direction, -height_origin};
         return {0.0, 0.5 * height_direction, height_origin - axis_squared};
+    }
+    /// Of a solid with this body: the forms of body, base and top.
+    std::array<Real, 3> forms_at_origin(const Real& body_there) const {
+        return {body_there, -height_origin, height_origin - axis_squared};
     }
     NormalAlong<Real> cap_normal(Face face) const { return {face == base_cap ? -axis : axis}; }
 };

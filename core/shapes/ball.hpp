@@ -35,4 +35,10 @@ inline ExactQuadratic ball_along(const Vec3<Dyadic>& origin, const Vec3<Dyadic>&
             squared_length(origin) - radius * radius};
 }
 
+/// Less than 0 inside, 0 on the surface.
+template <class Real>
+Real ball_at(const Vec3<Real>& point, const Real& radius) {
+    return squared_length(point) - radius * radius;
+}
+
 } // namespace raylane::core

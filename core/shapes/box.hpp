@@ -101,4 +101,19 @@ inline ExactQuadratic form_along(const Box& box, const ExactRay& ray, Face face)
     return plane_along(normal_along(box, ray, face).v, point, ray.direction);
 }
 
+/// Of its faces. The volume, of either sign, turns them the right way.
+template <class Real>
+std::array<Real, 6> forms_at(const Box& box, const Vec3<Real>& point) {
+    const Vec3<Real> from_corner = point - convert<Real>(box.corner);
+    const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
+    const Real volume = dot(normals[0], convert<Real>(box.edge_u));
+    std::array<Real, 6> forms;
+    for (int i = 0; i < 3; ++i) {
+        const Real position = dot(normals[i], from_corner);
+        forms[2 * i] = -(position * volume);
+        forms[2 * i + 1] = (position - volume) * volume;
+    }
+    return forms;
+}
+
 } // namespace raylane::core

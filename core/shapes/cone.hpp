@@ -160,4 +160,12 @@ NormalAlong<Real> normal_along(const Cone<ends>& cone, const Ray<Real>& ray, Fac
             axial.axis_squared * across.slope - along * axial.axis, apex_direction<Real>(cone)};
 }
 
+template <class Real>
+std::array<Real, 3> forms_at(const CappedCone& cone, const Vec3<Real>& point) {
+    const ScaledAxialRay<Real> axial(cone.base, cone.axis, Ray<Real>{point, {}});
+    const ScaledWidth<Real> width(cone.base_radius, cone.top_radius, axial);
+    return axial.forms_at_origin(axial.axis_squared * axial.pipe_at_origin(Real(0.0)) -
+                                 width.origin * width.origin);
+}
+
 } // namespace raylane::core

@@ -109,4 +109,10 @@ NormalAlong<Real> normal_along(const Cylinder<ends>& cylinder, const Ray<Real>& 
     return face == body ? axial.across() : axial.cap_normal(face);
 }
 
+template <class Real>
+std::array<Real, 3> forms_at(const CappedCylinder& cylinder, const Vec3<Real>& point) {
+    const ScaledAxialRay<Real> axial(cylinder.base, cylinder.axis, Ray<Real>{point, {}});
+    return axial.forms_at_origin(axial.pipe_at_origin(Real(cylinder.radius)));
+}
+
 } // namespace raylane::core

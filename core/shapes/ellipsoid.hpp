@@ -96,4 +96,10 @@ NormalAlong<Real> normal_along(const Ellipsoid& ellipsoid, const Ray<Real>& ray,
             to_ball.normal(to_ball(ray.direction))};
 }
 
+template <class Real>
+std::array<Real, 1> forms_at(const Ellipsoid& ellipsoid, const Vec3<Real>& point) {
+    const ToBall<Real> to_ball(ellipsoid);
+    return {ball_at(to_ball(Vec3<Real>(point - convert<Real>(ellipsoid.center))), to_ball.radius)};
+}
+
 } // namespace raylane::core

@@ -13,8 +13,8 @@
 #include <span>
 
 /// Contents of each shape's file, in this order: its numbers and traits, validate(), bounds_of() if
-/// it is bounded, crossings(), outward_direction() (see normal.hpp), and form_along() and
-/// normal_along() (see form.hpp).
+/// it is bounded, crossings(), outward_direction() (see normal.hpp), form_along() and
+/// normal_along() (see form.hpp), and of solids forms_at() (see side.hpp).
 namespace raylane::core {
 
 /// Re-entry: which rays that leave a shape may meet it again.

@@ -55,4 +55,9 @@ NormalAlong<Real> normal_along(const Sphere& sphere, const Ray<Real>& ray, Face)
     return {ray.origin - convert<Real>(sphere.center), ray.direction};
 }
 
+template <class Real>
+std::array<Real, 1> forms_at(const Sphere& sphere, const Vec3<Real>& point) {
+    return {ball_at(Vec3<Real>(point - convert<Real>(sphere.center)), Real(sphere.radius))};
+}
+
 } // namespace raylane::core

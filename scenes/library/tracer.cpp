@@ -2,19 +2,22 @@
 
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
+#include "simd/stream/row_worker.hpp"
 #include "simd/stream_tracer.hpp"
 #include "simd/threads.hpp"
 
 #include <string>
+#include <utility>
 
 namespace raylane {
 
 namespace {
 
-void require_length(const char* name, std::size_t length, std::size_t count) {
+void require_length(const char* name, std::size_t length, std::size_t count,
+                    const char* of = "rays") {
     if (length != count)
         throw InvalidValue(name, "must have one element for each of " + std::to_string(count) +
-                                     " rays, got " + std::to_string(length));
+                                     " " + of + ", got " + std::to_string(length));
 }
 
 /// The elements of a span that may be left out, or null.
@@ -68,6 +71,42 @@ void find_occluded(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& r
     tracer.occluded(stream, occluded.data());
 }
 
+template <class Real>
+void find_crossings(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
+                    CrossingRows& rows, const CrossingOptions& options,
+                    CrossingStatistics* statistics) {
+    simd::CrossingRows found;
+    simd::CrossingCounters counters;
+    tracer.crossings(stream_of(rays), {options.most, options.normals}, found, counters);
+    rows = {std::move(found.first),    std::move(found.t),         std::move(found.shape),
+            std::move(found.entering), std::move(found.face),      std::move(found.tied),
+            std::move(found.touching), std::move(found.normal[0]), std::move(found.normal[1]),
+            std::move(found.normal[2])};
+    if (statistics != nullptr)
+        *statistics = {counters.order.by_bounds, counters.order.by_digits, counters.order.exactly,
+                       counters.widened};
+}
+
+template <class Real>
+void find_solids(const simd::StreamTracer& tracer, const BasicPointSpan<Real>& points,
+                 SolidRows& rows) {
+    const std::size_t count = points.x.size();
+    require_length("y", points.y.size(), count, "points");
+    require_length("z", points.z.size(), count, "points");
+    simd::SolidRows found;
+    tracer.containing(
+        simd::PointStream<Real>{count, {points.x.data(), points.y.data(), points.z.data()}}, found);
+    rows = {std::move(found.first), std::move(found.shape), std::move(found.on_surface)};
+}
+
+template <class Real>
+void find_lengths(const simd::StreamTracer& tracer, const BasicRaySpan<Real>& rays,
+                  LengthRows& rows) {
+    simd::LengthRows found;
+    tracer.path_lengths(stream_of(rays), found);
+    rows = {std::move(found.first), std::move(found.material), std::move(found.length)};
+}
+
 } // namespace
 
 void library::require_threads(int threads) {
@@ -107,6 +146,32 @@ void Tracer::occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) con
 
 void Tracer::occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded) const {
     find_occluded(*tracer_, rays, occluded);
+}
+
+void Tracer::crossings(const RaySpan& rays, CrossingRows& rows, const CrossingOptions& options,
+                       CrossingStatistics* statistics) const {
+    find_crossings(*tracer_, rays, rows, options, statistics);
+}
+
+void Tracer::crossings(const DoubleRaySpan& rays, CrossingRows& rows,
+                       const CrossingOptions& options, CrossingStatistics* statistics) const {
+    find_crossings(*tracer_, rays, rows, options, statistics);
+}
+
+void Tracer::contains(const PointSpan& points, SolidRows& rows) const {
+    find_solids(*tracer_, points, rows);
+}
+
+void Tracer::contains(const DoublePointSpan& points, SolidRows& rows) const {
+    find_solids(*tracer_, points, rows);
+}
+
+void Tracer::path_lengths(const RaySpan& rays, LengthRows& rows) const {
+    find_lengths(*tracer_, rays, rows);
+}
+
+void Tracer::path_lengths(const DoubleRaySpan& rays, LengthRows& rows) const {
+    find_lengths(*tracer_, rays, rows);
 }
 
 } // namespace raylane

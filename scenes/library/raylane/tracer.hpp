@@ -4,9 +4,11 @@
 #include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace raylane::simd {
 class StreamTracer;
@@ -58,6 +60,62 @@ struct HitSpan {
     std::span<std::uint8_t> face{};
     /// t as a double: finite where anything is hit. It takes longer than all others together.
     std::span<double> t_double{};
+};
+
+/// n points, structure of arrays; n is the length of x, and the others have it too. The arrays are
+/// the caller's and are only read. A point of which a coordinate is infinite or NaN is in no solid.
+template <class Real>
+struct BasicPointSpan {
+    std::span<const Real> x{}, y{}, z{};
+};
+using PointSpan = BasicPointSpan<float>;
+using DoublePointSpan = BasicPointSpan<double>;
+
+/// All crossings of n rays, by ray and then in their order: compressed rows, structure of arrays.
+/// Those of ray i have the numbers from first[i] up to first[i + 1].
+struct CrossingRows {
+    std::vector<std::uint64_t> first; ///< n + 1
+    std::vector<double> t;            ///< > 0 and finite
+    std::vector<ShapeId> shape;
+    /// 1 where the ray goes from the outside (front) to the inside (back), 0 where it comes out.
+    std::vector<std::uint8_t> entering;
+    std::vector<std::uint8_t> face; ///< part of the shape's surface, as HitSpan::face has it
+    /// 1 where it is at the same t as the crossing before it in the row.
+    std::vector<std::uint8_t> tied;
+    /// 1 where the shape is entered and left at the same t, as where a ray is tangent: both
+    /// crossings together change nothing.
+    std::vector<std::uint8_t> touching;
+    std::vector<float> normal_x, normal_y, normal_z; ///< as HitSpan has them; empty if not wanted
+};
+
+struct CrossingOptions {
+    std::size_t most = 0; ///< of each ray, its first crossings; 0: all
+    bool normals = false;
+};
+
+/// By what the order of crossings was decided, each two that were compared; and for how many pairs
+/// of ray and shape double was not enough to tell whether they meet, and where.
+struct CrossingStatistics {
+    std::uint64_t by_bounds = 0; ///< in double
+    std::uint64_t by_digits = 0; ///< twice the digits of double
+    std::uint64_t exactly = 0;   ///< integers of any size
+    std::uint64_t beyond_double = 0;
+};
+
+/// Solids that n points are in, by point and then by id: those of point i have the numbers from
+/// first[i] up to first[i + 1].
+struct SolidRows {
+    std::vector<std::uint64_t> first; ///< n + 1
+    std::vector<ShapeId> shape;
+    std::vector<std::uint8_t> on_surface; ///< 1 where the point is exactly on the solid's surface
+};
+
+/// Lengths of n rays inside of materials, by ray and then by material: those of ray i have the
+/// numbers from first[i] up to first[i + 1].
+struct LengthRows {
+    std::vector<std::uint64_t> first; ///< n + 1
+    std::vector<MaterialIndex> material;
+    std::vector<double> length; ///< > 0, in the scene's unit, within an ulp of the true one
 };
 
 struct TracerOptions {
@@ -117,6 +175,30 @@ class Tracer {
     /// find a shape. `occluded` has length n. Throws as intersect does.
     void occluded(const RaySpan& rays, std::span<std::uint8_t> occluded) const;
     void occluded(const DoubleRaySpan& rays, std::span<std::uint8_t> occluded) const;
+
+    /// All crossings of each ray within its limits, in the order of their true t, or the first
+    /// `most` of them: what intersect finds is the first. At the same t what is entered comes
+    /// before what is left, and then the lower id: `tied` says so. A ray that touches a surface
+    /// enters and leaves it there. Of triangles of one polygon, the one with the lower id counts
+    /// where they meet. Answers are exact, whatever the precision. Rows are replaced. Throws as
+    /// intersect does.
+    void crossings(const RaySpan& rays, CrossingRows& rows, const CrossingOptions& options = {},
+                   CrossingStatistics* statistics = nullptr) const;
+    void crossings(const DoubleRaySpan& rays, CrossingRows& rows,
+                   const CrossingOptions& options = {},
+                   CrossingStatistics* statistics = nullptr) const;
+
+    /// The solids (spheres, ellipsoids, boxes, capped cylinders and cones) that each point is in,
+    /// or on the surface of: as real arithmetic says. Rows are replaced. Throws as intersect does.
+    void contains(const PointSpan& points, SolidRows& rows) const;
+    void contains(const DoublePointSpan& points, SolidRows& rows) const;
+
+    /// How much of each ray, from t_min to t_max, is inside of the solids of each material: what is
+    /// in several solids of one material counts once, and what is in solids of several materials
+    /// for each of them. t_max may be infinite. Answers are exact up to the last rounding, whatever
+    /// the precision. Rows are replaced. Throws as intersect does.
+    void path_lengths(const RaySpan& rays, LengthRows& rows) const;
+    void path_lengths(const DoubleRaySpan& rays, LengthRows& rows) const;
 
   private:
     Scene scene_;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "simd/kernel/certify/cross_all.hpp"
 #include "simd/kernel/certify/finish.hpp"
 #include "simd/kernel/certify/finish_again.hpp"
 #include "simd/kernel/certify/list_candidates.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
+#include "simd/kernel/traverse/in_flight/all.hpp"
 
 namespace raylane::simd {
 
@@ -33,7 +35,8 @@ struct ExactMethod : RaysInFloat<Arch> {
     }
     static constexpr decltype(MethodKernels::nearest_of_few) nearest_of_few = nullptr;
     static constexpr RefineKernels refine() {
-        return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>, widen<Arch>};
+        return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>, widen<Arch>,
+                InFlightAll<Arch, ExactMethod>::list, cross_all<Arch>};
     }
 };
 

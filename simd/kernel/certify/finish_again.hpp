@@ -1,7 +1,7 @@
 #pragma once
 
+#include "simd/kernel/certify/slot_reader.hpp"
 #include "simd/kernel/certify/slots.hpp"
-#include "simd/kernel/lanes/bounded.hpp"
 #include "simd/kernel/shapes/finisher.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernels.hpp"
@@ -82,25 +82,9 @@ class FinishAgain {
         if (packet.count == width) finish<Number>(packet);
     }
 
-    /// Reads the floats of a shape per lane.
-    struct Reader {
-        const float* from[width];
-        std::size_t row = 0;
-
-        F next() {
-            double values[width];
-            for (std::size_t lane = 0; lane < width; ++lane)
-                values[lane] = static_cast<double>(from[lane][row]);
-            row += 16;
-            return F::load_unaligned(values);
-        }
-    };
-
+    using Reader = SlotReader<D>;
     template <class Number>
-    struct ExactReader {
-        Reader reader;
-        Floats<Certified<Number>> next() { return Floats<Certified<Number>>(reader.next()); }
-    };
+    using ExactReader = CertifiedSlotReader<D, Number>;
 
     /// A packet's rays, as they are meant, and shapes.
     struct Loaded {
@@ -164,19 +148,11 @@ class FinishAgain {
         packet.count = 0;
     }
 
-    template <class Number>
-    static Rays<Certified<Number>> exact(const Rays<D>& rays) {
-        using C = Certified<Number>;
-        const auto vectors = [](const Vectors<D>& v) {
-            return Vectors<C>{Floats<C>(v.x), Floats<C>(v.y), Floats<C>(v.z)};
-        };
-        return {vectors(rays.origin), vectors(rays.direction)};
-    }
-
     template <class Number, class Solver>
     static Crossing<Certified<Number>> crossing_of(const Solver& solver, const Loaded& loaded) {
         using C = Certified<Number>;
-        Crossings<C> crossings = solver.crossings(exact<Number>(loaded.rays), starts_nowhere<C>());
+        Crossings<C> crossings =
+            solver.crossings(certified<Number>(loaded.rays), starts_nowhere<C>());
         for (Crossing<C>* const crossing : {&crossings.first, &crossings.second})
             crossing->exists = crossing->exists & is_after<C>(crossing->t, loaded.t_after);
         return first_ahead<C>(crossings, none<C>());
@@ -235,7 +211,7 @@ class FinishAgain {
     static Vectors<Certified<Number>> normal_of(const Solver& solver, const Loaded& loaded,
                                                 const Crossing<Certified<Number>>& crossing) {
         using C = Certified<Number>;
-        const Rays<C> rays = exact<Number>(loaded.rays);
+        const Rays<C> rays = certified<Number>(loaded.rays);
         return solver.outward_normal(mul_add<C>(crossing.t, rays.direction, rays.origin),
                                      crossing.face);
     }

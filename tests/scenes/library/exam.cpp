@@ -5,6 +5,7 @@
 #include "simd/isa.hpp"
 #include "simd/stream_tracer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ios>
 #include <sstream>
@@ -55,6 +56,15 @@ void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, f
 
 } // namespace
 
+bool are_same(const AnyShape& a, const AnyShape& b) {
+    if (a.index() != b.index()) return false;
+    return std::visit(
+        [&]<class Shape>(const Shape& shape) {
+            return core::floats_of(shape) == core::floats_of(std::get<Shape>(b));
+        },
+        a);
+}
+
 std::vector<AnyShape> valid(std::vector<AnyShape> shapes) {
     std::erase_if(shapes, [](const AnyShape& shape) { return !is_valid(shape); });
     return shapes;
@@ -74,7 +84,8 @@ Scene scene_of(std::span<const AnyShape> shapes, Sides sides) {
 
 std::string Tally::report() const {
     std::string text = std::to_string(lines) + " lines, " + std::to_string(rays) + " rays, " +
-                       std::to_string(hits) + " hits, " + std::to_string(wrong()) + " wrong\n";
+                       std::to_string(hits) + " hits, " + std::to_string(crossings) +
+                       " crossings, " + std::to_string(wrong()) + " wrong\n";
     for (std::size_t i = 0; i < std::size(faults); ++i) {
         if (faults[i] == 0) continue;
         text += std::to_string(faults[i]) + " of " + fault_names[i] + ", the first:\n" + first[i];
@@ -84,7 +95,18 @@ std::string Tally::report() const {
 
 Exam::Exam(std::vector<AnyShape> shapes, Sides sides)
     : shapes_(valid(std::move(shapes))), sides_(sides), neighbours_(shapes_),
-      scene_(scene_of(shapes_, sides)), tracer_(scene_, {.threads = 1}) {}
+      scene_(scene_of(shapes_, sides)), tracer_(scene_, {.threads = 1}) {
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+        const auto is_same = [&](std::size_t other) {
+            return which_sides(other, sides) == which_sides(i, sides) &&
+                   are_same(shapes_[other], shapes_[i]);
+        };
+        std::size_t first = 0;
+        while (first < i && !is_same(first))
+            ++first;
+        counts_.push_back(first == i ? 1 : 0);
+    }
+}
 
 void Exam::ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways, Tally& tally) {
     Questions questions;
@@ -99,7 +121,8 @@ void Exam::ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways,
     }
     tally.lines += static_cast<long>(rays.size());
     tally.rays += static_cast<long>(questions.rays.size());
-    const Answers answers{intersect(tracer_, questions.rays), occluded(tracer_, questions.rays)};
+    Answers answers{intersect(tracer_, questions.rays), occluded(tracer_, questions.rays)};
+    tracer_.crossings(questions.rays.span(), answers.rows);
     for (std::size_t i = 0; i < questions.rays.size(); ++i)
         check(questions, i, answers, tally);
     check_others(questions.rays, answers, ways, tally);
@@ -139,12 +162,39 @@ void Exam::check(Questions& questions, std::size_t i, const Answers& answers, Ta
     const bool any = truth != nullptr;
     tally.hits += any ? 1 : 0;
     if (answers.blocked[i] != (any ? 1 : 0)) wrong(Fault::occlusion);
+    tally.crossings += static_cast<long>(answers.rows.first[i + 1] - answers.rows.first[i]);
+    if (!has_all_crossings(sight, rays, i, answers.rows)) wrong(Fault::crossings);
     if (any ? hits.shape[i] != truth->shape : !hits.is_none(i)) wrong(Fault::shape);
     if (!any || hits.shape[i] != truth->shape) return;
     if (hits.t[i] != truth->t) wrong(Fault::t);
     if (hits.entering[i] != (truth->hit.entering ? 1 : 0)) wrong(Fault::side);
     if (Vec3f(hits.nx[i], hits.ny[i], hits.nz[i]) != sight.normal_of(*truth, shapes_[truth->shape]))
         wrong(Fault::normal);
+}
+
+/// All that truly are, and in their order.
+bool Exam::has_all_crossings(const oracle::Sight& sight, const Rays& rays, std::size_t i,
+                             const CrossingRows& rows) const {
+    std::uint64_t at = rows.first[i];
+    const oracle::Found* before = nullptr;
+    for (const oracle::Found& found : sight.all()) {
+        if (!(rays.t_min[i] < found.t && found.t <= rays.t_max[i]) || counts_[found.shape] == 0)
+            continue;
+        const bool touches =
+            std::any_of(sight.all().begin(), sight.all().end(), [&](const oracle::Found& other) {
+                return other.shape == found.shape && other.hit.entering != found.hit.entering &&
+                       compare(other.hit, found.hit) == 0;
+            });
+        const bool is_tied = before != nullptr && compare(before->hit, found.hit) == 0;
+        if (at == rows.first[i + 1] || rows.shape[at] != found.shape ||
+            rows.t[at] != oracle::rounded_to_double(found.hit.root, found.hit.t) ||
+            rows.entering[at] != (found.hit.entering ? 1 : 0) ||
+            rows.tied[at] != (is_tied ? 1 : 0) || rows.touching[at] != (touches ? 1 : 0))
+            return false;
+        before = &found;
+        ++at;
+    }
+    return at == rows.first[i + 1];
 }
 
 /// StreamTracer gives the same bits with each instruction set, by one and by several threads.
@@ -162,7 +212,7 @@ void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tal
                                                 {rays.dx.data(), rays.dy.data(), rays.dz.data()},
                                                 rays.t_min.data(),
                                                 rays.t_max.data()};
-            Answers same{Hits(rays.size()), std::vector<std::uint8_t>(rays.size(), 77)};
+            Answers same{Hits(rays.size()), std::vector<std::uint8_t>(rays.size(), 77), {}};
             Hits& hits = same.hits;
             tracer.nearest(stream, {hits.t.data(),
                                     {hits.nx.data(), hits.ny.data(), hits.nz.data()},

@@ -20,6 +20,8 @@ enum class Sides {
 /// Without what core finds not valid.
 std::vector<AnyShape> valid(std::vector<AnyShape> shapes);
 Scene scene_of(std::span<const AnyShape> shapes, Sides sides = Sides::both);
+/// Float by float.
+bool are_same(const AnyShape& a, const AnyShape& b);
 
 /// Fault that an answer may have.
 enum class Fault {
@@ -28,14 +30,16 @@ enum class Fault {
     normal,
     side,      ///< entered or left
     occlusion, ///< by `occluded`
+    crossings, ///< by `crossings`
     other,     ///< another instruction set or number of threads gives other bits; counts spans
 };
-inline constexpr const char* fault_names[] = {"shape", "t", "normal", "side", "occlusion", "other"};
+inline constexpr const char* fault_names[] = {"shape",     "t",         "normal", "side",
+                                              "occlusion", "crossings", "other"};
 
 /// Tally of what was asked, and of the wrong answers.
 struct Tally {
     long lines = 0; ///< without their limits
-    long rays = 0, hits = 0;
+    long rays = 0, hits = 0, crossings = 0;
     long faults[std::size(fault_names)] = {};
     std::string first[std::size(fault_names)]; ///< of each
 
@@ -65,11 +69,14 @@ class Exam {
     struct Answers {
         Hits hits;
         std::vector<std::uint8_t> blocked;
+        CrossingRows rows{};
     };
 
     static void add(Questions& questions, const core::Ray<float>& ray, float t_min, float t_max);
     static void add_limited(Questions& questions, const core::Ray<float>& ray);
     void check(Questions& questions, std::size_t i, const Answers& answers, Tally& tally) const;
+    bool has_all_crossings(const oracle::Sight& sight, const Rays& rays, std::size_t i,
+                           const CrossingRows& rows) const;
     void check_others(const Rays& rays, const Answers& answers, Ways ways, Tally& tally) const;
     void blame(Fault fault, const Rays& rays, std::size_t i, const Answers& answers,
                const oracle::Found* truth, Tally& tally) const;
@@ -78,6 +85,7 @@ class Exam {
 
     std::vector<AnyShape> shapes_;
     Sides sides_;
+    std::vector<char> counts_; ///< by shape: if no other before it is the same
     oracle::Neighbours neighbours_;
     Scene scene_;
     Tracer tracer_;

@@ -1,0 +1,130 @@
+#include "core/reference/path_lengths.hpp"
+
+#include "core/reference/rounding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::core {
+
+namespace {
+
+using Wide = Bounded<DoubleDouble>;
+
+/// True of what is surely not 0, and known well enough to be rounded to double.
+bool is_good(const Wide& sum) {
+    return sum.value.high > 0.0 && sum.error <= 0x1p-60 * sum.value.high;
+}
+
+} // namespace
+
+Bounded<DoubleDouble> PathLengths::End::t() const {
+    return crossing != nullptr ? crossing->wide_t() : Wide(limit);
+}
+
+PathLengths::OfMaterial& PathLengths::of(const Hit<double>& hit) {
+    const MaterialIndex material = scene_.material_index_of(hit.shape);
+    const auto end = materials_.begin() + static_cast<std::ptrdiff_t>(count_);
+    const auto found = std::find_if(materials_.begin(), end, [&](const OfMaterial& other) {
+        return other.material == material;
+    });
+    if (found != end) return *found;
+    if (count_ == materials_.size()) materials_.emplace_back();
+    OfMaterial& added = materials_[count_++];
+    added.material = material;
+    added.depth = 0;
+    added.begin = {};
+    added.parts.clear();
+    return added;
+}
+
+void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> hits, double t_min,
+                      double t_max, std::vector<MaterialLength>& lengths) {
+    if (!(t_min < t_max)) return;
+    sharp_.assign(hits.begin(), hits.end());
+    count_ = 0;
+
+    // What is left before it is entered has been around the start.
+    const auto limit_at = [](double t) { return End{nullptr, t}; };
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const Hit<double>& hit = hits[i];
+        if (hit.entering) continue;
+        const bool has_entered =
+            std::any_of(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(i),
+                        [&](const Hit<double>& other) { return other.shape == hit.shape; });
+        if (has_entered) continue;
+        OfMaterial& material = of(hit);
+        if (material.depth++ == 0) material.begin = limit_at(t_min);
+    }
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const Hit<double>& hit = hits[i];
+        End here{&sharp_[i], 0.0};
+        if (compare_t(scene_, from, hit, t_min) <= 0)
+            here = limit_at(t_min);
+        else if (compare_t(scene_, from, hit, t_max) >= 0)
+            here = limit_at(t_max);
+        OfMaterial& material = of(hit);
+        if (hit.entering) {
+            if (material.depth++ == 0) material.begin = here;
+        } else if (--material.depth == 0) {
+            const bool is_none = material.begin.crossing == nullptr && here.crossing == nullptr &&
+                                 material.begin.limit == here.limit;
+            if (!is_none) material.parts.push_back({material.begin, here});
+        }
+    }
+
+    const CrossingOrder order(scene_, from);
+    const Wide speed = sqrt(squared_length(convert<Wide>(from.ray.direction)));
+    const std::size_t first = lengths.size();
+    for (std::size_t i = 0; i < count_; ++i) {
+        OfMaterial& material = materials_[i];
+        for (const Inside& part : material.parts)
+            for (const End& end : {part.begin, part.end})
+                if (end.crossing != nullptr) end.crossing->widen(scene_, from);
+        Wide sum = sum_of(material.parts);
+        if (!is_good(sum)) {
+            std::erase_if(material.parts, [&](const Inside& part) {
+                return part.begin.crossing != nullptr && part.end.crossing != nullptr &&
+                       order.compare(*part.begin.crossing, *part.end.crossing) == 0;
+            });
+            sum = exact_sum_of(from, material.parts);
+        }
+        const double length = in_double(sum * speed).value;
+        if (!material.parts.empty()) lengths.push_back({material.material, length});
+    }
+    std::sort(
+        lengths.begin() + static_cast<std::ptrdiff_t>(first), lengths.end(),
+        [](const MaterialLength& a, const MaterialLength& b) { return a.material < b.material; });
+}
+
+Bounded<DoubleDouble> PathLengths::sum_of(const std::vector<Inside>& parts) const {
+    Wide sum;
+    for (const Inside& part : parts)
+        sum = sum + (part.end.t() - part.begin.t());
+    return sum;
+}
+
+/// Of parts that are not empty: by as many digits as it takes.
+Bounded<DoubleDouble> PathLengths::exact_sum_of(const LeavingRay& from,
+                                                const std::vector<Inside>& parts) const {
+    if (parts.empty()) return {};
+    const auto t_within = [&](const End& end, int exponent) -> Dyadic {
+        if (end.crossing == nullptr) return end.limit;
+        const Hit<double>& hit = end.crossing->hit();
+        return end.crossing->root(scene_, from).near(hit.t, hit.error, exponent);
+    };
+    for (int exponent = -60;; exponent *= 2) {
+        Dyadic sum;
+        for (const Inside& part : parts)
+            sum = sum + (t_within(part.end, exponent) - t_within(part.begin, exponent));
+        // Each end is off by 2^exponent, and more than double has room for is nothing to speak of.
+        const double high = sum.approximately().to_double();
+        const double low = (sum - Dyadic(high)).approximately().to_double();
+        const double error = std::ldexp(2.0 * static_cast<double>(parts.size()), exponent) +
+                             0x1p-48 * std::abs(low) + std::numeric_limits<double>::min();
+        const Wide known{{high, low}, error};
+        if (is_good(known)) return known;
+    }
+}
+
+} // namespace raylane::core

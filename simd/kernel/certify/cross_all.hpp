@@ -1,0 +1,107 @@
+#pragma once
+
+#include "simd/kernel/certify/slot_reader.hpp"
+#include "simd/kernel/certify/slots.hpp"
+#include "simd/kernel/shapes/shapes.hpp"
+#include "simd/kernels.hpp"
+
+namespace raylane::simd {
+
+/// All crossings of rays with shapes, by the solvers' formulas in numbers with bounds, of twice the
+/// digits: RefineKernels::cross_all.
+template <class Arch>
+class CrossAll {
+  public:
+    CrossAll(const SceneView& scene, const CrossingPairs& pairs) : scene_(scene), pairs_(pairs) {}
+
+    void all_pairs() {
+        for (std::size_t k = 0; k < pairs_.count; ++k) {
+            Packet& packet = packets_[static_cast<int>(S::kind_of(scene_, pairs_.slot[k]))];
+            packet.pair[packet.count++] = k;
+            if (packet.count == width) cross(packet);
+        }
+        for (Packet& packet : packets_)
+            cross(packet);
+    }
+
+  private:
+    using D = Double<Arch>;
+    using S = Slots<Arch>;
+    using F = Floats<D>;
+    using C = Certified<Wide<D>>;
+    static constexpr std::size_t width = F::size;
+
+    /// Pairs with shapes of one kind.
+    struct Packet {
+        std::size_t pair[width];
+        std::size_t count = 0;
+    };
+
+    void cross(Packet& packet) {
+        if (packet.count == 0) return;
+        const core::Kind kind = S::kind_of(scene_, pairs_.slot[packet.pair[0]]);
+        const TableView& table = S::table_of(scene_, kind);
+        SlotReader<D> reader;
+        double numbers[6][width];
+        for (std::size_t lane = 0; lane < width; ++lane) {
+            // Those that are not in use do what the first one does.
+            const std::size_t pair = packet.pair[lane < packet.count ? lane : 0];
+            reader.from[lane] = table.blocks + S::offset(table, pairs_.slot[pair]);
+            for (int axis = 0; axis < 3; ++axis) {
+                numbers[axis][lane] = pairs_.origin[axis][pairs_.ray[pair]];
+                numbers[3 + axis][lane] = pairs_.direction[axis][pairs_.ray[pair]];
+            }
+        }
+        const auto vectors = [&](double(*from)[width]) {
+            return Vectors<D>{F::load_unaligned(from[0]), F::load_unaligned(from[1]),
+                              F::load_unaligned(from[2])};
+        };
+        const Rays<D> rays = {vectors(numbers), vectors(numbers + 3)};
+        with_solver<C>(kind, [&]<class Solver>() { cross<Solver>(reader, rays, packet); });
+        packet.count = 0;
+    }
+
+    template <class Solver>
+    [[gnu::noinline]] void cross(const SlotReader<D>& reader, const Rays<D>& rays,
+                                 const Packet& packet) const {
+        const Solver solver(CertifiedSlotReader<D, Wide<D>>{reader});
+        const Crossings<C> found = solver.crossings(certified<Wide<D>>(rays), starts_nowhere<C>());
+        store(found.first, packet, 0);
+        store(found.second, packet, 1);
+    }
+
+    void store(const Crossing<C>& crossing, const Packet& packet, int which) const {
+        const auto exists = crossing.exists & (crossing.t > Floats<C>(0.0));
+        const std::uint32_t none = Lanes<D>::bits(exists.surely_not());
+        const std::uint32_t known = Lanes<D>::bits(
+            exists.surely() & (crossing.face.error == zero<D>()) & crossing.entering.known);
+        const std::uint32_t entering = Lanes<D>::bits(crossing.entering.answer);
+        double face[width], high[width], low[width], error[width];
+        crossing.face.in_double().store_unaligned(face);
+        crossing.t.value.high.store_unaligned(high);
+        crossing.t.value.low.store_unaligned(low);
+        crossing.t.error.store_unaligned(error);
+        for (std::size_t lane = 0; lane < packet.count; ++lane) {
+            const std::size_t to = 2 * packet.pair[lane] + static_cast<std::size_t>(which);
+            pairs_.high[to] = high[lane];
+            pairs_.low[to] = low[lane];
+            pairs_.error[to] = error[lane];
+            pairs_.hit[to] = (none >> lane & 1) != 0 ? hit_none
+                             : (known >> lane & 1) == 0
+                                 ? hit_doubtful
+                                 : static_cast<std::uint32_t>(face[lane]) |
+                                       ((entering >> lane & 1) != 0 ? hit_entering : 0);
+        }
+    }
+
+    const SceneView& scene_;
+    const CrossingPairs& pairs_;
+    Packet packets_[core::kind_count];
+};
+
+template <class Arch>
+void cross_all(const SceneView& scene, const CrossingPairs& pairs) {
+    CrossAll<Arch>(scene, pairs).all_pairs();
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,345 @@
+#include "simd/stream/row_worker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace raylane::simd {
+
+namespace {
+
+bool is_solid(core::Kind kind) {
+    return core::with_shape_type(
+        kind, []<class Shape>(std::type_identity<Shape>) { return core::is_solid<Shape>; });
+}
+
+} // namespace
+
+RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes)
+    : scene_(scene), tracing_{tracing.kernels, core::Precision::exact}, points_(scene.scene()),
+      lengths_(scene.scene()), intake_(scene, tracing_, shapes, at_a_time),
+      search_(scene, tracing_) {
+    arena_ = arena_for([&](Arena& arena) {
+        intake_.take_from(arena);
+        search_.take_from(arena, at_a_time);
+        t_most_ = arena.take<float>(at_a_time);
+    });
+    first_of_ray_.resize(at_a_time + 1);
+}
+
+/// Calls visit(the first of those that have been taken in together, lane) for each ray when the
+/// crossings of its pairs are there; for what is no ray, too.
+template <class Real, class Visit>
+void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
+    for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
+        count = intake_.take(rays, first).count;
+        list_pairs();
+        cross_pairs();
+        for (std::size_t lane = 0; lane < count; ++lane)
+            visit(first, lane);
+    }
+}
+
+/// Lists all shapes that rays may cross, by ray.
+void RowWorker::list_pairs() {
+    const Paths& paths = intake_.paths();
+    search_.take(paths.columns());
+    constexpr auto most_of_floats = static_cast<double>(std::numeric_limits<float>::max());
+    for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        const double left =
+            intake_.taken().t_most[lane] * (1.0 + 0x1p-40) - search_.approach().before(lane);
+        t_most_[lane] =
+            !intake_.is_ray(lane)
+                ? -1.0F
+                : std::max(static_cast<float>(std::min(left, most_of_floats)) * candidate_grace,
+                           std::numeric_limits<float>::min());
+    }
+    PairList list{};
+    do {
+        if (list.count > listed_ray_.size()) {
+            listed_ray_.resize(list.count + list.count / 4);
+            listed_slot_.resize(listed_ray_.size());
+        }
+        list = {listed_ray_.data(), listed_slot_.data(), listed_ray_.size(), 0};
+        // No filter sees the shape that a ray starts on.
+        for (std::size_t lane = 0; lane < paths.count; ++lane) {
+            if ((paths.origin_bits[lane] & origin_may_return) == 0 || !intake_.is_ray(lane))
+                continue;
+            if (list.count < list.room) {
+                list.ray[list.count] = static_cast<std::uint32_t>(lane);
+                list.slot[list.count] = paths.origin_slot[lane];
+            }
+            ++list.count;
+        }
+        tracing_.method().refine.list_all(scene_.view(), scene_.listed_kinds(), paths.count,
+                                          search_.rounded(), t_most_, search_.pending(), list);
+    } while (list.count > list.room);
+
+    // By ray: how many, where each ray's begin, and then each pair to its place.
+    std::fill(first_of_ray_.begin(), first_of_ray_.end(), 0U);
+    for (std::size_t k = 0; k < list.count; ++k)
+        ++first_of_ray_[list.ray[k]];
+    std::exclusive_scan(first_of_ray_.begin(), first_of_ray_.end(), first_of_ray_.begin(), 0U);
+    ray_.resize(list.count);
+    slot_.resize(list.count);
+    for (std::size_t k = 0; k < list.count; ++k) {
+        const std::uint32_t to = first_of_ray_[list.ray[k]]++;
+        ray_[to] = list.ray[k];
+        slot_[to] = list.slot[k];
+    }
+    std::copy_backward(first_of_ray_.begin(), first_of_ray_.end() - 1, first_of_ray_.end());
+    first_of_ray_[0] = 0;
+}
+
+void RowWorker::cross_pairs() {
+    for (std::vector<double>* const column : {&high_, &low_, &error_})
+        column->resize(2 * slot_.size());
+    bits_.resize(2 * slot_.size());
+    const Paths& paths = intake_.paths();
+    const double* const* const from = paths.origin;
+    const double* const* const along = paths.meant_direction;
+    tracing_.method().refine.cross_all(scene_.view(), {slot_.size(),
+                                                       {from[0], from[1], from[2]},
+                                                       {along[0], along[1], along[2]},
+                                                       ray_.data(),
+                                                       slot_.data(),
+                                                       high_.data(),
+                                                       low_.data(),
+                                                       error_.data(),
+                                                       bits_.data()});
+}
+
+/// Adds all crossings of a ray without limits from the open, where all of them count, if nothing is
+/// in doubt. Returns whether that is so.
+bool RowWorker::add_at_once(std::size_t lane, std::size_t most, CrossingRows& rows) {
+    keys_.clear();
+    for (std::uint32_t k = 2 * first_of_ray_[lane]; k < 2 * first_of_ray_[lane + 1]; ++k) {
+        if ((bits_[k] & hit_none) != 0) continue;
+        if ((bits_[k] & hit_doubtful) != 0) return false;
+        keys_.push_back({high_[k], k});
+    }
+    std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) { return a.t < b.t; });
+    const auto last_of = [&](std::uint32_t k) {
+        return high_[k] + (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
+    };
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        const std::uint32_t k = keys_[i].crossing;
+        if (!core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k])) return false;
+        if (i == 0) continue;
+        const double first = high_[k] - (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
+        if (!(last_of(keys_[i - 1].crossing) < first)) return false;
+    }
+    if (!keys_.empty()) counters_.order.by_bounds += keys_.size() - 1;
+
+    const std::size_t count = most == 0 ? keys_.size() : std::min(most, keys_.size());
+    const std::size_t begin = rows.t.size();
+    rows.t.resize(begin + count);
+    rows.shape.resize(begin + count);
+    for (std::vector<std::uint8_t>* const column :
+         {&rows.entering, &rows.face, &rows.tied, &rows.touching})
+        column->resize(begin + count);
+    const double unit = intake_.taken().unit[lane];
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t k = keys_[i].crossing;
+        rows.t[begin + i] = std::clamp(high_[k] * unit, std::numeric_limits<double>::denorm_min(),
+                                       std::numeric_limits<double>::max());
+        rows.shape[begin + i] = scene_.id_of(slot_[k / 2]);
+        rows.entering[begin + i] = (bits_[k] & hit_entering) != 0 ? 1 : 0;
+        rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
+    }
+    return true;
+}
+
+/// Finds the crossings of one ray for which counts(hit) is true, in order.
+template <class Counts>
+void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& counts) {
+    crossed_.clear();
+    for (std::size_t pair = first_of_ray_[lane]; pair < first_of_ray_[lane + 1]; ++pair) {
+        const SceneData::Occupant shape = scene_.occupant_of(slot_[pair]);
+        core::Hit<double> hit;
+        hit.shape = shape.id;
+        hit.kind = shape.kind;
+        hit.place = scene_.place_of(slot_[pair]);
+        const core::Start start = ray.origins.start_on(shape.id);
+        if (start.on_surface || ((bits_[2 * pair] | bits_[2 * pair + 1]) & hit_doubtful) != 0) {
+            core::with_table(scene_.scene().shapes(), shape.kind, [&](const auto& table) {
+                for (const core::Crossing<double>& crossing :
+                     core::solve(table.get(hit.place), ray.ray, start, counters_.widened)) {
+                    if (!(crossing.t > 0.0 || (start.on_surface && crossing.t == 0.0))) continue;
+                    hit.t = crossing.t;
+                    hit.error = crossing.error;
+                    hit.face = crossing.face;
+                    hit.entering = crossing.entering;
+                    if (counts(hit)) crossed_.push_back({hit, crossing.t, crossing.error});
+                }
+            });
+            continue;
+        }
+        for (std::size_t k = 2 * pair; k < 2 * pair + 2; ++k) {
+            if ((bits_[k] & hit_none) != 0) continue;
+            const core::DoubleDouble t = core::double_double::two_sum(high_[k], low_[k]);
+            hit.t = t.high;
+            hit.error = (error_[k] + std::abs(t.low)) * (1.0 + 0x1p-50);
+            hit.face = static_cast<core::Face>(bits_[k] & hit_face);
+            hit.entering = (bits_[k] & hit_entering) != 0;
+            if (counts(hit)) crossed_.push_back({hit, t, error_[k]});
+        }
+    }
+    sort(ray);
+}
+
+void RowWorker::sort(const LoneRay& ray) {
+    std::sort(crossed_.begin(), crossed_.end(),
+              [](const Crossed& a, const Crossed& b) { return a.hit.t < b.hit.t; });
+    if (are_surely_in_order()) {
+        counters_.order.by_bounds += crossed_.empty() ? 0 : crossed_.size() - 1;
+        return;
+    }
+    sharp_.clear();
+    for (const Crossed& crossed : crossed_)
+        sharp_.emplace_back(crossed.hit, crossed.t, crossed.error);
+    order_.resize(crossed_.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    const core::CrossingOrder order(scene_.scene(), ray.leaving(), &counters_.order);
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return order.is_before(sharp_[a], sharp_[b]);
+    });
+    sorted_.clear();
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        Crossed& crossed = sorted_.emplace_back(crossed_[order_[i]]);
+        crossed.hit = sharp_[order_[i]].sharpened();
+        crossed.hit.joins = i != 0 && order.compare(sharp_[order_[i - 1]], sharp_[order_[i]]) == 0;
+    }
+    crossed_.swap(sorted_);
+}
+
+bool RowWorker::are_surely_in_order() const {
+    for (std::size_t i = 1; i < crossed_.size(); ++i)
+        if (!crossed_[i - 1].hit.is_surely_before(crossed_[i].hit)) return false;
+    return true;
+}
+
+template <class Real>
+void RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wanted,
+                          CrossingRows& rows, CrossingCounters& counters) {
+    counters_ = {};
+    const core::Scene& scene = scene_.scene();
+    const bool all_count =
+        !scene_.one_sided() && !wanted.normals && rays.t_min == nullptr && rays.t_max == nullptr;
+    for_each_ray(rays, [&](std::size_t first, std::size_t lane) {
+        const bool is_open = intake_.paths().origin_slot[lane] == no_slot;
+        if (intake_.is_ray(lane) &&
+            !(all_count && is_open && add_at_once(lane, wanted.most, rows))) {
+            const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
+            find(ray, lane, [&](const core::Hit<double>& hit) { return ray.finds(scene, hit); });
+            leave_one_of_polygons();
+            add(ray, wanted, rows);
+        }
+        rows.first.push_back(rows.t.size());
+    });
+    counters += counters_;
+}
+
+/// Of triangles of one polygon that meet at an edge the first.
+void RowWorker::leave_one_of_polygons() {
+    std::size_t kept = 0, first_there = 0; // of those at one t
+    for (const Crossed& crossed : crossed_) {
+        if (!crossed.hit.joins) first_there = kept;
+        const auto is_of_same = [&](const Crossed& other) {
+            return scene_.scene().coplanar_with(crossed.hit.shape).contains(other.hit.shape);
+        };
+        if (!std::any_of(crossed_.begin() + static_cast<std::ptrdiff_t>(first_there),
+                         crossed_.begin() + static_cast<std::ptrdiff_t>(kept),
+                         [&](const Crossed& other) {
+                             return other.hit.shape != crossed.hit.shape && is_of_same(other);
+                         }))
+            crossed_[kept++] = crossed;
+    }
+    crossed_.resize(kept);
+}
+
+void RowWorker::add(const LoneRay& ray, const CrossingRequest& wanted, CrossingRows& rows) {
+    const core::Scene& scene = scene_.scene();
+    const std::size_t count = crossed_.size();
+    const std::size_t most = wanted.most == 0 ? count : std::min(wanted.most, count);
+    std::size_t first_there = 0, end_there = 0; // of those at one t
+    for (std::size_t i = 0; i < most; ++i) {
+        const core::Hit<double>& hit = crossed_[i].hit;
+        if (i == end_there) {
+            first_there = i;
+            for (++end_there; end_there < count && crossed_[end_there].hit.joins;)
+                ++end_there;
+        }
+        const bool touches = std::any_of(
+            crossed_.begin() + static_cast<std::ptrdiff_t>(first_there),
+            crossed_.begin() + static_cast<std::ptrdiff_t>(end_there), [&](const Crossed& other) {
+                return other.hit.shape == hit.shape && other.hit.entering != hit.entering;
+            });
+        const bool is_sure = core::rounds_surely(crossed_[i].t, crossed_[i].error);
+        rows.t.push_back(is_sure ? ray.as_answered(crossed_[i].t.high)
+                                 : ray.double_t_of(scene, hit));
+        rows.shape.push_back(hit.shape);
+        rows.entering.push_back(hit.entering ? 1 : 0);
+        rows.face.push_back(hit.face);
+        rows.tied.push_back(hit.joins ? 1 : 0);
+        rows.touching.push_back(touches ? 1 : 0);
+        if (!wanted.normals) continue;
+        const core::Vec3f normal = core::rounded_normal(scene, ray.leaving(), hit);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            rows.normal[axis].push_back(normal[static_cast<int>(axis)]);
+    }
+}
+
+template <class Real>
+void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
+    // What is around the start or an end is known by how it is left and entered beyond.
+    RayStream<Real> lines = rays;
+    lines.t_min = lines.t_max = nullptr;
+    for_each_ray(lines, [&](std::size_t first, std::size_t lane) {
+        const std::size_t i = first + lane;
+        const bool has_limits = (rays.t_min == nullptr || !std::isnan(rays.t_min[i])) &&
+                                (rays.t_max == nullptr || !std::isnan(rays.t_max[i]));
+        if (intake_.is_ray(lane) && has_limits) {
+            const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
+            find(ray, lane, [](const core::Hit<double>& hit) { return is_solid(hit.kind); });
+            hits_.clear();
+            for (const Crossed& crossed : crossed_)
+                hits_.push_back(crossed.hit);
+            lengths_found_.clear();
+            lengths_.add(ray.leaving(), hits_, std::ldexp(ray.t_min, -ray.exponent),
+                         std::ldexp(ray.t_max, -ray.exponent), lengths_found_);
+            for (const core::MaterialLength& found : lengths_found_) {
+                rows.material.push_back(found.material);
+                rows.length.push_back(found.length);
+            }
+        }
+        rows.first.push_back(rows.material.size());
+    });
+}
+
+template <class Real>
+void RowWorker::containing(const PointStream<Real>& points, SolidRows& rows) {
+    for (std::size_t i = 0; i < points.count; ++i) {
+        containing_.clear();
+        points_.add_containing(core::convert<double>(core::Vec3<Real>(
+                                   points.at[0][i], points.at[1][i], points.at[2][i])),
+                               containing_);
+        for (const core::Containing& solid : containing_) {
+            rows.shape.push_back(solid.shape);
+            rows.on_surface.push_back(solid.on_surface ? 1 : 0);
+        }
+        rows.first.push_back(rows.shape.size());
+    }
+}
+
+#define RAYLANE_INSTANTIATE(Real)                                                                  \
+    template void RowWorker::crossings(const RayStream<Real>&, const CrossingRequest&,             \
+                                       CrossingRows&, CrossingCounters&);                          \
+    template void RowWorker::path_lengths(const RayStream<Real>&, LengthRows&);                    \
+    template void RowWorker::containing(const PointStream<Real>&, SolidRows&);
+RAYLANE_INSTANTIATE(float)
+RAYLANE_INSTANTIATE(double)
+#undef RAYLANE_INSTANTIATE
+
+} // namespace raylane::simd

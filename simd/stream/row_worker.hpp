@@ -1,0 +1,97 @@
+#pragma once
+
+#include "core/reference/containing.hpp"
+#include "core/reference/path_lengths.hpp"
+#include "simd/arena.hpp"
+#include "simd/query/search.hpp"
+#include "simd/stream/intake.hpp"
+#include "simd/stream/rows.hpp"
+
+#include <vector>
+
+namespace raylane::simd {
+
+/// What is wanted of all crossings.
+struct CrossingRequest {
+    std::size_t most = 0; ///< of a ray, its first; 0: all
+    bool normals = false;
+};
+
+/// Counts of rows of crossings.
+struct CrossingCounters {
+    core::OrderCounters order;
+    std::uint64_t widened = 0; ///< rays x shapes that more than double was needed for
+
+    CrossingCounters& operator+=(const CrossingCounters& other) {
+        order += other.order;
+        widened += other.widened;
+        return *this;
+    }
+};
+
+/// Answers rays and points with rows of any length, for one thread. All is exact.
+class RowWorker {
+  public:
+    RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes);
+
+    /// Each appends to the rows.
+    template <class Real>
+    void crossings(const RayStream<Real>& rays, const CrossingRequest& wanted, CrossingRows& rows,
+                   CrossingCounters& counters);
+    template <class Real>
+    void path_lengths(const RayStream<Real>& rays, LengthRows& rows);
+    template <class Real>
+    void containing(const PointStream<Real>& points, SolidRows& rows);
+
+  private:
+    /// A crossing of one ray, with t in twice the digits.
+    struct Crossed {
+        core::Hit<double> hit;
+        core::DoubleDouble t;
+        double error;
+    };
+
+    template <class Real, class Visit>
+    void for_each_ray(const RayStream<Real>& rays, const Visit& visit);
+    void list_pairs();
+    void cross_pairs();
+    bool add_at_once(std::size_t lane, std::size_t most, CrossingRows& rows);
+    template <class Counts>
+    void find(const LoneRay& ray, std::size_t lane, const Counts& counts);
+    void sort(const LoneRay& ray);
+    bool are_surely_in_order() const;
+    void leave_one_of_polygons();
+    void add(const LoneRay& ray, const CrossingRequest& wanted, CrossingRows& rows);
+
+    static constexpr std::size_t at_a_time = 1024;
+
+    const SceneData& scene_;
+    Tracing tracing_;
+    core::PointSearcher points_;
+    core::PathLengths lengths_;
+    StreamIntake intake_;
+    CandidateSearch search_;
+    float* t_most_ = nullptr;
+    Arena arena_;
+
+    // Shapes that rays may cross: as listed; and by ray, those of one from its first up to the
+    // next one's.
+    std::vector<std::uint32_t> listed_ray_, listed_slot_, first_of_ray_, ray_, slot_;
+    std::vector<double> high_, low_, error_; // of their crossings
+    std::vector<std::uint32_t> bits_;
+
+    struct Key {
+        double t;
+        std::uint32_t crossing;
+    };
+    std::vector<Key> keys_;                 // of one ray, in order
+    std::vector<Crossed> crossed_, sorted_; // likewise
+    std::vector<core::SharpHit> sharp_;
+    std::vector<std::uint32_t> order_;
+    std::vector<core::Hit<double>> hits_;
+    std::vector<core::MaterialLength> lengths_found_;
+    std::vector<core::Containing> containing_;
+    CrossingCounters counters_;
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,88 @@
+#include "raylane/raylane.hpp"
+#include "tests/catch.hpp"
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+/// Failures of others in double, reported in the field, where rays alone are doubles. `t` is what
+/// the reports say that it should be, or what real arithmetic gives.
+using namespace raylane;
+
+namespace {
+
+CrossingRows crossings(const Scene& scene, const double (&from)[3], const double (&along)[3]) {
+    const std::span<const double> x(&from[0], 1), y(&from[1], 1), z(&from[2], 1);
+    const std::span<const double> dx(&along[0], 1), dy(&along[1], 1), dz(&along[2], 1);
+    CrossingRows rows;
+    Tracer(scene).crossings(DoubleRaySpan{x, y, z, dx, dy, dz}, rows);
+    return rows;
+}
+
+template <class Shape>
+Scene scene_of(const Shape& shape) {
+    SceneBuilder builder;
+    builder.add(shape, builder.add_material({}));
+    return builder.build();
+}
+
+} // namespace
+
+/// Celeritas, cylinders: rays nearly along the axis were said never to leave (t infinite), or at
+/// 1370730.96944.
+TEST_CASE("Celeritas: a ray nearly along a cylinder leaves it") {
+    const Scene scene = scene_of(OpenCylinder{{0, 0, -2e8F}, {0, 0, 4e8F}, 30});
+    const struct {
+        double slope, t;
+    } cases[] = {{1e-5, 1370731.006182}, {1e-6, 13707310.0604622}, {1e-7, 137073100.604486}};
+    for (const auto& [slope, t] : cases) {
+        const double length = std::sqrt(2.0 * slope * slope + 1.0);
+        const CrossingRows rows =
+            crossings(scene, {7, 8, 9}, {slope / length, slope / length, 1.0 / length});
+        REQUIRE(rows.t.size() == 1);
+        CHECK(rows.t[0] == Approx(t).epsilon(1e-12));
+        CHECK(rows.entering[0] == 0);
+    }
+}
+
+/// Celeritas: no crossing was found.
+TEST_CASE("Celeritas: a ray nearly along a cylinder about x leaves it") {
+    const CrossingRows rows =
+        crossings(scene_of(OpenCylinder{{-4e6F, 0, 0}, {8e6F, 0, 0}, 3}), {0.123, 0.345, 0.456},
+                  {9.9999999999940814e-1, 4.09517743700767399e-7, 1.00812588415826643e-6});
+    REQUIRE(rows.t.size() == 1);
+    CHECK(rows.t[0] == Approx(2246088.24926342).epsilon(1e-14));
+}
+
+/// Optiland #559: a paraboloid, R = -100, k = -1: the quadratic term of a ray along the axis
+/// vanishes.
+TEST_CASE("Optiland: a ray along the axis meets a paraboloid once") {
+    Quadric paraboloid{}; // x^2 + y^2 + 200 z = 0
+    paraboloid.xx = paraboloid.yy = 1;
+    paraboloid.z = 100;
+    paraboloid.lower = {-20, -20, -3};
+    paraboloid.upper = {20, 20, 1};
+    const CrossingRows rows = crossings(scene_of(paraboloid), {10, 0, -50}, {0, 0, 1});
+    REQUIRE(rows.t.size() == 1);
+    CHECK(rows.t[0] == 49.5);
+}
+
+/// OpenMC #81, exactly: a coincidence tolerance of 1e-12 decides there which comes first.
+TEST_CASE("OpenMC: a sphere and a plane that a ray meets at one point are tied") {
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    builder.add(Sphere{{0, 0, 0}, 2.5F}, material);
+    builder.add(OpenCylinder{{0, 0, -8}, {0, 0, 16}, 4}, material);
+    builder.add(Plane{{0, 0, 1.5F}, {0, 0, 1}}, material);
+    builder.add(Plane{{0, 0, -1.5F}, {0, 0, 1}}, material);
+    const Scene scene = builder.build();
+    const CrossingRows rows = crossings(scene, {0, 0, 0}, {4, 0, 3});
+    CHECK(rows.t == std::vector<double>{0.5, 0.5, 1.0});
+    CHECK(rows.shape == std::vector<ShapeId>{0, 2, 1});
+    CHECK(rows.tied == std::vector<std::uint8_t>{0, 1, 0});
+    // An ulp steeper, the plane comes first.
+    const CrossingRows beside = crossings(scene, {0, 0, 0}, {4, 0, std::nextafter(3.0, 4.0)});
+    CHECK(beside.t == std::vector<double>{std::nextafter(0.5, 0.0), 0.5, 1.0});
+    CHECK(beside.shape == std::vector<ShapeId>{2, 0, 1});
+    CHECK(beside.tied == std::vector<std::uint8_t>{0, 0, 0});
+}

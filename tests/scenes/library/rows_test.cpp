@@ -1,0 +1,330 @@
+#include "tests/catch.hpp"
+#include "tests/meetings/gathering.hpp"
+#include "tests/oracle/truth.hpp"
+#include "tests/scenes/library/exam.hpp"
+#include "tests/simd/rounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// Answers of any number for each ray or point. exam.cpp holds crossings to the oracle.
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+using Strings = std::vector<std::string>;
+
+/// A word for each crossing, such as "+0@2" where shape 0 is entered at t = 2: with = if it is tied
+/// to the one before, and ~ if it only touches.
+Strings words(const CrossingRows& rows, std::size_t i = 0) {
+    Strings all;
+    for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k) {
+        std::ostringstream word;
+        word << (rows.tied[k] != 0 ? "=" : "") << (rows.touching[k] != 0 ? "~" : "")
+             << (rows.entering[k] != 0 ? "+" : "-") << rows.shape[k] << "@" << rows.t[k];
+        all.push_back(word.str());
+    }
+    return all;
+}
+
+CrossingRows crossings(const Scene& scene, const Rays& rays, const CrossingOptions& options = {},
+                       CrossingStatistics* statistics = nullptr) {
+    CrossingRows rows;
+    Tracer(scene).crossings(rays.span(), rows, options, statistics);
+    return rows;
+}
+
+template <class... Shapes>
+Scene scene_of_materials(const Shapes&... shapes) {
+    SceneBuilder builder;
+    (builder.add(shapes, builder.add_material({})), ...);
+    return builder.build();
+}
+
+Rays one_ray(const Vec3& origin, const Vec3& direction) {
+    Rays rays;
+    rays.add(origin, direction);
+    return rays;
+}
+
+} // namespace
+
+TEST_CASE("all crossings come in order, and ties and what only touches by name") {
+    // The cells of a reactor's pin: a sphere in a cylinder, between planes.
+    const Scene pin =
+        scene_of_materials(Sphere{{0, 0, 0}, 2.5F}, OpenCylinder{{0, 0, -8}, {0, 0, 16}, 4},
+                           Plane{{0, 0, 1.5F}, {0, 0, 1}}, Plane{{0, 0, -1.5F}, {0, 0, 1}});
+    CHECK(words(crossings(pin, one_ray({0, 0, 0}, {4, 0, 3}))) ==
+          Strings{"-0@0.5", "=-2@0.5", "-1@1"});
+    CHECK(words(crossings(pin, one_ray({0, 0, 0}, {-4, 0, -3}))) ==
+          Strings{"+3@0.5", "=-0@0.5", "-1@1"});
+    CHECK(words(crossings(pin, one_ray({-10, 0, 0}, {1, 0, 0}))) ==
+          Strings{"+1@6", "+0@7.5", "-0@12.5", "-1@14"});
+    CHECK(words(crossings(pin, one_ray({-10, 2.5F, 0}, {1, 0, 0}))).at(1) == "~+0@10");
+    CHECK(words(crossings(pin, one_ray({-10, 2.5F, 0}, {1, 0, 0}))).at(2) == "=~-0@10");
+
+    // Surfaces that coincide: each by its id.
+    const OpenCylinder cylinder{{0, 0, 0}, {0, 0, 1}, 1};
+    CHECK(words(crossings(scene_of_materials(cylinder, cylinder),
+                          one_ray({-2, 0, 0.5F}, {1, 0, 0}))) ==
+          Strings{"+0@1", "=+1@1", "-0@3", "=-1@3"});
+}
+
+TEST_CASE("of triangles of one polygon one is crossed at an edge") {
+    SceneBuilder builder;
+    const Triangle square[] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                               {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+    builder.add_polygon(std::span(square), builder.add_material({}));
+    CHECK(words(crossings(builder.build(), one_ray({0.5F, 0.5F, 1}, {0, 0, -1}))).size() == 1);
+}
+
+TEST_CASE("the first crossings of a ray are asked for by number, with normals and limits") {
+    const Scene scene = scene_of_materials(Sphere{{0, 0, 0}, 1}, Sphere{{0, 0, 0}, 2});
+    Rays rays = one_ray({-4, 0, 0}, {2, 0, 0});
+    const CrossingRows two = crossings(scene, rays, {.most = 2, .normals = true});
+    CHECK(words(two) == Strings{"+1@1", "+0@1.5"});
+    CHECK(two.normal_x == std::vector<float>{-1, -1});
+    CHECK(two.normal_y == std::vector<float>{0, 0});
+    CHECK(two.normal_z == std::vector<float>{0, 0});
+    CHECK(two.face == std::vector<std::uint8_t>{0, 0});
+    rays.t_min = {1};
+    rays.t_max = {2.5F};
+    const CrossingRows between = crossings(scene, rays);
+    CHECK(words(between) == Strings{"+0@1.5", "-0@2.5"});
+    CHECK(between.normal_x.empty());
+    // From a surface that is named.
+    const ShapeId left[] = {1};
+    const std::uint8_t inward[] = {1};
+    RaySpan from = rays.span();
+    from.t_min = from.t_max = {};
+    const float x[] = {-2};
+    from.origin_x = x;
+    from.origin_shape = left;
+    from.origin_inward = inward;
+    CrossingRows rows;
+    Tracer(scene).crossings(from, rows);
+    CHECK(words(rows) == Strings{"+0@0.5", "-0@1.5", "-1@2"});
+}
+
+TEST_CASE("rows have a place for rays that are none, and for none at all") {
+    const Scene scene = scene_of_materials(Sphere{{0, 0, 0}, 1});
+    Rays rays = one_ray({-2, 0, 0}, {0, 0, 0});
+    rays.add({-2, 0, 0}, {1, 0, 0});
+    rays.add({-2, not_a_number, 0}, {1, 0, 0});
+    CHECK(crossings(scene, rays).first == std::vector<std::uint64_t>{0, 0, 2, 2});
+    CHECK(crossings(scene, Rays()).first == std::vector<std::uint64_t>{0});
+    LengthRows lengths;
+    Tracer(scene).path_lengths(rays.span(), lengths);
+    CHECK(lengths.first == std::vector<std::uint64_t>{0, 0, 1, 1});
+    CHECK(lengths.length == std::vector<double>{2.0});
+    const std::vector<float> x{0, not_a_number, 1, infinity}, zero(4, 0.0F);
+    SolidRows solids;
+    Tracer(scene).contains(PointSpan{x, zero, zero}, solids);
+    CHECK(solids.first == std::vector<std::uint64_t>{0, 1, 1, 2, 2});
+    CHECK(solids.on_surface == std::vector<std::uint8_t>{0, 1});
+    CHECK_THROWS_AS(Tracer(scene).contains(PointSpan{x, zero, {}}, solids), InvalidValue);
+}
+
+TEST_CASE("rows are the same whatever the threads, and count what decided them") {
+    const Heap many = heap(true, sanitized ? 4 : 30, 3);
+    CrossingRows alone, shared;
+    CrossingStatistics by_one, by_three;
+    Tracer(many.scene, {.threads = 1})
+        .crossings(many.rays.span(), alone, {.normals = true}, &by_one);
+    Tracer(many.scene, {.threads = 3})
+        .crossings(many.rays.span(), shared, {.normals = true}, &by_three);
+    CHECK(alone.first == shared.first);
+    CHECK(alone.t == shared.t);
+    CHECK(alone.shape == shared.shape);
+    CHECK(alone.normal_z == shared.normal_z);
+    CHECK(by_one.by_bounds > 0);
+    CHECK(by_one.by_digits > 0);
+    CHECK(by_one.exactly > 0);
+    CHECK(by_one.by_bounds + by_one.by_digits + by_one.exactly ==
+          by_three.by_bounds + by_three.by_digits + by_three.exactly);
+    LengthRows of_one, of_three;
+    Tracer(many.scene, {.threads = 1}).path_lengths(many.rays.span(), of_one);
+    Tracer(many.scene, {.threads = 3}).path_lengths(many.rays.span(), of_three);
+    CHECK(of_one.length == of_three.length);
+    CHECK(of_one.first == of_three.first);
+}
+
+TEST_CASE("each crossing's normal is that of the nearest hit from the one before") {
+    const Heap many = heap(false, sanitized ? 3 : 12, 5);
+    const Tracer tracer(many.scene);
+    CrossingRows rows;
+    tracer.crossings(many.rays.span(), rows, {.normals = true});
+    const Hits hits = intersect(tracer, many.rays);
+    for (std::size_t i = 0; i < many.rays.size(); ++i) {
+        const std::uint64_t k = rows.first[i];
+        CHECK((rows.first[i + 1] == k) == (hits.shape[i] == no_shape));
+        if (rows.first[i + 1] == k) continue;
+        CHECK(rows.shape[k] == hits.shape[i]);
+        CHECK(static_cast<float>(rows.t[k]) == hits.t[i]);
+        CHECK(rows.entering[k] == hits.entering[i]);
+        CHECK((rows.normal_x[k] == hits.nx[i] && rows.normal_y[k] == hits.ny[i] &&
+               rows.normal_z[k] == hits.nz[i]));
+    }
+}
+
+TEST_CASE("lengths are those of what is inside of a material") {
+    SceneBuilder builder;
+    const MaterialIndex glass = builder.add_material({}), lead = builder.add_material({});
+    builder.add(Sphere{{0, 0, 0}, 2}, glass);
+    builder.add(Sphere{{1, 0, 0}, 2}, glass);                  // overlaps the first
+    builder.add(Sphere{{0, 0, 0}, 1}, lead);                   // inside of both
+    builder.add(OpenCylinder{{9, 0, -1}, {0, 0, 2}, 1}, lead); // no solid
+    builder.add(Sphere{{-4, 0, 0}, 2}, glass);                 // touches the first
+    const Scene scene = builder.build();
+    const auto lengths = [&](const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
+        Rays rays = one_ray(origin, direction);
+        rays.t_min = {t_min};
+        rays.t_max = {t_max};
+        LengthRows rows;
+        Tracer(scene).path_lengths(rays.span(), rows);
+        std::vector<std::pair<MaterialIndex, double>> all;
+        for (std::size_t k = 0; k < rows.material.size(); ++k)
+            all.emplace_back(rows.material[k], rows.length[k]);
+        return all;
+    };
+    using Lengths = decltype(lengths({}, {}, 0, 0));
+    CHECK(lengths({-10, 0, 0}, {3, 0, 0}, 0, infinity) == Lengths{{glass, 9.0}, {lead, 2.0}});
+    CHECK(lengths({0, 0, 0}, {0.5F, 0, 0}, 0, infinity) == Lengths{{glass, 3.0}, {lead, 1.0}});
+    CHECK(lengths({0, 0, 0}, {0.5F, 0, 0}, 1, 5) == Lengths{{glass, 2.0}, {lead, 0.5}});
+    CHECK(lengths({0, 0, 0}, {1, 0, 0}, 5, 9).empty());
+    CHECK(lengths({0, 0, 0}, {1, 0, 0}, 2, 2).empty());
+    CHECK(lengths({-4, -5, 0}, {0, 1, 0}, 0, infinity) == Lengths{{glass, 4.0}});
+    CHECK(lengths({-6, -5, 0}, {0, 1, 0}, 0, infinity).empty()); // touches
+}
+
+TEST_CASE("lengths inside of solids are within an ulp, however the rays graze") {
+    ray_sets::Random random(seed(20261124));
+    long measured = 0;
+    for (int round = 0; round < rounds(3, 1); ++round)
+        for (const meetings::Kind& kind : meetings::gatherings) {
+            if (kind.least > 30) continue;
+            const meetings::Meeting meeting =
+                kind.make(random.integer(kind.least, kind.most), random, 30);
+            const std::vector<tests::AnyShape> shapes = valid(meeting.shapes);
+            const Scene scene = scene_of(shapes, Sides::some); // three materials
+            const oracle::Neighbours neighbours(shapes);
+            Rays rays;
+            for (const core::Ray<float>& ray : meeting.rays)
+                rays.add({ray.origin.x, ray.origin.y, ray.origin.z},
+                         {ray.direction.x, ray.direction.y, ray.direction.z});
+            LengthRows rows;
+            Tracer(scene).path_lengths(rays.span(), rows);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                const core::Ray<double> ray = rays.ray(i);
+                const oracle::Sight sight(shapes, neighbours, ray, [&](ShapeId id, bool) {
+                    return std::visit(
+                        []<class Shape>(const Shape&) { return core::is_solid<Shape>; },
+                        shapes[id]);
+                });
+                // Of each material, from where it is first entered to where it is left last.
+                std::map<MaterialIndex, std::map<ShapeId, oracle::Number>> begins;
+                std::map<MaterialIndex, std::vector<std::pair<oracle::Number, oracle::Number>>> all;
+                for (const oracle::Found& found : sight.all()) {
+                    const MaterialIndex material = found.shape % 3;
+                    if (found.hit.entering) {
+                        begins[material][found.shape] = found.hit.t;
+                        continue;
+                    }
+                    const auto begin = begins[material].find(found.shape);
+                    all[material].emplace_back(begin == begins[material].end() ? oracle::Number(0)
+                                                                               : begin->second,
+                                               found.hit.t);
+                }
+                const oracle::Number speed =
+                    sqrt(oracle::Number(ray.direction.x) * ray.direction.x +
+                         oracle::Number(ray.direction.y) * ray.direction.y +
+                         oracle::Number(ray.direction.z) * ray.direction.z);
+                std::uint64_t k = rows.first[i];
+                for (auto& [material, parts] : all) {
+                    std::sort(parts.begin(), parts.end());
+                    oracle::Number length = 0, end = 0;
+                    for (const auto& [from, to] : parts) {
+                        if (to > end) length += to - std::max(from, end);
+                        end = std::max(to, end);
+                    }
+                    length *= speed;
+                    if (length < 1e-60) continue; // none, but for the digits
+                    ++measured;
+                    REQUIRE(k < rows.first[i + 1]);
+                    CHECK(rows.material[k] == material);
+                    const double answer = rows.length[k++];
+                    const double ulp =
+                        std::nextafter(answer, std::numeric_limits<double>::max()) - answer;
+                    CHECK(abs(oracle::Number(answer) - length) < ulp);
+                }
+                CHECK(k == rows.first[i + 1]);
+            }
+        }
+    CHECK(measured > 300);
+}
+
+TEST_CASE("points are in solids as real arithmetic says") {
+    ray_sets::Random random(seed(20261125));
+    long inside = 0, on_surface = 0, outside = 0;
+    for (int round = 0; round < rounds(3, 1); ++round)
+        for (const meetings::Kind& kind : meetings::gatherings) {
+            if (kind.least > 30) continue;
+            const meetings::Meeting meeting =
+                kind.make(random.integer(kind.least, kind.most), random, 40);
+            const std::vector<tests::AnyShape> shapes = valid(meeting.shapes);
+            const Scene scene = scene_of(shapes, Sides::some);
+            // Where rays cross surfaces, as near as doubles are, and places on a lattice.
+            std::vector<double> x, y, z;
+            for (const core::Ray<float>& narrow : meeting.rays) {
+                const core::Ray<double> ray{core::convert<double>(narrow.origin),
+                                            core::convert<double>(narrow.direction)};
+                for (const double t : {0.0, 1.0, 0.5, random.uniform(0.0, 2.0)}) {
+                    const core::Vec3d point = ray.origin + t * ray.direction;
+                    x.push_back(point.x);
+                    y.push_back(point.y);
+                    z.push_back(point.z);
+                }
+            }
+            SolidRows rows;
+            Tracer(scene).contains(DoublePointSpan{x, y, z}, rows);
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                // A line through the point is in a convex solid on both sides of it, or on none.
+                const core::Ray<double> line{{x[i], y[i], z[i]}, {0.41, 0.57, 0.71}};
+                std::vector<std::pair<ShapeId, int>> truth, answer;
+                for (ShapeId id = 0; id < shapes.size(); ++id) {
+                    const bool is_solid =
+                        std::visit([]<class Shape>(const Shape&) { return core::is_solid<Shape>; },
+                                   shapes[id]);
+                    bool is_copy = false;
+                    for (ShapeId other = id % 3; other < id; other += 3)
+                        is_copy = is_copy || are_same(shapes[other], shapes[id]);
+                    if (!is_solid || is_copy) continue;
+                    bool behind = false, ahead = false, here = false;
+                    for (const oracle::Hit& hit : oracle::crossings(shapes[id], line)) {
+                        const int side = oracle::compare(
+                            hit.root, oracle::Root::quotient(oracle::Exact(0), oracle::Exact(1)));
+                        behind = behind || side < 0;
+                        ahead = ahead || side > 0;
+                        here = here || side == 0;
+                    }
+                    const bool is_in = here || (behind && ahead);
+                    (here ? on_surface : is_in ? inside : outside) += 1;
+                    if (is_in) truth.emplace_back(id, here ? 1 : 0);
+                }
+                for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k)
+                    answer.emplace_back(rows.shape[k], rows.on_surface[k]);
+                CHECK(answer == truth);
+            }
+        }
+    CHECK(inside > 300);
+    CHECK(on_surface > 50);
+    CHECK(outside > 300);
+}
