@@ -109,6 +109,7 @@ all="camera scanlines mirror shadow incoherent occlusion"
 {
     measure $scenes sticks/$many "$picture" --rays $all
     measure spheres/$some spheres/$many sticks/$many --rays build
+    measure spheres/10000 spheres/$some --rays crossings
     if grep -q avx512dq /proc/cpuinfo; then
         measure spheres/$some spheres/$many sticks/$many --rays $all --isa avx2
     fi

@@ -14,6 +14,37 @@ bool is_solid(core::Kind kind) {
         kind, []<class Shape>(std::type_identity<Shape>) { return core::is_solid<Shape>; });
 }
 
+enum class Within : std::uint8_t { no, yes, unknown };
+
+/// A ray's limits, in its own units.
+template <class Real>
+class Limits {
+  public:
+    Limits(const RayStream<Real>& rays, std::size_t i) {
+        if (rays.t_min != nullptr) min_ = static_cast<double>(std::max(Real(0), rays.t_min[i]));
+        if (rays.t_max != nullptr) max_ = static_cast<double>(rays.t_max[i]);
+    }
+
+    /// Of t, which is off by less than `error`.
+    Within compare(double t, double error) const {
+        if (!(min_ > 0.0) && max_ == std::numeric_limits<double>::infinity()) return Within::yes;
+        if constexpr (std::is_same_v<Real, float>) {
+            float rounded = 0.0F;
+            if (!core::rounds_surely(t, error, rounded)) return Within::unknown;
+            const auto answered = static_cast<double>(rounded);
+            return answered > min_ && answered <= max_ ? Within::yes : Within::no;
+        } else {
+            // Sums of limits with an error may be rounded by less than that much again.
+            const double off = 2.0 * error + 0x1p-52 * t;
+            if (t + off < min_ || t - off > max_) return Within::no;
+            return t - off > min_ && t + off < max_ ? Within::yes : Within::unknown;
+        }
+    }
+
+  private:
+    double min_ = 0.0, max_ = std::numeric_limits<double>::infinity();
+};
+
 } // namespace
 
 RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes)
@@ -110,27 +141,31 @@ void RowWorker::cross_pairs() {
                                                        bits_.data()});
 }
 
-/// Adds all crossings of a ray without limits from the open, where all of them count, if nothing is
-/// in doubt. Returns whether that is so.
-bool RowWorker::add_at_once(std::size_t lane, std::size_t most, CrossingRows& rows) {
+/// Adds the crossings of a ray if nothing of them is in doubt, neither which are between its limits
+/// nor their order, and it cannot come back to what it leaves. Returns whether that is so.
+template <class Real>
+bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
+                            CrossingRows& rows) {
+    if ((intake_.paths().origin_bits[lane] & origin_may_return) != 0) return false;
+    const double unit = intake_.taken().unit[lane];
+    const Limits<Real> limits(rays, lane);
     keys_.clear();
     for (std::uint32_t k = 2 * first_of_ray_[lane]; k < 2 * first_of_ray_[lane + 1]; ++k) {
         if ((bits_[k] & hit_none) != 0) continue;
-        if ((bits_[k] & hit_doubtful) != 0) return false;
-        keys_.push_back({high_[k], k});
+        if ((bits_[k] & hit_doubtful) != 0 ||
+            !core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k]))
+            return false;
+        if (scene_.one_sided() && !is_seen(k)) continue;
+        const Within within = limits.compare(high_[k] * unit, off_by(k) * unit);
+        if (within == Within::unknown) return false;
+        if (within == Within::yes) keys_.push_back({high_[k], k});
     }
     std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) { return a.t < b.t; });
-    const auto last_of = [&](std::uint32_t k) {
-        return high_[k] + (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
-    };
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-        const std::uint32_t k = keys_[i].crossing;
-        if (!core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k])) return false;
-        if (i == 0) continue;
-        const double first = high_[k] - (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
-        if (!(last_of(keys_[i - 1].crossing) < first)) return false;
+    for (std::size_t i = 1; i < keys_.size(); ++i) {
+        const std::uint32_t before = keys_[i - 1].crossing, k = keys_[i].crossing;
+        if (!(high_[before] + off_by(before) < high_[k] - off_by(k))) return false;
     }
-    if (!keys_.empty()) counters_.order.by_bounds += keys_.size() - 1;
+    counters_.order.by_bounds += keys_.empty() ? 0 : keys_.size() - 1;
 
     const std::size_t count = most == 0 ? keys_.size() : std::min(most, keys_.size());
     const std::size_t begin = rows.t.size();
@@ -139,7 +174,6 @@ bool RowWorker::add_at_once(std::size_t lane, std::size_t most, CrossingRows& ro
     for (std::vector<std::uint8_t>* const column :
          {&rows.entering, &rows.face, &rows.tied, &rows.touching})
         column->resize(begin + count);
-    const double unit = intake_.taken().unit[lane];
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t k = keys_[i].crossing;
         rows.t[begin + i] = std::clamp(high_[k] * unit, std::numeric_limits<double>::denorm_min(),
@@ -149,6 +183,16 @@ bool RowWorker::add_at_once(std::size_t lane, std::size_t most, CrossingRows& ro
         rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
     }
     return true;
+}
+
+/// What the true t of a crossing is off from `high_` by.
+double RowWorker::off_by(std::size_t k) const {
+    return (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
+}
+
+bool RowWorker::is_seen(std::size_t k) const {
+    const core::MaterialIndex material = scene_.occupant_of(slot_[k / 2]).material;
+    return scene_.scene().materials()[material].is_seen((bits_[k] & hit_entering) != 0);
 }
 
 /// Finds the crossings of one ray for which counts(hit) is true, in order.
@@ -225,13 +269,11 @@ void RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wa
                           CrossingRows& rows, CrossingCounters& counters) {
     counters_ = {};
     const core::Scene& scene = scene_.scene();
-    const bool all_count =
-        !scene_.one_sided() && !wanted.normals && rays.t_min == nullptr && rays.t_max == nullptr;
     for_each_ray(rays, [&](std::size_t first, std::size_t lane) {
-        const bool is_open = intake_.paths().origin_slot[lane] == no_slot;
+        const RayStream<Real> some = part_of(rays, first, rays.count - first);
         if (intake_.is_ray(lane) &&
-            !(all_count && is_open && add_at_once(lane, wanted.most, rows))) {
-            const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
+            (wanted.normals || !add_at_once(some, lane, wanted.most, rows))) {
+            const LoneRay ray = intake_.lone(some, lane, lane);
             find(ray, lane, [&](const core::Hit<double>& hit) { return ray.finds(scene, hit); });
             leave_one_of_polygons();
             add(ray, wanted, rows);

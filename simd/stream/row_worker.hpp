@@ -55,7 +55,11 @@ class RowWorker {
     void for_each_ray(const RayStream<Real>& rays, const Visit& visit);
     void list_pairs();
     void cross_pairs();
-    bool add_at_once(std::size_t lane, std::size_t most, CrossingRows& rows);
+    template <class Real>
+    bool add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
+                     CrossingRows& rows);
+    double off_by(std::size_t k) const;
+    bool is_seen(std::size_t k) const;
     template <class Counts>
     void find(const LoneRay& ray, std::size_t lane, const Counts& counts);
     void sort(const LoneRay& ray);
