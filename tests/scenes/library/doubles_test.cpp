@@ -41,10 +41,12 @@ struct Answers {
         span.t_double = t_double;
         tracer.intersect(rays.span(), span);
         tracer.occluded(rays.span(), blocked);
+        tracer.crossings(rays.span(), rows);
     }
     Hits hits;
     std::vector<double> t_double;
     std::vector<std::uint8_t> blocked;
+    CrossingRows rows;
 };
 
 /// A ray beside one in float, as doubles can be: by some of their ulps, or by what no float has.
@@ -81,8 +83,9 @@ struct Question {
 };
 
 struct Faults {
-    long rays = 0, hits = 0, shape = 0, t = 0, t_double = 0, normal = 0, side = 0, occlusion = 0;
-    long all() const { return shape + t + t_double + normal + side + occlusion; }
+    long rays = 0, hits = 0, shape = 0, t = 0, t_double = 0, normal = 0, side = 0, occlusion = 0,
+         crossings = 0;
+    long all() const { return shape + t + t_double + normal + side + occlusion + crossings; }
 };
 
 /// Rays without limits, and with these at crossings and next to them.
@@ -90,6 +93,7 @@ void ask(const std::vector<tests::AnyShape>& all, const std::vector<core::Ray<do
          Faults& faults) {
     const std::vector<tests::AnyShape> shapes = valid(all);
     const oracle::Neighbours neighbours(shapes);
+    const std::vector<char> counts = which_count(shapes);
     const Tracer tracer(scene_of(shapes), {.threads = 1});
     std::vector<oracle::Sight> sights;
     std::vector<Question> questions;
@@ -122,6 +126,11 @@ void ask(const std::vector<tests::AnyShape>& all, const std::vector<core::Ray<do
             break;
         }
         ++faults.rays;
+        const auto is_between = [&](const oracle::Found& found) {
+            return counts[found.shape] != 0 && compare(found.hit, question.t_min) > 0 &&
+                   compare(found.hit, question.t_max) <= 0;
+        };
+        faults.crossings += is_right(answers.rows, i, sight, is_between) ? 0 : 1;
         const Hits& hits = answers.hits;
         faults.occlusion += answers.blocked[i] != (truth != nullptr ? 1 : 0) ? 1 : 0;
         if (truth == nullptr) {

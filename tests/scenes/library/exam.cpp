@@ -3,6 +3,7 @@
 #include "core/scene/validate.hpp"
 #include "scenes/library/internals.hpp"
 #include "simd/isa.hpp"
+#include "simd/stream/row_worker.hpp"
 #include "simd/stream_tracer.hpp"
 
 #include <algorithm>
@@ -82,6 +83,42 @@ Scene scene_of(std::span<const AnyShape> shapes, Sides sides) {
     return builder.build();
 }
 
+std::vector<char> which_count(std::span<const AnyShape> shapes, Sides sides) {
+    std::vector<char> counts;
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        std::size_t first = 0;
+        while (first < i && !(which_sides(first, sides) == which_sides(i, sides) &&
+                              are_same(shapes[first], shapes[i])))
+            ++first;
+        counts.push_back(first == i ? 1 : 0);
+    }
+    return counts;
+}
+
+bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& sight,
+              const std::function<bool(const oracle::Found&)>& counts) {
+    std::uint64_t at = rows.first[row];
+    const std::uint64_t end = rows.first[row + 1];
+    const oracle::Found* before = nullptr;
+    for (const oracle::Found& found : sight.all()) {
+        if (!counts(found)) continue;
+        const bool touches =
+            std::any_of(sight.all().begin(), sight.all().end(), [&](const oracle::Found& other) {
+                return other.shape == found.shape && other.hit.entering != found.hit.entering &&
+                       compare(other.hit, found.hit) == 0;
+            });
+        const bool is_tied = before != nullptr && compare(before->hit, found.hit) == 0;
+        if (at == end || rows.shape[at] != found.shape ||
+            rows.t[at] != oracle::rounded_to_double(found.hit.root, found.hit.t) ||
+            rows.entering[at] != (found.hit.entering ? 1 : 0) ||
+            rows.tied[at] != (is_tied ? 1 : 0) || rows.touching[at] != (touches ? 1 : 0))
+            return false;
+        before = &found;
+        ++at;
+    }
+    return at == end;
+}
+
 std::string Tally::report() const {
     std::string text = std::to_string(lines) + " lines, " + std::to_string(rays) + " rays, " +
                        std::to_string(hits) + " hits, " + std::to_string(crossings) +
@@ -94,19 +131,8 @@ std::string Tally::report() const {
 }
 
 Exam::Exam(std::vector<AnyShape> shapes, Sides sides)
-    : shapes_(valid(std::move(shapes))), sides_(sides), neighbours_(shapes_),
-      scene_(scene_of(shapes_, sides)), tracer_(scene_, {.threads = 1}) {
-    for (std::size_t i = 0; i < shapes_.size(); ++i) {
-        const auto is_same = [&](std::size_t other) {
-            return which_sides(other, sides) == which_sides(i, sides) &&
-                   are_same(shapes_[other], shapes_[i]);
-        };
-        std::size_t first = 0;
-        while (first < i && !is_same(first))
-            ++first;
-        counts_.push_back(first == i ? 1 : 0);
-    }
-}
+    : shapes_(valid(std::move(shapes))), sides_(sides), counts_(which_count(shapes_, sides)),
+      neighbours_(shapes_), scene_(scene_of(shapes_, sides)), tracer_(scene_, {.threads = 1}) {}
 
 void Exam::ask(std::span<const core::Ray<float>> rays, Limits limits, Ways ways, Tally& tally) {
     Questions questions;
@@ -163,38 +189,16 @@ void Exam::check(Questions& questions, std::size_t i, const Answers& answers, Ta
     tally.hits += any ? 1 : 0;
     if (answers.blocked[i] != (any ? 1 : 0)) wrong(Fault::occlusion);
     tally.crossings += static_cast<long>(answers.rows.first[i + 1] - answers.rows.first[i]);
-    if (!has_all_crossings(sight, rays, i, answers.rows)) wrong(Fault::crossings);
+    if (!is_right(answers.rows, i, sight, [&](const oracle::Found& found) {
+            return rays.t_min[i] < found.t && found.t <= rays.t_max[i] && counts_[found.shape] != 0;
+        }))
+        wrong(Fault::crossings);
     if (any ? hits.shape[i] != truth->shape : !hits.is_none(i)) wrong(Fault::shape);
     if (!any || hits.shape[i] != truth->shape) return;
     if (hits.t[i] != truth->t) wrong(Fault::t);
     if (hits.entering[i] != (truth->hit.entering ? 1 : 0)) wrong(Fault::side);
     if (Vec3f(hits.nx[i], hits.ny[i], hits.nz[i]) != sight.normal_of(*truth, shapes_[truth->shape]))
         wrong(Fault::normal);
-}
-
-/// All that truly are, and in their order.
-bool Exam::has_all_crossings(const oracle::Sight& sight, const Rays& rays, std::size_t i,
-                             const CrossingRows& rows) const {
-    std::uint64_t at = rows.first[i];
-    const oracle::Found* before = nullptr;
-    for (const oracle::Found& found : sight.all()) {
-        if (!(rays.t_min[i] < found.t && found.t <= rays.t_max[i]) || counts_[found.shape] == 0)
-            continue;
-        const bool touches =
-            std::any_of(sight.all().begin(), sight.all().end(), [&](const oracle::Found& other) {
-                return other.shape == found.shape && other.hit.entering != found.hit.entering &&
-                       compare(other.hit, found.hit) == 0;
-            });
-        const bool is_tied = before != nullptr && compare(before->hit, found.hit) == 0;
-        if (at == rows.first[i + 1] || rows.shape[at] != found.shape ||
-            rows.t[at] != oracle::rounded_to_double(found.hit.root, found.hit.t) ||
-            rows.entering[at] != (found.hit.entering ? 1 : 0) ||
-            rows.tied[at] != (is_tied ? 1 : 0) || rows.touching[at] != (touches ? 1 : 0))
-            return false;
-        before = &found;
-        ++at;
-    }
-    return at == rows.first[i + 1];
 }
 
 /// StreamTracer gives the same bits with each instruction set, by one and by several threads.
@@ -219,8 +223,17 @@ void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tal
                                     hits.shape.data(),
                                     hits.entering.data()});
             tracer.occluded(stream, same.blocked.data());
+            simd::CrossingRows found;
+            simd::CrossingCounters counters;
+            tracer.crossings(stream, {}, found, counters);
+            const CrossingRows& of_one = answers.rows;
+            const bool has_same_rows =
+                found.first == of_one.first && found.t == of_one.t && found.shape == of_one.shape &&
+                found.entering == of_one.entering && found.face == of_one.face &&
+                found.tied == of_one.tied && found.touching == of_one.touching;
             for (std::size_t i = 0; i < rays.size(); ++i) {
-                if (hits.is_same(i, answers.hits) && same.blocked[i] == answers.blocked[i])
+                if (has_same_rows && hits.is_same(i, answers.hits) &&
+                    same.blocked[i] == answers.blocked[i])
                     continue;
                 blame(Fault::other, rays, i, same, nullptr, tally);
                 break;

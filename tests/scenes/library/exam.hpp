@@ -3,6 +3,7 @@
 #include "tests/oracle/truth.hpp"
 #include "tests/scenes/library/ray_arrays.hpp"
 
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <string>
@@ -22,6 +23,12 @@ std::vector<AnyShape> valid(std::vector<AnyShape> shapes);
 Scene scene_of(std::span<const AnyShape> shapes, Sides sides = Sides::both);
 /// Float by float.
 bool are_same(const AnyShape& a, const AnyShape& b);
+/// By shape: false if one before it is the same, of one material.
+std::vector<char> which_count(std::span<const AnyShape> shapes, Sides sides = Sides::both);
+
+/// True if a row has all crossings of a line that count, and in their order.
+bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& sight,
+              const std::function<bool(const oracle::Found&)>& counts);
 
 /// Fault that an answer may have.
 enum class Fault {
@@ -75,8 +82,6 @@ class Exam {
     static void add(Questions& questions, const core::Ray<float>& ray, float t_min, float t_max);
     static void add_limited(Questions& questions, const core::Ray<float>& ray);
     void check(Questions& questions, std::size_t i, const Answers& answers, Tally& tally) const;
-    bool has_all_crossings(const oracle::Sight& sight, const Rays& rays, std::size_t i,
-                           const CrossingRows& rows) const;
     void check_others(const Rays& rays, const Answers& answers, Ways ways, Tally& tally) const;
     void blame(Fault fault, const Rays& rays, std::size_t i, const Answers& answers,
                const oracle::Found* truth, Tally& tally) const;
@@ -85,7 +90,7 @@ class Exam {
 
     std::vector<AnyShape> shapes_;
     Sides sides_;
-    std::vector<char> counts_; ///< by shape: if no other before it is the same
+    std::vector<char> counts_; ///< which_count
     oracle::Neighbours neighbours_;
     Scene scene_;
     Tracer tracer_;
