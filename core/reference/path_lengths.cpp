@@ -24,12 +24,10 @@ Bounded<DoubleDouble> PathLengths::End::t() const {
 
 PathLengths::OfMaterial& PathLengths::of(const Hit<double>& hit) {
     const MaterialIndex material = scene_.material_index_of(hit.shape);
-    const auto end = materials_.begin() + static_cast<std::ptrdiff_t>(count_);
-    const auto found = std::find_if(materials_.begin(), end, [&](const OfMaterial& other) {
-        return other.material == material;
-    });
-    if (found != end) return *found;
+    std::uint32_t& place = place_of_[material];
+    if (place < count_ && materials_[place].material == material) return materials_[place];
     if (count_ == materials_.size()) materials_.emplace_back();
+    place = static_cast<std::uint32_t>(count_);
     OfMaterial& added = materials_[count_++];
     added.material = material;
     added.depth = 0;
@@ -46,13 +44,13 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> hits,
 
     // What is left before it is entered has been around the start.
     const auto limit_at = [](double t) { return End{nullptr, t}; };
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const Hit<double>& hit = hits[i];
-        if (hit.entering) continue;
-        const bool has_entered =
-            std::any_of(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(i),
-                        [&](const Hit<double>& other) { return other.shape == hit.shape; });
-        if (has_entered) continue;
+    entered_.clear();
+    for (const Hit<double>& hit : hits)
+        if (hit.entering) entered_.push_back(hit.shape);
+    std::sort(entered_.begin(), entered_.end());
+    for (const Hit<double>& hit : hits) {
+        if (hit.entering || std::binary_search(entered_.begin(), entered_.end(), hit.shape))
+            continue;
         OfMaterial& material = of(hit);
         if (material.depth++ == 0) material.begin = limit_at(t_min);
     }

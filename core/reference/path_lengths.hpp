@@ -17,7 +17,8 @@ struct MaterialLength {
 /// in several of one material, once. To be used by one thread.
 class PathLengths {
   public:
-    explicit PathLengths(const Scene& scene) : scene_(scene) {}
+    explicit PathLengths(const Scene& scene)
+        : scene_(scene), place_of_(scene.materials().size(), 0) {}
 
     /// Appends lengths that are not 0, by material. `hits`: all of the ray's crossings with solids,
     /// in order; of those that it starts in, the ways out alone.
@@ -49,8 +50,10 @@ class PathLengths {
 
     const Scene& scene_;
     std::vector<SharpHit> sharp_;
-    std::vector<OfMaterial> materials_; // ascending; some of an earlier ray
+    std::vector<ShapeId> entered_;
+    std::vector<OfMaterial> materials_; // of the ray, and some more of earlier ones
     std::size_t count_ = 0;
+    std::vector<std::uint32_t> place_of_; // by material, if it is there
 };
 
 } // namespace raylane::core

@@ -283,50 +283,60 @@ void RowWorker::crossings(const RayStream<Real>& rays, const CrossingRequest& wa
     counters += counters_;
 }
 
-/// Of triangles of one polygon that meet at an edge the first.
+/// Of triangles of one polygon that meet at an edge the first: at one t, and on one side, crossings
+/// are in the order of their shapes, and a polygon's have numbers in a row.
 void RowWorker::leave_one_of_polygons() {
-    std::size_t kept = 0, first_there = 0; // of those at one t
+    std::size_t kept = 0;
     for (const Crossed& crossed : crossed_) {
-        if (!crossed.hit.joins) first_there = kept;
-        const auto is_of_same = [&](const Crossed& other) {
-            return scene_.scene().coplanar_with(crossed.hit.shape).contains(other.hit.shape);
-        };
-        if (!std::any_of(crossed_.begin() + static_cast<std::ptrdiff_t>(first_there),
-                         crossed_.begin() + static_cast<std::ptrdiff_t>(kept),
-                         [&](const Crossed& other) {
-                             return other.hit.shape != crossed.hit.shape && is_of_same(other);
-                         }))
-            crossed_[kept++] = crossed;
+        const core::Hit<double>& hit = crossed.hit;
+        if (hit.joins && kept != 0) {
+            const core::Hit<double>& last = crossed_[kept - 1].hit;
+            if (last.entering == hit.entering && last.shape != hit.shape &&
+                scene_.scene().coplanar_with(last.shape).contains(hit.shape))
+                continue;
+        }
+        crossed_[kept++] = crossed;
     }
     crossed_.resize(kept);
 }
 
 void RowWorker::add(const LoneRay& ray, const CrossingRequest& wanted, CrossingRows& rows) {
-    const core::Scene& scene = scene_.scene();
-    const std::size_t count = crossed_.size();
-    const std::size_t most = wanted.most == 0 ? count : std::min(wanted.most, count);
-    std::size_t first_there = 0, end_there = 0; // of those at one t
-    for (std::size_t i = 0; i < most; ++i) {
-        const core::Hit<double>& hit = crossed_[i].hit;
-        if (i == end_there) {
-            first_there = i;
-            for (++end_there; end_there < count && crossed_[end_there].hit.joins;)
-                ++end_there;
-        }
-        const bool touches = std::any_of(
-            crossed_.begin() + static_cast<std::ptrdiff_t>(first_there),
-            crossed_.begin() + static_cast<std::ptrdiff_t>(end_there), [&](const Crossed& other) {
-                return other.hit.shape == hit.shape && other.hit.entering != hit.entering;
+    const std::size_t most =
+        wanted.most == 0 ? crossed_.size() : std::min(wanted.most, crossed_.size());
+    for (std::size_t first = 0, end = 0; first < most; first = end) {
+        for (end = first + 1; end < crossed_.size() && crossed_[end].hit.joins;)
+            ++end;
+        add_at_one_t(ray, std::span(crossed_).subspan(first, end - first), most - first,
+                     wanted.normals, rows);
+    }
+}
+
+/// Adds crossings at one t, `most` or all of them.
+void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
+                             bool normals, CrossingRows& rows) {
+    // What is entered comes first; within both sides it goes by shape.
+    const auto left = std::find_if(all.begin(), all.end(),
+                                   [](const Crossed& crossed) { return !crossed.hit.entering; });
+    const auto is_among = [](auto begin, auto end, core::ShapeId shape) {
+        const auto found =
+            std::lower_bound(begin, end, shape, [](const Crossed& crossed, core::ShapeId id) {
+                return crossed.hit.shape < id;
             });
-        const bool is_sure = core::rounds_surely(crossed_[i].t, crossed_[i].error);
-        rows.t.push_back(is_sure ? ray.as_answered(crossed_[i].t.high)
-                                 : ray.double_t_of(scene, hit));
+        return found != end && found->hit.shape == shape;
+    };
+    const core::Scene& scene = scene_.scene();
+    for (const Crossed& crossed : all.first(std::min(most, all.size()))) {
+        const core::Hit<double>& hit = crossed.hit;
+        const bool touches = hit.entering ? is_among(left, all.end(), hit.shape)
+                                          : is_among(all.begin(), left, hit.shape);
+        const bool is_sure = core::rounds_surely(crossed.t, crossed.error);
+        rows.t.push_back(is_sure ? ray.as_answered(crossed.t.high) : ray.double_t_of(scene, hit));
         rows.shape.push_back(hit.shape);
         rows.entering.push_back(hit.entering ? 1 : 0);
         rows.face.push_back(hit.face);
         rows.tied.push_back(hit.joins ? 1 : 0);
         rows.touching.push_back(touches ? 1 : 0);
-        if (!wanted.normals) continue;
+        if (!normals) continue;
         const core::Vec3f normal = core::rounded_normal(scene, ray.leaving(), hit);
         for (std::size_t axis = 0; axis < 3; ++axis)
             rows.normal[axis].push_back(normal[static_cast<int>(axis)]);

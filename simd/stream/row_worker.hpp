@@ -7,6 +7,7 @@
 #include "simd/stream/intake.hpp"
 #include "simd/stream/rows.hpp"
 
+#include <span>
 #include <vector>
 
 namespace raylane::simd {
@@ -66,6 +67,8 @@ class RowWorker {
     bool are_surely_in_order() const;
     void leave_one_of_polygons();
     void add(const LoneRay& ray, const CrossingRequest& wanted, CrossingRows& rows);
+    void add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
+                      bool normals, CrossingRows& rows);
 
     static constexpr std::size_t at_a_time = 1024;
 
