@@ -18,7 +18,8 @@
 
 /// Cliffs that the time for a ray might fall off: many shapes that all but meet it, sizes and
 /// distances far from 1. Nanoseconds a ray through the library, one thread: the mean of one call
-/// for all, and the worst of a call each; beside `robust`, which tests in float, and Embree.
+/// for all, and the worst of a call each; beside `robust`, which tests in float, and Embree. And
+/// the same of all crossings.
 ///
 /// usage: raylane-cliffs [NAME...]   parts of names; default: all
 namespace raylane::bench {
@@ -111,6 +112,22 @@ Times raylane_times(const Situation& situation, Precision precision) {
     return times_of(situation.rays.size(), [&](std::size_t first, std::size_t count) {
         tracer.intersect(situation.rays.span(first, count), hits.span(first, count));
     });
+}
+
+/// All crossings; and how many a ray has.
+struct AllTimes : Times {
+    double crossings = 0.0;
+};
+AllTimes crossing_times(const Situation& situation) {
+    const Tracer tracer(situation.scene, {.threads = 1});
+    CrossingRows rows;
+    const std::size_t count = situation.rays.size();
+    AllTimes times{times_of(count, [&](std::size_t first, std::size_t some) {
+        tracer.crossings(situation.rays.span(first, some), rows);
+    })};
+    tracer.crossings(situation.rays.span(0, count), rows);
+    times.crossings = static_cast<double>(rows.t.size()) / static_cast<double>(count);
+    return times;
 }
 
 #ifdef RAYLANE_EMBREE
@@ -396,8 +413,8 @@ std::vector<std::pair<std::string, Make>> all_situations() {
 int main(int argc, char** argv) {
     using namespace raylane;
     using namespace raylane::bench;
-    std::printf("%-36s %9s %9s %9s %9s %9s %9s\n", "ns a ray", "exact", "worst", "robust", "worst",
-                "embree", "worst");
+    std::printf("%-36s %9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "ns a ray", "exact", "worst",
+                "robust", "worst", "embree", "worst", "all", "worst", "crossings");
     for (const auto& [name, make] : all_situations()) {
         bool wanted = argc == 1;
         for (int i = 1; i < argc; ++i)
@@ -407,8 +424,10 @@ int main(int argc, char** argv) {
         const Times exact = raylane_times(situation, Precision::exact),
                     robust = raylane_times(situation, Precision::robust),
                     embree = embree_times(situation);
-        std::printf("%-36s %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f\n", name.c_str(), exact.mean,
-                    exact.worst, robust.mean, robust.worst, embree.mean, embree.worst);
+        const AllTimes all = crossing_times(situation);
+        std::printf("%-36s %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f %9.0f %9.1f\n", name.c_str(),
+                    exact.mean, exact.worst, robust.mean, robust.worst, embree.mean, embree.worst,
+                    all.mean, all.worst, all.crossings);
         std::fflush(stdout);
     }
 }

@@ -173,7 +173,8 @@ struct CrossingPairs {
     std::size_t count;
     const double* origin[3]; ///< of rays, by ray
     const double* direction[3];
-    const std::uint32_t* ray; ///< of a pair
+    const double* unit_direction[3]; ///< the same, brought to length 1
+    const std::uint32_t* ray;        ///< of a pair; those of one ray are together
     const std::uint32_t* slot;
 
     /// Out: of pair k the crossings 2 k and 2 k + 1, in order. t is the sum of two doubles, and is

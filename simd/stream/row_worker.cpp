@@ -57,6 +57,8 @@ RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const Shape
         t_most_ = arena.take<float>(at_a_time);
     });
     first_of_ray_.resize(at_a_time + 1);
+    listed_ray_.resize(std::size_t{16} * at_a_time);
+    listed_slot_.resize(listed_ray_.size());
 }
 
 /// Calls visit(the first of those that have been taken in together, lane) for each ray when the
@@ -65,36 +67,43 @@ template <class Real, class Visit>
 void RowWorker::for_each_ray(const RayStream<Real>& rays, const Visit& visit) {
     for (std::size_t first = 0, count = 0; first < rays.count; first += count) {
         count = intake_.take(rays, first).count;
-        list_pairs();
-        cross_pairs();
-        for (std::size_t lane = 0; lane < count; ++lane)
-            visit(first, lane);
+        search_.take(intake_.paths().columns());
+        for (std::size_t begin = 0, some = count; begin < count; begin += some) {
+            some = std::min(some, count - begin);
+            while (!list_pairs(begin, begin + some))
+                some /= 2;
+            cross_pairs();
+            for (std::size_t lane = begin; lane < begin + some; ++lane)
+                visit(first, lane);
+        }
     }
 }
 
-/// Lists all shapes that rays may cross, by ray.
-void RowWorker::list_pairs() {
+/// Lists all shapes that the rays of some lanes may cross, by ray. Returns false if these are more
+/// than should be there at a time, unless it is one ray alone.
+bool RowWorker::list_pairs(std::size_t begin, std::size_t end) {
     const Paths& paths = intake_.paths();
-    search_.take(paths.columns());
     constexpr auto most_of_floats = static_cast<double>(std::numeric_limits<float>::max());
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         const double left =
             intake_.taken().t_most[lane] * (1.0 + 0x1p-40) - search_.approach().before(lane);
+        const bool is_asked = begin <= lane && lane < end && intake_.is_ray(lane);
         t_most_[lane] =
-            !intake_.is_ray(lane)
+            !is_asked
                 ? -1.0F
                 : std::max(static_cast<float>(std::min(left, most_of_floats)) * candidate_grace,
                            std::numeric_limits<float>::min());
     }
     PairList list{};
     do {
+        if (list.count > most_pairs && end - begin > 1) return false;
         if (list.count > listed_ray_.size()) {
             listed_ray_.resize(list.count + list.count / 4);
             listed_slot_.resize(listed_ray_.size());
         }
         list = {listed_ray_.data(), listed_slot_.data(), listed_ray_.size(), 0};
         // No filter sees the shape that a ray starts on.
-        for (std::size_t lane = 0; lane < paths.count; ++lane) {
+        for (std::size_t lane = begin; lane < end; ++lane) {
             if ((paths.origin_bits[lane] & origin_may_return) == 0 || !intake_.is_ray(lane))
                 continue;
             if (list.count < list.room) {
@@ -121,6 +130,7 @@ void RowWorker::list_pairs() {
     }
     std::copy_backward(first_of_ray_.begin(), first_of_ray_.end() - 1, first_of_ray_.end());
     first_of_ray_[0] = 0;
+    return true;
 }
 
 void RowWorker::cross_pairs() {
@@ -130,9 +140,11 @@ void RowWorker::cross_pairs() {
     const Paths& paths = intake_.paths();
     const double* const* const from = paths.origin;
     const double* const* const along = paths.meant_direction;
+    const double* const* const unit = paths.direction;
     tracing_.method().refine.cross_all(scene_.view(), {slot_.size(),
                                                        {from[0], from[1], from[2]},
                                                        {along[0], along[1], along[2]},
+                                                       {unit[0], unit[1], unit[2]},
                                                        ray_.data(),
                                                        slot_.data(),
                                                        high_.data(),

@@ -54,7 +54,7 @@ class RowWorker {
 
     template <class Real, class Visit>
     void for_each_ray(const RayStream<Real>& rays, const Visit& visit);
-    void list_pairs();
+    bool list_pairs(std::size_t begin, std::size_t end);
     void cross_pairs();
     template <class Real>
     bool add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
@@ -70,7 +70,8 @@ class RowWorker {
     void add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, std::size_t most,
                       bool normals, CrossingRows& rows);
 
-    static constexpr std::size_t at_a_time = 1024;
+    static constexpr std::size_t at_a_time = 1024;       // rays
+    static constexpr std::size_t most_pairs = 1U << 18U; // of several rays at a time
 
     const SceneData& scene_;
     Tracing tracing_;

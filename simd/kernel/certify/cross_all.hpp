@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/certify/finish.hpp"
 #include "simd/kernel/certify/slot_reader.hpp"
 #include "simd/kernel/certify/slots.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
@@ -15,11 +16,16 @@ class CrossAll {
     CrossAll(const SceneView& scene, const CrossingPairs& pairs) : scene_(scene), pairs_(pairs) {}
 
     void all_pairs() {
-        for (std::size_t k = 0; k < pairs_.count; ++k) {
-            Packet& packet = packets_[static_cast<int>(S::kind_of(scene_, pairs_.slot[k]))];
-            packet.pair[packet.count++] = k;
-            if (packet.count == width) cross(packet);
+        for (std::size_t k = 0, end = 0; k < pairs_.count;) {
+            while (end < pairs_.count && pairs_.ray[end] == pairs_.ray[k])
+                ++end;
+            for (const bool are_many = end - k > few; k < end; ++k) {
+                const int kind = static_cast<int>(S::kind_of(scene_, pairs_.slot[k]));
+                are_many ? add_to_sift(sifted_[kind], k) : add(packets_[kind], k);
+            }
         }
+        for (Packet& packet : sifted_)
+            sift(packet);
         for (Packet& packet : packets_)
             cross(packet);
     }
@@ -37,27 +43,79 @@ class CrossAll {
         std::size_t count = 0;
     };
 
-    void cross(Packet& packet) {
-        if (packet.count == 0) return;
-        const core::Kind kind = S::kind_of(scene_, pairs_.slot[packet.pair[0]]);
-        const TableView& table = S::table_of(scene_, kind);
+    /// Pairs of a ray that are not worth the sifting.
+    static constexpr std::size_t few = 16;
+
+    void add(Packet& packet, std::size_t pair) {
+        packet.pair[packet.count++] = pair;
+        if (packet.count == width) cross(packet);
+    }
+    void add_to_sift(Packet& packet, std::size_t pair) {
+        packet.pair[packet.count++] = pair;
+        if (packet.count == width) sift(packet);
+    }
+
+    core::Kind kind_of(const Packet& packet) const {
+        return S::kind_of(scene_, pairs_.slot[packet.pair[0]]);
+    }
+
+    /// A packet's rays, by some of their directions, and shapes.
+    struct Loaded {
         SlotReader<D> reader;
+        Rays<D> rays;
+    };
+    Loaded load(const Packet& packet, const double* const (&directions)[3]) const {
+        const TableView& table = S::table_of(scene_, kind_of(packet));
+        Loaded loaded;
         double numbers[6][width];
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t pair = packet.pair[lane < packet.count ? lane : 0];
-            reader.from[lane] = table.blocks + S::offset(table, pairs_.slot[pair]);
+            loaded.reader.from[lane] = table.blocks + S::offset(table, pairs_.slot[pair]);
             for (int axis = 0; axis < 3; ++axis) {
                 numbers[axis][lane] = pairs_.origin[axis][pairs_.ray[pair]];
-                numbers[3 + axis][lane] = pairs_.direction[axis][pairs_.ray[pair]];
+                numbers[3 + axis][lane] = directions[axis][pairs_.ray[pair]];
             }
         }
         const auto vectors = [&](double(*from)[width]) {
             return Vectors<D>{F::load_unaligned(from[0]), F::load_unaligned(from[1]),
                               F::load_unaligned(from[2])};
         };
-        const Rays<D> rays = {vectors(numbers), vectors(numbers + 3)};
-        with_solver<C>(kind, [&]<class Solver>() { cross<Solver>(reader, rays, packet); });
+        loaded.rays = {vectors(numbers), vectors(numbers + 3)};
+        return loaded;
+    }
+
+    /// Leaves out what double knows to be missed. (The finishers' bounds grant directions the error
+    /// of bringing them to unit length.)
+    void sift(Packet& packet) {
+        if (packet.count == 0) return;
+        const core::Kind kind = kind_of(packet);
+        const Loaded loaded = load(packet, pairs_.unit_direction);
+        std::uint32_t misses = 0;
+        with_finisher<D>(kind, [&]<class Finisher>() { misses = missed<Finisher>(loaded); });
+        for (std::size_t lane = 0; lane < packet.count; ++lane) {
+            const std::size_t pair = packet.pair[lane];
+            if ((misses >> lane & 1) == 0)
+                add(packets_[static_cast<int>(kind)], pair);
+            else
+                pairs_.hit[2 * pair] = pairs_.hit[2 * pair + 1] = hit_none;
+        }
+        packet.count = 0;
+    }
+    template <class Finisher>
+    [[gnu::noinline]] static std::uint32_t missed(const Loaded& loaded) {
+        const Finisher finisher{loaded.reader};
+        const Finished<D> finished =
+            finisher.template finish<Wanted::all>(loaded.rays, starts_nowhere<D>());
+        return Lanes<D>::bits(finished.misses & ~finished.certain);
+    }
+
+    void cross(Packet& packet) {
+        if (packet.count == 0) return;
+        const core::Kind kind = kind_of(packet);
+        const Loaded loaded = load(packet, pairs_.direction);
+        with_solver<C>(kind,
+                       [&]<class Solver>() { cross<Solver>(loaded.reader, loaded.rays, packet); });
         packet.count = 0;
     }
 
@@ -96,7 +154,7 @@ class CrossAll {
 
     const SceneView& scene_;
     const CrossingPairs& pairs_;
-    Packet packets_[core::kind_count];
+    Packet sifted_[core::kind_count], packets_[core::kind_count];
 };
 
 template <class Arch>

@@ -157,6 +157,24 @@ TEST_CASE("rows are the same whatever the threads, and count what decided them")
     CHECK(of_one.first == of_three.first);
 }
 
+TEST_CASE("rays with more crossings than are found at a time have all of them") {
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    constexpr int shells = 300;
+    for (int i = 1; i <= shells; ++i)
+        builder.add(Sphere{{0, 0, 0}, static_cast<float>(i)}, material);
+    Rays rays;
+    for (int i = 0; i < 1024; ++i)
+        rays.add({-400, 0.25F * static_cast<float>(i), 0}, {1, 0, 0});
+    const CrossingRows rows = crossings(builder.build(), rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        // A ray touches the shell of its height.
+        const int height = static_cast<int>(i / 4) + (i % 4 == 0 ? 0 : 1);
+        const int met = shells - std::max(height, 1) + 1;
+        CHECK(rows.first[i + 1] - rows.first[i] == 2U * static_cast<unsigned>(met));
+    }
+}
+
 TEST_CASE("each crossing's normal is that of the nearest hit from the one before") {
     const Heap many = heap(false, sanitized ? 3 : 12, 5);
     const Tracer tracer(many.scene);
