@@ -13,22 +13,44 @@ namespace raylane::core {
 
 enum class Ends : std::uint8_t { open, capped };
 
-struct Sphere;
-struct Plane;
-struct Disc;
-struct Triangle;
-struct SmoothTriangle;
-struct Box;
+/// Shapes of numbers that are float or double.
+template <class Number>
+struct SphereOf;
+template <class Number>
+struct PlaneOf;
+template <class Number>
+struct DiscOf;
+template <class Number>
+struct TriangleOf;
+template <class Number>
+struct SmoothTriangleOf;
+template <class Number>
+struct BoxOf;
+template <class Number, Ends ends>
+struct CylinderOf;
+template <class Number, Ends ends>
+struct ConeOf;
+template <class Number>
+struct QuadricOf;
+template <class Number>
+struct EllipsoidOf;
+
+using Sphere = SphereOf<float>;
+using Plane = PlaneOf<float>;
+using Disc = DiscOf<float>;
+using Triangle = TriangleOf<float>;
+using SmoothTriangle = SmoothTriangleOf<float>;
+using Box = BoxOf<float>;
 template <Ends ends>
-struct Cylinder;
+using Cylinder = CylinderOf<float, ends>;
 using OpenCylinder = Cylinder<Ends::open>;
 using CappedCylinder = Cylinder<Ends::capped>;
 template <Ends ends>
-struct Cone;
+using Cone = ConeOf<float, ends>;
 using OpenCone = Cone<Ends::open>;
 using CappedCone = Cone<Ends::capped>;
-struct Quadric;
-struct Ellipsoid;
+using Quadric = QuadricOf<float>;
+using Ellipsoid = EllipsoidOf<float>;
 
 /// Type, enumerator, and what people call it: a last word that is JSON's "type", behind what tells
 /// it from others of that type.

@@ -10,7 +10,7 @@
 namespace raylane::core {
 
 /// Bounds of the frustum between two discs at right angles to the axis.
-Bounds frustum_bounds(const Vec3f& base, const Vec3f& axis, double base_radius, double top_radius);
+Bounds frustum_bounds(const Vec3d& base, const Vec3d& axis, double base_radius, double top_radius);
 
 /// A ray taken apart along and across the axis of a cylinder or cone: with f = origin - base,
 ///   height(t) = (f + t direction) . axis, in [0, axis . axis] between the ends,
@@ -25,7 +25,8 @@ struct AxialRay {
     Vec3<Real> across_origin;
     Vec3<Real> across_direction;
 
-    AxialRay(const Vec3f& base, const Vec3f& axis, const Ray<Real>& ray) {
+    template <class Number>
+    AxialRay(const Vec3<Number>& base, const Vec3<Number>& axis, const Ray<Real>& ray) {
         const Vec3<Real> a = convert<Real>(axis);
         const Vec3<Real> from_base = ray.origin - convert<Real>(base);
         axis_squared = squared_length(a);
@@ -74,8 +75,9 @@ Crossings<Real> keep_between_ends(const Crossings<Real>& crossings, const AxialR
 }
 
 /// Offset from the axis to a point, at right angles to the axis.
-template <class Real>
-Vec3<Real> offset_from_axis(const Vec3f& base, const Vec3f& axis, const Vec3<Real>& point) {
+template <class Real, class Number>
+Vec3<Real> offset_from_axis(const Vec3<Number>& base, const Vec3<Number>& axis,
+                            const Vec3<Real>& point) {
     const Vec3<Real> a = convert<Real>(axis);
     const Vec3<Real> from_base = point - convert<Real>(base);
     return mul_add(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
@@ -87,7 +89,8 @@ struct ScaledAxialRay {
     Vec3<Real> axis, from_base, direction;
     Real axis_squared, height_origin, height_direction;
 
-    ScaledAxialRay(const Vec3f& base, const Vec3f& axis_, const Ray<Real>& ray)
+    template <class Number>
+    ScaledAxialRay(const Vec3<Number>& base, const Vec3<Number>& axis_, const Ray<Real>& ray)
         : axis(convert<Real>(axis_)), from_base(ray.origin - convert<Real>(base)),
           direction(ray.direction), axis_squared(squared_length(axis)),
           height_origin(dot(from_base, axis)), height_direction(dot(direction, axis)) {}

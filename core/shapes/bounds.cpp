@@ -33,16 +33,16 @@ Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magn
 }
 
 /// Along coordinate i a disc reaches radius * sin(angle between axis and i).
-Bounds disc_bounds(const Vec3f& base, const Vec3f& axis, double at, double radius) {
-    const Vec3d b = convert<double>(base), a = convert<double>(axis);
+Bounds disc_bounds(const Vec3d& base, const Vec3d& axis, double at, double radius) {
+    const Vec3d& a = axis;
     const double length_squared = squared_length(a);
     const Vec3d extent = {radius * std::sqrt((a.y * a.y + a.z * a.z) / length_squared),
                           radius * std::sqrt((a.x * a.x + a.z * a.z) / length_squared),
                           radius * std::sqrt((a.x * a.x + a.y * a.y) / length_squared)};
-    return bounds_around(b + at * a, extent, absolute(b) + absolute(at * a));
+    return bounds_around(base + at * a, extent, absolute(base) + absolute(at * a));
 }
 
-Bounds frustum_bounds(const Vec3f& base, const Vec3f& axis, double base_radius, double top_radius) {
+Bounds frustum_bounds(const Vec3d& base, const Vec3d& axis, double base_radius, double top_radius) {
     Bounds bounds = disc_bounds(base, axis, 0.0, base_radius);
     bounds.include(disc_bounds(base, axis, 1.0, top_radius));
     return bounds;

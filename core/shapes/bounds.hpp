@@ -52,6 +52,6 @@ inline Vec3d absolute(const Vec3d& v) {
 }
 
 /// Bounds of the disc about base + at * axis, at right angles to the axis.
-Bounds disc_bounds(const Vec3f& base, const Vec3f& axis, double at, double radius);
+Bounds disc_bounds(const Vec3d& base, const Vec3d& axis, double at, double radius);
 
 } // namespace raylane::core

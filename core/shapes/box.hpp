@@ -10,9 +10,10 @@
 namespace raylane::core {
 
 /// Any parallelepiped, solid: corner + u edge_u + v edge_v + w edge_w for u, v, w in [0, 1].
-struct Box {
-    Vec3f corner;
-    Vec3f edge_u, edge_v, edge_w;
+template <class Number>
+struct BoxOf {
+    Vec3<Number> corner;
+    Vec3<Number> edge_u, edge_v, edge_w;
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = true,
@@ -20,12 +21,14 @@ struct Box {
                                         .costs = MethodCosts{1.34, 1.31, 1.0, 2.41}};
 };
 
-inline void validate(const Box& box) {
+template <class Number>
+void validate(const BoxOf<Number>& box) {
     checks::require_point("corner", box.corner);
     checks::require_spanning("edges", box.edge_u, box.edge_v, box.edge_w);
 }
 
-inline Bounds bounds_of(const Box& box) {
+template <class Number>
+Bounds bounds_of(const BoxOf<Number>& box) {
     const Vec3d half_u = 0.5 * convert<double>(box.edge_u);
     const Vec3d half_v = 0.5 * convert<double>(box.edge_v);
     const Vec3d half_w = 0.5 * convert<double>(box.edge_w);
@@ -36,8 +39,8 @@ inline Bounds bounds_of(const Box& box) {
 
 /// The outward normal of the faces opposite to the corner, of length volume / height: u x v, v x w,
 /// w x u, turned outwards if the edges are left-handed.
-template <class Real>
-std::array<Vec3<Real>, 3> box_normals(const Box& box) {
+template <class Real, class Number>
+std::array<Vec3<Real>, 3> box_normals(const BoxOf<Number>& box) {
     const Vec3<Real> u = convert<Real>(box.edge_u);
     const Vec3<Real> v = convert<Real>(box.edge_v);
     const Vec3<Real> w = convert<Real>(box.edge_w);
@@ -46,8 +49,8 @@ std::array<Vec3<Real>, 3> box_normals(const Box& box) {
 
 /// The edge coordinate u of a point p is ((v x w) . p) / ((v x w) . u), likewise v and w: three
 /// slabs [0, 1].
-template <class Real>
-Crossings<Real> crossings(const Box& box, const Ray<Real>& ray, const Start& start,
+template <class Real, class Number>
+Crossings<Real> crossings(const BoxOf<Number>& box, const Ray<Real>& ray, const Start& start,
                           Judge<Real>& judge) {
     if (start.on_surface && !start.inward) return {};
 
@@ -76,8 +79,8 @@ Crossings<Real> crossings(const Box& box, const Ray<Real>& ray, const Start& sta
     return start.on_surface ? interval.exit() : interval.crossings();
 }
 
-template <class Real>
-Vec3<Real> outward_direction(const Box& box, const Vec3<Real>&, Face face) {
+template <class Real, class Number>
+Vec3<Real> outward_direction(const BoxOf<Number>& box, const Vec3<Real>&, Face face) {
     const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
     const bool left_handed = static_cast<double>(dot(normals[0], convert<Real>(box.edge_u))) < 0.0;
     const bool through_corner = face % 2 == 0;
@@ -85,8 +88,8 @@ Vec3<Real> outward_direction(const Box& box, const Vec3<Real>&, Face face) {
     return left_handed == through_corner ? normal : -normal;
 }
 
-template <class Real>
-NormalAlong<Real> normal_along(const Box& box, const Ray<Real>&, Face face) {
+template <class Real, class Number>
+NormalAlong<Real> normal_along(const BoxOf<Number>& box, const Ray<Real>&, Face face) {
     const bool left_handed =
         dot(box_normals<Dyadic>(box)[0], convert<Dyadic>(box.edge_u)).sign() < 0;
     const bool through_corner = face % 2 == 0;
@@ -94,16 +97,17 @@ NormalAlong<Real> normal_along(const Box& box, const Ray<Real>&, Face face) {
     return {left_handed == through_corner ? normal : -normal};
 }
 
-inline ExactQuadratic form_along(const Box& box, const ExactRay& ray, Face face) {
+template <class Number>
+ExactQuadratic form_along(const BoxOf<Number>& box, const ExactRay& ray, Face face) {
     Vec3<Dyadic> point = ray.origin - convert<Dyadic>(box.corner);
-    const Vec3f edges[] = {box.edge_u, box.edge_v, box.edge_w};
+    const Vec3<Number> edges[] = {box.edge_u, box.edge_v, box.edge_w};
     if (face % 2 == 1) point = point - convert<Dyadic>(edges[face / 2]);
     return plane_along(normal_along(box, ray, face).v, point, ray.direction);
 }
 
 /// Of its faces. The volume, of either sign, turns them the right way.
-template <class Real>
-std::array<Real, 6> forms_at(const Box& box, const Vec3<Real>& point) {
+template <class Real, class Number>
+std::array<Real, 6> forms_at(const BoxOf<Number>& box, const Vec3<Real>& point) {
     const Vec3<Real> from_corner = point - convert<Real>(box.corner);
     const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
     const Real volume = dot(normals[0], convert<Real>(box.edge_u));

@@ -10,12 +10,12 @@ namespace raylane::core {
 
 /// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1].
 /// Capped: solid.
-template <Ends ends>
-struct Cone {
-    Vec3f base;
-    Vec3f axis;
-    float base_radius; ///< >= 0
-    float top_radius;  ///< >= 0, not both 0
+template <class Number, Ends ends>
+struct ConeOf {
+    Vec3<Number> base;
+    Vec3<Number> axis;
+    Number base_radius; ///< >= 0
+    Number top_radius;  ///< >= 0, not both 0
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = false,
@@ -25,19 +25,20 @@ struct Cone {
                                                      : MethodCosts{1.45, 1.52, 1.0, 2.86}};
 };
 
-template <Ends ends>
-void validate(const Cone<ends>& cone) {
+template <class Number, Ends ends>
+void validate(const ConeOf<Number, ends>& cone) {
     checks::require_point("base", cone.base);
     checks::require_direction("axis", cone.axis);
     checks::require_not_negative("base_radius", cone.base_radius);
     checks::require_not_negative("top_radius", cone.top_radius);
-    if (cone.base_radius == 0.0F && cone.top_radius == 0.0F)
+    if (cone.base_radius == 0 && cone.top_radius == 0)
         throw InvalidValue("base_radius", "must be positive where top_radius is 0, got 0");
 }
 
-template <Ends ends>
-Bounds bounds_of(const Cone<ends>& cone) {
-    return frustum_bounds(cone.base, cone.axis, static_cast<double>(cone.base_radius),
+template <class Number, Ends ends>
+Bounds bounds_of(const ConeOf<Number, ends>& cone) {
+    return frustum_bounds(convert<double>(cone.base), convert<double>(cone.axis),
+                          static_cast<double>(cone.base_radius),
                           static_cast<double>(cone.top_radius));
 }
 
@@ -46,9 +47,9 @@ Bounds bounds_of(const Cone<ends>& cone) {
 /// The equation also describes the mirror nappe beyond the apex, where width < 0. Between the ends
 /// width >= 0, so what is clipped to them needs a test of its own in the apex alone: a ray through
 /// it, from the inside of one nappe to that of the other, crosses both there.
-template <class Real, Ends ends>
-Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+template <class Real, class Number, Ends ends>
+Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray,
+                          const Start& start, Judge<Real>& judge) {
     if (start.on_surface && !start.inward) return {};
 
     const AxialRay<Real> axial(cone.base, cone.axis, ray);
@@ -107,8 +108,8 @@ Crossings<Real> crossings(const Cone<ends>& cone, const Ray<Real>& ray, const St
 }
 
 /// Half the gradient of F: across - width slope axis. It vanishes at the apex.
-template <class Real, Ends ends>
-Vec3<Real> outward_direction(const Cone<ends>& cone, const Vec3<Real>& point, Face face) {
+template <class Real, class Number, Ends ends>
+Vec3<Real> outward_direction(const ConeOf<Number, ends>& cone, const Vec3<Real>& point, Face face) {
     const Vec3<Real> axis = convert<Real>(cone.axis);
     if (face == base_cap) return -axis;
     if (face == top_cap) return axis;
@@ -121,8 +122,8 @@ Vec3<Real> outward_direction(const Cone<ends>& cone, const Vec3<Real>& point, Fa
 }
 
 /// The axis, outwards.
-template <class Real, Ends ends>
-Vec3<Real> apex_direction(const Cone<ends>& cone) {
+template <class Real, class Number, Ends ends>
+Vec3<Real> apex_direction(const ConeOf<Number, ends>& cone) {
     const Vec3<Real> axis = convert<Real>(cone.axis);
     return cone.top_radius < cone.base_radius ? axis : -axis;
 }
@@ -132,14 +133,15 @@ template <class Real>
 struct ScaledWidth {
     Real widening, origin, direction;
 
-    ScaledWidth(float base_radius, float top_radius, const ScaledAxialRay<Real>& axial)
+    template <class Number>
+    ScaledWidth(Number base_radius, Number top_radius, const ScaledAxialRay<Real>& axial)
         : widening(Real(top_radius) - Real(base_radius)),
           origin(Real(base_radius) * axial.axis_squared + widening * axial.height_origin),
           direction(widening * axial.height_direction) {}
 };
 
-template <Ends ends>
-ExactQuadratic form_along(const Cone<ends>& cone, const ExactRay& ray, Face face) {
+template <class Number, Ends ends>
+ExactQuadratic form_along(const ConeOf<Number, ends>& cone, const ExactRay& ray, Face face) {
     const ScaledAxialRay<Dyadic> axial(cone.base, cone.axis, ray);
     if (face != body) return axial.cap(face);
     const ScaledWidth<Dyadic> width(cone.base_radius, cone.top_radius, axial);
@@ -149,8 +151,8 @@ ExactQuadratic form_along(const Cone<ends>& cone, const ExactRay& ray, Face face
             axial.axis_squared * C - width.origin * width.origin};
 }
 
-template <class Real, Ends ends>
-NormalAlong<Real> normal_along(const Cone<ends>& cone, const Ray<Real>& ray, Face face) {
+template <class Real, class Number, Ends ends>
+NormalAlong<Real> normal_along(const ConeOf<Number, ends>& cone, const Ray<Real>& ray, Face face) {
     const ScaledAxialRay<Real> axial(cone.base, cone.axis, ray);
     if (face != body) return axial.cap_normal(face);
     const ScaledWidth<Real> width(cone.base_radius, cone.top_radius, axial);
@@ -160,8 +162,8 @@ NormalAlong<Real> normal_along(const Cone<ends>& cone, const Ray<Real>& ray, Fac
             axial.axis_squared * across.slope - along * axial.axis, apex_direction<Real>(cone)};
 }
 
-template <class Real>
-std::array<Real, 3> forms_at(const CappedCone& cone, const Vec3<Real>& point) {
+template <class Real, class Number>
+std::array<Real, 3> forms_at(const ConeOf<Number, Ends::capped>& cone, const Vec3<Real>& point) {
     const ScaledAxialRay<Real> axial(cone.base, cone.axis, Ray<Real>{point, {}});
     const ScaledWidth<Real> width(cone.base_radius, cone.top_radius, axial);
     return axial.forms_at_origin(axial.axis_squared * axial.pipe_at_origin(Real(0.0)) -

@@ -9,11 +9,11 @@
 namespace raylane::core {
 
 /// Points at distance `radius` from the line base + s axis, with s in [0, 1]. Capped: solid.
-template <Ends ends>
-struct Cylinder {
-    Vec3f base;
-    Vec3f axis;
-    float radius; ///< > 0
+template <class Number, Ends ends>
+struct CylinderOf {
+    Vec3<Number> base;
+    Vec3<Number> axis;
+    Number radius; ///< > 0
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = false,
@@ -23,23 +23,24 @@ struct Cylinder {
                                                      : MethodCosts{1.40, 1.31, 1.0, 2.31}};
 };
 
-template <Ends ends>
-void validate(const Cylinder<ends>& cylinder) {
+template <class Number, Ends ends>
+void validate(const CylinderOf<Number, ends>& cylinder) {
     checks::require_point("base", cylinder.base);
     checks::require_direction("axis", cylinder.axis);
     checks::require_positive("radius", cylinder.radius);
 }
 
-template <Ends ends>
-Bounds bounds_of(const Cylinder<ends>& cylinder) {
+template <class Number, Ends ends>
+Bounds bounds_of(const CylinderOf<Number, ends>& cylinder) {
     const auto radius = static_cast<double>(cylinder.radius);
-    return frustum_bounds(cylinder.base, cylinder.axis, radius, radius);
+    return frustum_bounds(convert<double>(cylinder.base), convert<double>(cylinder.axis), radius,
+                          radius);
 }
 
 /// |across(t)| = radius, solved like a sphere at the foot of the perpendicular from the axis.
-template <class Real, Ends ends>
-Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+template <class Real, class Number, Ends ends>
+Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Real>& ray,
+                          const Start& start, Judge<Real>& judge) {
     using std::sqrt;
     if (start.on_surface && !start.inward) return {};
 
@@ -89,28 +90,32 @@ Crossings<Real> crossings(const Cylinder<ends>& cylinder, const Ray<Real>& ray, 
     return start.on_surface ? interval.exit() : interval.crossings();
 }
 
-template <class Real, Ends ends>
-Vec3<Real> outward_direction(const Cylinder<ends>& cylinder, const Vec3<Real>& point, Face face) {
+template <class Real, class Number, Ends ends>
+Vec3<Real> outward_direction(const CylinderOf<Number, ends>& cylinder, const Vec3<Real>& point,
+                             Face face) {
     const Vec3<Real> axis = convert<Real>(cylinder.axis);
     if (face == base_cap) return -axis;
     if (face == top_cap) return axis;
     return offset_from_axis(cylinder.base, cylinder.axis, point);
 }
 
-template <Ends ends>
-ExactQuadratic form_along(const Cylinder<ends>& cylinder, const ExactRay& ray, Face face) {
+template <class Number, Ends ends>
+ExactQuadratic form_along(const CylinderOf<Number, ends>& cylinder, const ExactRay& ray,
+                          Face face) {
     const ScaledAxialRay<Dyadic> axial(cylinder.base, cylinder.axis, ray);
     return face == body ? axial.pipe(cylinder.radius) : axial.cap(face);
 }
 
-template <class Real, Ends ends>
-NormalAlong<Real> normal_along(const Cylinder<ends>& cylinder, const Ray<Real>& ray, Face face) {
+template <class Real, class Number, Ends ends>
+NormalAlong<Real> normal_along(const CylinderOf<Number, ends>& cylinder, const Ray<Real>& ray,
+                               Face face) {
     const ScaledAxialRay<Real> axial(cylinder.base, cylinder.axis, ray);
     return face == body ? axial.across() : axial.cap_normal(face);
 }
 
-template <class Real>
-std::array<Real, 3> forms_at(const CappedCylinder& cylinder, const Vec3<Real>& point) {
+template <class Real, class Number>
+std::array<Real, 3> forms_at(const CylinderOf<Number, Ends::capped>& cylinder,
+                             const Vec3<Real>& point) {
     const ScaledAxialRay<Real> axial(cylinder.base, cylinder.axis, Ray<Real>{point, {}});
     return axial.forms_at_origin(axial.pipe_at_origin(Real(cylinder.radius)));
 }

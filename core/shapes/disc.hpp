@@ -6,10 +6,11 @@
 
 namespace raylane::core {
 
-struct Disc {
-    Vec3f center;
-    Vec3f normal;
-    float radius; ///< > 0
+template <class Number>
+struct DiscOf {
+    Vec3<Number> center;
+    Vec3<Number> normal;
+    Number radius; ///< > 0
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = true,
@@ -17,18 +18,21 @@ struct Disc {
                                         .costs = MethodCosts{1.07, 1.18, 1.0, 2.15}};
 };
 
-inline void validate(const Disc& disc) {
+template <class Number>
+void validate(const DiscOf<Number>& disc) {
     checks::require_point("center", disc.center);
     checks::require_direction("normal", disc.normal);
     checks::require_positive("radius", disc.radius);
 }
 
-inline Bounds bounds_of(const Disc& disc) {
-    return disc_bounds(disc.center, disc.normal, 0.0, static_cast<double>(disc.radius));
+template <class Number>
+Bounds bounds_of(const DiscOf<Number>& disc) {
+    return disc_bounds(convert<double>(disc.center), convert<double>(disc.normal), 0.0,
+                       static_cast<double>(disc.radius));
 }
 
-template <class Real>
-Crossings<Real> crossings(const Disc& disc, const Ray<Real>& ray, const Start& start,
+template <class Real, class Number>
+Crossings<Real> crossings(const DiscOf<Number>& disc, const Ray<Real>& ray, const Start& start,
                           Judge<Real>& judge) {
     if (start.on_surface) return {};
     const Vec3<Real> to_center = convert<Real>(disc.center) - ray.origin;
@@ -40,18 +44,19 @@ Crossings<Real> crossings(const Disc& disc, const Ray<Real>& ray, const Start& s
     return *crossing;
 }
 
-template <class Real>
-Vec3<Real> outward_direction(const Disc& disc, const Vec3<Real>&, Face) {
+template <class Real, class Number>
+Vec3<Real> outward_direction(const DiscOf<Number>& disc, const Vec3<Real>&, Face) {
     return convert<Real>(disc.normal);
 }
 
-inline ExactQuadratic form_along(const Disc& disc, const ExactRay& ray, Face) {
+template <class Number>
+ExactQuadratic form_along(const DiscOf<Number>& disc, const ExactRay& ray, Face) {
     return plane_along(convert<Dyadic>(disc.normal), ray.origin - convert<Dyadic>(disc.center),
                        ray.direction);
 }
 
-template <class Real>
-NormalAlong<Real> normal_along(const Disc& disc, const Ray<Real>&, Face) {
+template <class Real, class Number>
+NormalAlong<Real> normal_along(const DiscOf<Number>& disc, const Ray<Real>&, Face) {
     return {convert<Real>(disc.normal)};
 }
 

@@ -12,9 +12,10 @@ namespace raylane::core {
 
 /// The points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1, solid. The
 /// semi-axes span a volume; they need not be perpendicular to each other.
-struct Ellipsoid {
-    Vec3f center;
-    Vec3f axis_u, axis_v, axis_w;
+template <class Number>
+struct EllipsoidOf {
+    Vec3<Number> center;
+    Vec3<Number> axis_u, axis_v, axis_w;
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = false,
@@ -22,13 +23,15 @@ struct Ellipsoid {
                                         .costs = MethodCosts{1.0, 1.0, 1.0, 2.0}};
 };
 
-inline void validate(const Ellipsoid& e) {
+template <class Number>
+void validate(const EllipsoidOf<Number>& e) {
     checks::require_point("center", e.center);
     checks::require_spanning("axes", e.axis_u, e.axis_v, e.axis_w);
 }
 
 /// Along a coordinate it reaches as far as the vector of the axes' components is long.
-inline Bounds bounds_of(const Ellipsoid& e) {
+template <class Number>
+Bounds bounds_of(const EllipsoidOf<Number>& e) {
     const Vec3d center = convert<double>(e.center), u = convert<double>(e.axis_u),
                 v = convert<double>(e.axis_v), w = convert<double>(e.axis_w);
     Vec3d extent;
@@ -45,7 +48,8 @@ struct ToBall {
     std::array<Vec3<Real>, 3> rows;
     Real radius; ///< of either sign
 
-    explicit ToBall(const Ellipsoid& e) {
+    template <class Number>
+    explicit ToBall(const EllipsoidOf<Number>& e) {
         const Vec3<Real> u = convert<Real>(e.axis_u), v = convert<Real>(e.axis_v),
                          w = convert<Real>(e.axis_w);
         rows = {cross(v, w), cross(w, u), cross(u, v)};
@@ -69,35 +73,36 @@ struct ToBall {
     }
 };
 
-template <class Real>
-Crossings<Real> crossings(const Ellipsoid& ellipsoid, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+template <class Real, class Number>
+Crossings<Real> crossings(const EllipsoidOf<Number>& ellipsoid, const Ray<Real>& ray,
+                          const Start& start, Judge<Real>& judge) {
     const ToBall<Real> to_ball(ellipsoid);
     return ball_crossings(to_ball(Vec3<Real>(ray.origin - convert<Real>(ellipsoid.center))),
                           to_ball(ray.direction), to_ball.radius, start, judge);
 }
 
-template <class Real>
-Vec3<Real> outward_direction(const Ellipsoid& ellipsoid, const Vec3<Real>& point, Face) {
+template <class Real, class Number>
+Vec3<Real> outward_direction(const EllipsoidOf<Number>& ellipsoid, const Vec3<Real>& point, Face) {
     const ToBall<Real> to_ball(ellipsoid);
     return to_ball.normal(to_ball(Vec3<Real>(point - convert<Real>(ellipsoid.center))));
 }
 
-inline ExactQuadratic form_along(const Ellipsoid& ellipsoid, const ExactRay& ray, Face) {
+template <class Number>
+ExactQuadratic form_along(const EllipsoidOf<Number>& ellipsoid, const ExactRay& ray, Face) {
     const ToBall<Dyadic> to_ball(ellipsoid);
     return ball_along(to_ball(Vec3<Dyadic>(ray.origin - convert<Dyadic>(ellipsoid.center))),
                       to_ball(ray.direction), to_ball.radius);
 }
 
-template <class Real>
-NormalAlong<Real> normal_along(const Ellipsoid& ellipsoid, const Ray<Real>& ray, Face) {
+template <class Real, class Number>
+NormalAlong<Real> normal_along(const EllipsoidOf<Number>& ellipsoid, const Ray<Real>& ray, Face) {
     const ToBall<Real> to_ball(ellipsoid);
     return {to_ball.normal(to_ball(Vec3<Real>(ray.origin - convert<Real>(ellipsoid.center)))),
             to_ball.normal(to_ball(ray.direction))};
 }
 
-template <class Real>
-std::array<Real, 1> forms_at(const Ellipsoid& ellipsoid, const Vec3<Real>& point) {
+template <class Real, class Number>
+std::array<Real, 1> forms_at(const EllipsoidOf<Number>& ellipsoid, const Vec3<Real>& point) {
     const ToBall<Real> to_ball(ellipsoid);
     return {ball_at(to_ball(Vec3<Real>(point - convert<Real>(ellipsoid.center))), to_ball.radius)};
 }

@@ -7,9 +7,10 @@
 namespace raylane::core {
 
 /// The unbounded plane through `point`; its front is where `normal` points.
-struct Plane {
-    Vec3f point;
-    Vec3f normal;
+template <class Number>
+struct PlaneOf {
+    Vec3<Number> point;
+    Vec3<Number> normal;
 
     static constexpr ShapeTraits traits{.bounded = false,
                                         .flat_faces = true,
@@ -17,13 +18,14 @@ struct Plane {
                                         .costs = MethodCosts{1.43, 1.56, 1.0, 2.78}};
 };
 
-inline void validate(const Plane& plane) {
+template <class Number>
+void validate(const PlaneOf<Number>& plane) {
     checks::require_point("point", plane.point);
     checks::require_direction("normal", plane.normal);
 }
 
-template <class Real>
-Crossings<Real> crossings(const Plane& plane, const Ray<Real>& ray, const Start& start,
+template <class Real, class Number>
+Crossings<Real> crossings(const PlaneOf<Number>& plane, const Ray<Real>& ray, const Start& start,
                           Judge<Real>& judge) {
     if (start.on_surface) return {};
     const auto crossing = cross_plane(Vec3<Real>(convert<Real>(plane.point) - ray.origin),
@@ -31,18 +33,19 @@ Crossings<Real> crossings(const Plane& plane, const Ray<Real>& ray, const Start&
     return crossing ? Crossings<Real>(*crossing) : Crossings<Real>();
 }
 
-template <class Real>
-Vec3<Real> outward_direction(const Plane& plane, const Vec3<Real>&, Face) {
+template <class Real, class Number>
+Vec3<Real> outward_direction(const PlaneOf<Number>& plane, const Vec3<Real>&, Face) {
     return convert<Real>(plane.normal);
 }
 
-inline ExactQuadratic form_along(const Plane& plane, const ExactRay& ray, Face) {
+template <class Number>
+ExactQuadratic form_along(const PlaneOf<Number>& plane, const ExactRay& ray, Face) {
     return plane_along(convert<Dyadic>(plane.normal), ray.origin - convert<Dyadic>(plane.point),
                        ray.direction);
 }
 
-template <class Real>
-NormalAlong<Real> normal_along(const Plane& plane, const Ray<Real>&, Face) {
+template <class Real, class Number>
+NormalAlong<Real> normal_along(const PlaneOf<Number>& plane, const Ray<Real>&, Face) {
     return {convert<Real>(plane.normal)};
 }
 

@@ -14,10 +14,11 @@ namespace raylane::core {
 ///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z
 ///   pz) + one,
 /// that is (p, 1) M (p, 1)^T for the symmetric 4x4 matrix M. Its outside is where Q > 0.
-struct Quadric {
-    Vec3f center;
-    float xx, yy, zz, xy, xz, yz, x, y, z, one;
-    Vec3f lower, upper;
+template <class Number>
+struct QuadricOf {
+    Vec3<Number> center;
+    Number xx, yy, zz, xy, xz, yz, x, y, z, one;
+    Vec3<Number> lower, upper;
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = false,
@@ -25,12 +26,13 @@ struct Quadric {
                                         .costs = MethodCosts{0.87, 1.01, 1.0, 1.77}};
 };
 
-inline void validate(const Quadric& q) {
+template <class Number>
+void validate(const QuadricOf<Number>& q) {
     checks::require_point("center", q.center);
-    const float rows[4][4] = {{q.xx, q.xy, q.xz, q.x},
-                              {q.xy, q.yy, q.yz, q.y},
-                              {q.xz, q.yz, q.zz, q.z},
-                              {q.x, q.y, q.z, q.one}};
+    const Number rows[4][4] = {{q.xx, q.xy, q.xz, q.x},
+                               {q.xy, q.yy, q.yz, q.y},
+                               {q.xz, q.yz, q.zz, q.z},
+                               {q.x, q.y, q.z, q.one}};
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column)
             checks::require_coordinate(checks::Field("matrix").at(row).at(column),
@@ -47,7 +49,8 @@ inline void validate(const Quadric& q) {
                            q.upper[axis]);
 }
 
-inline Bounds bounds_of(const Quadric& quadric) {
+template <class Number>
+Bounds bounds_of(const QuadricOf<Number>& quadric) {
     const Vec3d lower = convert<double>(quadric.lower), upper = convert<double>(quadric.upper);
     const Vec3d center = convert<double>(quadric.center);
     return bounds_around(center + 0.5 * (lower + upper), 0.5 * (upper - lower),
@@ -55,37 +58,37 @@ inline Bounds bounds_of(const Quadric& quadric) {
 }
 
 /// M p for the upper left 3x3 part of the form's matrix.
-template <class Real>
-Vec3<Real> quadric_product(const Quadric& q, const Vec3<Real>& p) {
+template <class Real, class Number>
+Vec3<Real> quadric_product(const QuadricOf<Number>& q, const Vec3<Real>& p) {
     return {dot(Vec3<Real>(Real(q.xx), Real(q.xy), Real(q.xz)), p),
             dot(Vec3<Real>(Real(q.xy), Real(q.yy), Real(q.yz)), p),
             dot(Vec3<Real>(Real(q.xz), Real(q.yz), Real(q.zz)), p)};
 }
 
 /// Half the gradient of Q at p, relative to the centre.
-template <class Real>
-Vec3<Real> quadric_half_gradient(const Quadric& q, const Vec3<Real>& p) {
+template <class Real, class Number>
+Vec3<Real> quadric_half_gradient(const QuadricOf<Number>& q, const Vec3<Real>& p) {
     return quadric_product(q, p) + Vec3<Real>(Real(q.x), Real(q.y), Real(q.z));
 }
 
 /// Q(p), relative to the centre.
-template <class Real>
-Real quadric_value(const Quadric& q, const Vec3<Real>& p) {
+template <class Real, class Number>
+Real quadric_value(const QuadricOf<Number>& q, const Vec3<Real>& p) {
     const Vec3<Real> linear(Real(q.x), Real(q.y), Real(q.z));
     return dot(p, Vec3<Real>(quadric_half_gradient(q, p) + linear)) + Real(q.one);
 }
 
 /// The largest of what direction . M direction can be made of, for a unit direction.
-template <class Real>
-Real quadric_scale(const Quadric& q) {
+template <class Real, class Number>
+Real quadric_scale(const QuadricOf<Number>& q) {
     return Real(std::max({std::abs(q.xx), std::abs(q.yy), std::abs(q.zz), std::abs(q.xy),
                           std::abs(q.xz), std::abs(q.yz)}));
 }
 
 /// Q(f + t direction) = A t^2 + 2 B t + C, clipped to the box.
-template <class Real>
-Crossings<Real> crossings(const Quadric& quadric, const Ray<Real>& ray, const Start& start,
-                          Judge<Real>& judge) {
+template <class Real, class Number>
+Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray,
+                          const Start& start, Judge<Real>& judge) {
     const Vec3<Real> from_center = ray.origin - convert<Real>(quadric.center);
     const Vec3<Real> product = quadric_product(quadric, ray.direction);
     const Real A = dot(ray.direction, product);
@@ -120,24 +123,25 @@ Crossings<Real> crossings(const Quadric& quadric, const Ray<Real>& ray, const St
 }
 
 /// The gradient. It vanishes at the apex of a cone.
-template <class Real>
-Vec3<Real> outward_direction(const Quadric& quadric, const Vec3<Real>& point, Face) {
+template <class Real, class Number>
+Vec3<Real> outward_direction(const QuadricOf<Number>& quadric, const Vec3<Real>& point, Face) {
     return quadric_half_gradient(quadric, Vec3<Real>(point - convert<Real>(quadric.center)));
 }
 
-template <class Real>
-Vec3<Real> apex_direction(const Quadric&) {
+template <class Real, class Number>
+Vec3<Real> apex_direction(const QuadricOf<Number>&) {
     return {Real(0.0), Real(0.0), Real(1.0)};
 }
 
-inline ExactQuadratic form_along(const Quadric& quadric, const ExactRay& ray, Face) {
+template <class Number>
+ExactQuadratic form_along(const QuadricOf<Number>& quadric, const ExactRay& ray, Face) {
     const Vec3<Dyadic> f = ray.origin - convert<Dyadic>(quadric.center);
     return {dot(ray.direction, quadric_product(quadric, ray.direction)),
             dot(ray.direction, quadric_half_gradient(quadric, f)), quadric_value(quadric, f)};
 }
 
-template <class Real>
-NormalAlong<Real> normal_along(const Quadric& quadric, const Ray<Real>& ray, Face) {
+template <class Real, class Number>
+NormalAlong<Real> normal_along(const QuadricOf<Number>& quadric, const Ray<Real>& ray, Face) {
     const Vec3<Real> f = ray.origin - convert<Real>(quadric.center);
     return {quadric_half_gradient(quadric, f), quadric_product(quadric, ray.direction),
             apex_direction<Real>(quadric)};

@@ -6,9 +6,10 @@
 
 namespace raylane::core {
 
-struct Sphere {
-    Vec3f center;
-    float radius; ///< > 0
+template <class Number>
+struct SphereOf {
+    Vec3<Number> center;
+    Number radius; ///< > 0
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = false,
@@ -16,14 +17,16 @@ struct Sphere {
                                         .costs = MethodCosts{2.29, 1.70, 1.0, 3.37}};
 };
 
-inline void validate(const Sphere& sphere) {
+template <class Number>
+void validate(const SphereOf<Number>& sphere) {
     checks::require_point("center", sphere.center);
     checks::require_positive("radius", sphere.radius);
 }
 
 /// Bounds in float, as there may be millions: a sum is off by half an ulp, or exact where it
 /// underflows, and 2^-23 of it is an ulp at least.
-inline Bounds bounds_of(const Sphere& sphere) {
+template <class Number>
+Bounds bounds_of(const SphereOf<Number>& sphere) {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
         const float lower = sphere.center[axis] - sphere.radius;
@@ -34,29 +37,30 @@ inline Bounds bounds_of(const Sphere& sphere) {
     return bounds;
 }
 
-template <class Real>
-Crossings<Real> crossings(const Sphere& sphere, const Ray<Real>& ray, const Start& start,
+template <class Real, class Number>
+Crossings<Real> crossings(const SphereOf<Number>& sphere, const Ray<Real>& ray, const Start& start,
                           Judge<Real>& judge) {
     return ball_crossings(Vec3<Real>(ray.origin - convert<Real>(sphere.center)), ray.direction,
                           Real(sphere.radius), start, judge);
 }
 
-template <class Real>
-Vec3<Real> outward_direction(const Sphere& sphere, const Vec3<Real>& point, Face) {
+template <class Real, class Number>
+Vec3<Real> outward_direction(const SphereOf<Number>& sphere, const Vec3<Real>& point, Face) {
     return point - convert<Real>(sphere.center);
 }
 
-inline ExactQuadratic form_along(const Sphere& sphere, const ExactRay& ray, Face) {
+template <class Number>
+ExactQuadratic form_along(const SphereOf<Number>& sphere, const ExactRay& ray, Face) {
     return ball_along(ray.origin - convert<Dyadic>(sphere.center), ray.direction, sphere.radius);
 }
 
-template <class Real>
-NormalAlong<Real> normal_along(const Sphere& sphere, const Ray<Real>& ray, Face) {
+template <class Real, class Number>
+NormalAlong<Real> normal_along(const SphereOf<Number>& sphere, const Ray<Real>& ray, Face) {
     return {ray.origin - convert<Real>(sphere.center), ray.direction};
 }
 
-template <class Real>
-std::array<Real, 1> forms_at(const Sphere& sphere, const Vec3<Real>& point) {
+template <class Real, class Number>
+std::array<Real, 1> forms_at(const SphereOf<Number>& sphere, const Vec3<Real>& point) {
     return {ball_at(Vec3<Real>(point - convert<Real>(sphere.center)), Real(sphere.radius))};
 }
 

@@ -4,14 +4,14 @@
 #include "core/shapes/flat.hpp"
 #include "core/shapes/shape.hpp"
 
-#include <type_traits>
 #include <utility>
 
 namespace raylane::core {
 
 /// Front: the side from which a, b, c run counter-clockwise.
-struct Triangle {
-    Vec3f a, b, c;
+template <class Number>
+struct TriangleOf {
+    Vec3<Number> a, b, c;
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = true,
@@ -21,9 +21,10 @@ struct Triangle {
 
 /// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat
 /// triangle's.
-struct SmoothTriangle {
-    Vec3f a, b, c;
-    Vec3f normal_a, normal_b, normal_c;
+template <class Number>
+struct SmoothTriangleOf {
+    Vec3<Number> a, b, c;
+    Vec3<Number> normal_a, normal_b, normal_c;
 
     static constexpr ShapeTraits traits{.bounded = true,
                                         .flat_faces = false,
@@ -31,8 +32,19 @@ struct SmoothTriangle {
                                         .costs = MethodCosts{1.03, 0.98, 1.0, 2.32}};
 };
 
+namespace detail {
+
 template <class Shape>
-concept AnyTriangle = std::is_same_v<Shape, Triangle> || std::is_same_v<Shape, SmoothTriangle>;
+inline constexpr bool is_triangle = false;
+template <class Number>
+inline constexpr bool is_triangle<TriangleOf<Number>> = true;
+template <class Number>
+inline constexpr bool is_triangle<SmoothTriangleOf<Number>> = true;
+
+} // namespace detail
+
+template <class Shape>
+concept AnyTriangle = detail::is_triangle<Shape>;
 
 void validate(const AnyTriangle auto& t) {
     for (const auto& [name, corner] : {std::pair("a", t.a), {"b", t.b}, {"c", t.c}})
@@ -100,8 +112,8 @@ Vec3<Real> outward_direction(const Shape& triangle, const Vec3<Real>&, Face) {
 
 /// The corners' normals, weighted by the barycentric coordinates of `point`; the flat normal where
 /// they cancel.
-template <class Real>
-Vec3<Real> shading_normal(const SmoothTriangle& triangle, const Vec3<Real>& point) {
+template <class Real, class Number>
+Vec3<Real> shading_normal(const SmoothTriangleOf<Number>& triangle, const Vec3<Real>& point) {
     const Vec3<Real> flat = triangle_normal<Real>(triangle);
     const Vec3<Real> a = convert<Real>(triangle.a) - point;
     const Vec3<Real> b = convert<Real>(triangle.b) - point;
