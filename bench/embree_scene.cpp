@@ -105,7 +105,7 @@ EmbreeScene::EmbreeScene(RTCDevice device, const core::Scene& scene, RTCSceneFla
             const Buffers<Shape> buffers(geometry, table.size());
             std::vector<core::ShapeId>& ids = ids_.emplace_back();
             for (const auto& [id, place] : places_by_id(table)) {
-                buffers.set(static_cast<unsigned>(ids.size()), table.get(place));
+                buffers.set(static_cast<unsigned>(ids.size()), core::to_floats(table.get(place)));
                 ids.push_back(id);
             }
             rtcSetGeometryBuildQuality(geometry, quality);

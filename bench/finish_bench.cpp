@@ -52,7 +52,7 @@ struct Setup {
         view.tables[static_cast<int>(kind_of<Shape>)] = {
             reinterpret_cast<const float*>(blocks.data()),
             static_cast<std::uint32_t>(blocks.size()), sizeof(Block<Shape>) / sizeof(float),
-            float_count<Shape>, 0};
+            number_count<Shape>, 0};
         return view;
     }
 

@@ -77,7 +77,7 @@ struct Setup {
     simd::SceneView scene() const {
         simd::SceneView view{};
         view.tables[static_cast<int>(kind_of<Shape>)] = {
-            block.values[0], 1, sizeof(block) / sizeof(float), float_count<Shape>, 0};
+            block.values[0], 1, sizeof(block) / sizeof(float), number_count<Shape>, 0};
         return view;
     }
 };
@@ -102,7 +102,7 @@ void bounds(benchmark::State& state, const simd::Kernels& kernels) {
     Setup<Shape> setup;
     const simd::SceneView scene = setup.scene();
     const simd::RoundedRays rays = setup.rays.view();
-    kernels.rays.round_rays(ray_count, rays);
+    kernels.rays.round_rays(ray_count, rays, 0.0F);
     const auto exact = static_cast<std::size_t>(Precision::exact);
     simd::TraceCounters counters{};
     for (auto _ : state) {

@@ -52,6 +52,34 @@ using CappedCone = Cone<Ends::capped>;
 using Quadric = QuadricOf<float>;
 using Ellipsoid = EllipsoidOf<float>;
 
+namespace detail {
+
+template <class Shape>
+struct ShapeParts;
+template <template <class> class Of, class Number_>
+struct ShapeParts<Of<Number_>> {
+    using Number = Number_;
+    template <class Other>
+    using With = Of<Other>;
+};
+template <template <class, Ends> class Of, class Number_, Ends ends>
+struct ShapeParts<Of<Number_, ends>> {
+    using Number = Number_;
+    template <class Other>
+    using With = Of<Other, ends>;
+};
+
+} // namespace detail
+
+/// The type of a shape's numbers.
+template <class Shape>
+using NumberOf = typename detail::ShapeParts<Shape>::Number;
+/// The shape of the same kind that has other numbers.
+template <class Shape>
+using InFloat = typename detail::ShapeParts<Shape>::template With<float>;
+template <class Shape>
+using InDouble = typename detail::ShapeParts<Shape>::template With<double>;
+
 /// Type, enumerator, and what people call it: a last word that is JSON's "type", behind what tells
 /// it from others of that type.
 #define RAYLANE_SHAPES(SHAPE)                                                                      \
@@ -109,7 +137,7 @@ RAYLANE_SHAPES(RAYLANE_KIND)
 } // namespace detail
 
 template <class Shape>
-inline constexpr Kind kind_of = detail::KindOf<Shape>::value;
+inline constexpr Kind kind_of = detail::KindOf<InFloat<Shape>>::value;
 
 #define RAYLANE_NAME(Shape, name, text) text,
 inline constexpr std::array<std::string_view, kind_count> kind_names = {

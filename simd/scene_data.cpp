@@ -1,5 +1,7 @@
 #include "simd/scene_data.hpp"
 
+#include "core/shapes/rounded_to_floats.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -157,17 +159,26 @@ void SceneData::view_surroundings() {
 }
 
 void SceneData::view_tables() {
+    double rounding = 0.0;
     core::for_each_table(scene_.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         const auto kind = static_cast<int>(core::kind_of<Shape>);
         const auto blocks = static_cast<std::uint32_t>(table.blocks().size());
-        view_.tables[kind] = {reinterpret_cast<const float*>(table.blocks().data()), blocks,
-                              sizeof(core::Block<Shape>) / sizeof(float), core::float_count<Shape>,
-                              slots_};
+        view_.tables[kind] = {reinterpret_cast<const float*>(table.blocks().data()),
+                              blocks,
+                              sizeof(core::Block<Shape>) / sizeof(float),
+                              core::number_count<Shape>,
+                              slots_,
+                              reinterpret_cast<const double*>(table.doubles().data())};
         slots_ += blocks * core::block_size;
+        if (table.has_doubles())
+            core::for_each_shape(table, [&](const auto& shape, core::ShapeId) {
+                rounding = std::max(rounding, core::change_in_floats(shape));
+            });
         if (table.size() == 0) return;
         (core::is_bounded<Shape> ? bounded_kinds_ : unbounded_kinds_) |= 1U << kind;
         smooth_ |= core::has_shading_normals<Shape>;
     });
+    view_.rounding = static_cast<float>(rounding * (1.0 + 0x1p-20)); // rounded up
 }
 
 void SceneData::fill_occupants() {

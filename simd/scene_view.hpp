@@ -17,6 +17,9 @@ struct TableView {
     std::uint32_t block_floats; ///< from one block to the next, in floats
     std::uint32_t values;       ///< floats that a shape is
     std::uint32_t first_slot;
+    /// Null, or what the shapes are exactly: an array of core::DoubleBlock, whose numbers are as
+    /// far from its first as the floats are from theirs.
+    const double* doubles = nullptr;
 };
 
 /// core::WideNode
@@ -34,6 +37,7 @@ struct SceneView {
     const std::uint64_t* orders;
     std::uint32_t tree_depth; ///< levels of nodes; 0: not to be walked
     float reach;              ///< the largest coordinate of what is in the tree
+    float rounding;           ///< how far the shapes' floats are from what they stand for, at most
     bool large;               ///< nodes and shapes do not fit in the cache of a core
     bool small;               ///< they take no more than a sixteenth of it
     /// Plain lanes by slot / 16: which of a block are opaque and seen from both sides, so that

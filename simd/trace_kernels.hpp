@@ -116,8 +116,9 @@ struct RayKernels {
                         const double* upward, const double* lens_right, const double* lens_up,
                         double* const origin[3], double* const direction[3]);
 
-    /// Fills origin, direction and slack, by the others.
-    void (*round_rays)(std::size_t count, const RoundedRays& rays);
+    /// Fills origin, direction and slack, by the others. Rays are taken to be off by as much as
+    /// shapes are whose floats are `rounding` away from them.
+    void (*round_rays)(std::size_t count, const RoundedRays& rays, float rounding);
 
     /// Lists the lanes whose candidate is not certain to be the nearest, as none is before another
     /// nearer than `least`, and those that are `doubtful` anyway. What was found for the candidate

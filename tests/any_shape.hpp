@@ -36,18 +36,21 @@ inline AnyShape placed(const AnyShape& any, const Placing& by) {
 
 namespace raylane::oracle {
 
-using tests::AnyShape;
+using tests::AnyShape, tests::AnyShapeInDouble;
+
+template <class Any>
+concept Variant = std::same_as<Any, AnyShape> || std::same_as<Any, AnyShapeInDouble>;
 
 // Templates, so that no shape whose own file has none is converted.
-template <std::same_as<AnyShape> Any>
+template <Variant Any>
 std::vector<Hit> crossings(const Any& any, const core::Ray<double>& ray) {
     return std::visit([&](const auto& shape) { return crossings(shape, ray); }, any);
 }
-template <std::same_as<AnyShape> Any>
+template <Variant Any>
 Normal normal(const Any& any, const core::Ray<double>& ray, const Hit& hit) {
     return std::visit([&](const auto& shape) { return normal(shape, ray, hit); }, any);
 }
-template <std::same_as<AnyShape> Any>
+template <Variant Any>
 Ball ball_around(const Any& any) {
     return std::visit([](const auto& shape) { return ball_around(shape); }, any);
 }

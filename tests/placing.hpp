@@ -17,10 +17,16 @@ template <class Shapes>
 struct VariantOf;
 template <class... Shapes>
 struct VariantOf<std::tuple<Shapes...>> : std::type_identity<std::variant<Shapes...>> {};
+template <class Shapes>
+struct InDoubleOf;
+template <class... Shapes>
+struct InDoubleOf<std::tuple<Shapes...>>
+    : std::type_identity<std::variant<core::InDouble<Shapes>...>> {};
 
 } // namespace detail
 
 using AnyShape = detail::VariantOf<core::Shapes>::type;
+using AnyShapeInDouble = detail::InDoubleOf<core::Shapes>::type;
 
 /// A shape moved by `offset`, then enlarged about the origin. Exact where the results are floats:
 /// for powers of two, and offsets that the sums have room for.

@@ -104,9 +104,8 @@ class BeamCone {
 
     /// True if no ray meets a ball at t >= 0. A ray's point at t is within width + t growth of the
     /// axis'; so if it is in the ball, the axis' is in a larger one, and t is not above `last`.
-    bool misses(const Vec3f& center, float radius) const {
-        const Vec3d to_center = convert<double>(center) - origin_;
-        const auto r = static_cast<double>(radius);
+    bool misses(const Vec3d& center, double r) const {
+        const Vec3d to_center = center - origin_;
         const double squared = squared_length(to_center), along = dot(to_center, direction_);
         const double last = (along * per_speed_ + r + width_) * per_approach_;
         const double reach = r + width_ + growth_ * std::max(last, 0.0);

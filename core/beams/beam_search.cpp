@@ -13,16 +13,19 @@ Bounds everywhere() {
 }
 
 template <class Shape>
-BlockBounds bounds_of_block(const Block<Shape>& block) {
+BlockBounds bounds_of_block(const Table<Shape>& table, std::uint32_t index) {
     BlockBounds bounds;
-    for (int lane = 0; lane < block_size; ++lane) {
-        Bounds of_shape; // empty
-        if (block.ids[lane] != no_shape) of_shape = bounds_of(block.get(lane));
-        for (int axis = 0; axis < 3; ++axis) {
-            bounds.lower[axis][lane] = of_shape.lower[axis];
-            bounds.upper[axis][lane] = of_shape.upper[axis];
-        }
+    for (int axis = 0; axis < 3; ++axis) {
+        std::fill_n(bounds.lower[axis], block_size, far);
+        std::fill_n(bounds.upper[axis], block_size, -far);
     }
+    for_each_in_block(table, index, [&](Place place, ShapeId) {
+        const Bounds of_shape = bounds_of(table.get(place));
+        for (int axis = 0; axis < 3; ++axis) {
+            bounds.lower[axis][place.lane] = of_shape.lower[axis];
+            bounds.upper[axis][place.lane] = of_shape.upper[axis];
+        }
+    });
     return bounds;
 }
 
@@ -33,16 +36,13 @@ BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
         if constexpr (is_bounded<Shape>) {
             auto& bounds = bounds_[static_cast<std::size_t>(kind_of<Shape>)];
             bounds.reserve(table.blocks().size());
-            for (const Block<Shape>& block : table.blocks())
-                bounds.push_back(bounds_of_block(block));
+            for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
+                bounds.push_back(bounds_of_block(table, index));
         } else {
-            std::uint32_t number = 0;
-            for_each_shape(table, [&](const Shape&, ShapeId id) {
-                const Place place{number / block_size,
-                                  static_cast<std::uint8_t>(number % block_size)};
-                unbounded_.push_back({everywhere(), place, kind_of<Shape>, id, 0.0F});
-                ++number;
-            });
+            for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
+                for_each_in_block(table, index, [&](Place place, ShapeId id) {
+                    unbounded_.push_back({everywhere(), place, kind_of<Shape>, id, 0.0F});
+                });
         }
     });
     pending_.reserve(512);
@@ -126,9 +126,7 @@ BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& bea
     if (!is_left && from.id != no_shape && from.coplanar.contains(candidate.id))
         return {Met::missed};
     if (candidate.kind == Kind::sphere && !is_left) {
-        const Block<Sphere>& block =
-            std::get<Table<Sphere>>(scene_.shapes()).blocks()[candidate.place.block];
-        const Sphere sphere = block.get(candidate.place.lane);
+        const auto sphere = std::get<Table<Sphere>>(scene_.shapes()).get(candidate.place);
         if (cone.misses(sphere.center, sphere.radius)) return {Met::missed};
     }
     const Start start = is_left ? from.start : Start{};

@@ -54,7 +54,12 @@ bool Duplicates::are_duplicates(const Item& a, const Item& b) const {
     return with_shape_type(a.kind(), [&]<class Shape>(std::type_identity<Shape>) {
         const auto& list = std::get<ShapeList<Shape>>(lists_);
         const Listed<Shape>&one = list[a.position()], &other = list[b.position()];
-        return std::memcmp(&one.shape, &other.shape, sizeof(Shape)) == 0 && // NOLINT: their bits
+        const auto are_same = [](const auto& s, const auto& t) {
+            return std::memcmp(&s, &t, sizeof s) == 0; // NOLINT: their bits
+        };
+        return are_same(one.shape, other.shape) &&
+               (!list.has_doubles() ||
+                are_same(list.exact(a.position()), list.exact(b.position()))) &&
                material_of_[one.id] == material_of_[other.id] && !is_in_polygon(one.id) &&
                !is_in_polygon(other.id);
     });
@@ -65,7 +70,7 @@ std::uint64_t Duplicates::hash_of_shape(const Item& item) const {
         const Listed<Shape>& listed = std::get<ShapeList<Shape>>(lists_)[item.position()];
         std::uint64_t hash =
             mixed(static_cast<std::uint64_t>(item.kind()), material_of_[listed.id]);
-        for (const float value : floats_of(listed.shape))
+        for (const float value : numbers_of(listed.shape))
             hash = mixed(hash, std::bit_cast<std::uint32_t>(value));
         // None is like another then.
         return is_in_polygon(listed.id) ? mixed(hash, listed.id) : hash;

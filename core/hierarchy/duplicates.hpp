@@ -39,7 +39,7 @@ class Duplicates {
                   [](const Item& a, const Item& b) { return a.position() < b.position(); });
         ShapeList<Shape> left;
         for (const Item& item : items)
-            left.add(list[item.position()].shape, list[item.position()].id);
+            left.add(list.exact(item.position()), list[item.position()].id);
         return left;
     }
 

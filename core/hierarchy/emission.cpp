@@ -93,7 +93,7 @@ template <class AnyTables>
 struct BlocksOf;
 template <class... Shapes>
 struct BlocksOf<std::tuple<Table<Shapes>...>> {
-    using type = std::tuple<BigArray<Block<Shapes>>...>;
+    using type = std::tuple<Blocks<Shapes>...>;
 };
 
 class Emitter {
@@ -105,9 +105,9 @@ class Emitter {
         const Tally whole = count(root, 1, workers_);
         // A root that is a leaf needs a node to be in.
         nodes_ = BigArray<WideNode>(whole.nodes + (root.is_leaf() ? 1 : 0));
-        for_each_table(lists_, [&]<class Shape>(const ShapeList<Shape>&) {
-            blocks_of<Shape>() =
-                BigArray<Block<Shape>>(whole.blocks[static_cast<std::size_t>(kind_of<Shape>)]);
+        for_each_table(lists_, [&]<class Shape>(const ShapeList<Shape>& list) {
+            blocks_of<Shape>() = Blocks<Shape>(
+                whole.blocks[static_cast<std::size_t>(kind_of<Shape>)], list.has_doubles());
         });
         Tally next;
         if (root.is_leaf()) {
@@ -128,8 +128,8 @@ class Emitter {
 
   private:
     template <class Shape>
-    BigArray<Block<Shape>>& blocks_of() {
-        return std::get<BigArray<Block<Shape>>>(blocks_);
+    Blocks<Shape>& blocks_of() {
+        return std::get<Blocks<Shape>>(blocks_);
     }
 
     /// `next`, here and below: how many of everything there are so far; `entries` counts in `wide`.
@@ -166,13 +166,11 @@ class Emitter {
         const std::uint32_t index = next.blocks[static_cast<std::size_t>(leaf.kind)]++;
         with_shape_type(leaf.kind, [&]<class Shape>(std::type_identity<Shape>) {
             const auto& list = std::get<ShapeList<Shape>>(lists_);
-            Block<Shape> block;
-            for (int lane = 0; lane < leaf.count; ++lane) {
-                const Listed<Shape>& listed = list[positions_[leaf.first + lane]];
-                block.set(lane, listed.shape, listed.id);
-                fetch_ahead(list, leaf.first + lane);
-            }
-            blocks_of<Shape>()[index] = block;
+            blocks_of<Shape>().fill(index, list, leaf.count, [&](int lane) {
+                const std::size_t at = leaf.first + static_cast<std::size_t>(lane);
+                fetch_ahead(list, at);
+                return positions_[at];
+            });
         });
         return Child::block(leaf.kind, index);
     }

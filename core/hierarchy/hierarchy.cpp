@@ -38,7 +38,8 @@ void add_items(const ShapeList<Shape>& list, Item* to, Workers& workers) {
         const std::size_t first = task * shapes_in_a_task;
         const std::size_t last = std::min(first + shapes_in_a_task, list.size());
         for (std::size_t i = first; i < last; ++i)
-            to[i] = Item(bounds_of(list[i].shape), kind_of<Shape>, static_cast<std::uint32_t>(i));
+            to[i] = Item(list.has_doubles() ? bounds_of(list.exact(i)) : bounds_of(list[i].shape),
+                         kind_of<Shape>, static_cast<std::uint32_t>(i));
     });
 }
 

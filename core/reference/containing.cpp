@@ -42,12 +42,10 @@ void PointSearcher::add_of_block(const Child& block, const Vec3d& point,
                                  std::vector<Containing>& found) {
     with_table(scene_.shapes(), block.kind(), [&]<class Shape>(const Table<Shape>& table) {
         if constexpr (is_solid<Shape>) {
-            const Block<Shape>& shapes = table.blocks()[block.index()];
-            for (int lane = 0; lane < block_size && shapes.ids[lane] != no_shape; ++lane) {
-                const Side side = side_of(shapes.get(lane), point);
-                if (side != Side::outside)
-                    found.push_back({shapes.ids[lane], side == Side::surface});
-            }
+            for_each_in_block(table, block.index(), [&](Place place, ShapeId id) {
+                const Side side = side_of(table.get(place), point);
+                if (side != Side::outside) found.push_back({id, side == Side::surface});
+            });
         }
     });
 }

@@ -6,23 +6,23 @@ namespace {
 
 /// True if a solid below a node of the hierarchy is transmissive and has bounds that meet the box.
 bool any_solid_meets(const Scene& scene, std::uint32_t index, const Bounds& box) {
-    const auto in_block = [&]<class Shape>(const Block<Shape>& block) {
+    const auto in_block = [&]<class Shape>(const Table<Shape>& table, std::uint32_t block) {
         bool any = false;
         if constexpr (is_solid<Shape>)
-            for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane)
-                any = any || (scene.material_of(block.ids[lane]).transmits() &&
-                              bounds_of(block.get(lane)).meets(box));
+            for_each_in_block(table, block, [&](Place place, ShapeId id) {
+                any = any ||
+                      (scene.material_of(id).transmits() && bounds_of(table.get(place)).meets(box));
+            });
         return any;
     };
     const WideNode& node = scene.hierarchy().nodes[index];
     for (int i = 0; i < block_size; ++i) {
         if (!node.bounds(i).meets(box)) continue;
         const Child child = node.children[i];
-        if (child.is_block() ? with_table(scene.shapes(), child.kind(),
-                                          [&](const auto& table) {
-                                              return in_block(table.blocks()[child.index()]);
-                                          })
-                             : any_solid_meets(scene, child.index(), box))
+        if (child.is_block()
+                ? with_table(scene.shapes(), child.kind(),
+                             [&](const auto& table) { return in_block(table, child.index()); })
+                : any_solid_meets(scene, child.index(), box))
             return true;
     }
     return false;

@@ -64,7 +64,7 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks&
     if (!scene.transmissive().any) return media;
 
     for_each_unbounded_table(scene.shapes(), [&](const auto& table) {
-        for_each_shape(table, [&](const Plane& plane, ShapeId id) {
+        for_each_shape(table, [&](const auto& plane, ShapeId id) {
             const Vec3<Real> to_plane = convert<Real>(plane.point) - point;
             if (scene.material_of(id).transmits() &&
                 dot(to_plane, convert<Real>(plane.normal)) > Real(0))

@@ -281,18 +281,15 @@ class Searcher {
     void cross_block(Kind kind, std::uint32_t index, const Ray<Real>& ray,
                      const OriginSurfaces<Real>& origins, const Visit& visit) {
         with_table(scene_.shapes(), kind, [&](const auto& table) {
-            const auto& block = table.blocks()[index];
-            for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane) {
-                const ShapeId id = block.ids[lane];
+            for_each_in_block(table, index, [&](Place place, ShapeId id) {
                 const Start start = origins.start_on(id);
                 ++counters.shapes;
                 for (const Crossing<Real>& crossing :
-                     solve(block.get(lane), ray, start, counters.widened, precision_))
+                     solve(table.get(place), ray, start, counters.widened, precision_))
                     if (crossing.t > Real(0) || (start.on_surface && crossing.t == Real(0)))
                         visit(Hit<Real>{crossing.t, crossing.error, false, id, crossing.face,
-                                        crossing.entering, kind,
-                                        Place{index, static_cast<std::uint8_t>(lane)}});
-            }
+                                        crossing.entering, kind, place});
+            });
         });
     }
 

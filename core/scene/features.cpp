@@ -4,9 +4,10 @@
 
 namespace raylane::core {
 
-std::array<std::pair<std::string_view, bool>, 15> Features::named() const {
+std::array<std::pair<std::string_view, bool>, 16> Features::named() const {
     return {{{"hierarchy", bounded_shapes},
              {"planes", planes},
+             {"shapes in double", doubles},
              {"smooth normals", smooth_normals},
              {"patterns", patterns},
              {"light and shadow rays", shading},
@@ -27,6 +28,7 @@ Features features_of(const Scene& scene, const Settings& settings) {
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
         if (table.size() == 0) return;
         (is_bounded<Shape> ? features.bounded_shapes : features.planes) = true;
+        features.doubles |= table.has_doubles();
         features.smooth_normals |= has_shading_normals<Shape>;
     });
 

@@ -12,6 +12,7 @@ namespace raylane::core {
 struct Features {
     bool bounded_shapes = false; ///< so a hierarchy to walk
     bool planes = false;
+    bool doubles = false;        ///< shapes whose numbers are no floats
     bool smooth_normals = false; ///< smooth triangles
     bool patterns = false;       ///< colours other than solid
     bool shading = false;        ///< diffuse or specular light, so shadow rays
@@ -27,7 +28,7 @@ struct Features {
     bool supersampling = false; ///< more than one sample per pixel
 
     /// Each with its name, in words.
-    std::array<std::pair<std::string_view, bool>, 15> named() const;
+    std::array<std::pair<std::string_view, bool>, 16> named() const;
 };
 
 /// Shapes decide which materials are in use. `settings` may differ from the scene's own.

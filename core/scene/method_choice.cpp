@@ -103,7 +103,7 @@ class FloatMethod {
     void for_each_bounded(const Visit& visit) const {
         for_each_bounded_table(scene_.shapes(), [&]<class Shape>(const Table<Shape>& table) {
             for_each_shape(table,
-                           [&](const Shape& shape, ShapeId) { visit(shape, bounds_of(shape)); });
+                           [&](const auto& shape, ShapeId) { visit(shape, bounds_of(shape)); });
         });
     }
 

@@ -60,6 +60,12 @@ std::size_t Scene::bytes() const {
     return bytes;
 }
 
+std::size_t Scene::double_bytes() const {
+    std::size_t bytes = 0;
+    for_each_table(shapes_, [&](const auto& table) { bytes += table.doubles().bytes(); });
+    return bytes;
+}
+
 void SceneBuilder::require_material(MaterialIndex material) const {
     if (material >= scene_.materials_.size())
         throw InvalidValue("material",
@@ -96,7 +102,7 @@ void SceneBuilder::renumber_materials(std::span<const MaterialIndex> new_index) 
 template <class Shape>
 ShapeId SceneBuilder::append(const Shape& shape, MaterialIndex material) {
     const auto id = static_cast<ShapeId>(shape_count());
-    std::get<ShapeList<Shape>>(lists_).add(shape, id);
+    std::get<ShapeList<InFloat<Shape>>>(lists_).add(shape, id);
     scene_.material_of_.push_back(material);
     constexpr std::size_t now_and_then = std::size_t{1} << 16;
     if (shape_count() % now_and_then == 0 && workers != nullptr) workers->added(shape_count());
@@ -162,10 +168,14 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
 }
 
 #define RAYLANE_INSTANTIATE(Shape, name, text)                                                     \
-    template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);
+    template ShapeId SceneBuilder::add(const Shape&, MaterialIndex);                               \
+    template ShapeId SceneBuilder::add(const InDouble<Shape>&, MaterialIndex);
 RAYLANE_SHAPES(RAYLANE_INSTANTIATE)
 #undef RAYLANE_INSTANTIATE
 template ShapeId SceneBuilder::add_polygon(std::span<const Triangle>, MaterialIndex);
+template ShapeId SceneBuilder::add_polygon(std::span<const InDouble<Triangle>>, MaterialIndex);
 template ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle>, MaterialIndex);
+template ShapeId SceneBuilder::add_polygon(std::span<const InDouble<SmoothTriangle>>,
+                                           MaterialIndex);
 
 } // namespace raylane::core

@@ -51,6 +51,8 @@ class Scene {
 
     /// Bytes of shapes, materials and hierarchy.
     std::size_t bytes() const;
+    /// Those of shapes' doubles, where they are no floats.
+    std::size_t double_bytes() const;
 
   private:
     friend class SceneBuilder;
@@ -89,8 +91,8 @@ class SceneBuilder {
     /// material.
     void renumber_materials(std::span<const MaterialIndex> new_index);
 
-    /// The id of the new shape: 0, 1, 2, ... `material` must be an index that add_material
-    /// returned.
+    /// The id of the new shape, in float or in double: 0, 1, 2, ... `material` must be an index
+    /// that add_material returned.
     template <class Shape>
     ShapeId add(const Shape& shape, MaterialIndex material);
 

@@ -21,10 +21,11 @@ bool is_on(const Shape& shape, const Vec3f& point) {
 }
 
 template <class Shape>
-ShapeId lowest_in_block(const Block<Shape>& block, const Vec3f& point) {
+ShapeId lowest_in_block(const Table<Shape>& table, std::uint32_t index, const Vec3f& point) {
     ShapeId lowest = no_shape;
-    for (int lane = 0; lane < block_size; ++lane)
-        if (block.ids[lane] < lowest && is_on(block.get(lane), point)) lowest = block.ids[lane];
+    for_each_in_block(table, index, [&](Place place, ShapeId id) {
+        if (id < lowest && is_on(table.get(place), point)) lowest = id;
+    });
     return lowest;
 }
 
@@ -33,8 +34,8 @@ ShapeId lowest_in_block(const Block<Shape>& block, const Vec3f& point) {
 ShapeId surface_through(const Scene& scene, const Vec3f& point) {
     ShapeId lowest = no_shape;
     for_each_unbounded_table(scene.shapes(), [&](const auto& table) {
-        for (const auto& block : table.blocks())
-            lowest = std::min(lowest, lowest_in_block(block, point));
+        for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
+            lowest = std::min(lowest, lowest_in_block(table, index, point));
     });
 
     const BigArray<WideNode>& nodes = scene.hierarchy().nodes;
@@ -52,7 +53,7 @@ ShapeId surface_through(const Scene& scene, const Vec3f& point) {
             }
             lowest =
                 std::min(lowest, with_table(scene.shapes(), child.kind(), [&](const auto& table) {
-                             return lowest_in_block(table.blocks()[child.index()], point);
+                             return lowest_in_block(table, child.index(), point);
                          }));
         }
     }

@@ -1,57 +1,75 @@
 #include "core/shapes/checks.hpp"
 
+#include "core/numbers/bounded.hpp"
+#include "core/numbers/dyadic.hpp"
+
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 namespace raylane::core::checks {
 
-std::string text_of(float value) {
+template <class Number>
+std::string text_of(Number value) {
     char text[32];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
-std::string text_of(const Vec3f& v) {
+template <class Number>
+std::string text_of(const Vec3<Number>& v) {
     std::string text = "[";
     text.append(text_of(v.x)).append(", ").append(text_of(v.y)).append(", ");
     return text.append(text_of(v.z)).append("]");
 }
 
-void refuse(const Field& field, const std::string& must, float got) {
+template <class Number>
+void refuse(const Field& field, const std::string& must, Number got) {
     throw InvalidValue(field.text(), must + ", got " + text_of(got));
 }
 
-void require(bool good, const Field& field, const char* must, float got) {
+template <class Number>
+void require(bool good, const Field& field, const char* must, Number got) {
     if (!good) refuse(field, must, got);
 }
 
-void require_coordinate(const Field& field, float value) {
-    require(std::abs(value) <= coordinate_limit, field, "must be a number from -1e30 to 1e30",
-            value);
+template <class Number>
+void require_coordinate(const Field& field, Number value) {
+    require(std::abs(value) <= Number(coordinate_limit), field,
+            "must be a number from -1e30 to 1e30", value);
+    if constexpr (std::is_same_v<Number, double>)
+        require(std::abs(value) >= least_double || is_float(value), field,
+                "must be 0 or at least 1.2e-38 in size", value);
 }
 
-void require_point(const Field& field, const Vec3f& point) {
+template <class Number>
+void require_point(const Field& field, const Vec3<Number>& point) {
     for (int axis = 0; axis < 3; ++axis)
         require_coordinate(field.at(axis), point[axis]);
 }
 
-void require_direction(const Field& field, const Vec3f& direction) {
+template <class Number>
+void require_direction(const Field& field, const Vec3<Number>& direction) {
     require_point(field, direction);
-    if (direction == Vec3f(0.0F))
+    if (direction == Vec3<Number>(Number(0)))
         throw InvalidValue(field.text(), "must not be the zero vector, got [0, 0, 0]");
 }
 
-void require_positive(const Field& field, float value) {
-    require(value > 0.0F, field, "must be positive", value);
+template <class Number>
+void require_positive(const Field& field, Number value) {
+    require(value > Number(0), field, "must be positive", value);
     require_coordinate(field, value);
 }
 
-void require_not_negative(const Field& field, float value) {
-    require(value >= 0.0F, field, "must not be negative", value);
+template <class Number>
+void require_not_negative(const Field& field, Number value) {
+    require(value >= Number(0), field, "must not be negative", value);
     require_coordinate(field, value);
 }
 
-void require_fraction(const Field& field, float value) {
-    require(value >= 0.0F && value <= 1.0F, field, "must be from 0 to 1", value);
+template <class Number>
+void require_fraction(const Field& field, Number value) {
+    require(value >= Number(0) && value <= Number(1), field, "must be from 0 to 1", value);
 }
 
 void require_count(const char* field, int value, int least, int most) {
@@ -60,28 +78,64 @@ void require_count(const char* field, int value, int least, int most) {
                                       std::to_string(most) + ", got " + std::to_string(value));
 }
 
-bool vanishes(const Wide& a) {
-    return !(a.magnitude() > a.error);
+namespace {
+
+using Wide = Bounded<DoubleDouble>;
+
+/// volume() of numbers with bounds, and where these leave it open, of exact ones.
+template <class Volume>
+bool vanishes(const Volume& volume) {
+    const Wide wide = volume(std::type_identity<Wide>());
+    if (wide.magnitude() > wide.error) return false;
+    return volume(std::type_identity<Dyadic>()).sign() == 0;
 }
 
-Vec3<Wide> wide(const Vec3f& v) {
-    return {Wide(static_cast<double>(v.x)), Wide(static_cast<double>(v.y)),
-            Wide(static_cast<double>(v.z))};
-}
+} // namespace
 
-void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Vec3f& w) {
+template <class Number>
+void require_spanning(const char* name, const Vec3<Number>& u, const Vec3<Number>& v,
+                      const Vec3<Number>& w) {
     const Field field(name);
     require_direction(field.at(0), u);
     require_direction(field.at(1), v);
     require_direction(field.at(2), w);
-    if (vanishes(dot(cross(wide(u), wide(v)), wide(w))))
+    const bool flat = vanishes([&]<class Real>(std::type_identity<Real>) {
+        return dot(cross(convert<Real>(u), convert<Real>(v)), convert<Real>(w));
+    });
+    if (flat)
         throw InvalidValue(name, "must span a volume, got " + text_of(u) + ", " + text_of(v) +
                                      ", " + text_of(w));
 }
 
-bool parallel(const Vec3<Wide>& a, const Vec3<Wide>& b) {
-    const Vec3<Wide> product = cross(a, b);
-    return vanishes(product.x) && vanishes(product.y) && vanishes(product.z);
+template <class Number>
+bool are_collinear(const Vec3<Number>& a, const Vec3<Number>& b, const Vec3<Number>& c) {
+    const auto component_vanishes = [&](int i, int j) {
+        return vanishes([&]<class Real>(std::type_identity<Real>) {
+            const auto edge = [&](const Vec3<Number>& to, int axis) {
+                return Real(Real(to[axis]) - Real(a[axis]));
+            };
+            return Real(Real(edge(b, i) * edge(c, j)) - Real(edge(b, j) * edge(c, i)));
+        });
+    };
+    return component_vanishes(1, 2) && component_vanishes(2, 0) && component_vanishes(0, 1);
 }
+
+#define RAYLANE_INSTANTIATE(Number)                                                                \
+    template std::string text_of(Number);                                                          \
+    template std::string text_of(const Vec3<Number>&);                                             \
+    template void refuse(const Field&, const std::string&, Number);                                \
+    template void require(bool, const Field&, const char*, Number);                                \
+    template void require_coordinate(const Field&, Number);                                        \
+    template void require_point(const Field&, const Vec3<Number>&);                                \
+    template void require_direction(const Field&, const Vec3<Number>&);                            \
+    template void require_positive(const Field&, Number);                                          \
+    template void require_not_negative(const Field&, Number);                                      \
+    template void require_fraction(const Field&, Number);                                          \
+    template void require_spanning(const char*, const Vec3<Number>&, const Vec3<Number>&,          \
+                                   const Vec3<Number>&);                                           \
+    template bool are_collinear(const Vec3<Number>&, const Vec3<Number>&, const Vec3<Number>&);
+RAYLANE_INSTANTIATE(float)
+RAYLANE_INSTANTIATE(double)
+#undef RAYLANE_INSTANTIATE
 
 } // namespace raylane::core::checks

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/numbers/bounded.hpp"
 #include "core/numbers/vector.hpp"
 #include "core/shapes/invalid_value.hpp"
 
@@ -11,8 +10,17 @@ namespace raylane::core {
 
 /// Coordinates and lengths are at most this large, so that no product in the solvers can overflow.
 inline constexpr float coordinate_limit = 1e30F;
+/// Doubles that are no floats are at least this large, the least normal float: what they are off by
+/// as floats is then relative to them.
+inline constexpr double least_double = 0x1p-126;
 
 namespace checks {
+
+/// True if a number is a float's.
+template <class Number>
+bool is_float(Number number) {
+    return static_cast<Number>(static_cast<float>(number)) == number;
+}
 
 /// The place of a number. Only a refusal puts it into words: ten million spheres have forty million
 /// places.
@@ -35,17 +43,28 @@ struct Field {
     }
 };
 
-std::string text_of(float value);
-std::string text_of(const Vec3f& v);
+/// These are of float and of double.
+template <class Number>
+std::string text_of(Number value);
+template <class Number>
+std::string text_of(const Vec3<Number>& v);
 
-[[noreturn]] void refuse(const Field& field, const std::string& must, float got);
-void require(bool good, const Field& field, const char* must, float got);
-void require_coordinate(const Field& field, float value);
-void require_point(const Field& field, const Vec3f& point);
-void require_direction(const Field& field, const Vec3f& direction);
-void require_positive(const Field& field, float value);
-void require_not_negative(const Field& field, float value);
-void require_fraction(const Field& field, float value);
+template <class Number>
+[[noreturn]] void refuse(const Field& field, const std::string& must, Number got);
+template <class Number>
+void require(bool good, const Field& field, const char* must, Number got);
+template <class Number>
+void require_coordinate(const Field& field, Number value);
+template <class Number>
+void require_point(const Field& field, const Vec3<Number>& point);
+template <class Number>
+void require_direction(const Field& field, const Vec3<Number>& direction);
+template <class Number>
+void require_positive(const Field& field, Number value);
+template <class Number>
+void require_not_negative(const Field& field, Number value);
+template <class Number>
+void require_fraction(const Field& field, Number value);
 void require_count(const char* field, int value, int least, int most);
 /// Requires an enumerator: one from 0 to `last`.
 template <class Enum>
@@ -57,14 +76,13 @@ void require_enumerator(const char* field, Enum value, Enum last) {
 }
 
 /// Requires three vectors, fields name/0 to name/2, to span a volume.
-void require_spanning(const char* name, const Vec3f& u, const Vec3f& v, const Vec3f& w);
+template <class Number>
+void require_spanning(const char* name, const Vec3<Number>& u, const Vec3<Number>& v,
+                      const Vec3<Number>& w);
 
-using Wide = Bounded<DoubleDouble>;
-
-/// True if an exact product of float coordinates is 0, or cannot be told from it in 106 bits.
-bool vanishes(const Wide& a);
-Vec3<Wide> wide(const Vec3f& v);
-bool parallel(const Vec3<Wide>& a, const Vec3<Wide>& b);
+/// True if (b - a) x (c - a) is 0.
+template <class Number>
+bool are_collinear(const Vec3<Number>& a, const Vec3<Number>& b, const Vec3<Number>& c);
 
 } // namespace checks
 } // namespace raylane::core

@@ -1,6 +1,7 @@
 #include "core/shapes/displacement.hpp"
 
 #include "core/shapes/quadric.hpp"
+#include "core/shapes/rounded_to_floats.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ struct Cell {
 
 /// The least |half gradient| in a cell where |Q| <= error, or less; infinity if that is nowhere. By
 /// cutting the cell until its middle stands for all of it; 0 if that does not help.
-double least_gradient(const Quadric& quadric, double norm, double error, const Cell& cell,
+double least_gradient(const InDouble<Quadric>& quadric, double norm, double error, const Cell& cell,
                       int depth) {
     const double radius = length(cell.half);
     const double gradient = length(cell.seen(quadric_half_gradient(quadric, cell.middle)));
@@ -49,9 +50,9 @@ double least_gradient(const Quadric& quadric, double norm, double error, const C
 }
 
 /// Least half gradient in the box, and within its faces, where the surface is cut off.
-double least_gradient(const Quadric& quadric, double norm, double error) {
+double least_gradient(const InDouble<Quadric>& quadric, double norm, double error) {
     constexpr int depth = 6;
-    const Vec3d lower = convert<double>(quadric.lower), upper = convert<double>(quadric.upper);
+    const Vec3d lower = quadric.lower, upper = quadric.upper;
     const Cell box{0.5 * (lower + upper), 0.5 * (upper - lower)};
     double least = least_gradient(quadric, norm, error, box, depth);
     for (int axis = 0; axis < 3; ++axis)
@@ -68,10 +69,8 @@ double least_gradient(const Quadric& quadric, double norm, double error) {
 struct Rows {
     Vec3d diagonal, rest;
 
-    explicit Rows(const Quadric& q) : diagonal(q.xx, q.yy, q.zz) {
-        const double xy = std::abs(static_cast<double>(q.xy)),
-                     xz = std::abs(static_cast<double>(q.xz)),
-                     yz = std::abs(static_cast<double>(q.yz));
+    explicit Rows(const InDouble<Quadric>& q) : diagonal(q.xx, q.yy, q.zz) {
+        const double xy = std::abs(q.xy), xz = std::abs(q.xz), yz = std::abs(q.yz);
         rest = {xy + xz, xy + yz, xz + yz};
     }
 
@@ -91,25 +90,30 @@ struct Rows {
     }
 };
 
+bool has_float_form(const InDouble<Quadric>& q) {
+    const double form[] = {q.xx, q.yy, q.zz, q.xy, q.xz, q.yz, q.x, q.y, q.z, q.one};
+    return std::ranges::all_of(form, checks::is_float<double>);
+}
+
 } // namespace
 
 /// Displacement, with D the largest distance from a start to the centre's far side. Robust: the
 /// foot of the perpendicular is off by roundings of D, and with it the radius. Fast: the
 /// discriminant B^2 - A C is off by roundings of D^2, that is the square of the radius is.
-double displacement(const Sphere& sphere, Precision precision, double reach) {
-    const double r = static_cast<double>(sphere.radius), D = reach + r;
+double displacement(const InDouble<Sphere>& sphere, Precision precision, double reach) {
+    const double r = sphere.radius, D = reach + r;
     const double off =
         precision == Precision::robust ? 2.0 * roundings * D : 3.0 * roundings * D * (1.0 + D / r);
-    return off < 0.25 * r ? off : infinity;
+    return off < 0.25 * r ? off + change_in_floats(sphere) : infinity;
 }
 
 /// The numerator of t is off by roundings of |centre - origin|, the denominator by roundings of the
 /// direction. So the point is off its plane by roundings of D, along the ray; and what that moves
 /// it by inside the plane is foreshortened as the disc is.
-double displacement(const Disc& disc, Precision, double reach) {
-    const auto r = static_cast<double>(disc.radius);
+double displacement(const InDouble<Disc>& disc, Precision, double reach) {
+    const double r = disc.radius;
     const double off = 2.0 * roundings * (reach + r);
-    return off < 0.25 * r ? off : infinity;
+    return off < 0.25 * r ? off + change_in_floats(disc) : infinity;
 }
 
 /// Let m be the matrix's norm, l the linear part's, s the largest coefficient, T(x) = m x^2 + 2 l x
@@ -125,8 +129,8 @@ double displacement(const Disc& disc, Precision, double reach) {
 /// A crossing that moves along the ray moves by half of that across, as the surface is slanted.
 ///
 /// Fast: the discriminant is off by roundings of B^2 and A C, and Q by that divided by A.
-double displacement(const Quadric& quadric, Precision precision, double reach) {
-    const Vec3d lower = convert<double>(quadric.lower), upper = convert<double>(quadric.upper);
+double displacement(const InDouble<Quadric>& quadric, Precision precision, double reach) {
+    const Vec3d lower = quadric.lower, upper = quadric.upper;
     double R_squared = 0.0, aside_squared = 0.0; // the centre may be outside of the box
     for (int axis = 0; axis < 3; ++axis) {
         const double far = std::max(std::abs(lower[axis]), std::abs(upper[axis]));
@@ -139,9 +143,7 @@ double displacement(const Quadric& quadric, Precision precision, double reach) {
     const double l = length(Vec3d(quadric.x, quadric.y, quadric.z));
     const double R = std::sqrt(R_squared), G = m * R + l;
     const double D = reach + std::sqrt(aside_squared);
-    const auto T = [&](double x) {
-        return x * (m * x + 2.0 * l) + std::abs(static_cast<double>(quadric.one));
-    };
+    const auto T = [&](double x) { return x * (m * x + 2.0 * l) + std::abs(quadric.one); };
 
     double error = 0.0, along = D; // roundings of these: of Q, and along the ray
     if (precision == Precision::robust) {
@@ -157,8 +159,10 @@ double displacement(const Quadric& quadric, Precision precision, double reach) {
     const double gradient = least_gradient(quadric, m, error);
     // Moved by x, Q changes by 2 g x - m x^2 or more.
     const double rest = gradient * gradient - m * error;
-    if (!(rest > 0.0)) return infinity;
-    return error / (gradient + std::sqrt(rest)) + 0.5 * roundings * along;
+    if (!(rest > 0.0) || !has_float_form(quadric)) return infinity;
+    // As the box moves, so do the edges: along the surface, at a slant.
+    const double moved = change_in_floats(quadric) * std::max(1.0, G / gradient);
+    return error / (gradient + std::sqrt(rest)) + 0.5 * roundings * along + moved;
 }
 
 } // namespace raylane::core

@@ -2,6 +2,7 @@
 
 #include "core/kinds.hpp"
 #include "core/shapes/bounds.hpp"
+#include "core/shapes/checks.hpp"
 #include "core/shapes/precision.hpp"
 
 #include <algorithm>
@@ -44,21 +45,44 @@ struct ShapeTraits {
     Stated<MethodCosts> costs;
 };
 
-/// Number of floats in a shape.
+/// How many numbers a shape is.
 template <class Shape>
-inline constexpr int float_count = sizeof(Shape) / sizeof(float);
+inline constexpr int number_count = sizeof(Shape) / sizeof(NumberOf<Shape>);
 
 template <class Shape>
-using Floats = std::array<float, float_count<Shape>>;
+using Numbers = std::array<NumberOf<Shape>, number_count<Shape>>;
 
 template <class Shape>
-Floats<Shape> floats_of(const Shape& shape) {
-    return std::bit_cast<Floats<Shape>>(shape);
+Numbers<Shape> numbers_of(const Shape& shape) {
+    return std::bit_cast<Numbers<Shape>>(shape);
 }
 
 template <class Shape>
-Shape shape_of(const Floats<Shape>& floats) {
-    return std::bit_cast<Shape>(floats);
+Shape shape_of(const Numbers<Shape>& numbers) {
+    return std::bit_cast<Shape>(numbers);
+}
+
+/// The shape of other numbers, each the nearest to its own.
+template <class To, class From>
+To cast_shape(const From& shape) {
+    Numbers<To> numbers;
+    std::ranges::transform(numbers_of(shape), numbers.begin(),
+                           [](NumberOf<From> number) { return static_cast<NumberOf<To>>(number); });
+    return shape_of<To>(numbers);
+}
+template <class Shape>
+InDouble<Shape> to_doubles(const Shape& shape) {
+    return cast_shape<InDouble<Shape>>(shape);
+}
+template <class Shape>
+InFloat<Shape> to_floats(const Shape& shape) {
+    return cast_shape<InFloat<Shape>>(shape);
+}
+
+/// True if all of a shape's numbers are floats.
+template <class Shape>
+bool is_in_floats(const Shape& shape) {
+    return std::ranges::all_of(numbers_of(shape), checks::is_float<NumberOf<Shape>>);
 }
 
 /// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added.

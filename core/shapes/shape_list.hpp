@@ -10,31 +10,23 @@
 
 namespace raylane::core {
 
-/// A shape and its number in the scene.
-template <class Shape>
-struct Listed {
-    Shape shape;
-    ShapeId id;
-};
-
-/// All shapes of one kind, in the order in which they came. It grows by pieces, each as large as
-/// all before it: none is ever copied, and what is not used of the last is never touched.
-template <class Shape>
-class ShapeList {
+/// A list that grows by pieces, each as large as all before it: none is ever copied, and what is
+/// not used of the last is never touched.
+template <class T>
+class GrowingList {
   public:
     std::size_t size() const { return size_; }
 
-    const Listed<Shape>& operator[](std::size_t i) const {
+    const T& operator[](std::size_t i) const {
         const int piece = piece_of(i);
         return pieces_[piece][i - first_of(piece)];
     }
 
-    void add(const Shape& shape, ShapeId id) {
+    void add(const T& value) {
         const int piece = piece_of(size_);
         const std::size_t first = first_of(piece);
-        if (size_ == first)
-            pieces_[piece] = BigArray<Listed<Shape>>(std::max(first, first_piece_size));
-        pieces_[piece][size_ - first] = {shape, id};
+        if (size_ == first) pieces_[piece] = BigArray<T>(std::max(first, first_piece_size));
+        pieces_[piece][size_ - first] = value;
         ++size_;
     }
 
@@ -48,8 +40,48 @@ class ShapeList {
         return piece == 0 ? 0 : first_piece_size << (piece - 1);
     }
 
-    std::array<BigArray<Listed<Shape>>, 34> pieces_; // for more than 2^32 shapes
+    std::array<BigArray<T>, 34> pieces_; // for more than 2^32
     std::size_t size_ = 0;
+};
+
+/// A shape's floats, or those nearest to it, and its number in the scene.
+template <class Shape>
+struct Listed {
+    Shape shape;
+    ShapeId id;
+};
+
+/// All shapes of one kind, in the order in which they came. There are doubles as soon as one shape
+/// has a number that is no float.
+template <class Shape>
+class ShapeList {
+  public:
+    std::size_t size() const { return listed_.size(); }
+    const Listed<Shape>& operator[](std::size_t i) const { return listed_[i]; }
+
+    bool has_doubles() const { return doubles_.size() > 0; }
+    /// Exactly the shape.
+    InDouble<Shape> exact(std::size_t i) const {
+        return has_doubles() ? doubles_[i] : to_doubles(listed_[i].shape);
+    }
+
+    void add(const Shape& shape, ShapeId id) {
+        listed_.add({shape, id});
+        if (has_doubles()) doubles_.add(to_doubles(shape));
+    }
+    void add(const InDouble<Shape>& shape, ShapeId id) {
+        if (!has_doubles()) {
+            if (is_in_floats(shape)) return add(to_floats(shape), id);
+            for (std::size_t i = 0; i < size(); ++i)
+                doubles_.add(to_doubles(listed_[i].shape));
+        }
+        listed_.add({to_floats(shape), id});
+        doubles_.add(shape);
+    }
+
+  private:
+    GrowingList<Listed<Shape>> listed_;
+    GrowingList<InDouble<Shape>> doubles_; // as many, or none
 };
 
 /// One list per kind, in the order of `Kind`.

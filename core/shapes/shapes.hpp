@@ -10,8 +10,9 @@
 #include "core/shapes/sphere.hpp"
 #include "core/shapes/triangle.hpp"
 
-/// The shapes. Each *is* its floats: the surface meant is the one that real arithmetic gives for
-/// exactly these values. Nothing is normalised, transformed or rounded on the way in.
+/// The shapes. Each *is* its numbers, floats or doubles: the surface meant is the one that real
+/// arithmetic gives for exactly these values. Nothing is normalised, transformed or rounded on the
+/// way in.
 ///
 /// Lengths are in the scene's unit. Normals and axes may have any length but zero.
 /// A solid (sphere, ellipsoid, box, capped cylinder, capped cone) is closed: its surface belongs to
@@ -26,9 +27,9 @@ inline constexpr bool is_bounded = Shape::traits.bounded;
 /// True for solids, which by themselves have an inside.
 template <class Shape>
 inline constexpr bool is_solid =
-    std::is_same_v<Shape, Sphere> || std::is_same_v<Shape, Ellipsoid> ||
-    std::is_same_v<Shape, Box> || std::is_same_v<Shape, CappedCylinder> ||
-    std::is_same_v<Shape, CappedCone>;
+    kind_of<Shape> == Kind::sphere || kind_of<Shape> == Kind::ellipsoid ||
+    kind_of<Shape> == Kind::box || kind_of<Shape> == Kind::capped_cylinder ||
+    kind_of<Shape> == Kind::capped_cone;
 
 constexpr const ShapeTraits& traits_of(Kind kind) {
     return with_shape_type(kind, []<class Shape>(std::type_identity<Shape>) -> const ShapeTraits& {

@@ -25,8 +25,7 @@ void validate(const SphereOf<Number>& sphere) {
 
 /// Bounds in float, as there may be millions: a sum is off by half an ulp, or exact where it
 /// underflows, and 2^-23 of it is an ulp at least.
-template <class Number>
-Bounds bounds_of(const SphereOf<Number>& sphere) {
+inline Bounds bounds_of(const SphereOf<float>& sphere) {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
         const float lower = sphere.center[axis] - sphere.radius;
@@ -35,6 +34,10 @@ Bounds bounds_of(const SphereOf<Number>& sphere) {
         bounds.upper[axis] = upper + 0x1p-23F * std::abs(upper);
     }
     return bounds;
+}
+
+inline Bounds bounds_of(const SphereOf<double>& sphere) {
+    return bounds_around(sphere.center, Vec3d(sphere.radius), absolute(sphere.center));
 }
 
 template <class Real, class Number>

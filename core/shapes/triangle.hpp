@@ -4,6 +4,7 @@
 #include "core/shapes/flat.hpp"
 #include "core/shapes/shape.hpp"
 
+#include <type_traits>
 #include <utility>
 
 namespace raylane::core {
@@ -49,8 +50,7 @@ concept AnyTriangle = detail::is_triangle<Shape>;
 void validate(const AnyTriangle auto& t) {
     for (const auto& [name, corner] : {std::pair("a", t.a), {"b", t.b}, {"c", t.c}})
         checks::require_point(name, corner);
-    if (checks::parallel(checks::wide(t.b) - checks::wide(t.a),
-                         checks::wide(t.c) - checks::wide(t.a)))
+    if (checks::are_collinear(t.a, t.b, t.c))
         throw InvalidValue("", "must have three corners that are not in one line, got " +
                                    checks::text_of(t.a) + ", " + checks::text_of(t.b) + ", " +
                                    checks::text_of(t.c));
@@ -62,9 +62,12 @@ void validate(const AnyTriangle auto& t) {
 }
 
 Bounds bounds_of(const AnyTriangle auto& t) {
-    Bounds bounds{t.a, t.a};
-    bounds.include({t.b, t.b});
-    bounds.include({t.c, t.c});
+    Bounds bounds;
+    for (const auto& corner : {t.a, t.b, t.c})
+        if constexpr (std::is_same_v<decltype(t.a), Vec3f>)
+            bounds.include({corner, corner});
+        else
+            bounds.include(bounds_around(corner, Vec3d(0.0), Vec3d(0.0)));
     return bounds;
 }
 

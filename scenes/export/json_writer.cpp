@@ -22,16 +22,17 @@ class Object {
         return file_ << "\"" << name << "\": ";
     }
     void text(const char* name, std::string_view value) { key(name) << "\"" << value << "\""; }
-    void number(const char* name, float value) { key(name) << value; }
-    void number(const char* name, int value) { key(name) << value; }
-    void vector(const char* name, const core::Vec3f& value) {
+    void number(const char* name, auto value) { key(name) << value; }
+    template <class Real>
+    void vector(const char* name, const core::Vec3<Real>& value) {
         key(name) << "[";
         file_.list(value, ", ") << "]";
     }
-    void vectors(const char* name, std::initializer_list<core::Vec3f> values) {
+    template <class Real>
+    void vectors(const char* name, std::initializer_list<core::Vec3<Real>> values) {
         key(name) << "[";
         bool first = true;
-        for (const core::Vec3f& value : values) {
+        for (const core::Vec3<Real>& value : values) {
             file_ << (std::exchange(first, false) ? "[" : ", [");
             file_.list(value, ", ") << "]";
         }
@@ -94,17 +95,17 @@ void write_material(TextFile& file, const core::Material& material) {
         object.text("visible", material.visible == core::Visible::outside ? "outside" : "inside");
 }
 
-void write_shape(Object& object, const core::Sphere& s) {
+void write_shape(Object& object, const core::SphereOf<double>& s) {
     object.vector("center", s.center);
     object.number("radius", s.radius);
 }
 
-void write_shape(Object& object, const core::Plane& s) {
+void write_shape(Object& object, const core::PlaneOf<double>& s) {
     object.vector("point", s.point);
     object.vector("normal", s.normal);
 }
 
-void write_shape(Object& object, const core::Disc& s) {
+void write_shape(Object& object, const core::DiscOf<double>& s) {
     object.vector("center", s.center);
     object.vector("normal", s.normal);
     object.number("radius", s.radius);
@@ -116,22 +117,22 @@ void write_corners(Object& object, const auto& s) {
     object.vector("c", s.c);
 }
 
-void write_shape(Object& object, const core::Triangle& s) {
+void write_shape(Object& object, const core::TriangleOf<double>& s) {
     write_corners(object, s);
 }
 
-void write_shape(Object& object, const core::SmoothTriangle& s) {
+void write_shape(Object& object, const core::SmoothTriangleOf<double>& s) {
     write_corners(object, s);
     object.vectors("normals", {s.normal_a, s.normal_b, s.normal_c});
 }
 
-void write_shape(Object& object, const core::Box& s) {
+void write_shape(Object& object, const core::BoxOf<double>& s) {
     object.vector("corner", s.corner);
     object.vectors("edges", {s.edge_u, s.edge_v, s.edge_w});
 }
 
 template <core::Ends ends>
-void write_shape(Object& object, const core::Cylinder<ends>& s) {
+void write_shape(Object& object, const core::CylinderOf<double, ends>& s) {
     object.vector("base", s.base);
     object.vector("axis", s.axis);
     object.number("radius", s.radius);
@@ -139,7 +140,7 @@ void write_shape(Object& object, const core::Cylinder<ends>& s) {
 }
 
 template <core::Ends ends>
-void write_shape(Object& object, const core::Cone<ends>& s) {
+void write_shape(Object& object, const core::ConeOf<double, ends>& s) {
     object.vector("base", s.base);
     object.vector("axis", s.axis);
     object.number("base_radius", s.base_radius);
@@ -147,12 +148,12 @@ void write_shape(Object& object, const core::Cone<ends>& s) {
     object.key("capped") << (ends == core::Ends::capped ? "true" : "false");
 }
 
-void write_shape(Object& object, const core::Quadric& s) {
+void write_shape(Object& object, const core::QuadricOf<double>& s) {
     object.vector("center", s.center);
-    const float rows[4][4] = {{s.xx, s.xy, s.xz, s.x},
-                              {s.xy, s.yy, s.yz, s.y},
-                              {s.xz, s.yz, s.zz, s.z},
-                              {s.x, s.y, s.z, s.one}};
+    const double rows[4][4] = {{s.xx, s.xy, s.xz, s.x},
+                               {s.xy, s.yy, s.yz, s.y},
+                               {s.xz, s.yz, s.zz, s.z},
+                               {s.x, s.y, s.z, s.one}};
     TextFile& file = object.key("matrix");
     for (int row = 0; row < 4; ++row) {
         file << (row == 0 ? "[[" : ", [");
@@ -165,7 +166,7 @@ void write_shape(Object& object, const core::Quadric& s) {
     object.vector("upper", s.upper);
 }
 
-void write_shape(Object& object, const core::Ellipsoid& s) {
+void write_shape(Object& object, const core::EllipsoidOf<double>& s) {
     object.vector("center", s.center);
     object.vectors("axes", {s.axis_u, s.axis_v, s.axis_w});
 }

@@ -84,33 +84,34 @@ class NffWriter {
             << m.transmission * (1.0F - m.reflectivity) << " " << m.index << "\n";
     }
 
-    float signed_radius(float radius) const { return is_inside_ ? -radius : radius; }
+    double signed_radius(double radius) const { return is_inside_ ? -radius : radius; }
 
-    void write_shape(const core::Sphere& s) {
+    void write_shape(const core::SphereOf<double>& s) {
         file_ << "s ";
         file_.list(s.center, " ") << " " << signed_radius(s.radius) << "\n";
     }
-    void write_frustum(const Vec3f& base, float base_radius, const Vec3f& axis, float top_radius) {
+    void write_frustum(const Vec3d& base, double base_radius, const Vec3d& axis,
+                       double top_radius) {
         file_ << "c ";
         file_.list(base, " ") << " " << signed_radius(base_radius) << " ";
         file_.list(base + axis, " ") << " " << signed_radius(top_radius) << "\n";
     }
     template <core::Ends ends>
-    void write_shape(const core::Cylinder<ends>& s) {
+    void write_shape(const core::CylinderOf<double, ends>& s) {
         if (ends == core::Ends::capped) differences_.insert("caps");
         write_frustum(s.base, s.radius, s.axis, s.radius);
     }
     template <core::Ends ends>
-    void write_shape(const core::Cone<ends>& s) {
+    void write_shape(const core::ConeOf<double, ends>& s) {
         if (ends == core::Ends::capped) differences_.insert("caps");
         write_frustum(s.base, s.base_radius, s.axis, s.top_radius);
     }
-    void write_shape(const core::Triangle& s) {
+    void write_shape(const core::TriangleOf<double>& s) {
         file_ << "p 3\n";
-        for (const Vec3f& corner : {s.a, s.b, s.c})
+        for (const Vec3d& corner : {s.a, s.b, s.c})
             file_.list(corner, " ") << "\n";
     }
-    void write_shape(const core::SmoothTriangle& s) {
+    void write_shape(const core::SmoothTriangleOf<double>& s) {
         file_ << "pp 3\n";
         for (const auto& [corner, normal] :
              {std::pair(s.a, s.normal_a), std::pair(s.b, s.normal_b), std::pair(s.c, s.normal_c)}) {
@@ -119,10 +120,10 @@ class NffWriter {
         }
     }
     /// Its faces, seen from outside counter-clockwise.
-    void write_shape(const core::Box& s) {
-        const Vec3f all = s.edge_u + s.edge_v + s.edge_w;
-        const bool left_handed = core::dot(core::cross(s.edge_u, s.edge_v), s.edge_w) < 0.0F;
-        const std::array<std::array<Vec3f, 2>, 3> sides = {
+    void write_shape(const core::BoxOf<double>& s) {
+        const Vec3d all = s.edge_u + s.edge_v + s.edge_w;
+        const bool left_handed = core::dot(core::cross(s.edge_u, s.edge_v), s.edge_w) < 0.0;
+        const std::array<std::array<Vec3d, 2>, 3> sides = {
             {{s.edge_u, s.edge_v}, {s.edge_v, s.edge_w}, {s.edge_w, s.edge_u}}};
         for (auto [a, b] : sides) {
             if (left_handed) std::swap(a, b);
@@ -130,20 +131,19 @@ class NffWriter {
             write_face(s.corner + all, -a, -b);
         }
     }
-    void write_face(const Vec3f& corner, const Vec3f& a, const Vec3f& b) {
+    void write_face(const Vec3d& corner, const Vec3d& a, const Vec3d& b) {
         file_ << "p 4\n";
-        for (const Vec3f& v : {corner, corner + a, corner + a + b, corner + b})
+        for (const Vec3d& v : {corner, corner + a, corner + a + b, corner + b})
             file_.list(v, " ") << "\n";
     }
     /// A square about as far as can be seen.
-    void write_shape(const core::Plane& s) {
+    void write_shape(const core::PlaneOf<double>& s) {
         differences_.insert("the far ends of planes");
-        const Vec3d normal = core::normalized(core::convert<double>(s.normal));
+        const Vec3d normal = core::normalized(s.normal);
         const Vec3d aside = std::abs(normal.x) < 0.7 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
         const Vec3d across = reach_ * core::normalized(core::cross(normal, aside));
         const Vec3d up = core::cross(normal, across);
-        write_face(s.point - core::convert<float>(Vec3d(across + up)),
-                   core::convert<float>(2.0 * across), core::convert<float>(2.0 * up));
+        write_face(s.point - (across + up), 2.0 * across, 2.0 * up);
     }
     template <class Shape>
     [[noreturn]] void write_shape(const Shape&) {

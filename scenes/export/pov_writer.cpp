@@ -189,47 +189,47 @@ class PovWriter {
             differences_.insert("fog, which is inside of transmissive bodies, too");
     }
 
-    void write_shape(const core::Sphere& s) {
+    void write_shape(const core::SphereOf<double>& s) {
         file_ << "sphere { ";
         vector(s.center) << ", " << s.radius;
     }
-    void write_shape(const core::Plane& s) {
-        const Vec3d normal = core::normalized(core::convert<double>(s.normal));
+    void write_shape(const core::PlaneOf<double>& s) {
+        const Vec3d normal = core::normalized(s.normal);
         file_ << "plane { ";
-        vector(normal) << ", " << core::dot(normal, core::convert<double>(s.point));
+        vector(normal) << ", " << core::dot(normal, s.point);
     }
-    void write_shape(const core::Disc& s) {
+    void write_shape(const core::DiscOf<double>& s) {
         file_ << "disc { ";
         vector(s.center) << ", ";
         vector(s.normal) << ", " << s.radius;
     }
-    void write_shape(const core::Triangle& s) {
+    void write_shape(const core::TriangleOf<double>& s) {
         file_ << "triangle { ";
         vector(s.a) << ", ";
         vector(s.b) << ", ";
         vector(s.c);
     }
-    void write_shape(const core::SmoothTriangle& s) {
+    void write_shape(const core::SmoothTriangleOf<double>& s) {
         file_ << "smooth_triangle { ";
         const char* between = "";
-        for (const Vec3f& v : {s.a, s.normal_a, s.b, s.normal_b, s.c, s.normal_c}) {
+        for (const Vec3d& v : {s.a, s.normal_a, s.b, s.normal_b, s.c, s.normal_c}) {
             file_ << between;
             vector(v);
             between = ", ";
         }
     }
-    void write_shape(const core::Box& s) {
+    void write_shape(const core::BoxOf<double>& s) {
         file_ << "box { <0, 0, 0>, <1, 1, 1>";
         matrix({s.edge_u, s.edge_v, s.edge_w, s.corner});
     }
-    void write_shape(const core::Ellipsoid& s) {
+    void write_shape(const core::EllipsoidOf<double>& s) {
         file_ << "sphere { <0, 0, 0>, 1";
         matrix({s.axis_u, s.axis_v, s.axis_w, s.center});
     }
-    void matrix(std::initializer_list<Vec3f> rows) {
+    void matrix(std::initializer_list<Vec3d> rows) {
         file_ << " matrix <";
         const char* between = "";
-        for (const Vec3f& v : rows) {
+        for (const Vec3d& v : rows) {
             file_ << between;
             file_.list(v, ", ");
             between = ", ";
@@ -237,25 +237,24 @@ class PovWriter {
         file_ << ">";
     }
     template <core::Ends ends>
-    void write_shape(const core::Cylinder<ends>& s) {
+    void write_shape(const core::CylinderOf<double, ends>& s) {
         file_ << "cylinder { ";
         vector(s.base) << ", ";
         vector(s.base + s.axis) << ", " << s.radius;
         if (ends == core::Ends::open) file_ << " open";
     }
     template <core::Ends ends>
-    void write_shape(const core::Cone<ends>& s) {
+    void write_shape(const core::ConeOf<double, ends>& s) {
         file_ << "cone { ";
         vector(s.base) << ", " << s.base_radius << ", ";
         vector(s.base + s.axis) << ", " << s.top_radius;
         if (ends == core::Ends::open) file_ << " open";
     }
-    void write_shape(const core::Quadric& s) {
+    void write_shape(const core::QuadricOf<double>& s) {
         file_ << "quadric { ";
-        vector(Vec3f(s.xx, s.yy, s.zz)) << ", ";
-        vector(Vec3f(2.0F * s.xy, 2.0F * s.xz, 2.0F * s.yz)) << ", ";
-        vector(Vec3f(2.0F * s.x, 2.0F * s.y, 2.0F * s.z))
-            << ", " << s.one << " clipped_by { box { ";
+        vector(Vec3d(s.xx, s.yy, s.zz)) << ", ";
+        vector(Vec3d(2.0 * s.xy, 2.0 * s.xz, 2.0 * s.yz)) << ", ";
+        vector(Vec3d(2.0 * s.x, 2.0 * s.y, 2.0 * s.z)) << ", " << s.one << " clipped_by { box { ";
         vector(s.lower) << ", ";
         vector(s.upper) << " } }";
         vector("translate", s.center);

@@ -24,16 +24,6 @@ constexpr std::size_t deepest = 16;
 constexpr std::size_t most_values = 4096;
 constexpr std::size_t most_text = 1 << 20; // bytes of keys, strings and numbers
 
-/// The float nearest to a decimal number, infinite if there is none. `rounded` is the nearest
-/// double: going by way of it would round twice.
-float nearest_float(std::string_view text, double rounded) {
-    float number = 0.0F;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc::result_out_of_range) return number;
-    const float limit = std::abs(rounded) > 1.0 ? std::numeric_limits<float>::infinity() : 0.0F;
-    return std::copysign(limit, static_cast<float>(rounded));
-}
-
 // Wording of the parser's errors: "... - REASON; last read: '...'" where it could not even make a
 // token of what it read, and "; expected ..." behind that.
 constexpr std::string_view before_reason = " - ", behind_reason = "; last read: ";
@@ -74,16 +64,16 @@ class ItemParser {
     Outline finish();
 
     // Calls of nlohmann::json's parser. The answer true means: go on.
-    bool null() { return scalar(JsonType::null, "", 0.0F); }
-    bool boolean(bool value) { return scalar(JsonType::boolean, "", value ? 1.0F : 0.0F); }
+    bool null() { return scalar(JsonType::null, "", 0.0); }
+    bool boolean(bool value) { return scalar(JsonType::boolean, "", value ? 1.0 : 0.0); }
     bool number_integer(json::number_integer_t value) {
-        return scalar(JsonType::number, std::to_string(value), static_cast<float>(value));
+        return scalar(JsonType::number, std::to_string(value), static_cast<double>(value));
     }
     bool number_unsigned(json::number_unsigned_t value) {
-        return scalar(JsonType::number, std::to_string(value), static_cast<float>(value));
+        return scalar(JsonType::number, std::to_string(value), static_cast<double>(value));
     }
     bool number_float(json::number_float_t value, const std::string& digits);
-    bool string(const std::string& value) { return scalar(JsonType::string, value, 0.0F); }
+    bool string(const std::string& value) { return scalar(JsonType::string, value, 0.0); }
     bool binary(json::binary_t& /*never in a text*/) { return false; }
     bool key(const std::string& key);
     bool start_object(std::size_t /*unknown*/) { return open(JsonType::object); }
@@ -93,11 +83,11 @@ class ItemParser {
     bool parse_error(std::size_t read, const std::string& token, const json::exception& error);
 
   private:
-    bool scalar(JsonType type, std::string_view text, float number);
+    bool scalar(JsonType type, std::string_view text, double number);
     bool open(JsonType type);
     bool close();
     /// False if the value of a root key must not be of this type.
-    bool add(JsonType type, std::string_view text, float number);
+    bool add(JsonType type, std::string_view text, double number);
     void root_key(std::string_view key);
     /// Type that the outermost value or that of the root key must have, unless that is for the
     /// taker to say.
@@ -145,7 +135,7 @@ bool ItemParser::number_float(json::number_float_t value, const std::string& dig
     // The parser writes the decimal point as the C locale has it.
     for (char& c : text)
         if ((c < '0' || c > '9') && c != '-' && c != '+' && c != 'e' && c != 'E') c = '.';
-    return scalar(JsonType::number, text, nearest_float(text, value));
+    return scalar(JsonType::number, text, value);
 }
 
 bool ItemParser::key(const std::string& key) {
@@ -179,7 +169,7 @@ void ItemParser::root_key(std::string_view key) {
         root_key_ = &keys_[index];
 }
 
-bool ItemParser::scalar(JsonType type, std::string_view text, float number) {
+bool ItemParser::scalar(JsonType type, std::string_view text, double number) {
     if (skipped_ > 0 || is_refused()) return true;
     if (add(type, text, number) && item_.depth() == 0) hand_over();
     return go_on();
@@ -189,7 +179,7 @@ bool ItemParser::open(JsonType type) {
     if (skipped_ > 0 || is_refused()) {
         ++skipped_;
     } else if (item_.depth() > 0 || in_collection_ || expected_type() != type) {
-        if (!add(type, "", 0.0F)) {
+        if (!add(type, "", 0.0)) {
             item_.close();
             ++skipped_;
         }
@@ -225,7 +215,7 @@ void ItemParser::hand_over() {
     ++item_count_;
 }
 
-bool ItemParser::add(JsonType type, std::string_view text, float number) {
+bool ItemParser::add(JsonType type, std::string_view text, double number) {
     const bool starts = item_.depth() == 0;
     const JsonPositions positions = next_positions(type);
     if (starts) item_.begin(file_, next_pointer());
@@ -282,7 +272,7 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
         if (skipped_ > 0 || is_refused())
             text_.fail(text_.token_at(read - 2),
                        "must be a number that fits a double, got " + printable(token));
-        add(JsonType::number, token, std::numeric_limits<float>::infinity());
+        add(JsonType::number, token, std::numeric_limits<double>::infinity());
         static_cast<void>(item_.latest().number()); // throws
     }
     if (!text_.has_tokens()) text_.fail(text_.end(), "must be a scene, got an empty file");

@@ -22,29 +22,29 @@ class ObjectReader {
 
     void read(std::type_identity<core::Sphere>) {
         object_.allow_only({"type", "material", "center", "radius"});
-        add(core::Sphere{vector("center"), number("radius")});
+        add(core::SphereOf<double>{vector("center"), number("radius")});
     }
 
     void read(std::type_identity<core::Plane>) {
         object_.allow_only({"type", "material", "point", "normal"});
-        add(core::Plane{vector("point"), vector("normal")});
+        add(core::PlaneOf<double>{vector("point"), vector("normal")});
     }
 
     void read(std::type_identity<core::Disc>) {
         object_.allow_only({"type", "material", "center", "normal", "radius"});
-        add(core::Disc{vector("center"), vector("normal"), number("radius")});
+        add(core::DiscOf<double>{vector("center"), vector("normal"), number("radius")});
     }
 
     void read(std::type_identity<core::Triangle>) {
         object_.allow_only({"type", "material", "a", "b", "c", "normals"});
-        const core::Triangle flat{vector("a"), vector("b"), vector("c")};
+        const core::TriangleOf<double> flat{vector("a"), vector("b"), vector("c")};
         if (!object_.find("normals")) {
             add(flat);
             return;
         }
         const std::vector<JsonValue> normals = object_.at("normals").array(3, "vectors");
-        add(core::SmoothTriangle{flat.a, flat.b, flat.c, normals[0].vector(), normals[1].vector(),
-                                 normals[2].vector()});
+        add(core::SmoothTriangleOf<double>{flat.a, flat.b, flat.c, normals[0].real_vector(),
+                                           normals[1].real_vector(), normals[2].real_vector()});
     }
 
     void read(std::type_identity<core::SmoothTriangle>) {
@@ -76,15 +76,17 @@ class ObjectReader {
 
     void read(std::type_identity<core::Ellipsoid>) {
         object_.allow_only({"type", "material", "center", "axes"});
-        const core::Vec3f center = vector("center");
+        const core::Vec3d center = vector("center");
         const std::vector<JsonValue> axes = object_.at("axes").array(3, "vectors");
-        add(core::Ellipsoid{center, axes[0].vector(), axes[1].vector(), axes[2].vector()});
+        add(core::EllipsoidOf<double>{center, axes[0].real_vector(), axes[1].real_vector(),
+                                      axes[2].real_vector()});
     }
 
     void sphereflake() {
         object_.allow_only({"type", "material", "center", "radius", "depth", "up"});
-        Sphereflake flake{
-            .center = vector("center"), .radius = number("radius"), .depth = integer("depth")};
+        Sphereflake flake{.center = object_.at("center").vector(),
+                          .radius = object_.at("radius").number(),
+                          .depth = integer("depth")};
         if (const auto up = object_.find("up")) flake.up = up->vector();
         const core::MaterialIndex own = material();
         checked(object_, [&] { scenes::add(builder_, flake, own); });
@@ -93,8 +95,8 @@ class ObjectReader {
     void lattice();
 
   private:
-    core::Vec3f vector(std::string_view key) const { return object_.at(key).vector(); }
-    float number(std::string_view key) const { return object_.at(key).number(); }
+    core::Vec3d vector(std::string_view key) const { return object_.at(key).real_vector(); }
+    double number(std::string_view key) const { return object_.at(key).real(); }
     int integer(std::string_view key) const { return object_.at(key).integer(); }
     bool capped() const {
         const auto value = object_.find("capped");
@@ -109,15 +111,15 @@ class ObjectReader {
     }
 
     template <Ends ends>
-    core::Cylinder<ends> cylinder_with() const {
+    core::CylinderOf<double, ends> cylinder_with() const {
         return {vector("base"), vector("axis"), number("radius")};
     }
 
     template <Ends ends>
-    core::Cone<ends> cone_with() const {
+    core::ConeOf<double, ends> cone_with() const {
         const auto top_radius = object_.find("top_radius");
         return {vector("base"), vector("axis"), number("base_radius"),
-                top_radius ? top_radius->number() : 0.0F};
+                top_radius ? top_radius->real() : 0.0};
     }
 
     const JsonValue& object_;
@@ -128,25 +130,27 @@ class ObjectReader {
 void ObjectReader::read(std::type_identity<core::Box>) {
     object_.allow_only({"type", "material", "corner", "edges", "min", "max"});
     if (!object_.find("min") && !object_.find("max")) {
-        const core::Vec3f corner = vector("corner");
+        const core::Vec3d corner = vector("corner");
         const std::vector<JsonValue> edges = object_.at("edges").array(3, "vectors");
-        add(core::Box{corner, edges[0].vector(), edges[1].vector(), edges[2].vector()});
+        add(core::BoxOf<double>{corner, edges[0].real_vector(), edges[1].real_vector(),
+                                edges[2].real_vector()});
         return;
     }
     for (const std::string_view key : {"corner", "edges"})
         for (const std::string_view other : {"min", "max"})
             object_.exclude(key, other);
-    const core::Vec3f lower = vector("min"), upper = vector("max");
+    const core::Vec3d lower = vector("min"), upper = vector("max");
     for (int axis = 0; axis < 3; ++axis)
         if (!(lower[axis] < upper[axis]))
             object_.at("max").array(3, "numbers")[axis].fail_expecting(
                 "more than min's " + object_.at("min").array(3, "numbers")[axis].quoted());
-    const core::Vec3f size = upper - lower;
+    const core::Vec3d size = upper - lower;
     const core::MaterialIndex own = material();
     checked(object_, [&] {
         try {
             builder_.add(
-                core::Box{lower, {size.x, 0.0F, 0.0F}, {0.0F, size.y, 0.0F}, {0.0F, 0.0F, size.z}},
+                core::BoxOf<double>{
+                    lower, {size.x, 0.0, 0.0}, {0.0, size.y, 0.0}, {0.0, 0.0, size.z}},
                 own);
         } catch (const core::InvalidValue& invalid) {
             const bool corner = invalid.field.starts_with("corner");
@@ -157,20 +161,20 @@ void ObjectReader::read(std::type_identity<core::Box>) {
 
 void ObjectReader::read(std::type_identity<core::Quadric>) {
     object_.allow_only({"type", "material", "center", "matrix", "lower", "upper"});
-    float matrix[4][4];
+    double matrix[4][4];
     const std::vector<JsonValue> rows = object_.at("matrix").array(4, "rows");
     for (int row = 0; row < 4; ++row) {
         const std::vector<JsonValue> values = rows[row].array(4, "numbers");
         for (int column = 0; column < 4; ++column) {
-            matrix[row][column] = values[column].number();
+            matrix[row][column] = values[column].real();
             if (column < row && matrix[row][column] != matrix[column][row])
                 values[column].fail_expecting("equal to matrix/" + std::to_string(column) + "/" +
                                               std::to_string(row) +
                                               ", for the matrix is symmetric");
         }
     }
-    core::Quadric quadric{};
-    if (const auto center = object_.find("center")) quadric.center = center->vector();
+    core::QuadricOf<double> quadric{};
+    if (const auto center = object_.find("center")) quadric.center = center->real_vector();
     quadric.xx = matrix[0][0];
     quadric.yy = matrix[1][1];
     quadric.zz = matrix[2][2];
@@ -192,15 +196,15 @@ void ObjectReader::lattice() {
     object_.exclude("corner", "center");
     Lattice lattice{.corner = core::Vec3d(0.0),
                     .n = integer("n"),
-                    .spacing = number("spacing"),
-                    .sphere_radius = number("sphere_radius"),
-                    .strut_radius = number("strut_radius")};
+                    .spacing = object_.at("spacing").number(),
+                    .sphere_radius = object_.at("sphere_radius").number(),
+                    .strut_radius = object_.at("strut_radius").number()};
     if (const auto center = object_.find("center"))
         lattice.corner =
             core::convert<double>(center->vector()) -
             core::Vec3d(0.5 * (lattice.n - 1.0) * static_cast<double>(lattice.spacing));
     else
-        lattice.corner = core::convert<double>(vector("corner"));
+        lattice.corner = core::convert<double>(object_.at("corner").vector());
     const auto struts = object_.find("strut_material");
     const core::MaterialIndex own = material();
     const core::MaterialIndex strut_material = struts ? material_of_(*struts) : own;

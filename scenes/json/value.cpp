@@ -1,6 +1,7 @@
 #include "scenes/json/value.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/shapes/checks.hpp"
 #include "scenes/number.hpp"
 
 #include <algorithm>
@@ -16,6 +17,16 @@ namespace {
 float linear_of_srgb(int code) {
     const double c = code / 255.0;
     return static_cast<float>(c <= 0.04045 ? c / 12.92 : core::pow((c + 0.055) / 1.055, 2.4));
+}
+
+/// The float nearest to a decimal number, infinite if there is none. `rounded` is the nearest
+/// double: going by way of it would round twice.
+float nearest_float(std::string_view text, double rounded) {
+    float number = 0.0F;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc::result_out_of_range) return number;
+    const float limit = std::abs(rounded) > 1.0 ? std::numeric_limits<float>::infinity() : 0.0F;
+    return std::copysign(limit, static_cast<float>(rounded));
 }
 
 std::string in_quotes(std::string_view text) {
@@ -79,7 +90,7 @@ void JsonDocument::begin(std::string_view file, std::string pointer) {
 }
 
 void JsonDocument::add(JsonType type, const JsonPositions& positions, std::string_view key,
-                       std::string_view text, float number) {
+                       std::string_view text, double number) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     const std::uint32_t parent = open_.empty() ? 0 : open_.back();
     const bool named = !open_.empty() && nodes_[parent].type == JsonType::object;
@@ -240,9 +251,18 @@ std::vector<JsonValue> JsonValue::array(std::size_t count, std::string_view elem
 }
 
 float JsonValue::number() const {
+    const float number = nearest_float(document_->get(node().text), real());
+    if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");
+    return number;
+}
+
+double JsonValue::real() const {
     require(JsonType::number);
-    if (std::isinf(node().number)) fail_expecting("a number from -1e30 to 1e30");
-    return node().number;
+    const double number = node().number;
+    if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");
+    if (std::abs(number) < core::least_double)
+        return static_cast<double>(nearest_float(document_->get(node().text), number));
+    return number;
 }
 
 int JsonValue::integer() const {
@@ -258,7 +278,7 @@ int JsonValue::integer() const {
 
 bool JsonValue::boolean() const {
     require(JsonType::boolean);
-    return node().number != 0.0F;
+    return node().number != 0.0;
 }
 
 std::string_view JsonValue::string() const {
@@ -269,6 +289,11 @@ std::string_view JsonValue::string() const {
 core::Vec3f JsonValue::vector() const {
     const std::vector<JsonValue> values = array(3, "numbers");
     return {values[0].number(), values[1].number(), values[2].number()};
+}
+
+core::Vec3d JsonValue::real_vector() const {
+    const std::vector<JsonValue> values = array(3, "numbers");
+    return {values[0].real(), values[1].real(), values[2].real()};
 }
 
 core::Color JsonValue::color() const {

@@ -39,7 +39,7 @@ class JsonDocument {
     /// object alone. `text`: a string's content, or as what a message quotes a number. `number` may
     /// be infinite.
     void add(JsonType type, const JsonPositions& positions, std::string_view key,
-             std::string_view text = {}, float number = 0.0F);
+             std::string_view text = {}, double number = 0.0);
     /// Closes the array or object that was added last and is still open.
     void close();
 
@@ -65,7 +65,7 @@ class JsonDocument {
         std::uint32_t parent;
         std::uint32_t end; // one past the last node inside: where the next sibling is; 0 while open
         Text key, text;
-        float number;
+        double number;
         JsonPositions positions;
     };
 
@@ -122,12 +122,16 @@ class JsonValue {
     /// ("numbers").
     std::vector<JsonValue> array(std::size_t count, std::string_view elements) const;
 
+    /// The nearest float.
     float number() const;
+    /// The nearest double; or float, where that is below what shapes in double are made of.
+    double real() const;
     /// A whole number in the range of int, however written.
     int integer() const;
     bool boolean() const;
     std::string_view string() const;
     core::Vec3f vector() const;
+    core::Vec3d real_vector() const;
     /// [r, g, b], linear, or "#rrggbb", sRGB.
     core::Color color() const;
 

@@ -121,7 +121,7 @@ To converted(const From& from) {
     return to;
 }
 
-/// A shape is its floats, in the same order on both sides.
+/// A shape is its numbers, in the same order on both sides.
 template <class CoreShape, class Shape>
 CoreShape core_shape(const Shape& shape) {
     return std::bit_cast<CoreShape>(shape);

@@ -110,6 +110,13 @@ void SceneBuilder::add_light(const Light& light) {
     ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {                        \
         return translated(                                                                         \
             [&] { return builder().add(library::core_shape<core::Shape>(shape), material); });     \
+    }                                                                                              \
+    template <>                                                                                    \
+    ShapeId SceneBuilder::add(const Shape##Of<double>& shape, MaterialIndex material) {            \
+        return translated([&] {                                                                    \
+            return builder().add(library::core_shape<core::InDouble<core::Shape>>(shape),          \
+                                 material);                                                        \
+        });                                                                                        \
     }
 RAYLANE_SHAPES(RAYLANE_ADD)
 #undef RAYLANE_ADD
@@ -131,6 +138,14 @@ ShapeId SceneBuilder::add_polygon(std::span<const Triangle> triangles, MaterialI
 ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangle> triangles,
                                   MaterialIndex material) {
     return add_polygon_as<core::SmoothTriangle>(triangles, material);
+}
+ShapeId SceneBuilder::add_polygon(std::span<const TriangleOf<double>> triangles,
+                                  MaterialIndex material) {
+    return add_polygon_as<core::TriangleOf<double>>(triangles, material);
+}
+ShapeId SceneBuilder::add_polygon(std::span<const SmoothTriangleOf<double>> triangles,
+                                  MaterialIndex material) {
+    return add_polygon_as<core::SmoothTriangleOf<double>>(triangles, material);
 }
 
 std::size_t SceneBuilder::shape_count() const {

@@ -90,6 +90,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"auto_precision", name_of(choice.precision)},
             {"methods", methods_of(choice)},
             {"scene_bytes", scene.bytes()},
+            {"double_bytes", scene.double_bytes()},
             {"film_bytes", film_bytes}};
 }
 
@@ -159,8 +160,11 @@ void print(const Json& info) {
     line("needs", joined(info["needed"]));
     line("left out", joined(info["left_out"]));
     print_methods(info);
+    const std::string doubles =
+        info["double_bytes"] == 0 ? "" : " and " + bytes_text(info["double_bytes"]) + " of doubles";
     line("memory", bytes_text(info["scene_bytes"]) + " scene with " + number("hierarchy_nodes") +
-                       " hierarchy nodes, " + bytes_text(info["film_bytes"]) + " film");
+                       " hierarchy nodes" + doubles + ", " + bytes_text(info["film_bytes"]) +
+                       " film");
 }
 
 int info(const InfoArguments& arguments) {

@@ -76,9 +76,9 @@ double Approach::before_of(const core::Ray<double>& ray) const {
     double before = core::dot(to_center, ray.direction) - 2.0 * radius_ -
                     0x1p-49 * (core::length(ray.origin) + core::length(to_center));
     if (!(before > far_away * radius_)) return 0.0;
-    const auto stop_before = [&](const core::Plane& plane, core::ShapeId) {
-        const core::Vec3d normal = core::convert<double>(plane.normal);
-        const core::Vec3d to_plane = core::convert<double>(plane.point) - ray.origin;
+    const auto stop_before = [&](const core::InDouble<core::Plane>& plane, core::ShapeId) {
+        const core::Vec3d& normal = plane.normal;
+        const core::Vec3d to_plane = plane.point - ray.origin;
         if (is_parallel(normal, ray.direction)) return;
         const double size = core::length(normal);
         const double approach = core::dot(normal, ray.direction);

@@ -32,7 +32,7 @@ void CandidateSearch::take(const RayColumns& rays) {
     rounded_.origin_first = rays.origin_first;
     rounded_.origin_last = rays.origin_last;
     if (tracing_.precision == core::Precision::exact) approach_.find_starts(rays, rounded_);
-    tracing_.kernels->rays.round_rays(count_, rounded_);
+    tracing_.kernels->rays.round_rays(count_, rounded_, scene_.view().rounding);
 }
 
 const Coherence* CandidateSearch::common(const Coherence* coherence) {
@@ -43,19 +43,27 @@ const Coherence* CandidateSearch::common(const Coherence* coherence) {
     return &moved_;
 }
 
+/// Bounds in double are those of shapes in float: of shapes that are none, exact's are right.
+const TraceKernels& CandidateSearch::trace() const {
+    const bool by_exact =
+        tracing_.precision == core::Precision::plain_double && scene_.view().rounding > 0.0F;
+    const auto exact = static_cast<std::size_t>(core::Precision::exact);
+    return (by_exact ? tracing_.kernels->methods[exact] : tracing_.method()).trace;
+}
+
 void CandidateSearch::nearest(const Coherence* coherence, const Candidates& candidates,
                               EngineCounters& counters) {
     TraceCounters traced{};
-    tracing_.method().trace.nearest(scene_.view(), scene_.listed_kinds(), common(coherence), count_,
-                                    rounded_, candidates, workspace_, traced);
+    trace().nearest(scene_.view(), scene_.listed_kinds(), common(coherence), count_, rounded_,
+                    candidates, workspace_, traced);
     counters += traced;
 }
 
 void CandidateSearch::occluded(const Coherence* coherence, const Occlusions& occlusions,
                                EngineCounters& counters) {
     TraceCounters traced{};
-    tracing_.method().trace.occluded(scene_.view(), scene_.listed_kinds(), common(coherence),
-                                     count_, rounded_, occlusions, workspace_, traced);
+    trace().occluded(scene_.view(), scene_.listed_kinds(), common(coherence), count_, rounded_,
+                     occlusions, workspace_, traced);
     counters += traced;
 }
 

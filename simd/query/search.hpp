@@ -33,6 +33,8 @@ class CandidateSearch {
     Approach& approach() { return approach_; }
 
   private:
+    const TraceKernels& trace() const;
+
     /// What rays still have in common where they start further along.
     const Coherence* common(const Coherence* coherence);
 

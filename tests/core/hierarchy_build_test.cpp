@@ -141,11 +141,12 @@ Audit check(const ShapeLists& lists) {
     for_each_table(lists, [&]<class Shape>(const ShapeList<Shape>& list) {
         const Table<Shape>& table = std::get<Table<Shape>>(built.tables);
         CHECK(table.size() == list.size());
-        std::map<ShapeId, Floats<Shape>> values;
-        for_each_shape(table,
-                       [&](const Shape& shape, ShapeId id) { values[id] = floats_of(shape); });
+        std::map<ShapeId, Numbers<Shape>> values;
+        for_each_shape(table, [&](const auto& shape, ShapeId id) {
+            values[id] = numbers_of(to_floats(shape));
+        });
         for (std::size_t i = 0; i < list.size(); ++i)
-            if (values[list[i].id] != floats_of(list[i].shape)) ++missing;
+            if (values[list[i].id] != numbers_of(list[i].shape)) ++missing;
         if constexpr (tests::is_bounded<Shape>) {
             blocks += table.blocks().size();
             shapes += list.size();

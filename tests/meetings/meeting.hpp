@@ -47,7 +47,7 @@ inline float ulps_off(float value, int ulps) {
 /// With one of its floats a little off.
 template <class Shape>
 Shape beside(const Shape& shape, Random& random) {
-    auto floats = core::floats_of(shape);
+    auto floats = core::numbers_of(shape);
     float& value =
         floats[static_cast<std::size_t>(random.integer(0, static_cast<int>(floats.size()) - 1))];
     if (value == 0.0F) return shape;

@@ -11,13 +11,13 @@ struct Ball {
     double radius;
 };
 
-inline double length_of(const core::Vec3f& v) {
-    return core::length(core::convert<double>(v));
+inline double length_of(const core::Vec3d& v) {
+    return core::length(v);
 }
 
-inline Ball ball(const core::Vec3f& center, double radius) {
+inline Ball ball(const core::Vec3d& center, double radius) {
     constexpr double slack = 1.0 + 0x1p-20; // far more than what is rounded here
-    return {core::convert<double>(center), radius * slack};
+    return {center, radius * slack};
 }
 
 } // namespace raylane::oracle

@@ -33,7 +33,7 @@ struct Line {
     Vector f, d;
 
     template <class Real>
-    Line(const core::Ray<Real>& ray, const core::Vec3f& anchor)
+    Line(const core::Ray<Real>& ray, const core::Vec3d& anchor)
         : f(vector(ray.origin) - vector(anchor)), d(vector(ray.direction)) {}
 };
 

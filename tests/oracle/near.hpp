@@ -3,7 +3,6 @@
 #include "core/shapes/ray.hpp"
 #include "tests/any_shape.hpp"
 
-#include <span>
 #include <vector>
 
 /// Neighbours of a line, the shapes of many that it may cross: all but those that it surely passes
@@ -14,8 +13,9 @@ using core::Vec3d;
 
 class Neighbours {
   public:
-    explicit Neighbours(std::span<const AnyShape> shapes) {
-        for (const AnyShape& shape : shapes)
+    template <Variant Any>
+    explicit Neighbours(const std::vector<Any>& shapes) {
+        for (const Any& shape : shapes)
             balls_.push_back(ball_around(shape));
     }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace raylane::oracle {
@@ -31,8 +30,8 @@ struct Found {
 class Sight {
   public:
     /// is_seen(shape, entering): whether a crossing counts.
-    template <class IsSeen>
-    Sight(std::span<const AnyShape> shapes, const Neighbours& neighbours,
+    template <Variant Any, class IsSeen>
+    Sight(const std::vector<Any>& shapes, const Neighbours& neighbours,
           const core::Ray<double>& ray, const IsSeen& is_seen)
         : ray_(ray) {
         for (core::ShapeId id = 0; id < shapes.size(); ++id) {
@@ -52,7 +51,7 @@ class Sight {
         return nullptr;
     }
     /// Of its shape there, to the nearest floats.
-    const core::Vec3f& normal_of(const Found& found, const AnyShape& shape) {
+    const core::Vec3f& normal_of(const Found& found, const Variant auto& shape) {
         normals_.resize(all_.size());
         auto& known = normals_[static_cast<std::size_t>(&found - all_.data())];
         if (!known) known = rounded(normal(shape, ray_, found.hit));

@@ -32,7 +32,7 @@ std::vector<std::filesystem::path> all_shipped() {
 std::vector<float> floats_in(const core::Scene& scene) {
     std::vector<float> all;
     for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
-        const auto floats = core::floats_of(shape);
+        const auto floats = core::numbers_of(shape);
         all.push_back(static_cast<float>(core::kind_of<std::decay_t<decltype(shape)>>));
         all.insert(all.end(), floats.begin(), floats.end());
     });

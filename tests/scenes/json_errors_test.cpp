@@ -183,7 +183,7 @@ TEST_CASE("complaints about words") {
 TEST_CASE("complaints about numbers") {
     check({
         {object("sphere", R"("center": [0, 0, 0], "radius": 1e39)"),
-         "/objects/1/radius: must be a number from -1e30 to 1e30, got 1e39"},
+         "/objects/1/radius: must be a number from -1e30 to 1e30, got 1e+39"},
         {object("sphere", R"("center": [0, -1e999, 0], "radius": 1)"),
          "/objects/1/center/1: must be a number from -1e30 to 1e30, got -1e999"},
         {object("sphere", R"("center": [0, 2e30, 0], "radius": 1)"),

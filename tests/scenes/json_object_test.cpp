@@ -25,8 +25,8 @@ TEST_CASE("each shape is the floats of its file") {
         const core::Scene scene =
             scene_of(with_objects(object_text(Written<Shape>::text, R"("glass")")));
         REQUIRE(scene.shape_count() == 1);
-        CHECK(core::floats_of(shape<Shape>(scene, 0)) ==
-              core::floats_of(Written<Shape>::template by_name<Shape>()));
+        CHECK(core::numbers_of(shape<Shape>(scene, 0)) ==
+              core::numbers_of(Written<Shape>::template by_name<core::InDouble<Shape>>()));
         CHECK(scene.material_of(0).transmission == 1.0F);
     });
 }
@@ -38,21 +38,21 @@ TEST_CASE("what a file need not say of a shape has defaults") {
         {"type": "quadric", "material": "clay", "lower": [-1, -2, -3], "upper": [1, 2, 3],
          "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, -0.1]]})"));
     REQUIRE(scene.shape_count() == 3);
-    using core::floats_of;
-    CHECK(
-        floats_of(shape<core::Box>(scene, 0)) ==
-        core::Floats<core::Box>{-0.1F, 0.2F, 1, 0.3F - -0.1F, 0, 0, 0, 0.7F - 0.2F, 0, 0, 0, 0.5F});
-    CHECK(floats_of(shape<core::CappedCone>(scene, 1)) ==
-          core::Floats<core::CappedCone>{1, 2, 3, 0, 5, 0, 0.9F, 0});
+    using core::numbers_of;
+    CHECK(numbers_of(shape<core::Box>(scene, 0)) ==
+          core::Numbers<core::BoxOf<double>>{-0.1, 0.2, 1, 0.3 - -0.1, 0, 0, 0, 0.7 - 0.2, 0, 0, 0,
+                                             0.5});
+    CHECK(numbers_of(shape<core::CappedCone>(scene, 1)) ==
+          core::Numbers<core::InDouble<core::CappedCone>>{1, 2, 3, 0, 5, 0, 0.9, 0});
     // center; xx, yy, zz, xy, xz, yz, x, y, z, one; lower, upper
-    CHECK(floats_of(shape<core::Quadric>(scene, 2)) ==
-          core::Floats<core::Quadric>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, -0.1F, -1, -2, -3, 1, 2,
-                                      3});
+    CHECK(numbers_of(shape<core::Quadric>(scene, 2)) ==
+          core::Numbers<core::QuadricOf<double>>{0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, -0.1, -1, -2,
+                                                 -3, 1, 2, 3});
     for (core::ShapeId id = 0; id < 3; ++id)
         CHECK(scene.material_of(id).transmission == 0.0F);
 }
 
-TEST_CASE("numbers become the nearest float") {
+TEST_CASE("shapes' numbers become the nearest doubles, tiny ones the nearest floats") {
     const auto radius = [](const std::string& digits) {
         return shape<core::Sphere>(
                    scene_of(with_objects(
@@ -61,16 +61,27 @@ TEST_CASE("numbers become the nearest float") {
                    0)
             .radius;
     };
-    // Nearer to 1 + 2^-23 than to 1, though the nearest double is half-way and would go to 1.
-    CHECK(radius("1.000000059604644775390626") == 1.0F + 0x1p-23F);
-    CHECK(radius("1.000000059604644775390625") == 1.0F);
-    CHECK(radius("123456789012345678901234567890") == 123456789012345678901234567890.0F);
-    CHECK(radius("16777217") == 16777216.0F);
-    CHECK(radius("1e-45") == std::numeric_limits<float>::denorm_min());
+    CHECK(radius("0.1") == 0.1);
+    CHECK(radius("1.000000059604644775390626") == 1.0 + 0x1p-24);
+    CHECK(radius("123456789012345678901234567890") == 123456789012345678901234567890.0);
+    CHECK(radius("16777217") == 16777217.0);
+    CHECK(radius("9007199254740993") == 9007199254740992.0);
+    CHECK(radius("1.3e-38") == 1.3e-38);
+    CHECK(radius("1e-45") == 0x1p-149);
     CHECK(
         complaint_about_text(with_objects(
             R"({"type": "sphere", "material": "clay", "center": [1e-60, -1e-400, 0], "radius": 1})")) ==
         "");
+}
+
+TEST_CASE("other numbers become the nearest floats") {
+    const auto index = [](const std::string& digits) {
+        return material_of(R"({"index": )" + digits + "}").index;
+    };
+    // Nearer to 1 + 2^-23 than to 1, though the nearest double is half-way and would go to 1.
+    CHECK(index("1.000000059604644775390626") == 1.0F + 0x1p-23F);
+    CHECK(index("1.000000059604644775390625") == 1.0F);
+    CHECK(index("1e-45") == std::numeric_limits<float>::denorm_min());
 }
 
 TEST_CASE("materials have defaults, and every key of theirs counts") {

@@ -128,9 +128,9 @@ TEST_CASE("materials may come behind the objects, and objects keep their order")
         "materials": {"other": {}, "late": {"diffuse": 0.5}},
         "camera": {"from": [0, 0, 1], "at": [0, 0, 0]}})");
     REQUIRE(scene.shape_count() == 2);
-    CHECK(shape<core::Sphere>(scene, 0).radius == 1.0F);
+    CHECK(shape<core::Sphere>(scene, 0).radius == 1.0);
     CHECK(scene.material_of(0).diffuse == 0.5F);
-    CHECK(shape<core::Sphere>(scene, 1).radius == 2.0F);
+    CHECK(shape<core::Sphere>(scene, 1).radius == 2.0);
     CHECK(scene.material_of(1).diffuse == 0.25F);
 }
 
@@ -138,19 +138,19 @@ TEST_CASE("a scene names generators as objects") {
     const core::Scene flake = scene_of(with_objects(
         R"({"type": "sphereflake", "material": "clay", "center": [1, 2, 3], "radius": 2, "depth": 2, "up": [0, 1, 0]})"));
     CHECK(flake.shape_count() == 91);
-    CHECK(shape<core::Sphere>(flake, 0).center == Vec3f(1, 2, 3));
+    CHECK(shape<core::Sphere>(flake, 0).center == core::Vec3d(1, 2, 3));
 
     const core::Scene lattice = scene_of(with_objects(
         R"({"type": "lattice", "material": "clay", "strut_material": "glass", "center": [1, 2, 3], "n": 3, "spacing": 0.5,
             "sphere_radius": 0.125, "strut_radius": 0.0625})"));
     CHECK(lattice.shape_count() == 81);
-    CHECK(shape<core::Sphere>(lattice, 0).center == Vec3f(0.5F, 1.5F, 2.5F));
+    CHECK(shape<core::Sphere>(lattice, 0).center == core::Vec3d(0.5, 1.5, 2.5));
     CHECK(lattice.material_of(26).transmission == 0.0F);
     CHECK(lattice.material_of(27).transmission == 1.0F);
 
     const core::Scene alike = scene_of(with_objects(
         R"({"type": "lattice", "material": "glass", "corner": [1, 2, 3], "n": 2, "spacing": 0.5, "sphere_radius": 0.125, "strut_radius": 0.0625})"));
-    CHECK(shape<core::Sphere>(alike, 0).center == Vec3f(1, 2, 3));
+    CHECK(shape<core::Sphere>(alike, 0).center == core::Vec3d(1, 2, 3));
     CHECK(alike.material_of(19).transmission == 1.0F);
 }
 

@@ -70,10 +70,11 @@ inline std::string object_text(const std::string& shape, const std::string& mate
 
 /// The shape with this id.
 template <class Shape>
-Shape shape(const core::Scene& scene, core::ShapeId id) {
-    for (const auto& block : std::get<core::Table<Shape>>(scene.shapes()).blocks())
-        for (int lane = 0; lane < core::block_size; ++lane)
-            if (block.ids[lane] == id) return block.get(lane);
+core::InDouble<Shape> shape(const core::Scene& scene, core::ShapeId id) {
+    const auto& table = std::get<core::Table<Shape>>(scene.shapes());
+    for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
+        for (std::uint8_t lane = 0; lane < core::block_size; ++lane)
+            if (table.id({block, lane}) == id) return table.get({block, lane});
     throw std::out_of_range("no such shape of this kind");
 }
 

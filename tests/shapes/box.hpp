@@ -130,10 +130,8 @@ struct Written<core::Box> {
                                            "edges": [[1, 0, 0.5], [0, 2, 0], [0, 0.1, 3]])";
     template <class Box>
     static Box by_name() {
-        return {.corner = {1, 2, 3},
-                .edge_u = {1, 0, 0.5F},
-                .edge_v = {0, 2, 0},
-                .edge_w = {0, 0.1F, 3}};
+        return {
+            .corner = {1, 2, 3}, .edge_u = {1, 0, 0.5}, .edge_v = {0, 2, 0}, .edge_w = {0, 0.1, 3}};
     }
 };
 
@@ -142,14 +140,14 @@ struct Written<core::Box> {
 namespace raylane::oracle {
 
 /// The outward normal of the faces opposite the corner, or inward.
-inline std::array<Vector, 3> face_normals(const core::Box& box) {
+inline std::array<Vector, 3> face_normals(const core::BoxOf<double>& box) {
     const Vector edges[3] = {vector(box.edge_u), vector(box.edge_v), vector(box.edge_w)};
     return {outer(edges[1], edges[2]), outer(edges[2], edges[0]), outer(edges[0], edges[1])};
 }
 
 /// Each face's plane, if its two other coordinates are within the face.
 template <class Real>
-std::vector<Hit> crossings(const core::Box& box, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::BoxOf<double>& box, const core::Ray<Real>& ray) {
     std::array<Vector, 3> normals = face_normals(box);
     Exact volume = inner(normals[0], vector(box.edge_u));
     if (volume.sign() < 0) {
@@ -178,14 +176,14 @@ std::vector<Hit> crossings(const core::Box& box, const core::Ray<Real>& ray) {
 }
 
 template <class Real>
-Normal normal(const core::Box& box, const core::Ray<Real>&, const Hit& hit) {
+Normal normal(const core::BoxOf<double>& box, const core::Ray<Real>&, const Hit& hit) {
     const std::array<Vector, 3> normals = face_normals(box);
     const bool left_handed = inner(normals[0], vector(box.edge_u)).sign() < 0;
     const Vector& far = normals[hit.face / 2];
     return Normal::fixed(left_handed == (hit.face % 2 == 0) ? far : opposite(far));
 }
 
-inline Ball ball_around(const core::Box& b) {
+inline Ball ball_around(const core::BoxOf<double>& b) {
     return ball(b.corner, length_of(b.edge_u) + length_of(b.edge_v) + length_of(b.edge_w));
 }
 

@@ -133,7 +133,7 @@ struct Written<core::Cone<ends>> {
                  "top_radius": 0.4)";
     template <class Cone>
     static Cone by_name() {
-        return {.base = {1, 2, 3}, .axis = {0, 5, 0}, .base_radius = 0.9F, .top_radius = 0.4F};
+        return {.base = {1, 2, 3}, .axis = {0, 5, 0}, .base_radius = 0.9, .top_radius = 0.4};
     }
 };
 
@@ -142,20 +142,19 @@ struct Written<core::Cone<ends>> {
 namespace raylane::oracle {
 
 template <core::Ends ends, class Real>
-std::vector<Hit> crossings(const core::Cone<ends>& c, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::ConeOf<double, ends>& c, const core::Ray<Real>& ray) {
     return axial_crossings(c, Exact(c.base_radius), Exact(c.top_radius), ends == core::Ends::capped,
                            ray);
 }
 
 template <core::Ends ends, class Real>
-Normal normal(const core::Cone<ends>& c, const core::Ray<Real>& ray, const Hit& hit) {
+Normal normal(const core::ConeOf<double, ends>& c, const core::Ray<Real>& ray, const Hit& hit) {
     return axial_normal(c, Exact(c.base_radius), Exact(c.top_radius), ray, hit);
 }
 
 template <core::Ends ends>
-Ball ball_around(const core::Cone<ends>& c) {
-    return ball(c.base,
-                length_of(c.axis) + static_cast<double>(std::max(c.base_radius, c.top_radius)));
+Ball ball_around(const core::ConeOf<double, ends>& c) {
+    return ball(c.base, length_of(c.axis) + std::max(c.base_radius, c.top_radius));
 }
 
 } // namespace raylane::oracle

@@ -95,7 +95,7 @@ struct Written<core::Cylinder<ends>> {
             : R"("type": "cylinder", "base": [1, 2, 3], "axis": [0, 0.1, 4], "radius": 0.6)";
     template <class Cylinder>
     static Cylinder by_name() {
-        return {.base = {1, 2, 3}, .axis = {0, 0.1F, 4}, .radius = 0.6F};
+        return {.base = {1, 2, 3}, .axis = {0, 0.1, 4}, .radius = 0.6};
     }
 };
 
@@ -104,18 +104,18 @@ struct Written<core::Cylinder<ends>> {
 namespace raylane::oracle {
 
 template <core::Ends ends, class Real>
-std::vector<Hit> crossings(const core::Cylinder<ends>& c, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::CylinderOf<double, ends>& c, const core::Ray<Real>& ray) {
     return axial_crossings(c, Exact(c.radius), Exact(c.radius), ends == core::Ends::capped, ray);
 }
 
 template <core::Ends ends, class Real>
-Normal normal(const core::Cylinder<ends>& c, const core::Ray<Real>& ray, const Hit& hit) {
+Normal normal(const core::CylinderOf<double, ends>& c, const core::Ray<Real>& ray, const Hit& hit) {
     return axial_normal(c, Exact(c.radius), Exact(c.radius), ray, hit);
 }
 
 template <core::Ends ends>
-Ball ball_around(const core::Cylinder<ends>& c) {
-    return ball(c.base, length_of(c.axis) + static_cast<double>(c.radius));
+Ball ball_around(const core::CylinderOf<double, ends>& c) {
+    return ball(c.base, length_of(c.axis) + c.radius);
 }
 
 } // namespace raylane::oracle

@@ -74,7 +74,7 @@ struct Written<core::Disc> {
         R"("type": "disc", "center": [1, 2, 3], "normal": [0, 0, -2], "radius": 0.3)";
     template <class Disc>
     static Disc by_name() {
-        return {.center = {1, 2, 3}, .normal = {0, 0, -2}, .radius = 0.3F};
+        return {.center = {1, 2, 3}, .normal = {0, 0, -2}, .radius = 0.3};
     }
 };
 
@@ -83,7 +83,7 @@ struct Written<core::Disc> {
 namespace raylane::oracle {
 
 template <class Real>
-std::vector<Hit> crossings(const core::Disc& disc, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::DiscOf<double>& disc, const core::Ray<Real>& ray) {
     const Line line(ray, disc.center);
     const auto hit = plane_crossing(line, vector(disc.normal));
     if (!hit || !is_within(line, hit->root, {}, Exact(disc.radius))) return {};
@@ -91,12 +91,12 @@ std::vector<Hit> crossings(const core::Disc& disc, const core::Ray<Real>& ray) {
 }
 
 template <class Real>
-Normal normal(const core::Disc& disc, const core::Ray<Real>&, const Hit&) {
+Normal normal(const core::DiscOf<double>& disc, const core::Ray<Real>&, const Hit&) {
     return Normal::fixed(vector(disc.normal));
 }
 
-inline Ball ball_around(const core::Disc& d) {
-    return ball(d.center, static_cast<double>(d.radius));
+inline Ball ball_around(const core::DiscOf<double>& d) {
+    return ball(d.center, d.radius);
 }
 
 } // namespace raylane::oracle

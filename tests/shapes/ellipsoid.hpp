@@ -118,10 +118,8 @@ struct Written<core::Ellipsoid> {
                                            "axes": [[1, 0, 0.5], [0, 2, 0], [0, 0.1, 3]])";
     template <class Ellipsoid>
     static Ellipsoid by_name() {
-        return {.center = {1, 2, 3},
-                .axis_u = {1, 0, 0.5F},
-                .axis_v = {0, 2, 0},
-                .axis_w = {0, 0.1F, 3}};
+        return {
+            .center = {1, 2, 3}, .axis_u = {1, 0, 0.5}, .axis_v = {0, 2, 0}, .axis_w = {0, 0.1, 3}};
     }
 };
 
@@ -136,7 +134,7 @@ struct NormalEquations {
     std::array<Vector, 3> axes, adjugate;
     Exact determinant;
 
-    explicit NormalEquations(const core::Ellipsoid& e)
+    explicit NormalEquations(const core::EllipsoidOf<double>& e)
         : axes{vector(e.axis_u), vector(e.axis_v), vector(e.axis_w)} {
         std::array<Vector, 3> gram;
         for (int i = 0; i < 3; ++i)
@@ -162,7 +160,7 @@ struct NormalEquations {
 };
 
 template <class Real>
-std::vector<Hit> crossings(const core::Ellipsoid& e, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::EllipsoidOf<double>& e, const core::Ray<Real>& ray) {
     const NormalEquations equations(e);
     const Line line(ray, e.center);
     const Vector f = equations.coordinates(line.f), d = equations.coordinates(line.d);
@@ -174,14 +172,14 @@ std::vector<Hit> crossings(const core::Ellipsoid& e, const core::Ray<Real>& ray)
 }
 
 template <class Real>
-Normal normal(const core::Ellipsoid& e, const core::Ray<Real>& ray, const Hit& hit) {
+Normal normal(const core::EllipsoidOf<double>& e, const core::Ray<Real>& ray, const Hit& hit) {
     const NormalEquations equations(e);
     const Line line(ray, e.center);
     return {hit.root, equations.gradient(equations.coordinates(line.f)),
             equations.gradient(equations.coordinates(line.d))};
 }
 
-inline Ball ball_around(const core::Ellipsoid& e) {
+inline Ball ball_around(const core::EllipsoidOf<double>& e) {
     return ball(e.center, length_of(e.axis_u) + length_of(e.axis_v) + length_of(e.axis_w));
 }
 

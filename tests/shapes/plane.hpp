@@ -61,7 +61,7 @@ struct Written<core::Plane> {
         R"("type": "plane", "point": [0, -9, 0], "normal": [0, 3, 0.1])";
     template <class Plane>
     static Plane by_name() {
-        return {.point = {0, -9, 0}, .normal = {0, 3, 0.1F}};
+        return {.point = {0, -9, 0}, .normal = {0, 3, 0.1}};
     }
 };
 
@@ -70,17 +70,17 @@ struct Written<core::Plane> {
 namespace raylane::oracle {
 
 template <class Real>
-std::vector<Hit> crossings(const core::Plane& plane, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::PlaneOf<double>& plane, const core::Ray<Real>& ray) {
     const auto hit = plane_crossing(Line(ray, plane.point), vector(plane.normal));
     return hit ? std::vector<Hit>{*hit} : std::vector<Hit>();
 }
 
 template <class Real>
-Normal normal(const core::Plane& plane, const core::Ray<Real>&, const Hit&) {
+Normal normal(const core::PlaneOf<double>& plane, const core::Ray<Real>&, const Hit&) {
     return Normal::fixed(vector(plane.normal));
 }
 
-inline Ball ball_around(const core::Plane& p) {
+inline Ball ball_around(const core::PlaneOf<double>& p) {
     return ball(p.point, std::numeric_limits<double>::infinity());
 }
 

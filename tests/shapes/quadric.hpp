@@ -169,7 +169,7 @@ struct Written<core::Quadric> {
            "lower": [-1, -2, -3], "upper": [1, 2, 3])";
     template <class Quadric>
     static Quadric by_name() {
-        return {.center = {0.1F, 0.2F, 0.3F},
+        return {.center = {0.1, 0.2, 0.3},
                 .xx = 1,
                 .yy = 5,
                 .zz = 8,
@@ -190,16 +190,16 @@ struct Written<core::Quadric> {
 namespace raylane::oracle {
 
 /// M p, and half the gradient M p + linear.
-inline Vector product(const core::Quadric& q, const Vector& p) {
-    return {inner(vector(core::Vec3f(q.xx, q.xy, q.xz)), p),
-            inner(vector(core::Vec3f(q.xy, q.yy, q.yz)), p),
-            inner(vector(core::Vec3f(q.xz, q.yz, q.zz)), p)};
+inline Vector product(const core::QuadricOf<double>& q, const Vector& p) {
+    return {inner(vector(core::Vec3d(q.xx, q.xy, q.xz)), p),
+            inner(vector(core::Vec3d(q.xy, q.yy, q.yz)), p),
+            inner(vector(core::Vec3d(q.xz, q.yz, q.zz)), p)};
 }
 
 template <class Real>
-std::vector<Hit> crossings(const core::Quadric& q, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::QuadricOf<double>& q, const core::Ray<Real>& ray) {
     const Line line(ray, q.center);
-    const Vector linear = vector(core::Vec3f(q.x, q.y, q.z)), lower = vector(q.lower),
+    const Vector linear = vector(core::Vec3d(q.x, q.y, q.z)), lower = vector(q.lower),
                  upper = vector(q.upper);
     std::vector<Hit> hits;
     for (const FoundRoot& root : roots(inner(line.d, product(q, line.d)),
@@ -216,14 +216,14 @@ std::vector<Hit> crossings(const core::Quadric& q, const core::Ray<Real>& ray) {
 }
 
 template <class Real>
-Normal normal(const core::Quadric& q, const core::Ray<Real>& ray, const Hit& hit) {
+Normal normal(const core::QuadricOf<double>& q, const core::Ray<Real>& ray, const Hit& hit) {
     const Line line(ray, q.center);
-    const Vector linear = vector(core::Vec3f(q.x, q.y, q.z));
+    const Vector linear = vector(core::Vec3d(q.x, q.y, q.z));
     const Normal normal{hit.root, product(q, line.f) + linear, product(q, line.d)};
     return normal.vanishes() ? Normal::fixed({Exact(0), Exact(0), Exact(1)}) : normal;
 }
 
-inline Ball ball_around(const core::Quadric& q) {
+inline Ball ball_around(const core::QuadricOf<double>& q) {
     return ball(q.center, length_of(q.lower) + length_of(q.upper));
 }
 

@@ -11,6 +11,7 @@
 #include "tests/shapes/sphere.hpp"
 #include "tests/shapes/triangle.hpp"
 
+#include <concepts>
 #include <tuple>
 #include <type_traits>
 
@@ -52,3 +53,25 @@ template <class Shape>
 inline constexpr bool is_bounded = Nature<Shape>::is_bounded;
 
 } // namespace raylane::tests
+
+/// Shapes of floats are asked as those of the same doubles.
+namespace raylane::oracle {
+
+template <class Shape>
+concept InFloats = std::same_as < core::NumberOf<Shape>,
+float > ;
+
+template <InFloats Shape, class Real>
+std::vector<Hit> crossings(const Shape& shape, const core::Ray<Real>& ray) {
+    return crossings(core::to_doubles(shape), ray);
+}
+template <InFloats Shape, class Real>
+Normal normal(const Shape& shape, const core::Ray<Real>& ray, const Hit& hit) {
+    return normal(core::to_doubles(shape), ray, hit);
+}
+template <InFloats Shape>
+Ball ball_around(const Shape& shape) {
+    return ball_around(core::to_doubles(shape));
+}
+
+} // namespace raylane::oracle

@@ -71,7 +71,7 @@ struct Written<core::Sphere> {
         R"("type": "sphere", "center": [0.1, -2, 3], "radius": 0.7)";
     template <class Sphere>
     static Sphere by_name() {
-        return {.center = {0.1F, -2, 3}, .radius = 0.7F};
+        return {.center = {0.1, -2, 3}, .radius = 0.7};
     }
 };
 
@@ -80,7 +80,7 @@ struct Written<core::Sphere> {
 namespace raylane::oracle {
 
 template <class Real>
-std::vector<Hit> crossings(const core::Sphere& sphere, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::SphereOf<double>& sphere, const core::Ray<Real>& ray) {
     const Line line(ray, sphere.center);
     const Exact r(sphere.radius);
     std::vector<Hit> hits;
@@ -91,13 +91,13 @@ std::vector<Hit> crossings(const core::Sphere& sphere, const core::Ray<Real>& ra
 }
 
 template <class Real>
-Normal normal(const core::Sphere& sphere, const core::Ray<Real>& ray, const Hit& hit) {
+Normal normal(const core::SphereOf<double>& sphere, const core::Ray<Real>& ray, const Hit& hit) {
     const Line line(ray, sphere.center);
     return {hit.root, line.f, line.d};
 }
 
-inline Ball ball_around(const core::Sphere& s) {
-    return ball(s.center, static_cast<double>(s.radius));
+inline Ball ball_around(const core::SphereOf<double>& s) {
+    return ball(s.center, s.radius);
 }
 
 } // namespace raylane::oracle

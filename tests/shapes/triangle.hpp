@@ -155,7 +155,7 @@ struct Written<core::Triangle> {
         R"("type": "triangle", "a": [0, 0, 0], "b": [1, 0.1, 0], "c": [0, 1, 0.2])";
     template <class Triangle>
     static Triangle by_name() {
-        return {.a = {0, 0, 0}, .b = {1, 0.1F, 0}, .c = {0, 1, 0.2F}};
+        return {.a = {0, 0, 0}, .b = {1, 0.1, 0}, .c = {0, 1, 0.2}};
     }
 };
 template <>
@@ -169,8 +169,8 @@ struct Written<core::SmoothTriangle> {
                 .b = {4, 5, 7},
                 .c = {8, 9, 0},
                 .normal_a = {0, 0, 1},
-                .normal_b = {0.1F, 0, 1},
-                .normal_c = {0, 0.2F, 1}};
+                .normal_b = {0.1, 0, 1},
+                .normal_c = {0, 0.2, 1}};
     }
 };
 
@@ -194,12 +194,13 @@ std::vector<Hit> triangle_crossing(const AnyTriangle& triangle, const core::Ray<
 }
 
 template <class Real>
-std::vector<Hit> crossings(const core::Triangle& triangle, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::TriangleOf<double>& triangle, const core::Ray<Real>& ray) {
     return triangle_crossing(triangle, ray);
 }
 
 template <class Real>
-std::vector<Hit> crossings(const core::SmoothTriangle& triangle, const core::Ray<Real>& ray) {
+std::vector<Hit> crossings(const core::SmoothTriangleOf<double>& triangle,
+                           const core::Ray<Real>& ray) {
     return triangle_crossing(triangle, ray);
 }
 
@@ -210,25 +211,22 @@ Normal triangle_normal(const AnyTriangle& triangle) {
 }
 
 template <class Real>
-Normal normal(const core::Triangle& triangle, const core::Ray<Real>&, const Hit&) {
+Normal normal(const core::TriangleOf<double>& triangle, const core::Ray<Real>&, const Hit&) {
     return triangle_normal(triangle);
 }
 template <class Real>
-Normal normal(const core::SmoothTriangle& triangle, const core::Ray<Real>&, const Hit&) {
+Normal normal(const core::SmoothTriangleOf<double>& triangle, const core::Ray<Real>&, const Hit&) {
     return triangle_normal(triangle);
 }
 
 template <class AnyTriangle>
 Ball ball_around_triangle(const AnyTriangle& t) {
-    const auto to = [&](const core::Vec3f& corner) {
-        return core::length(core::convert<double>(corner) - core::convert<double>(t.a));
-    };
-    return ball(t.a, std::max(to(t.b), to(t.c)));
+    return ball(t.a, std::max(length_of(t.b - t.a), length_of(t.c - t.a)));
 }
-inline Ball ball_around(const core::Triangle& triangle) {
+inline Ball ball_around(const core::TriangleOf<double>& triangle) {
     return ball_around_triangle(triangle);
 }
-inline Ball ball_around(const core::SmoothTriangle& triangle) {
+inline Ball ball_around(const core::SmoothTriangleOf<double>& triangle) {
     return ball_around_triangle(triangle);
 }
 

@@ -60,7 +60,7 @@ void check_answer(const Answer& answer, const Round<Shape>& round, int lane, std
             answer.upper, ray.slack);
     CAPTURE(ray.ray.origin.x, ray.ray.origin.y, ray.ray.origin.z, ray.ray.direction.x,
             ray.ray.direction.y, ray.ray.direction.z);
-    const Floats<Shape> floats = floats_of(round.block.get(lane));
+    const Numbers<Shape> floats = numbers_of(round.block.get(lane));
     CAPTURE(std::vector<float>(floats.begin(), floats.end()));
     FAIL(wrong);
 }

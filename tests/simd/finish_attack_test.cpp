@@ -68,7 +68,7 @@ Finish finish(const Kernels& kernels, const Shape& shape, const Ray<double>& ray
         view.tables[kind].first_slot = kind > static_cast<int>(kind_of<Shape>) ? 16 : 0;
     view.tables[static_cast<int>(kind_of<Shape>)] = {reinterpret_cast<const float*>(&block), 1,
                                                      sizeof(block) / sizeof(float),
-                                                     float_count<Shape>, 0};
+                                                     number_count<Shape>, 0};
     double rays[6][16], normal[3][16], t[16], error[16];
     std::uint32_t departed[16], origins[16], slot[16], hit[16];
     for (int lane = 0; lane < 16; ++lane) {

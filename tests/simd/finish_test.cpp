@@ -37,7 +37,7 @@ SceneView view_of(const Tables& tables) {
         const auto blocks = static_cast<std::uint32_t>(table.blocks().size());
         view.tables[static_cast<int>(kind_of<Shape>)] = {
             reinterpret_cast<const float*>(table.blocks().data()), blocks,
-            sizeof(Block<Shape>) / sizeof(float), float_count<Shape>, slots};
+            sizeof(Block<Shape>) / sizeof(float), number_count<Shape>, slots};
         slots += 16 * blocks;
     });
     return view;
@@ -170,7 +170,7 @@ void add_rays(Rays& rays, const Tables& tables, bool lattice, bool adverse, int 
             : !adverse
                 ? (!tests::is_flat<Shape> && random.integer(0, 2) == 0 ? Set::inside : Set::random)
                 : ray_sets::any_set(random);
-        add_ray(rays, table.get(at),
+        add_ray(rays, to_floats(table.get(at)),
                 view.tables[static_cast<int>(kind_of<Shape>)].first_slot + place, table.id(at), set,
                 adverse, random);
     }

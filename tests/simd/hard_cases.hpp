@@ -15,7 +15,7 @@ using ray_sets::Set;
 /// True if all its numbers are finite.
 template <class Shape>
 bool is_shape(const Shape& shape) {
-    for (const float value : floats_of(shape))
+    for (const float value : numbers_of(shape))
         if (!std::isfinite(value)) return false;
     return true;
 }

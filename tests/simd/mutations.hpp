@@ -25,7 +25,7 @@ template <class Shape>
 std::string description(const Shape& shape, const Ray<double>& ray) {
     std::ostringstream out;
     out << std::hexfloat;
-    for (const float value : floats_of(shape))
+    for (const float value : numbers_of(shape))
         out << value << "F, ";
     for (const Vec3d& v : {ray.origin, ray.direction})
         out << "{" << v.x << ", " << v.y << ", " << v.z << "} ";
@@ -60,8 +60,8 @@ inline double snapped(double value, int bits) {
 /// Some of a shape's floats, each by `change`.
 template <class Shape, class Change>
 Shape some_changed(const Shape& shape, Random& random, const Change& change) {
-    Floats<Shape> floats = floats_of(shape);
-    const int one_in = random.integer(1, float_count<Shape>);
+    Numbers<Shape> floats = numbers_of(shape);
+    const int one_in = random.integer(1, number_count<Shape>);
     for (float& value : floats)
         if (random.integer(1, one_in) == 1) value = static_cast<float>(change(value));
     return shape_of<Shape>(floats);

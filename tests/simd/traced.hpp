@@ -94,7 +94,7 @@ struct Rays {
                                     origin_last.data(),
                                     {of[0].data(), of[1].data(), of[2].data()},
                                     {of[3].data(), of[4].data(), of[5].data()}};
-        kernels.rays.round_rays(count, result);
+        kernels.rays.round_rays(count, result, 0.0F);
         return result;
     }
 

@@ -18,7 +18,7 @@ inline core::Vec3d in_double(const core::Vec3f& v) {
 /// The same shape, `scale` times as large.
 template <class Shape>
 Shape scaled(const Shape& shape, double scale) {
-    core::Floats<Shape> floats = core::floats_of(shape);
+    core::Numbers<Shape> floats = core::numbers_of(shape);
     for (float& value : floats)
         value = static_cast<float>(static_cast<double>(value) * scale);
     return core::shape_of<Shape>(floats);
@@ -33,8 +33,8 @@ Shape extreme(const Shape& shape, Random&) {
 /// The same in another frame: two coordinates swapped.
 template <class Shape>
 void swap_axes(Shape& shape, int a, int b) {
-    core::Floats<Shape> floats = core::floats_of(shape);
-    for (int vector = 0; vector < core::float_count<Shape> / 3; ++vector)
+    core::Numbers<Shape> floats = core::numbers_of(shape);
+    for (int vector = 0; vector < core::number_count<Shape> / 3; ++vector)
         std::swap(floats[3 * vector + a], floats[3 * vector + b]);
     shape = core::shape_of<Shape>(floats);
 }

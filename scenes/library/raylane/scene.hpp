@@ -88,6 +88,9 @@ class SceneBuilder {
     /// falls on another. Returns the first id; the others follow.
     ShapeId add_polygon(std::span<const Triangle> triangles, MaterialIndex material);
     ShapeId add_polygon(std::span<const SmoothTriangle> triangles, MaterialIndex material);
+    ShapeId add_polygon(std::span<const TriangleOf<double>> triangles, MaterialIndex material);
+    ShapeId add_polygon(std::span<const SmoothTriangleOf<double>> triangles,
+                        MaterialIndex material);
 
     std::size_t shape_count() const;
 

@@ -4,14 +4,16 @@
 
 namespace RAYLANE_API raylane {
 
-/// A point, a direction or, as red, green and blue, a colour.
-struct Vec3 {
-    float x = 0.0F;
-    float y = 0.0F;
-    float z = 0.0F;
+/// A point, a direction or, as red, green and blue, a colour; of float or double.
+template <class Number>
+struct Vec3Of {
+    Number x = 0;
+    Number y = 0;
+    Number z = 0;
 
-    friend bool operator==(const Vec3&, const Vec3&) = default;
+    friend bool operator==(const Vec3Of&, const Vec3Of&) = default;
 };
+using Vec3 = Vec3Of<float>;
 
 /// Linear RGB; 1 is the picture's white.
 using Color = Vec3;

@@ -66,12 +66,12 @@ class CrossAll {
     };
     Loaded load(const Packet& packet, const double* const (&directions)[3]) const {
         const TableView& table = S::table_of(scene_, kind_of(packet));
-        Loaded loaded;
+        Loaded loaded{SlotReader<D>(table), {}};
         double numbers[6][width];
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t pair = packet.pair[lane < packet.count ? lane : 0];
-            loaded.reader.from[lane] = table.blocks + S::offset(table, pairs_.slot[pair]);
+            loaded.reader.offset[lane] = S::offset(table, pairs_.slot[pair]);
             for (int axis = 0; axis < 3; ++axis) {
                 numbers[axis][lane] = pairs_.origin[axis][pairs_.ray[pair]];
                 numbers[3 + axis][lane] = directions[axis][pairs_.ray[pair]];

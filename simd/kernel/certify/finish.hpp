@@ -6,30 +6,40 @@
 
 namespace raylane::simd {
 
-/// Reads the floats of one shape for all lanes.
+/// Reads the numbers of one shape for all lanes.
 template <class Arch>
 class OneShapeReader {
   public:
-    explicit OneShapeReader(const float* first) : next_(first) {}
+    OneShapeReader(const TableView& table, long long offset)
+        : floats_(table.blocks), doubles_(table.doubles), next_(offset) {}
     Floats<Double<Arch>> next() {
-        const float value = *next_;
+        const double value =
+            doubles_ != nullptr ? doubles_[next_] : static_cast<double>(floats_[next_]);
         next_ += 16;
-        return Floats<Double<Arch>>(static_cast<double>(value));
+        return Floats<Double<Arch>>(value);
     }
 
   private:
-    const float* next_;
+    const float* floats_;
+    const double* doubles_;
+    long long next_;
 };
 
-/// Reads the floats of a shape per lane.
+/// Reads the numbers of a shape per lane.
 template <class Arch>
 class GatherReader {
   public:
     explicit GatherReader(const Spots<Arch>& spots) : spots_(spots) {}
     Floats<Double<Arch>> next() {
-        const Floats<Double<Arch>> values = Lanes<Double<Arch>>::gather(spots_, row_);
+        using D = Double<Arch>;
+        const int row = row_;
         row_ += 16;
-        return values;
+        if (spots_.doubles == nullptr) [[likely]]
+            return Lanes<D>::gather(spots_, row);
+        double values[Floats<D>::size];
+        for (std::size_t lane = 0; lane < Floats<D>::size; ++lane)
+            values[lane] = spots_.doubles[spots_.offsets[lane] + row];
+        return Floats<D>::load_unaligned(values);
     }
 
   private:
@@ -93,13 +103,14 @@ class Finish {
                                                            std::uint32_t active) const {
         Spots<Arch> spots;
         spots.base = table.blocks;
+        spots.doubles = table.doubles;
         while (true) {
             const std::uint32_t slot = found_.slot[i + first_of(active)];
             if (is_in(active, i, slot)) {
                 // What depends on the shape alone is done once for all that are of the same.
                 for (long long& offset : spots.offsets)
                     offset = S::offset(table, slot);
-                const Finisher finisher(OneShapeReader<Arch>(table.blocks + spots.offsets[0]));
+                const Finisher finisher(OneShapeReader<Arch>(table, spots.offsets[0]));
                 do {
                     finish_packet(finisher, table, spots, i, active);
                     i += width;

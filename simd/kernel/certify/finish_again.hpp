@@ -96,7 +96,7 @@ class FinishAgain {
 
     Loaded load(const Packet& packet, core::Kind kind) const {
         const TableView& table = S::table_of(scene_, kind);
-        Loaded loaded;
+        Loaded loaded{Reader(table), {}, {}, {}};
         const bool stand_for_others = found_.meant_length != nullptr;
         const double* const* const directions =
             stand_for_others ? found_.meant_direction : found_.direction;
@@ -104,7 +104,7 @@ class FinishAgain {
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
-            loaded.reader.from[lane] = table.blocks + S::offset(table, found_.slot[ray]);
+            loaded.reader.offset[lane] = S::offset(table, found_.slot[ray]);
             for (int axis = 0; axis < 3; ++axis) {
                 numbers[axis][lane] = found_.origin[axis][ray];
                 numbers[3 + axis][lane] = directions[axis][ray];

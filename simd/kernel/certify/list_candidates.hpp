@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/certify/finish.hpp"
+#include "simd/kernel/certify/slot_reader.hpp"
 #include "simd/kernel/traverse/leaf.hpp"
 #include "simd/kernel/traverse/traversal_queue.hpp"
 
@@ -77,7 +78,7 @@ struct ListCandidates : Streams<Arch> {
             list.limit = limit < list.limit ? limit : list.limit;
             if (list.sifts && list.count >= few) {
                 with_finisher<Double<Arch>>(kind, [&]<class Finisher>() {
-                    bits = sifted<Finisher>(S::rows_of(block), from, rays, i, bits);
+                    bits = sifted<Finisher>(table, number, from, rays, i, bits);
                 });
             }
             float lower[F::size];
@@ -95,8 +96,8 @@ struct ListCandidates : Streams<Arch> {
 
     /// The lanes of a block from one on, as bits, but those that the ray surely misses.
     template <class Finisher>
-    [[gnu::noinline]] static std::uint32_t sifted(const float (*rows)[16], int from,
-                                                  const RoundedRays& rays, std::size_t i,
+    [[gnu::noinline]] static std::uint32_t sifted(const TableView& table, std::uint32_t number,
+                                                  int from, const RoundedRays& rays, std::size_t i,
                                                   std::uint32_t bits) {
         using D = Double<Arch>;
         const auto in_all = [&](const double* const(&of)[3]) {
@@ -107,8 +108,11 @@ struct ListCandidates : Streams<Arch> {
         for (int half = 0; half < 2; ++half) {
             const std::uint32_t lanes = ((1U << width) - 1) << (half * width);
             if ((bits & lanes) == 0) continue;
-            const Finisher finisher{
-                HalfReader<Arch, BlockReader<Arch>>(BlockReader<Arch>(rows, from), half)};
+            SlotReader<D> reader(table);
+            for (int lane = 0; lane < width; ++lane)
+                reader.offset[lane] = static_cast<long long>(number) * table.block_floats + from +
+                                      half * width + lane;
+            const Finisher finisher{reader};
             const Finished<D> finished =
                 finisher.template finish<Wanted::all>(ray, starts_nowhere<D>());
             bits &= ~(Lanes<D>::bits(finished.misses & ~finished.certain) << (half * width));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/certify/slots.hpp"
+#include "simd/kernel/certify/slot_reader.hpp"
 #include "simd/kernel/lanes/doubles.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
 #include "simd/kernel/traverse/rays.hpp"
@@ -51,20 +51,15 @@ class PlainFinish {
     static constexpr std::size_t lanes = F::size;
     static constexpr std::uint32_t all_lanes = (1U << lanes) - 1;
 
-    /// Reads the floats of a shape per lane.
     struct Reader {
-        const float* from[lanes];
-        bool one_shape; ///< they are all the same
-        int row = 0;
+        SlotReader<Number> slots;
+        bool one_shape = true; ///< they are all the same
 
         F next() {
-            const int at = row;
-            row += 16;
-            if (one_shape) return F(static_cast<Value>(from[0][at]));
-            Value values[lanes];
-            for (std::size_t lane = 0; lane < lanes; ++lane)
-                values[lane] = static_cast<Value>(from[lane][at]);
-            return F::load_unaligned(values);
+            if (!one_shape) return slots.next();
+            const Value value = slots.at(slots.offset[0] + slots.row);
+            slots.row += 16;
+            return F(value);
         }
     };
 
@@ -72,12 +67,11 @@ class PlainFinish {
     template <class Solver>
     void finish_packet(const TableView& table, std::size_t i, std::uint32_t active) const {
         const auto first_lane = static_cast<std::size_t>(__builtin_ctz(active));
-        Reader reader;
-        reader.one_shape = true;
+        Reader reader{SlotReader<Number>(table)};
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const std::size_t ray = i + ((active >> lane & 1) != 0 ? lane : first_lane);
-            reader.from[lane] = table.blocks + S::offset(table, found_.slot[ray]);
-            reader.one_shape &= reader.from[lane] == reader.from[0];
+            reader.slots.offset[lane] = S::offset(table, found_.slot[ray]);
+            reader.one_shape &= reader.slots.offset[lane] == reader.slots.offset[0];
         }
         const Starts<Number> starts = starts_of(table, reader, i);
         const Solver solver(reader);
@@ -110,8 +104,8 @@ class PlainFinish {
         Value on_surface[lanes], inward[lanes], face[lanes];
         std::uint32_t any = 0;
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const auto id = __builtin_bit_cast(std::uint32_t,
-                                               reader.from[lane][std::size_t{16} * table.values]);
+            const float* const ids = table.blocks + std::size_t{16} * table.values;
+            const auto id = __builtin_bit_cast(std::uint32_t, ids[reader.slots.offset[lane]]);
             const std::uint32_t first = found_.origin_first[i + lane];
             const bool on = id - first <= found_.origin_last[i + lane] - first;
             any |= std::uint32_t{on};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/certify/slots.hpp"
 #include "simd/kernel/lanes/bounded.hpp"
 #include "simd/kernel/shapes/crossings.hpp"
 
@@ -7,19 +8,32 @@
 
 namespace raylane::simd {
 
-/// Reads the floats of a shape per lane, each from a block of its own.
-template <class D>
+/// Reads the numbers of a shape per lane, all of one table, as lanes of double or of float.
+template <class Number>
 struct SlotReader {
-    static constexpr std::size_t width = Floats<D>::size;
-    const float* from[width];
-    std::size_t row = 0;
+    using F = Floats<Number>;
+    using Value = typename F::value_type;
+    static constexpr std::size_t width = F::size;
 
-    Floats<D> next() {
-        double values[width];
+    const float* floats;
+    const double* doubles; ///< null: none
+    long long offset[width];
+    long long row = 0;
+
+    explicit SlotReader(const TableView& table) : floats(table.blocks), doubles(table.doubles) {}
+
+    F next() {
+        Value values[width];
         for (std::size_t lane = 0; lane < width; ++lane)
-            values[lane] = static_cast<double>(from[lane][row]);
+            values[lane] = at(offset[lane] + row);
         row += 16;
-        return Floats<D>::load_unaligned(values);
+        return F::load_unaligned(values);
+    }
+
+    Value at(long long place) const {
+        if constexpr (std::is_same_v<Value, double>)
+            if (doubles != nullptr) return doubles[place];
+        return static_cast<Value>(floats[place]);
     }
 };
 

@@ -8,10 +8,11 @@
 /// No multiply-add is fused: so every instruction set, and any scalar code, gives the same bits.
 namespace raylane::simd {
 
-/// Floats of a table, one per lane: base[offsets[lane]].
+/// Numbers of a table, one per lane: base[offsets[lane]]; or, if there are any, doubles.
 template <class Arch>
 struct Spots {
     const float* base;
+    const double* doubles;
     long long offsets[Floats<Double<Arch>>::size];
 };
 

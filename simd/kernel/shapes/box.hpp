@@ -174,8 +174,7 @@ struct BoxFinisher {
         result.certain = result.certain & (~starts.on_surface | starts.inward) &
                          is_result<Arch>(result.t, result.error);
         if constexpr (wanted == Wanted::all) {
-            // Edges are floats, so their products are exact and the normal is rounded once.
-            result.normal_error = error_of_unit<Arch>(result.normal);
+            result.normal_error = normal_error(result);
             const Mask<Arch> uncertain = ~result.certain & ~starts.on_surface;
             if (any<Arch>(uncertain)) result.misses = uncertain & slabs.passed(starts);
         }
@@ -185,6 +184,17 @@ struct BoxFinisher {
   private:
     using F = Floats<Arch>;
     using M = Mask<Arch>;
+
+    Vectors<Arch> normal_error(const Finished<Arch>& result) const {
+        const M first = result.face<F(2.0), last = result.face> F(3.0);
+        const Vectors<Arch> one =
+            select<Arch>(first, box.edge_v, select<Arch>(last, box.edge_u, box.edge_w));
+        const Vectors<Arch> other =
+            select<Arch>(first, box.edge_w, select<Arch>(last, box.edge_v, box.edge_u));
+        const Vectors<Arch> normal = cross(one, other);
+        return error_of_unit<Arch>(result.normal, error_of_cross<Arch>(one, other, normal),
+                                   F(1.0) / sqrt(squared_length(normal)));
+    }
 
     struct Slabs {
         LocalRays<Arch> local;

@@ -113,6 +113,22 @@ error_of_unit(const Vectors<Arch>& unit, const Vectors<Arch>& error, const Float
             own * error.z + common * abs(unit.z)};
 }
 
+/// Error of the product a x b, that is `product`, of exact vectors: none but its last rounding
+/// where these are floats.
+template <class Arch>
+[[gnu::always_inline]] inline Vectors<Arch>
+error_of_cross(const Vectors<Arch>& a, const Vectors<Arch>& b, const Vectors<Arch>& product) {
+    using F = Floats<Arch>;
+    const auto lost = [](const F& p, const F& q) {
+        return abs(Lanes<Arch>::product_error(p, q, p * q));
+    };
+    const auto component = [&](const F& p, const F& q, const F& r, const F& s, const F& of) {
+        return F(1.0 + 0x1p-50) * (lost(p, q) + lost(r, s)) + F(0x1p-53) * abs(of);
+    };
+    return {component(a.y, b.z, a.z, b.y, product.x), component(a.z, b.x, a.x, b.z, product.y),
+            component(a.x, b.y, a.y, b.x, product.z)};
+}
+
 template <class Arch>
 bool any(const Mask<Arch>& mask) {
     return Lanes<Arch>::bits(mask) != 0;

@@ -45,14 +45,15 @@ struct FlatCrossing {
 };
 
 /// height and approach are sums of three products: off by 3 u of the sum of their absolute values,
-/// by u more for the rounded difference or direction, and the height by |n| slack.
+/// by u more for the rounded difference or direction, by another if the normal was rounded, and the
+/// height by |n| slack.
 template <class Arch>
 [[gnu::always_inline]] inline FlatCrossing<Arch> cross_plane(const Vectors<Arch>& to_point,
                                                              const Vectors<Arch>& normal,
                                                              const FilterRays<Arch>& rays) {
     using F = Floats<Arch>;
     const Vectors<Arch> n = absolute(normal);
-    const F relative(5 * half_ulp), reach = n.x + n.y + n.z;
+    const F relative(6 * half_ulp), reach = n.x + n.y + n.z;
     const F least_error = fast_mul_add<Arch>(F(underflow), reach, F(underflow));
     const F height_error = fast_mul_add<Arch>(relative, fast_dot(n, absolute(to_point)),
                                               fast_mul_add<Arch>(reach, rays.slack, least_error));

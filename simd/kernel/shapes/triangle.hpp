@@ -225,13 +225,13 @@ struct TriangleFinisher {
     }
 
     /// Error of to_b x to_c: what was lost of the products, and of the edges where these were
-    /// rounded. Corners are floats, so as a rule nothing was.
+    /// rounded. Of corners that are floats, as a rule nothing was.
     Vectors<Arch> normal_error(const Vectors<Arch>& to_b, const Vectors<Arch>& to_c,
                                const Vectors<Arch>& normal) const {
-        // What a difference of floats loses in double is more than the less of them could.
+        // What a sum loses is a double, and this is it (Knuth's 2Sum).
         const auto is_exact = [](const F& difference, const F& from, const F& to) {
-            const F back = difference + from;
-            return (back == to) & (back - difference == from);
+            const F back = difference - to;
+            return (to - (difference - back)) - (from + back) == zero<Arch>();
         };
         const auto all_exact = [&](const Vectors<Arch>& edge, const Vectors<Arch>& to) {
             return is_exact(edge.x, triangle.a.x, to.x) & is_exact(edge.y, triangle.a.y, to.y) &
@@ -239,16 +239,13 @@ struct TriangleFinisher {
         };
         const F rounded = select(all_exact(to_b, triangle.b) & all_exact(to_c, triangle.c),
                                  zero<Arch>(), F(0x1p-51));
-        const auto lost = [](const F& a, const F& b) {
-            return abs(Lanes<Arch>::product_error(a, b, a * b));
+        const Vectors<Arch> lost = error_of_cross<Arch>(to_b, to_c, normal);
+        const auto component = [&](const F& a, const F& b, const F& c, const F& d, const F& from) {
+            return from + rounded * (abs(a * b) + abs(c * d));
         };
-        const auto component = [&](const F& a, const F& b, const F& c, const F& d, const F& of) {
-            return F(1.0 + 0x1p-50) * (lost(a, b) + lost(c, d)) + F(0x1p-53) * abs(of) +
-                   rounded * (abs(a * b) + abs(c * d));
-        };
-        return {component(to_b.y, to_c.z, to_b.z, to_c.y, normal.x),
-                component(to_b.z, to_c.x, to_b.x, to_c.z, normal.y),
-                component(to_b.x, to_c.y, to_b.y, to_c.x, normal.z)};
+        return {component(to_b.y, to_c.z, to_b.z, to_c.y, lost.x),
+                component(to_b.z, to_c.x, to_b.x, to_c.z, lost.y),
+                component(to_b.x, to_c.y, to_b.y, to_c.x, lost.z)};
     }
 };
 

@@ -46,12 +46,13 @@ struct Prepare : Streams<Arch> {
         }
     }
 
-    static void round_rays(std::size_t count, const RoundedRays& rays) {
+    static void round_rays(std::size_t count, const RoundedRays& rays, float rounding) {
+        const float least = rounding * (1 + 0x1p-14F) + slack_floor;
         for (std::size_t i = 0; i < count; i += F::size) {
             if (rays.before != nullptr)
-                round_packet<true>(rays, i);
+                round_packet<true>(rays, i, least);
             else
-                round_packet<false>(rays, i);
+                round_packet<false>(rays, i, least);
         }
     }
 
@@ -95,7 +96,8 @@ struct Prepare : Streams<Arch> {
     /// Those that start further along are off by as much as they have been moved by in double, and
     /// then by what rounding moves them.
     template <bool moves>
-    [[gnu::always_inline]] static void round_packet(const RoundedRays& rays, std::size_t i) {
+    [[gnu::always_inline]] static void round_packet(const RoundedRays& rays, std::size_t i,
+                                                    float least) {
         double moved[F::size] = {}; // all coordinates together
         if constexpr (moves)
             for (std::size_t k = 0; k < F::size; k += Number::size) {
@@ -129,8 +131,7 @@ struct Prepare : Streams<Arch> {
                 .store_unaligned(rays.direction[axis] + i);
         }
         // As FilterRays asks for.
-        (Lanes<Arch>::narrow(moved) * F(1 + 0x1p-15F) + F(slack_floor))
-            .store_unaligned(rays.slack + i);
+        (Lanes<Arch>::narrow(moved) * F(1 + 0x1p-15F) + F(least)).store_unaligned(rays.slack + i);
     }
 };
 

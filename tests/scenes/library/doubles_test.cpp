@@ -3,9 +3,14 @@
 #include "tests/scenes/library/exam.hpp"
 #include "tests/simd/rounds.hpp"
 
+#include <bit>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <string>
+#include <variant>
 
-/// Rays in double, asked of the library, against the oracle.
+/// Rays and shapes in double, asked of the library, against the oracle.
 using namespace raylane;
 using namespace raylane::tests;
 using core::Vec3d;
@@ -85,13 +90,39 @@ struct Question {
 struct Faults {
     long rays = 0, hits = 0, shape = 0, t = 0, t_double = 0, normal = 0, side = 0, occlusion = 0,
          crossings = 0;
+    std::string first; ///< what was asked and expected, in numbers
     long all() const { return shape + t + t_double + normal + side + occlusion + crossings; }
 };
 
+template <oracle::Variant Any>
+std::string described(const Question& question, const DoubleRays& rays, std::size_t i,
+                      const oracle::Found* truth, const std::vector<Any>& shapes) {
+    std::ostringstream out;
+    out << std::setprecision(17) << shapes.size() << " shapes; ray";
+    for (int axis = 0; axis < 3; ++axis)
+        out << ' ' << rays.origin[axis][i];
+    out << " towards";
+    for (int axis = 0; axis < 3; ++axis)
+        out << ' ' << rays.direction[axis][i];
+    out << ", t from " << question.t_min << " to " << question.t_max;
+    if (truth != nullptr) out << "; shape " << truth->shape << " at " << truth->t;
+    for (std::size_t id = 0; id < shapes.size(); ++id) {
+        if (shapes.size() > 40 && (truth == nullptr || id != truth->shape)) continue;
+        out << "; shape " << id << ", kind " << shapes[id].index() << ':';
+        std::visit(
+            [&](const auto& shape) {
+                for (const auto value : core::numbers_of(shape))
+                    out << ' ' << value;
+            },
+            shapes[id]);
+    }
+    return out.str();
+}
+
 /// Rays without limits, and with these at crossings and next to them.
-void ask(const std::vector<tests::AnyShape>& all, const std::vector<core::Ray<double>>& rays,
-         Faults& faults) {
-    const std::vector<tests::AnyShape> shapes = valid(all);
+template <oracle::Variant Any>
+void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays, Faults& faults) {
+    const std::vector<Any> shapes = valid(all);
     const oracle::Neighbours neighbours(shapes);
     const std::vector<char> counts = which_count(shapes);
     const Tracer tracer(scene_of(shapes), {.threads = 1});
@@ -116,6 +147,8 @@ void ask(const std::vector<tests::AnyShape>& all, const std::vector<core::Ray<do
         }
     }
     const Answers answers(tracer, asked);
+    const long known = faults.all();
+    const oracle::Found* before = nullptr;
     for (std::size_t i = 0; i < questions.size(); ++i) {
         const Question& question = questions[i];
         oracle::Sight& sight = sights[question.sight];
@@ -126,6 +159,9 @@ void ask(const std::vector<tests::AnyShape>& all, const std::vector<core::Ray<do
             break;
         }
         ++faults.rays;
+        if (faults.all() > known && faults.first.empty())
+            faults.first = described(questions[i - 1], asked, i - 1, before, shapes);
+        before = truth;
         const auto is_between = [&](const oracle::Found& found) {
             return counts[found.shape] != 0 && compare(found.hit, question.t_min) > 0 &&
                    compare(found.hit, question.t_max) <= 0;
@@ -217,5 +253,86 @@ TEST_CASE("doubles outside of the range of floats are none") {
         CAPTURE(i);
         CHECK((answers.hits.shape[i] == 0) == (i < found));
         CHECK(answers.blocked[i] == (i < found ? 1 : 0));
+    }
+}
+
+namespace {
+
+/// How shapes and rays of floats become those of doubles.
+enum class Change {
+    none,
+    enlarged, ///< all lengths by one factor: what met meets still
+    stirred,  ///< each number by its own, but the same numbers by the same
+};
+constexpr Change all_changes[] = {Change::none, Change::enlarged, Change::stirred};
+
+/// Tiny ones stay as they are: there is nothing between such floats.
+double changed(double number, Change change) {
+    if (change == Change::none || std::abs(number) < 0x1p-125) return number;
+    constexpr double factor =
+        1.0 + 13 * 0x1p-24; // with a float, or a small number and itself, exact
+    if (change == Change::enlarged) return number * factor;
+    // Of the number alone.
+    const auto bits = std::bit_cast<std::uint64_t>(number) * 0x9E3779B97F4A7C15;
+    const double part = static_cast<double>(bits >> 11) * 0x1p-53;
+    return number * (1.0 + std::ldexp(part - 0.5, -24 - static_cast<int>(bits % 29)));
+}
+
+template <class Shape>
+core::InDouble<Shape> changed(const Shape& shape, Change change) {
+    auto numbers = core::numbers_of(core::to_doubles(shape));
+    for (double& number : numbers)
+        number = changed(number, change);
+    auto result = core::shape_of<core::InDouble<Shape>>(numbers);
+    if constexpr (core::kind_of<Shape> == core::Kind::quadric) {
+        if (change != Change::enlarged) return result;
+        // Q(p / factor), times its square.
+        const core::InDouble<Shape> before = core::to_doubles(shape);
+        result.xx = before.xx;
+        result.yy = before.yy;
+        result.zz = before.zz;
+        result.xy = before.xy;
+        result.xz = before.xz;
+        result.yz = before.yz;
+        result.one = changed(result.one, change);
+    }
+    return result;
+}
+
+void ask(const meetings::Meeting& meeting, Change change, Faults& faults) {
+    std::vector<AnyShapeInDouble> shapes;
+    for (const tests::AnyShape& any : meeting.shapes)
+        shapes.push_back(std::visit(
+            [&](const auto& shape) { return AnyShapeInDouble(changed(shape, change)); }, any));
+    std::vector<core::Ray<double>> rays;
+    for (const core::Ray<float>& ray : meeting.rays) {
+        rays.push_back({core::convert<double>(ray.origin), core::convert<double>(ray.direction)});
+        for (int axis = 0; axis < 3; ++axis)
+            rays.back().origin[axis] = changed(rays.back().origin[axis], change);
+    }
+    ask(shapes, rays, faults);
+}
+
+} // namespace
+
+TEST_CASE("shapes in double are taken for exactly their doubles", "[meetings]") {
+    Random random(seed(20261125));
+    for (const Change change : all_changes) {
+        Faults faults;
+        for (const Way way : meetings::all_ways)
+            for (int kind = 0; kind < core::kind_count; ++kind) {
+                const int other = random.integer(0, core::kind_count - 1);
+                meetings::MeetingMaker maker(kind, other, way, random);
+                ask(maker.make(20), change, faults);
+            }
+        for (int round = 0; round < rounds(4, 1); ++round)
+            for (const meetings::Kind& kind : meetings::gatherings)
+                if (round == 0 || kind.least <= 30)
+                    ask(kind.make(kind.least, random, 20), change, faults);
+        CAPTURE(static_cast<int>(change), faults.rays, faults.hits, faults.shape, faults.t,
+                faults.t_double, faults.side, faults.normal, faults.occlusion, faults.crossings,
+                faults.first);
+        CHECK(faults.all() == 0);
+        CHECK(faults.hits > faults.rays / 4);
     }
 }

@@ -7,6 +7,8 @@
 #include "simd/stream_tracer.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <ios>
 #include <sstream>
@@ -18,7 +20,7 @@ namespace {
 
 using core::Vec3f;
 
-bool is_valid(const AnyShape& any) {
+bool is_valid(const oracle::Variant auto& any) {
     try {
         std::visit([](const auto& shape) { core::validate(shape); }, any);
         return true;
@@ -48,7 +50,7 @@ void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, f
     out << "shape " << id << " of " << shapes.size() << ", kind " << shapes[id].index() << " {";
     std::visit(
         [&](const auto& shape) {
-            for (const float value : core::floats_of(shape))
+            for (const float value : core::numbers_of(shape))
                 out << ' ' << value;
         },
         shapes[id]);
@@ -57,33 +59,41 @@ void describe(std::ostream& out, std::span<const AnyShape> shapes, ShapeId id, f
 
 } // namespace
 
-bool are_same(const AnyShape& a, const AnyShape& b) {
+template <oracle::Variant Any>
+bool are_same(const Any& a, const Any& b) {
     if (a.index() != b.index()) return false;
     return std::visit(
         [&]<class Shape>(const Shape& shape) {
-            return core::floats_of(shape) == core::floats_of(std::get<Shape>(b));
+            // To the bit, as the builder has it: -0 is another number.
+            const auto bits = [](const Shape& s) {
+                return std::bit_cast<std::array<char, sizeof(Shape)>>(s);
+            };
+            return bits(shape) == bits(std::get<Shape>(b));
         },
         a);
 }
 
-std::vector<AnyShape> valid(std::vector<AnyShape> shapes) {
-    std::erase_if(shapes, [](const AnyShape& shape) { return !is_valid(shape); });
+template <oracle::Variant Any>
+std::vector<Any> valid(std::vector<Any> shapes) {
+    std::erase_if(shapes, [](const Any& shape) { return !is_valid(shape); });
     return shapes;
 }
 
-Scene scene_of(std::span<const AnyShape> shapes, Sides sides) {
+template <oracle::Variant Any>
+Scene scene_of(const std::vector<Any>& shapes, Sides sides) {
     SceneBuilder builder;
     std::vector<MaterialIndex> materials;
     for (const Visible visible : visible_sides)
         materials.push_back(builder.add_material({.visible = visible}));
-    for (const AnyShape& any : shapes) {
+    for (const Any& any : shapes) {
         const MaterialIndex material = materials[which_sides(builder.shape_count(), sides)];
         std::visit([&](const auto& shape) { add(builder, shape, material); }, any);
     }
     return builder.build();
 }
 
-std::vector<char> which_count(std::span<const AnyShape> shapes, Sides sides) {
+template <oracle::Variant Any>
+std::vector<char> which_count(const std::vector<Any>& shapes, Sides sides) {
     std::vector<char> counts;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         std::size_t first = 0;
@@ -94,6 +104,15 @@ std::vector<char> which_count(std::span<const AnyShape> shapes, Sides sides) {
     }
     return counts;
 }
+
+#define RAYLANE_INSTANTIATE(Any)                                                                   \
+    template std::vector<Any> valid(std::vector<Any>);                                             \
+    template Scene scene_of(const std::vector<Any>&, Sides);                                       \
+    template bool are_same(const Any&, const Any&);                                                \
+    template std::vector<char> which_count(const std::vector<Any>&, Sides);
+RAYLANE_INSTANTIATE(AnyShape)
+RAYLANE_INSTANTIATE(AnyShapeInDouble)
+#undef RAYLANE_INSTANTIATE
 
 bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& sight,
               const std::function<bool(const oracle::Found&)>& counts) {

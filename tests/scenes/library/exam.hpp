@@ -19,12 +19,16 @@ enum class Sides {
 };
 
 /// Without what core finds not valid.
-std::vector<AnyShape> valid(std::vector<AnyShape> shapes);
-Scene scene_of(std::span<const AnyShape> shapes, Sides sides = Sides::both);
+template <oracle::Variant Any>
+std::vector<Any> valid(std::vector<Any> shapes);
+template <oracle::Variant Any>
+Scene scene_of(const std::vector<Any>& shapes, Sides sides = Sides::both);
 /// Float by float.
-bool are_same(const AnyShape& a, const AnyShape& b);
+template <oracle::Variant Any>
+bool are_same(const Any& a, const Any& b);
 /// By shape: false if one before it is the same, of one material.
-std::vector<char> which_count(std::span<const AnyShape> shapes, Sides sides = Sides::both);
+template <oracle::Variant Any>
+std::vector<char> which_count(const std::vector<Any>& shapes, Sides sides = Sides::both);
 
 /// True if a row has all crossings of a line that count, and in their order.
 bool is_right(const CrossingRows& rows, std::size_t row, const oracle::Sight& sight,

@@ -5,13 +5,17 @@
 
 namespace raylane::tests {
 
-/// The library's shapes have core's names, and their floats.
+/// The library's shapes have core's names, and their numbers.
 template <class CoreShape>
 struct InLibrary;
 #define RAYLANE_IN_LIBRARY(Shape, name, text)                                                      \
     template <>                                                                                    \
     struct InLibrary<core::Shape> {                                                                \
         using Type = raylane::Shape;                                                               \
+    };                                                                                             \
+    template <>                                                                                    \
+    struct InLibrary<core::InDouble<core::Shape>> {                                                \
+        using Type = raylane::Shape##Of<double>;                                                   \
     };
 RAYLANE_SHAPES(RAYLANE_IN_LIBRARY)
 #undef RAYLANE_IN_LIBRARY

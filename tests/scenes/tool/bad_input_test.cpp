@@ -111,7 +111,7 @@ TEST_CASE("what is no JSON, or not a scene's, is told in one line") {
         {"infinity", "a.json", "{\"background\":\n [0, Infinity, 0]}",
          "must be a value, got Infinity"},
         in_object("too large a number", R"("type": "sphere", "center": [0, 0, 0], "radius": 1e39)",
-                  "/radius: must be a number from -1e30 to 1e30, got 1e39"),
+                  "/radius: must be a number from -1e30 to 1e30, got 1e+39"),
         in_scene("unknown key", R"("light": [])", R"(unknown key "light", did you mean "lights"?)"),
         in_object("unknown key in an object",
                   R"("type": "sphere", "center": [0, 0, 0], "raduis": 1)",

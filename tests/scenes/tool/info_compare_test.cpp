@@ -66,6 +66,33 @@ TEST_CASE("info says which precision auto takes, and why not the others") {
     CHECK(info["methods"][1]["objection"] == "reflections and refractions magnify its errors");
 }
 
+TEST_CASE("info says what doubles take") {
+    const Workshop workshop;
+    const auto info_with = [&](const std::string& radius) {
+        workshop.write("ball.json", R"({
+            "camera": {"from": [0, 0, 6], "at": [0, 0, 0]},
+            "lights": [{"type": "directional", "direction": [0, -1, -1]}],
+            "materials": {"plain": {}},
+            "objects": [{"type": "sphere", "material": "plain", "center": [0, 0, 0],
+                         "radius": )" + radius +
+                                        "}]}");
+        return json_of(workshop.run({"info", "--json", "ball.json"}));
+    };
+    const auto needs = [](const Json& info) {
+        const auto needed = info["needed"].get<std::vector<std::string>>();
+        return std::find(needed.begin(), needed.end(), "shapes in double") != needed.end();
+    };
+    const Json in_floats = info_with("0.5"), in_doubles = info_with("0.1");
+    CHECK(!needs(in_floats));
+    CHECK(in_floats["double_bytes"] == 0);
+    CHECK(needs(in_doubles));
+    CHECK(in_doubles["double_bytes"] ==
+          5 * 16 * 8); // a block of four numbers and a row beside them
+    CHECK(in_doubles["scene_bytes"] == in_floats["scene_bytes"].get<int>() + 5 * 16 * 8);
+    CHECK(workshop.run({"info", "ball.json"}).out.find("640 bytes of doubles") !=
+          std::string::npos);
+}
+
 TEST_CASE("auto draws what info says, by the picture's own size") {
     const Workshop workshop;
     workshop.write("eggs.json", R"({
