@@ -18,11 +18,12 @@ constexpr double invisible = 1e-5;
 
 // Rays that leave a cone or a paraboloid met it again, and its tests were switched off.
 TEST_CASE("mmp/pbrt-v3 #44: what a cone or paraboloid reflects does not meet it again", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const Vec3f center{1000, 2000, -3000};
     const CappedCone cone{center, {0, 0, 1}, 1, 0};
     const Quadric paraboloid{center, 1, 1, 0, 0, 0, 0, 0, 0, 0.5F, -1, {-1, -1, 0}, {1, 1, 1}};
     const auto room = [&](const auto& shape) {
-        Builder builder =
+        FieldBuilder builder =
             square(pixels, perspective(center + Vec3f(1.5F, 1, 8), center + Vec3f(0, 0, 0.5F), 20));
         builder.add_shape(shape, mirror());
         return builder;
@@ -63,9 +64,10 @@ double reached_through_ball(const Sphere& ball, double index, double plane, Ray<
 // Rays into a lens were moved along its normal by an epsilon that grows with the coordinates: half
 // a unit at z = -5400, and the picture behind the lens shifted.
 TEST_CASE("mitsuba3 #219: a lens at large coordinates bends rays where they hit it", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const Sphere ball{{278, 273, -5400}, 250};
     constexpr double plane = -7000, width = 4096;
-    Builder builder = square(pixels, perspective({278, 273, -4000}, {278, 273, -5400}, 12));
+    FieldBuilder builder = square(pixels, perspective({278, 273, -4000}, {278, 273, -5400}, 12));
     builder.add_shape(ball, glass(1.5F));
     builder.add_shape(Plane{{0, 0, plane}, {0, 0, 1}}, ruler({width, 0, 0}));
     int compared = 0;
@@ -86,8 +88,9 @@ TEST_CASE("mitsuba3 #219: a lens at large coordinates bends rays where they hit 
 // The offset, 9e-5 and more, was wider than the gap between glass and what it covers: rays began
 // inside the inner sphere, and light leaked.
 TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const Sphere inner{{0, 0, 0}, 1}, outer{{0, 0, 0}, 1.0F + 4e-5F};
-    Builder builder = square(pixels, perspective({0, 0, 5}, {0, 0, 0}, 26));
+    FieldBuilder builder = square(pixels, perspective({0, 0, 5}, {0, 0, 0}, 26));
     Material red = luminous({1, 0, 0});
     red.visible = Visible::outside;
     builder.background = {0, 0, 1};
@@ -112,8 +115,9 @@ TEST_CASE("mitsuba3 #1871: a shell of 4e-5 about a sphere leaks no light", "[lon
 
 // Of the rays that leave a sphere the size of a pea, some hit it again.
 TEST_CASE("mitsuba3 #1236: rays that leave a small sphere do not hit it", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const Sphere sphere{{0, 0.083F, 0.4F}, 0.015F};
-    Builder builder = square(pixels, perspective({0.05F, 0.1F, 0.6F}, {0, 0.083F, 0.4F}, 9));
+    FieldBuilder builder = square(pixels, perspective({0.05F, 0.1F, 0.6F}, {0, 0.083F, 0.4F}, 9));
     const Camera camera = builder.camera;
     builder.add_shape(sphere, chalk());
     // Outgoing rays in all directions, as shadow rays.
@@ -150,7 +154,7 @@ TEST_CASE("mitsuba3 #1236: rays that leave a small sphere do not hit it", "[long
     CHECK(worst < invisible);
     CHECK(textbook > 100);
 
-    Builder room = square(pixels, camera);
+    FieldBuilder room = square(pixels, camera);
     room.add_shape(sphere, mirror());
     CHECK(count_not_white(in_white_room(room, 1)) == 0);
 }
@@ -158,11 +162,12 @@ TEST_CASE("mitsuba3 #1236: rays that leave a small sphere do not hit it", "[long
 // For radii below 1 the smallest t of a cylinder was larger than the cylinder: 1.44 at 0.5. Its
 // inside could not be seen.
 TEST_CASE("RenderKit/ospray #279: the inside of a thin cylinder is seen", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     for (const float radius : {0.5F, 1e-3F}) {
         const std::vector<OpenCylinder> pipes = {
             {{0, 0, 0}, {0, 0.6F * radius, 3 * radius}, radius}};
-        Builder builder = square(pixels, perspective({0.2F * radius, 0.1F * radius, radius},
-                                                     {0, 0.3F * radius, 2 * radius}, 100));
+        FieldBuilder builder = square(pixels, perspective({0.2F * radius, 0.1F * radius, radius},
+                                                          {0, 0.3F * radius, 2 * radius}, 100));
         builder.add_shape(pipes[0], chalk());
         const Scene scene = builder.finish(sun_along({1, 0, 0}));
         CAPTURE(radius);
@@ -182,8 +187,9 @@ TEST_CASE("RenderKit/ospray #279: the inside of a thin cylinder is seen", "[long
 
 // Surfaces nearer behind a transparent box than the smallest t that counts were not there: black.
 TEST_CASE("POV-Ray #125: a plane 7e-7 below a transparent box is seen through it", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const float depth = -1.0000007F;
-    Builder builder = square(pixels, perspective({1, 2, 3}, {0, 0, 0}, 50));
+    FieldBuilder builder = square(pixels, perspective({1, 2, 3}, {0, 0, 0}, 50));
     builder.add_shape(Box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, glass(1.0F));
     builder.add_shape(Plane{{0, depth, 0}, {0, 1, 0}}, luminous());
     int through_floor = 0, wrong = 0, lost = 0;
@@ -205,17 +211,18 @@ TEST_CASE("POV-Ray #125: a plane 7e-7 below a transparent box is seen through it
 
 // A layer of plastic balls had dark rings; the advice was to enlarge the epsilon, or the scene.
 TEST_CASE("plotoptix #4: a layer of small plastic spheres has no dark rings", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     std::vector<Sphere> spheres;
     for (int i = 0; i < 16; ++i)
         spheres.push_back({{0.02F * static_cast<float>(i % 4), 0.001F * static_cast<float>(i % 3),
                             0.02F * static_cast<float>(i / 4)},
                            0.01F});
     const Vec3f at{0.03F, 0, 0.03F}, from{3.03F, 4, 5.03F};
-    const Builder empty = square(pixels, orthographic(from, at, 0.1F));
+    const FieldBuilder empty = square(pixels, orthographic(from, at, 0.1F));
     // The sun stands where the viewer does: all that is seen is lit.
     const Vec3d to_light = normalized(convert<double>(Vec3f(from - at)));
     const auto scene_of = [&](float specular) {
-        Builder builder = empty;
+        FieldBuilder builder = empty;
         const MaterialIndex material = builder.add_material(chalk(specular));
         for (const Sphere& sphere : spheres)
             builder.add(sphere, material);

@@ -17,6 +17,26 @@ namespace field {
 using namespace raylane;
 using namespace little_scene;
 
+/// True where scenes have shapes in double: their numbers are no floats, and so near to these that
+/// no pixel tells.
+inline bool shapes_in_double = false; // NOLINT: tests run one after the other
+
+class FieldBuilder : public Builder {
+  public:
+    template <class Shape>
+    ShapeId add(const Shape& shape, MaterialIndex material) {
+        if (!shapes_in_double) return SceneBuilder::add(shape, material);
+        auto numbers = numbers_of(to_doubles(shape));
+        for (double& number : numbers)
+            number *= 1.0 + 0x1p-44;
+        return SceneBuilder::add(shape_of<InDouble<Shape>>(numbers), material);
+    }
+    template <class Shape>
+    ShapeId add_shape(const Shape& shape, const Material& material) {
+        return add(shape, add_material(material));
+    }
+};
+
 /// Shines a little by itself, so that what is hit is known from what is not, and is matte or, like
 /// plastic, has a highlight as well.
 inline Material chalk(float specular = 0.0F) {
@@ -192,7 +212,7 @@ Comparison compare_textbook(const Scene& scene, const std::vector<Shape>& shapes
 
 /// Mirrors in a white room. A convex one that reflects once cannot be seen; what its reflection
 /// hits again is black, and so is one that reflects not at all.
-inline Film in_white_room(Builder builder, int reflections) {
+inline Film in_white_room(FieldBuilder builder, int reflections) {
     builder.background = Color(1.0F);
     builder.settings.max_depth = reflections;
     return drawn(builder.finish());
@@ -220,8 +240,8 @@ int textbook_self_hits(const Scene& scene, const Shape& shape, float epsilon) {
 }
 
 /// A builder for a small square picture.
-inline Builder square(int pixels, const Camera& camera) {
-    Builder builder;
+inline FieldBuilder square(int pixels, const Camera& camera) {
+    FieldBuilder builder;
     builder.settings.width = builder.settings.height = pixels;
     builder.settings.grid = 1;
     builder.camera = camera;

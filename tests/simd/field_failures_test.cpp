@@ -17,7 +17,7 @@ constexpr double invisible = 1e-5;
 
 /// Each of some shapes of chalk, under a sun.
 template <class Shape>
-Scene chalk_scene(Builder builder, const std::vector<Shape>& shapes, const Vec3f& sunlight,
+Scene chalk_scene(FieldBuilder builder, const std::vector<Shape>& shapes, const Vec3f& sunlight,
                   float specular = 0.0F) {
     const MaterialIndex material = builder.add_material(chalk(specular));
     for (const Shape& shape : shapes)
@@ -31,6 +31,7 @@ Scene chalk_scene(Builder builder, const std::vector<Shape>& shapes, const Vec3f
 // their shadow rays off the sphere: a dark ring inside its limb.
 TEST_CASE("mmp/pbrt-v3 #265: a sphere 800,000 units from the origin has no ring at its limb",
           "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const std::vector<Sphere> spheres = {{{800000, 0, 0}, 100}};
     const Scene scene =
         chalk_scene(square(pixels, perspective({796800, 0, 0}, {800000, 0, 0}, 4, {0, 0, 1})),
@@ -45,6 +46,7 @@ TEST_CASE("mmp/pbrt-v3 #265: a sphere 800,000 units from the origin has no ring 
 // Intervals around a ray's origin in the sphere's own space, as wide as its rounding at 10,000
 // units, made rays at the limb misses: 15 % of the sphere's edge was gone.
 TEST_CASE("mmp/pbrt-v3 #44: a sphere 10,000 units from the origin does not shrink", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const std::vector<Sphere> spheres = {{{10000, 10000, 10000}, 1}};
     const Scene scene =
         chalk_scene(square(pixels, perspective({10000, 10000, 10004}, {10000, 10000, 10000}, 35)),
@@ -72,6 +74,7 @@ TEST_CASE("mmp/pbrt-v3 #44: a sphere 10,000 units from the origin does not shrin
 // From 1,000 units away b^2 and 4 a c agree in all but the last digits that float has, and t comes
 // in steps: rings all over a unit sphere.
 TEST_CASE("mitsuba3 #512: a unit sphere seen from 1,000 units away has no rings", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const std::vector<Sphere> spheres = {{{0, 0, 0}, 1}};
     const Scene scene = chalk_scene(square(pixels, orthographic({0, 0, 1000}, {0, 0, 0}, 2.2F)),
                                     spheres, {0, 0, -1});
@@ -87,6 +90,7 @@ TEST_CASE("mitsuba3 #512: a unit sphere seen from 1,000 units away has no rings"
 // Cones of about a unit's size, seen from afar: the solver's precision gave out where they are
 // looked at along their axes, in rings about the centre of projection.
 TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projection", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     std::vector<CappedCone> cones;
     for (int i = 0; i < 9; ++i)
         cones.push_back({{static_cast<float>(i % 3) - 1.0F, static_cast<float>(i / 3) - 1.0F, 0},
@@ -108,6 +112,7 @@ TEST_CASE("NVIDIA/VisRTX #333: cones have no rings about the centre of projectio
 // Seen exactly along its axis, a cylinder was a bar and a circle: the wall's leading coefficient
 // was nothing but rounding.
 TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const Vec3f base{-30.005F, -77.1061F, -16.8721F}, top{-30.005F, -27.301F, 16.8721F};
     const std::vector<CappedCylinder> cylinders = {{base, top - base, 2}};
     const Vec3f along{0, 0.827878F, 0.560908F};
@@ -145,6 +150,7 @@ TEST_CASE("NVIDIA/VisRTX #73: a cylinder seen along its axis is a disc", "[long]
 
 // The two halves of a bond flickered against each other as the camera moved.
 TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whole", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     const OpenCylinder whole = {{-3, -1, -2}, {6, 2.5F, 4}, 0.2F};
     const std::vector<OpenCylinder> halves = {{{-3, -1, -2}, {3, 1.25F, 2}, 0.2F},
                                               {{0, 0.25F, 0}, {3, 1.25F, 2}, 0.2F}};
@@ -152,7 +158,7 @@ TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whol
     for (int view = 0; view < 3; ++view) {
         const float angle = 0.3F + 0.4F * static_cast<float>(view);
         const Vec3f from{400.0F * std::sin(angle), 30.0F, 400.0F * std::cos(angle)};
-        const Builder builder = square(pixels, perspective(from, {0, 0, 0}, 1));
+        const FieldBuilder builder = square(pixels, perspective(from, {0, 0, 0}, 1));
         const Scene two = chalk_scene(builder, halves, -from);
         const Vec3d to_light = normalized(convert<double>(from));
         const Comparison ours = compare(two, halves, to_light);
@@ -175,6 +181,7 @@ TEST_CASE("NVIDIA/VisRTX #54: two halves of a cylinder are as bright as the whol
 // Curves stood in for cylinders and cones and put balls on their ends; molecules need neither balls
 // nor triangles.
 TEST_CASE("RenderKit/ospray #421: bonds and arrows have no balls on their ends", "[long]") {
+    shapes_in_double = GENERATE(false, true);
     std::vector<OpenCylinder> bonds;
     std::vector<OpenCone> arrows;
     int beyond = 0;
@@ -184,7 +191,7 @@ TEST_CASE("RenderKit/ospray #421: bonds and arrows have no balls on their ends",
         bonds.push_back({0.3F * out, out, 0.12F});
         arrows.push_back({1.3F * out, 0.4F * out, 0.2F, 0});
     }
-    Builder builder = square(pixels, orthographic({0, 0, 20}, {0, 0, 0}, 4));
+    FieldBuilder builder = square(pixels, orthographic({0, 0, 20}, {0, 0, 0}, 4));
     const MaterialIndex white = builder.add_material(luminous());
     for (int i = 0; i < 6; ++i) {
         builder.add(bonds[static_cast<std::size_t>(i)], white);

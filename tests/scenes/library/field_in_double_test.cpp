@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-/// Failures of others in double, reported in the field, where rays alone are doubles. `t` is what
+/// Failures of others in double, reported in the field, in rays and shapes. `t` is what
 /// the reports say that it should be, or what real arithmetic gives.
 using namespace raylane;
 
@@ -65,6 +65,76 @@ TEST_CASE("Optiland: a ray along the axis meets a paraboloid once") {
     const CrossingRows rows = crossings(scene_of(paraboloid), {10, 0, -50}, {0, 0, 1});
     REQUIRE(rows.t.size() == 1);
     CHECK(rows.t[0] == 49.5);
+}
+
+/// Optiland #559 again, with a conic constant next to -1: the quadratic term is next to nothing.
+TEST_CASE("Optiland: a ray along the axis meets what is nearly a paraboloid as near") {
+    for (const double k : {std::nextafter(-1.0, 0.0), std::nextafter(-1.0, -2.0)}) {
+        QuadricOf<double> conic{}; // x^2 + y^2 + (1 + k) z^2 + 200 z = 0
+        conic.xx = conic.yy = 1;
+        conic.zz = 1 + k;
+        conic.z = 100;
+        conic.lower = {-20, -20, -3};
+        conic.upper = {20, 20, 1};
+        const CrossingRows rows = crossings(scene_of(conic), {10, 0, -50}, {0, 0, 1});
+        REQUIRE(rows.t.size() == 1);
+        CHECK(rows.t[0] == 49.5);
+    }
+}
+
+/// Optiland #787: of a hyperboloid's two sheets the wrong one was met, at t = 1.3023936.
+TEST_CASE("Optiland: rays from a point meet the sheet of a hyperboloid that is a lens") {
+    const double radius = 1 / 0.3396, k = -2.5073;
+    QuadricOf<double> hyperboloid{}; // x^2 + y^2 + (1 + k) z^2 - 2 R z = 0, z > -1
+    hyperboloid.xx = hyperboloid.yy = 1;
+    hyperboloid.zz = 1 + k;
+    hyperboloid.z = -radius;
+    hyperboloid.lower = {-50, -50, -1};
+    hyperboloid.upper = {50, 50, 50};
+    const Scene scene = scene_of(hyperboloid);
+    for (int i = -20; i <= 20; ++i) {
+        const double angle = 42.0 / 20 * i * std::acos(-1.0) / 180;
+        const CrossingRows rows =
+            crossings(scene, {0, 0, -5}, {0, std::sin(angle), std::cos(angle)});
+        REQUIRE(rows.t.size() == 1);
+        const double y = rows.t[0] * std::sin(angle), z = rows.t[0] * std::cos(angle) - 5;
+        CHECK(z >= 0.0);
+        CHECK(std::abs(y * y + (1 + k) * z * z - 2 * radius * z) < 1e-13 * (1 + y * y));
+        if (i != -20) continue;
+        CHECK(rows.t[0] == Approx(16.4386329).epsilon(1e-8));
+        CHECK(z == Approx(7.2163).epsilon(1e-5));
+    }
+}
+
+/// optika #224: a ray that starts on a paraboloid of f = -0.65, 76 from its axis, was carried to
+/// where it leaves it, 1662.7455 further on.
+TEST_CASE("optika: a ray next to a paraboloid meets it there") {
+    QuadricOf<double> paraboloid{}; // x^2 + y^2 - 4 f z = 0
+    paraboloid.xx = paraboloid.yy = 1;
+    paraboloid.z = -2 * -0.65;
+    paraboloid.lower = {-100, -100, -4000};
+    paraboloid.upper = {100, 100, 1};
+    const Scene scene = scene_of(paraboloid);
+    const double angle = -3.94 * std::acos(-1.0) / 180, x = 76, z = 76.0 * 76 / (4 * -0.65);
+    const double along[3] = {std::sin(angle), 0, std::cos(angle)};
+    const CrossingRows rows = crossings(scene, {x - along[0], 0, z - along[2]}, along);
+    REQUIRE(rows.t.size() == 2);
+    CHECK(rows.t[0] == Approx(1.0).epsilon(1e-11));
+    CHECK(rows.t[1] == Approx(1.0 + 1662.7455).epsilon(1e-7));
+}
+
+/// OpenMC #260: two cylinders that are the same, of different cells.
+TEST_CASE("OpenMC: cylinders that are the same are met at one point") {
+    SceneBuilder builder;
+    const CappedCylinderOf<double> pin{{0.1, 0.2, -3}, {0, 0, 6}, 0.7};
+    builder.add(pin, builder.add_material({}));
+    builder.add(pin, builder.add_material({}));
+    const CrossingRows rows = crossings(builder.build(), {-5, 0.3, 0.4}, {1, 0.01, -0.02});
+    CHECK(rows.shape == std::vector<ShapeId>{0, 1, 0, 1});
+    CHECK(rows.tied == std::vector<std::uint8_t>{0, 1, 0, 1});
+    REQUIRE(rows.t.size() == 4);
+    CHECK(rows.t[0] == rows.t[1]);
+    CHECK(rows.t[2] == rows.t[3]);
 }
 
 /// OpenMC #81, exactly: a coincidence tolerance of 1e-12 decides there which comes first.
