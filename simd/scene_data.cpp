@@ -212,7 +212,8 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
                material.visible == core::Visible::both;
     };
     const std::vector<core::Material>& materials = scene_.materials();
-    if (std::all_of(materials.begin(), materials.end(), is_plain)) return;
+    const core::Solids& solids = scene_.solids();
+    if (std::all_of(materials.begin(), materials.end(), is_plain) && !solids.any()) return;
     one_sided_ = std::any_of(materials.begin(), materials.end(), [](const core::Material& m) {
         return m.visible != core::Visible::both;
     });
@@ -221,7 +222,7 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
         for (const auto& block : table.blocks()) {
             unsigned plain = 0;
             for (int lane = 0; lane < core::block_size; ++lane)
-                if (block.ids[lane] != core::no_shape &&
+                if (block.ids[lane] != core::no_shape && !solids.has(block.ids[lane]) &&
                     is_plain(scene_.material_of(block.ids[lane])))
                     plain |= 1U << lane;
             plain_lanes_.push_back(static_cast<std::uint16_t>(plain));
@@ -239,8 +240,9 @@ SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
         table.blocks + std::size_t{table.block_floats} * (place / core::block_size);
     const core::ShapeId id = reinterpret_cast<const core::ShapeId*>(
         block + std::size_t{core::block_size} * table.values)[place % core::block_size];
-    if (id == core::no_shape) return {id, {id, id}, 0, kind};
-    return {id, scene_.coplanar_with(id), scene_.material_index_of(id), kind};
+    if (id == core::no_shape) return {id, {id, id}, 0, kind, false, 0};
+    return {id,   scene_.coplanar_with(id),        scene_.material_index_of(id),
+            kind, scene_.solids().is_reversed(id), scene_.medium_index_of(id)};
 }
 
 core::Place SceneData::place_of(std::uint32_t slot) const {

@@ -2,6 +2,7 @@
 
 #include "core/optics/media.hpp"
 #include "core/scene/scene.hpp"
+#include "simd/kernels.hpp"
 #include "simd/shade_kernels.hpp"
 #include "simd/trace_kernels.hpp"
 
@@ -43,8 +44,9 @@ class SceneData {
     /// True if a packet's rays that are no neighbours in one of two directions cost more than to
     /// put them in another order.
     bool best_in_tiles() const { return has_tree() && slots_ >= 8192; }
-    /// True if some surface is visible from one side only.
-    bool one_sided() const { return one_sided_; }
+    /// True if some crossings are none of a surface that is seen: of those that are visible from
+    /// one side only, and of parts within solids.
+    bool looks_through() const { return one_sided_ || scene_.solids().any(); }
     bool smooth() const { return smooth_; }
     /// Of a sphere around all that is in the tree; without one it is infinite.
     float radius() const { return radius_; }
@@ -66,6 +68,11 @@ class SceneData {
         core::IdRange coplanar;
         core::MaterialIndex material;
         core::Kind kind;
+        bool reversed;              ///< a part of a solid by what is outside of it
+        core::MaterialIndex medium; ///< the material inside
+
+        /// True if a hit with these bits goes to the inside of it or, reversed, of its solid.
+        bool is_entered(std::uint32_t hit) const { return ((hit & hit_entering) != 0) != reversed; }
     };
     Occupant occupant_of(std::uint32_t slot) const {
         if (occupants_.empty()) [[unlikely]]
@@ -79,6 +86,10 @@ class SceneData {
     };
     NamedShape shape_named(core::ShapeId id, std::uint32_t slot) const {
         return {scene_.coplanar_with(id), kind_of(slot)};
+    }
+    /// The solid that a shape is a part of; core::no_shape if of none.
+    core::ShapeId solid_with(core::ShapeId id) const {
+        return scene_.solids().has(id) ? scene_.solids().solid_of(id) : core::no_shape;
     }
     core::ShapeId id_of(std::uint32_t slot) const { return occupant_of(slot).id; }
     core::Place place_of(std::uint32_t slot) const;

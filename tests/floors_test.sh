@@ -12,13 +12,13 @@ forbid() { # folder, those that it must not include from, as grep -E has them
 
 forbid core 'simd|scenes|bench|tests'
 above=
-for folder in reference beams optics scene hierarchy shapes numbers; do
+for folder in reference beams optics scene hierarchy solids shapes numbers; do
     [ -z "$above" ] || forbid "core/$folder" "core/($above)"
     above="$above${above:+|}$folder"
 done
 forbid simd 'scenes|bench|tests'
 forbid simd/kernel 'simd/(query|wavefront)'
-forbid simd/kernel 'core/(shapes|hierarchy|scene|optics|beams|reference)'
+forbid simd/kernel 'core/(shapes|solids|hierarchy|scene|optics|beams|reference)'
 forbid simd/query 'simd/wavefront'
 forbid scenes 'bench|tests'
 for folder in json nff export image; do

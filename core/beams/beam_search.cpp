@@ -13,14 +13,15 @@ Bounds everywhere() {
 }
 
 template <class Shape>
-BlockBounds bounds_of_block(const Table<Shape>& table, std::uint32_t index) {
+BlockBounds bounds_of_block(const Table<Shape>& table, std::uint32_t index, const Solids& solids) {
     BlockBounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
         std::fill_n(bounds.lower[axis], block_size, far);
         std::fill_n(bounds.upper[axis], block_size, -far);
     }
-    for_each_in_block(table, index, [&](Place place, ShapeId) {
-        const Bounds of_shape = bounds_of(table.get(place));
+    for_each_in_block(table, index, [&](Place place, ShapeId id) {
+        const Bounds* const of_part = solids.bounds_of(id);
+        const Bounds of_shape = of_part != nullptr ? *of_part : bounds_of(table.get(place));
         for (int axis = 0; axis < 3; ++axis) {
             bounds.lower[axis][place.lane] = of_shape.lower[axis];
             bounds.upper[axis][place.lane] = of_shape.upper[axis];
@@ -37,7 +38,7 @@ BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
             auto& bounds = bounds_[static_cast<std::size_t>(kind_of<Shape>)];
             bounds.reserve(table.blocks().size());
             for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
-                bounds.push_back(bounds_of_block(table, index));
+                bounds.push_back(bounds_of_block(table, index, scene.solids()));
         } else {
             for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
                 for_each_in_block(table, index, [&](Place place, ShapeId id) {
@@ -140,6 +141,8 @@ BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& bea
             if (!is_left && crossing.t.upper() < 0.0) continue;
             if (!(crossing.t.lower() > 0.0)) return {Met::partly, crossing};
             if (Judge<Affine>::is_doubtful(crossing)) return {Met::partly, crossing};
+            // Whether a part is the surface of its solid is not known.
+            if (scene_.solids().has(candidate.id)) return {Met::partly, crossing};
             if (material.is_seen(crossing.entering)) return {Met::whole, crossing};
         }
         return {Met::missed};

@@ -60,8 +60,8 @@ bool Duplicates::are_duplicates(const Item& a, const Item& b) const {
         return are_same(one.shape, other.shape) &&
                (!list.has_doubles() ||
                 are_same(list.exact(a.position()), list.exact(b.position()))) &&
-               material_of_[one.id] == material_of_[other.id] && !is_in_polygon(one.id) &&
-               !is_in_polygon(other.id);
+               material_of_[one.id] == material_of_[other.id] && !is_unique(one.id) &&
+               !is_unique(other.id);
     });
 }
 
@@ -73,12 +73,12 @@ std::uint64_t Duplicates::hash_of_shape(const Item& item) const {
         for (const float value : numbers_of(listed.shape))
             hash = mixed(hash, std::bit_cast<std::uint32_t>(value));
         // None is like another then.
-        return is_in_polygon(listed.id) ? mixed(hash, listed.id) : hash;
+        return is_unique(listed.id) ? mixed(hash, listed.id) : hash;
     });
 }
 
-bool Duplicates::is_in_polygon(ShapeId id) const {
-    return range_with(polygons_, id) != nullptr;
+bool Duplicates::is_unique(ShapeId id) const {
+    return range_with(polygons_, id) != nullptr || (solids_ != nullptr && solids_->has(id));
 }
 
 } // namespace raylane::core

@@ -2,6 +2,7 @@
 
 #include "core/hierarchy/item.hpp"
 #include "core/shapes/shape_list.hpp"
+#include "core/solids/solids.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,13 +14,19 @@ namespace raylane::core {
 
 /// Knows shapes that say again what another one says: the same floats, of the same material. A
 /// scene needs one of them, the first. Triangles of a larger polygon are never duplicates: what
-/// they lie in one plane with is said of each.
+/// they lie in one plane with is said of each. Nor are parts of solids.
 class Duplicates {
   public:
-    /// `material_of`: by id. `polygons`: of more than one triangle, ascending.
+    /// `material_of`: by id. `polygons`: of more than one triangle, ascending. `solids`: null if
+    /// there are none.
     Duplicates(const ShapeLists& lists, std::span<const MaterialIndex> material_of,
-               std::span<const IdRange> polygons)
-        : lists_(lists), material_of_(material_of), polygons_(polygons) {}
+               std::span<const IdRange> polygons, const Solids* solids = nullptr)
+        : lists_(lists), material_of_(material_of), polygons_(polygons), solids_(solids) {}
+
+    /// Bounds of a part of a solid within that; null for other shapes.
+    const Bounds* bounds_of_part(ShapeId id) const {
+        return solids_ != nullptr ? solids_->bounds_of(id) : nullptr;
+    }
 
     /// Leaves one item of each shape, at the front, and returns how many these are. In time that
     /// grows with the number of items, if not too many have the same bounds; or else, if `deep`.
@@ -46,11 +53,12 @@ class Duplicates {
   private:
     bool are_duplicates(const Item& a, const Item& b) const;
     std::uint64_t hash_of_shape(const Item& item) const;
-    bool is_in_polygon(ShapeId id) const;
+    bool is_unique(ShapeId id) const;
 
     const ShapeLists& lists_;
     std::span<const MaterialIndex> material_of_;
     std::span<const IdRange> polygons_;
+    const Solids* solids_;
 };
 
 } // namespace raylane::core

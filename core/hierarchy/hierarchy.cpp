@@ -33,23 +33,31 @@ namespace {
 constexpr std::size_t shapes_in_a_task = std::size_t{1} << 14;
 
 template <class Shape>
-void add_items(const ShapeList<Shape>& list, Item* to, Workers& workers) {
+Bounds bounds_of_listed(const ShapeList<Shape>& list, std::size_t i, const Duplicates& duplicates) {
+    if (const Bounds* of_part = duplicates.bounds_of_part(list[i].id)) return *of_part;
+    return list.has_doubles() ? bounds_of(list.exact(i)) : bounds_of(list[i].shape);
+}
+
+template <class Shape>
+void add_items(const ShapeList<Shape>& list, const Duplicates& duplicates, Item* to,
+               Workers& workers) {
     workers.each((list.size() + shapes_in_a_task - 1) / shapes_in_a_task, [&](std::size_t task) {
         const std::size_t first = task * shapes_in_a_task;
         const std::size_t last = std::min(first + shapes_in_a_task, list.size());
         for (std::size_t i = first; i < last; ++i)
-            to[i] = Item(list.has_doubles() ? bounds_of(list.exact(i)) : bounds_of(list[i].shape),
-                         kind_of<Shape>, static_cast<std::uint32_t>(i));
+            to[i] = Item(bounds_of_listed(list, i, duplicates), kind_of<Shape>,
+                         static_cast<std::uint32_t>(i));
     });
 }
 
-BigArray<Item> bounded_items(const ShapeLists& lists, Workers& workers) {
+BigArray<Item> bounded_items(const ShapeLists& lists, const Duplicates& duplicates,
+                             Workers& workers) {
     std::size_t count = 0;
     for_each_bounded_table(lists, [&](const auto& list) { count += list.size(); });
     BigArray<Item> items(count);
     Item* next = items.data();
     for_each_bounded_table(lists, [&](const auto& list) {
-        add_items(list, next, workers);
+        add_items(list, duplicates, next, workers);
         next += list.size();
     });
     return items;
@@ -64,7 +72,7 @@ Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates,
             Table<Shape>(duplicates.without_duplicates(list), list.size());
     });
     Hierarchy hierarchy;
-    BigArray<Item> items = bounded_items(lists, workers);
+    BigArray<Item> items = bounded_items(lists, duplicates, workers);
     if (items.empty()) return hierarchy;
     BinaryTree tree = build_binary_tree(std::move(items), duplicates, workers);
     emit(tree, lists, workers, hierarchy, tables);

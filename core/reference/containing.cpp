@@ -7,47 +7,72 @@
 
 namespace raylane::core {
 
+PointSearcher::PointSearcher(const Scene& scene) : scene_(scene), parts_(scene) {
+    const Solids& solids = scene.solids();
+    for (Solids::Index solid = 0; solid < solids.nodes().size(); solid = solids.node(solid).end) {
+        const Bounds& bounds = solids.bounds(solid);
+        if (!is_finite(bounds) && bounds.lower.x <= bounds.upper.x) unbounded_.push_back(solid);
+    }
+}
+
 void PointSearcher::add_containing(const Vec3d& point, std::vector<Containing>& found) {
-    const BigArray<WideNode>& nodes = scene_.hierarchy().nodes;
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(point[axis])) return;
-    if (nodes.empty()) return;
     Bounds around;
     include_point(around, point);
     const std::size_t first = found.size();
-    pending_.assign(1, 0);
-    while (!pending_.empty()) {
-        const WideNode& node = nodes[pending_.back()];
-        pending_.pop_back();
-        unsigned meets[block_size];
-        std::fill_n(meets, block_size, 1U);
-        for (int axis = 0; axis < 3; ++axis)
-            for (int i = 0; i < block_size; ++i)
-                meets[i] &= static_cast<unsigned>(node.lower[axis][i] <= around.upper[axis]) &
-                            static_cast<unsigned>(around.lower[axis] <= node.upper[axis][i]);
-        for (int i = 0; i < block_size; ++i) {
-            if (meets[i] == 0) continue;
-            const Child child = node.children[i];
-            if (child.is_block())
-                add_of_block(child, point, found);
-            else
-                pending_.push_back(child.index());
-        }
+    solids_ = unbounded_;
+    parts_.each_block(around, [&](Kind kind, std::uint32_t block) {
+        with_table(scene_.shapes(), kind, [&]<class Shape>(const Table<Shape>& table) {
+            for_each_in_block(table, block, [&](Place place, ShapeId id) {
+                if (const Solids::Index part = scene_.solids().part_of(id); part != Solids::none) {
+                    solids_.push_back(scene_.solids().root_of(part));
+                } else if constexpr (is_solid<Shape>) {
+                    const Side side = core::side_of(table.get(place), point);
+                    if (side != Side::outside) found.push_back({id, side == Side::surface});
+                }
+            });
+        });
+        return true;
+    });
+    std::sort(solids_.begin(), solids_.end());
+    solids_.erase(std::unique(solids_.begin(), solids_.end()), solids_.end());
+    for (const Solids::Index solid : solids_) {
+        const Side side = side_of(solid, point);
+        if (side != Side::outside)
+            found.push_back({scene_.solids().node(solid).shape, side == Side::surface});
     }
     std::sort(found.begin() + static_cast<std::ptrdiff_t>(first), found.end(),
               [](const Containing& a, const Containing& b) { return a.shape < b.shape; });
 }
 
-void PointSearcher::add_of_block(const Child& block, const Vec3d& point,
-                                 std::vector<Containing>& found) {
-    with_table(scene_.shapes(), block.kind(), [&]<class Shape>(const Table<Shape>& table) {
-        if constexpr (is_solid<Shape>) {
-            for_each_in_block(table, block.index(), [&](Place place, ShapeId id) {
-                const Side side = side_of(table.get(place), point);
-                if (side != Side::outside) found.push_back({id, side == Side::surface});
+Side PointSearcher::side_of(Solids::Index index, const Vec3d& point) {
+    const Solids::Node& node = scene_.solids().node(index);
+    if (node.op == Solids::Op::part) {
+        const Side side =
+            with_table(scene_.shapes(), node.kind, [&]<class Shape>(const Table<Shape>& table) {
+                if constexpr (has_inside<Shape>)
+                    return core::side_of(table.get(node.place), point);
+                else
+                    return Side::outside;
             });
-        }
-    });
+        return node.reversed ? static_cast<Side>(-static_cast<int>(side)) : side;
+    }
+    const bool of_all = node.op == Solids::Op::all;
+    Side side = of_all ? Side::inside : Side::outside;
+    const auto look = [&](Solids::Index child) {
+        const Side of_child = side_of(child, point);
+        side = of_all ? std::max(side, of_child) : std::min(side, of_child);
+        return side != (of_all ? Side::outside : Side::inside);
+    };
+    if (node.many) {
+        Bounds around;
+        include_point(around, point);
+        parts_.each_child(index, around, look);
+    } else {
+        scene_.solids().each_child(index, look);
+    }
+    return side;
 }
 
 } // namespace raylane::core

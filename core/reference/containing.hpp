@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/scene.hpp"
+#include "core/reference/parts_near.hpp"
 #include "core/shapes/side.hpp"
 
 #include <cstdint>
@@ -8,7 +8,8 @@
 
 namespace raylane::core {
 
-/// A solid that a point is in, or on the surface of.
+/// A solid that a point is in, or on the surface of. One that is made of others goes by the id of
+/// its first part.
 struct Containing {
     ShapeId shape;
     bool on_surface;
@@ -18,17 +19,24 @@ struct Containing {
 /// one material, the first alone is found.
 class PointSearcher {
   public:
-    explicit PointSearcher(const Scene& scene) : scene_(scene) {}
+    explicit PointSearcher(const Scene& scene);
 
     /// Appends those that contain a point, by their ids: as real arithmetic says. A point that is
     /// not finite is in none.
     void add_containing(const Vec3d& point, std::vector<Containing>& found);
 
-  private:
-    void add_of_block(const Child& block, const Vec3d& point, std::vector<Containing>& found);
+    /// Which side of a node of the scene's solids a point is on. It is on the surface where it is
+    /// on that of parts, and neither inside nor outside whatever these parts are.
+    Side side_of(Solids::Index index, const Vec3d& point);
 
+    /// The solids that have no bounds.
+    std::span<const Solids::Index> unbounded() const { return unbounded_; }
+
+  private:
     const Scene& scene_;
-    std::vector<std::uint32_t> pending_; // nodes
+    PartsNear parts_;
+    std::vector<Solids::Index> unbounded_;
+    std::vector<Solids::Index> solids_; // that may contain a point
 };
 
 } // namespace raylane::core

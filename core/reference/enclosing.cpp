@@ -8,11 +8,16 @@ namespace {
 bool any_solid_meets(const Scene& scene, std::uint32_t index, const Bounds& box) {
     const auto in_block = [&]<class Shape>(const Table<Shape>& table, std::uint32_t block) {
         bool any = false;
-        if constexpr (is_solid<Shape>)
-            for_each_in_block(table, block, [&](Place place, ShapeId id) {
+        for_each_in_block(table, block, [&](Place place, ShapeId id) {
+            // What is inside of a solid is within the bounds of one of its parts.
+            if (const Bounds* of_part = scene.solids().bounds_of(id)) {
+                any = any || (scene.materials()[scene.medium_index_of(id)].transmits() &&
+                              of_part->meets(box));
+            } else if constexpr (is_solid<Shape>) {
                 any = any ||
                       (scene.material_of(id).transmits() && bounds_of(table.get(place)).meets(box));
-            });
+            }
+        });
         return any;
     };
     const WideNode& node = scene.hierarchy().nodes[index];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/optics/media.hpp"
+#include "core/reference/containing.hpp"
 #include "core/reference/search.hpp"
 
 #include <algorithm>
@@ -11,15 +12,23 @@
 /// Media that enclose a point, such as a camera's place.
 namespace raylane::core {
 
+/// True for a part of a solid that has no bounds.
+inline bool is_of_unbounded(const Scene& scene, ShapeId id) {
+    const Solids& solids = scene.solids();
+    return solids.has(id) && !is_finite(solids.bounds(solids.root_of(solids.part_of(id))));
+}
+
 /// The transmissive materials that a ray leaves without having entered them, those left first in
-/// front. What is unbounded, and has an inside without end, does not count.
+/// front. What is unbounded, and has an inside without end, does not count, nor do solids that are
+/// made of such.
 template <class Real>
 std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& searcher,
                                       const Ray<Real>& ray) {
     std::vector<Hit<Real>> hits;
     searcher.each(ray, OriginSurfaces<Real>{}, std::numeric_limits<Real>::infinity(),
                   [&](const Hit<Real>& hit) {
-                      if (traits_of(hit.kind).bounded && scene.material_of(hit.shape).transmits())
+                      if (traits_of(hit.kind).bounded && !is_of_unbounded(scene, hit.shape) &&
+                          scene.materials()[scene.medium_index_of(hit.shape)].transmits())
                           hits.push_back(hit);
                       return true;
                   });
@@ -27,9 +36,9 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
 
     std::vector<MaterialIndex> entered, left;
     for (const Hit<Real>& hit : hits) {
-        const MaterialIndex material = scene.material_index_of(hit.shape);
+        const MaterialIndex material = scene.medium_index_of(hit.shape);
         const auto match = std::find(entered.begin(), entered.end(), material);
-        if (hit.entering)
+        if (hit.enters())
             entered.push_back(material);
         else if (match != entered.end())
             entered.erase(match);
@@ -43,17 +52,6 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
 /// the bounds of every solid, and of those around all that could be a body together.
 bool may_be_in_body(const Scene& scene, const Bounds& box);
 
-/// Bounds of points, rounded outwards.
-template <class Real>
-void include_point(Bounds& bounds, const Vec3<Real>& point) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto value = static_cast<float>(point[axis]);
-        bounds.lower[axis] = std::min(bounds.lower[axis], std::nextafter(value, -infinity));
-        bounds.upper[axis] = std::max(bounds.upper[axis], std::nextafter(value, infinity));
-    }
-}
-
 /// A point is in a body if a line through it leaves the body both ways, and behind a plane if it
 /// is. Where no body can be around it, nothing is searched; `may_be_in_a_body`: false if that is
 /// known.
@@ -66,11 +64,21 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks&
     for_each_unbounded_table(scene.shapes(), [&](const auto& table) {
         for_each_shape(table, [&](const auto& plane, ShapeId id) {
             const Vec3<Real> to_plane = convert<Real>(plane.point) - point;
-            if (scene.material_of(id).transmits() &&
+            if (scene.material_of(id).transmits() && !scene.solids().has(id) &&
                 dot(to_plane, convert<Real>(plane.normal)) > Real(0))
                 media = stacks.entered(media, scene.material_index_of(id));
         });
     });
+
+    if (scene.solids().any()) {
+        PointSearcher points(scene);
+        for (const Solids::Index solid : points.unbounded()) {
+            const MaterialIndex medium = scene.solids().medium(solid);
+            if (scene.materials()[medium].transmits() &&
+                points.side_of(solid, convert<double>(point)) == Side::inside)
+                media = stacks.entered(media, medium);
+        }
+    }
 
     if (!may_be_in_a_body) return media;
     Bounds around_point;

@@ -19,15 +19,29 @@ struct Hit {
     bool entering = false;
     Kind kind{};
     Place place{};
-    bool joins = false; ///< of several in order: at the same t as the one before
+    bool joins = false;    ///< of several in order: at the same t as the one before
+    bool reversed = false; ///< its shape is a part of a solid by what is outside of it
+
+    Hit() = default;
+    Hit(Real t_, double error_, ShapeId shape_, Face face_, bool entering_, Kind kind_,
+        Place place_, bool reversed_)
+        : t(t_), error(error_), shape(shape_), face(face_), entering(entering_), kind(kind_),
+          place(place_), reversed(reversed_) {}
+    template <class Other>
+    explicit Hit(const Hit<Other>& other)
+        : t(Real(other.t)), error(other.error), at_start(other.at_start), shape(other.shape),
+          face(other.face), entering(other.entering), kind(other.kind), place(other.place),
+          joins(other.joins), reversed(other.reversed) {}
 
     bool any() const { return shape != no_shape; }
+    /// True if it goes to the inside of the shape, or of the solid that has it reversed.
+    bool enters() const { return entering != reversed; }
 
     /// Order of two at the same t: first what is at the start, then what is entered, then the lower
     /// shape.
     bool precedes(const Hit& other) const {
         if (at_start != other.at_start) return at_start;
-        if (entering != other.entering) return entering;
+        if (enters() != other.enters()) return enters();
         return shape < other.shape;
     }
     /// True if t alone shows that it is nearer.

@@ -15,10 +15,13 @@ struct Contact {
     Hit<Real> hit;
     IdRange shapes; ///< its shape and what lies in one plane with it
     MaterialIndex material;
-    Vec3<Real> normal; ///< unit, outward
-    bool inside;       ///< true if the ray is on its inside now
-    bool goes_inside;  ///< true if it goes to its inside
+    Vec3<Real> normal;        ///< unit, outward
+    bool inside;              ///< true if the ray is on its inside now
+    bool goes_inside;         ///< true if it goes to its inside
+    ShapeId solid = no_shape; ///< that it is a part of, if of any
+    bool is_surface = true;   ///< this is one of the solid's surface, too
 
+    bool is_part() const { return solid != no_shape; }
     bool is_crossed() const { return inside != goes_inside; }
 };
 
@@ -32,6 +35,17 @@ class OriginSurfaces {
   public:
     OriginSurfaces() = default;
     /// Surfaces, each of another shape.
+    template <class Other>
+    explicit OriginSurfaces(const OriginSurfaces<Other>& other) {
+        contacts_.reset(other.size());
+        std::transform(
+            other.begin(), other.end(), contacts_.begin(), [](const Contact<Other>& contact) {
+                return Contact<Real>{Hit<Real>(contact.hit), contact.shapes,
+                                     contact.material,       convert<Real>(contact.normal),
+                                     contact.inside,         contact.goes_inside,
+                                     contact.solid,          contact.is_surface};
+            });
+    }
     explicit OriginSurfaces(std::span<const Contact<Real>> contacts) {
         contacts_.reset(contacts.size());
         std::copy(contacts.begin(), contacts.end(), contacts_.begin());
@@ -62,7 +76,7 @@ class OriginSurfaces {
         const Contact<Real>& surface = *find(hit.shape);
         int count = 0;
         for (const Contact<Real>& contact : contacts_)
-            count += are_one(contact, surface) ? 1 : 0;
+            count += contact.is_surface && are_one(contact, surface) ? 1 : 0;
         return count;
     }
 
@@ -73,13 +87,18 @@ class OriginSurfaces {
         OriginSurfaces result = *this;
         const bool goes_inside = through == hit.entering;
         for (Contact<Real>& contact : result.contacts_) {
-            if (are_one(contact, surface))
+            if (!contact.is_part() && are_one(contact, surface)) {
                 contact.inside = contact.goes_inside = goes_inside;
-            else if (parallel(contact.normal, surface.normal))
+                continue;
+            }
+            if (contact.hit.shape == hit.shape || parallel(contact.normal, surface.normal))
                 contact.goes_inside =
                     goes_inside == (dot(contact.normal, surface.normal) > Real(0));
             else
                 contact.goes_inside = dot(contact.normal, direction) < Real(0);
+            // What a solid changes by here has been seen, whichever of its parts are crossed.
+            if (contact.hit.shape == hit.shape || (through && is_of_one(contact, surface)))
+                contact.inside = contact.goes_inside;
         }
         return result;
     }
@@ -89,10 +108,18 @@ class OriginSurfaces {
         return id < contact.shapes.first;
     }
     static bool are_one(const Contact<Real>& contact, const Contact<Real>& surface) {
+        const bool alike = contact.hit.reversed == surface.hit.reversed;
         return contact.shapes.first == surface.shapes.first ||
-               (contact.material == surface.material && contact.inside == surface.inside &&
-                dot(contact.normal, surface.normal) > Real(0) &&
+               (contact.material == surface.material &&
+                (contact.inside == surface.inside) == alike &&
+                (dot(contact.normal, surface.normal) > Real(0)) == alike &&
                 parallel(contact.normal, surface.normal));
+    }
+    /// True for a part of a solid whose surface is one with that.
+    bool is_of_one(const Contact<Real>& part, const Contact<Real>& surface) const {
+        return part.is_part() && std::any_of(begin(), end(), [&](const Contact<Real>& other) {
+                   return other.solid == part.solid && other.is_surface && are_one(other, surface);
+               });
     }
     /// True if parallel, as far as directions of float precision can tell.
     static bool parallel(const Vec3<Real>& a, const Vec3<Real>& b) {

@@ -23,7 +23,7 @@ Bounded<DoubleDouble> PathLengths::End::t() const {
 }
 
 PathLengths::OfMaterial& PathLengths::of(const Hit<double>& hit) {
-    const MaterialIndex material = scene_.material_index_of(hit.shape);
+    const MaterialIndex material = scene_.medium_index_of(hit.shape);
     std::uint32_t& place = place_of_[material];
     if (place < count_ && materials_[place].material == material) return materials_[place];
     if (count_ == materials_.size()) materials_.emplace_back();
@@ -44,14 +44,14 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> hits,
 
     // What is left before it is entered has been around the start.
     const auto limit_at = [](double t) { return End{nullptr, t}; };
-    entered_.clear();
-    for (const Hit<double>& hit : hits)
-        if (hit.entering) entered_.push_back(hit.shape);
-    std::sort(entered_.begin(), entered_.end());
-    for (const Hit<double>& hit : hits) {
-        if (hit.entering || std::binary_search(entered_.begin(), entered_.end(), hit.shape))
-            continue;
-        OfMaterial& material = of(hit);
+    by_solid_.clear();
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        by_solid_.emplace_back(scene_.solids().solid_of(hits[i].shape), i);
+    std::sort(by_solid_.begin(), by_solid_.end());
+    for (std::size_t k = 0; k < by_solid_.size(); ++k) {
+        const auto& [solid, i] = by_solid_[k];
+        if (hits[i].enters() || (k != 0 && by_solid_[k - 1].first == solid)) continue;
+        OfMaterial& material = of(hits[i]);
         if (material.depth++ == 0) material.begin = limit_at(t_min);
     }
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -62,13 +62,21 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> hits,
         else if (compare_t(scene_, from, hit, t_max) >= 0)
             here = limit_at(t_max);
         OfMaterial& material = of(hit);
-        if (hit.entering) {
+        if (hit.enters()) {
             if (material.depth++ == 0) material.begin = here;
         } else if (--material.depth == 0) {
             const bool is_none = material.begin.crossing == nullptr && here.crossing == nullptr &&
                                  material.begin.limit == here.limit;
             if (!is_none) material.parts.push_back({material.begin, here});
         }
+    }
+
+    // What is never left has no end.
+    for (std::size_t i = 0; i < count_; ++i) {
+        OfMaterial& material = materials_[i];
+        if (material.depth > 0 && std::isfinite(t_max) &&
+            !(material.begin.crossing == nullptr && material.begin.limit == t_max))
+            material.parts.push_back({material.begin, limit_at(t_max)});
     }
 
     const CrossingOrder order(scene_, from);

@@ -50,7 +50,7 @@ class PathLengths {
 
     const Scene& scene_;
     std::vector<SharpHit> sharp_;
-    std::vector<ShapeId> entered_;
+    std::vector<std::pair<ShapeId, std::size_t>> by_solid_; // with the number of the hit
     std::vector<OfMaterial> materials_; // of the ray, and some more of earlier ones
     std::size_t count_ = 0;
     std::vector<std::uint32_t> place_of_; // by material, if it is there

@@ -2,6 +2,7 @@
 
 #include "core/reference/counters.hpp"
 #include "core/reference/rounding.hpp"
+#include "core/reference/solid_surfaces.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -17,7 +18,7 @@ template <class Real>
 class Searcher {
   public:
     Searcher(const Scene& scene, Search search, Precision precision = precision_of<Real>)
-        : scene_(scene), search_(search), precision_(precision) {
+        : scene_(scene), search_(search), precision_(precision), solid_surfaces_(scene) {
         pending_.reserve(512);
         candidates_.reserve(64);
         sharp_.reserve(64);
@@ -31,7 +32,9 @@ class Searcher {
                             Real t_most = std::numeric_limits<Real>::infinity()) {
         Hit<Real> first;
         for (const Contact<Real>& contact : origins) {
-            if (!contact.is_crossed() || !counts(contact_hit(contact))) continue;
+            if (!contact.is_crossed() || !counts(contact_hit(contact)) ||
+                !is_surface(ray, origins, contact_hit(contact)))
+                continue;
             if (!first.any() || contact_hit(contact).precedes(first)) first = contact_hit(contact);
         }
         if (first.any()) return {first, origins};
@@ -47,19 +50,21 @@ class Searcher {
         return best.any() ? encounter(ray, nowhere, best, /*whole=*/false).hit : Hit<Real>{};
     }
 
-    /// Calls visit(hit) for the crossings with t < t_most, in no order, until it returns false.
+    /// Calls visit(hit) for the crossings of surfaces with t < t_most, in no order, until it
+    /// returns false.
     template <class Visit>
     void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most,
               const Visit& visit) {
         bool more = true;
         for (const Contact<Real>& contact : origins)
-            if (more && contact.is_crossed()) more = visit(contact_hit(contact));
+            if (more && contact.is_crossed() && is_surface(ray, origins, contact_hit(contact)))
+                more = visit(contact_hit(contact));
         if (!more) return;
         for_each_candidate(
             ray, [&] { return t_most; },
             [&](Kind kind, std::uint32_t block) {
                 cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
-                    if (more && hit.t < t_most) more = visit(hit);
+                    if (more && hit.t < t_most && is_surface(ray, origins, hit)) more = visit(hit);
                 });
                 return more;
             });
@@ -114,6 +119,20 @@ class Searcher {
 
     bool is_exact() const { return precision_ == Precision::exact; }
 
+    /// True if a crossing with a part of a solid is one of the solid's surface, too.
+    bool is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
+                    const Hit<Real>& hit) {
+        if (!scene_.solids().has(hit.shape)) return true;
+        if constexpr (std::is_same_v<Real, double>)
+            return solid_surfaces_.is_surface({ray, origins}, hit);
+        else {
+            const Ray<double> in_double{convert<double>(ray.origin),
+                                        convert<double>(ray.direction)};
+            return solid_surfaces_.is_surface({in_double, OriginSurfaces<double>(origins)},
+                                              Hit<double>(hit));
+        }
+    }
+
     /// A hit that may be the first, or in contact with it.
     struct Candidate {
         Hit<Real> hit;
@@ -133,7 +152,7 @@ class Searcher {
                 cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
                     if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
                     // What does not count may still lie where the ray will go on from.
-                    const bool may_be_hit = counts(hit);
+                    const bool may_be_hit = counts(hit) && is_surface(ray, origins, hit);
                     candidates_.push_back({hit, may_be_hit});
                     if (may_be_hit && (hit.t < best.t || !best.any())) best = hit;
                 });
@@ -196,9 +215,11 @@ class Searcher {
                     return other.shapes.first == shapes.first;
                 }))
                 return;
-            contacts_.push_back({hit, shapes, scene_.material_index_of(hit.shape),
-                                 surface_at(ray, origins, hit).normal, !hit.entering,
-                                 hit.entering});
+            contacts_.push_back(
+                {hit, shapes, scene_.material_index_of(hit.shape),
+                 surface_at(ray, origins, hit).normal, !hit.entering, hit.entering,
+                 scene_.solids().has(hit.shape) ? scene_.solids().solid_of(hit.shape) : no_shape,
+                 is_surface(ray, origins, hit)});
         };
         add(hit_first);
         for (std::size_t i = 0; i < hits.size(); ++i)
@@ -287,8 +308,9 @@ class Searcher {
                 for (const Crossing<Real>& crossing :
                      solve(table.get(place), ray, start, counters.widened, precision_))
                     if (crossing.t > Real(0) || (start.on_surface && crossing.t == Real(0)))
-                        visit(Hit<Real>{crossing.t, crossing.error, false, id, crossing.face,
-                                        crossing.entering, kind, place});
+                        visit(Hit<Real>(crossing.t, crossing.error, id, crossing.face,
+                                        crossing.entering, kind, place,
+                                        scene_.solids().is_reversed(id)));
             });
         });
     }
@@ -300,6 +322,7 @@ class Searcher {
     std::vector<Candidate> candidates_; // for what is nearest
     std::vector<Contact<Real>> contacts_;
     std::vector<SharpHit> sharp_; // the same, or what is sorted
+    SolidSurfaces solid_surfaces_;
 };
 
 } // namespace raylane::core

@@ -314,7 +314,7 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
         reached = hit->t;
         // Those of one material that lie in each other are one surface, whatever else does.
         const auto others = std::find_if(hit + 1, crossings_.end(), [&](const Hit<Real>& other) {
-            return !other.joins || other.entering != hit->entering;
+            return !other.joins || other.enters() != hit->enters();
         });
         auto end = hit + 1;
         for (auto other = end; other != others; ++other)
@@ -368,7 +368,7 @@ bool ReferenceTracer<Real>::is_worth(const Vector& throughput) const {
 
 template <class Real>
 bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
-    return scene_.material_of(hit.shape).is_seen(hit.entering);
+    return scene_.material_of(hit.shape).is_seen(hit.enters());
 }
 
 /// A surface that transmits nothing has its own index behind it, from whichever side it is seen.
@@ -377,7 +377,8 @@ typename ReferenceTracer<Real>::Indices
 ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, Media media, Media media_behind) {
     const auto before = static_cast<Real>(index_of(scene_.materials(), medium_before(hit, media)));
     const Material& material = scene_.material_of(hit.shape);
-    if (hit.entering || !material.transmits()) return {before, Real(material.index)};
+    if (hit.enters() || !material.transmits())
+        return {before, Real(scene_.materials()[scene_.medium_index_of(hit.shape)].index)};
     const MaterialIndex behind = media_.top(media_behind);
     return {before, static_cast<Real>(index_of(scene_.materials(), behind))};
 }
@@ -386,7 +387,7 @@ ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, Media media, Media media
 template <class Real>
 Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media, int count) {
     for (; count > 0; --count)
-        media = media_.crossed(media, scene_.material_index_of(hit.shape), hit.entering);
+        media = media_.crossed(media, scene_.medium_index_of(hit.shape), hit.enters());
     return media;
 }
 
@@ -397,8 +398,8 @@ Media ReferenceTracer<Real>::media_behind(const Path& path, const Surface& surfa
 
 template <class Real>
 MaterialIndex ReferenceTracer<Real>::medium_before(const Hit<Real>& hit, Media media) const {
-    const MaterialIndex material = scene_.material_index_of(hit.shape);
-    return media_.before(media, material, scene_.materials()[material].transmits(), hit.entering);
+    const MaterialIndex medium = scene_.medium_index_of(hit.shape);
+    return media_.before(media, medium, scene_.materials()[medium].transmits(), hit.enters());
 }
 
 template <class Real>

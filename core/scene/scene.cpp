@@ -39,8 +39,17 @@ void Scene::find_transmissive() {
     if (std::none_of(materials_.begin(), materials_.end(), transmits)) return;
     for_each_table(shapes_, [&](const auto& table) {
         for_each_shape(table, [&]<class Shape>(const Shape& shape, ShapeId id) {
-            if (!material_of(id).transmits()) return;
+            if (!materials_[medium_index_of(id)].transmits() && !material_of(id).transmits())
+                return;
             transmissive_.any = true;
+            if (solids_.has(id)) {
+                const Bounds& bounds = solids_.bounds(solids_.root_of(solids_.part_of(id)));
+                if (is_finite(bounds))
+                    transmissive_.bounds.include(bounds);
+                else
+                    transmissive_.any_unbounded = true;
+                return;
+            }
             if constexpr (is_bounded<Shape>) {
                 const Bounds bounds = bounds_of(shape);
                 transmissive_.bounds.include(bounds);
@@ -53,9 +62,9 @@ void Scene::find_transmissive() {
 }
 
 std::size_t Scene::bytes() const {
-    std::size_t bytes = hierarchy_.bytes() + material_of_.capacity() * sizeof(MaterialIndex) +
-                        polygons_.capacity() * sizeof(IdRange) +
-                        materials_.capacity() * sizeof(Material);
+    std::size_t bytes =
+        hierarchy_.bytes() + solids_.bytes() + material_of_.capacity() * sizeof(MaterialIndex) +
+        polygons_.capacity() * sizeof(IdRange) + materials_.capacity() * sizeof(Material);
     for_each_table(shapes_, [&](const auto& table) { bytes += table.bytes(); });
     return bytes;
 }
@@ -97,6 +106,7 @@ void SceneBuilder::renumber_materials(std::span<const MaterialIndex> new_index) 
     scene_.materials_ = std::move(renumbered);
     for (MaterialIndex& material : scene_.material_of_)
         material = new_index[material];
+    solids_.renumber_materials(new_index);
 }
 
 template <class Shape>
@@ -132,6 +142,72 @@ ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, Materi
     return first;
 }
 
+namespace {
+
+std::size_t count_parts(const Solid& solid) {
+    std::size_t count = solid.made == Made::of_shape ? 1 : 0;
+    for (const Solid& part : solid.parts)
+        count += count_parts(part);
+    return count;
+}
+
+} // namespace
+
+/// Quadrics are checked as what they are, wherever they end.
+void SceneBuilder::check_solid(const Solid& solid, bool has_material,
+                               const std::string& place) const {
+    const auto in = [&](const std::string& field) {
+        return place.empty() ? field : field.empty() ? place : place + "/" + field;
+    };
+    if (solid.material != no_material) {
+        if (solid.material >= scene_.materials_.size()) require_material(solid.material);
+        has_material = true;
+    }
+    if (solid.made != Made::of_shape) {
+        const std::size_t least = solid.made == Made::by_clip ? 2 : 1;
+        if (solid.parts.size() < least)
+            throw InvalidValue(in("objects"), "must have at least " + std::to_string(least) +
+                                                  (least == 1 ? " object" : " objects") + ", got " +
+                                                  std::to_string(solid.parts.size()));
+        for (std::size_t i = 0; i < solid.parts.size(); ++i) {
+            const bool cuts = solid.made == Made::by_clip && i != 0;
+            check_solid(solid.parts[i], has_material || cuts, in("objects/" + std::to_string(i)));
+        }
+        return;
+    }
+    try {
+        std::visit(
+            []<class Shape>(Shape shape) {
+                if constexpr (kind_of<Shape> == Kind::quadric) {
+                    shape.lower = Vec3d(-1.0);
+                    shape.upper = Vec3d(1.0);
+                }
+                validate(shape);
+            },
+            solid.shape);
+    } catch (const InvalidValue& invalid) {
+        throw InvalidValue(in(invalid.field), invalid.expectation);
+    }
+    const auto kind = static_cast<Kind>(solid.shape.index());
+    if (!with_shape_type(kind,
+                         []<class Shape>(std::type_identity<Shape>) { return has_inside<Shape>; }))
+        throw InvalidValue(in("type"), "must be of a solid, a plane or a quadric, got " +
+                                           std::string(name_of(kind)));
+    if (!has_material) throw InvalidValue(in("material"), "must be given, here or for the whole");
+}
+
+ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
+    if (material != no_material) require_material(material);
+    check_solid(solid, material != no_material, "");
+    require_room(count_parts(solid));
+    const auto first = static_cast<ShapeId>(shape_count());
+    solids_.add(solid, material, [&](MaterialIndex of_part) {
+        scene_.material_of_.push_back(of_part);
+        return static_cast<ShapeId>(shape_count() - 1);
+    });
+    return first;
+}
+
 void SceneBuilder::reserve(std::size_t count) {
     scene_.material_of_.reserve(shape_count() + count);
 }
@@ -145,10 +221,13 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
         throw InvalidValue("lights",
                            "must have at least one light where there are objects, got none");
 
+    if (solids_.any()) solids_.list(lists_);
     Workers alone;
-    scene_.hierarchy_ = build_hierarchy(lists_, {lists_, scene_.material_of_, scene_.polygons_},
-                                        workers != nullptr ? *workers : alone, scene_.shapes_);
+    scene_.hierarchy_ =
+        build_hierarchy(lists_, {lists_, scene_.material_of_, scene_.polygons_, &solids_.solids()},
+                        workers != nullptr ? *workers : alone, scene_.shapes_);
     lists_ = {};
+    if (solids_.any()) scene_.solids_ = solids_.finish(scene_.shapes_);
     scene_.find_transmissive();
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
         const Light& light = scene_.lights_[i];

@@ -5,6 +5,7 @@
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
 #include "core/shapes/shape_table.hpp"
+#include "core/solids/solids.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -39,6 +40,12 @@ class Scene {
     const std::vector<Material>& materials() const { return materials_; }
     const Material& material_of(ShapeId id) const { return materials_[material_of_[id]]; }
     MaterialIndex material_index_of(ShapeId id) const { return material_of_[id]; }
+    /// Those that are made of others, whose parts are among the shapes.
+    const Solids& solids() const { return solids_; }
+    /// The material that is inside of a shape's surface: of a solid's parts, the whole's.
+    MaterialIndex medium_index_of(ShapeId id) const {
+        return solids_.has(id) ? solids_.medium_of(id) : material_of_[id];
+    }
     const TransmissiveShapes& transmissive() const { return transmissive_; }
     const std::vector<Light>& lights() const { return lights_; }
     const Fog& fog() const { return fog_; }
@@ -63,6 +70,7 @@ class Scene {
     std::vector<MaterialIndex> material_of_; // by shape id
     std::vector<IdRange> polygons_;          // of more than one triangle, ascending
     Hierarchy hierarchy_;
+    Solids solids_;
     std::vector<Material> materials_;
     TransmissiveShapes transmissive_;
     std::vector<Light> lights_;
@@ -101,6 +109,12 @@ class SceneBuilder {
     template <class AnyTriangle>
     ShapeId add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material);
 
+    /// A solid that is made of others: the id of its first part, which is its own as well; the ids
+    /// of the others follow, in the order of its description. `material`: of what has none of its
+    /// own, and inside of the whole; without, that is its first part's. Fields are those of shapes
+    /// behind "objects/0/objects/2/", ...
+    ShapeId add_solid(const Solid& solid, MaterialIndex material);
+
     /// Makes room for `count` more shapes, so that adding them copies nothing.
     void reserve(std::size_t count);
 
@@ -120,8 +134,11 @@ class SceneBuilder {
     template <class Shape>
     ShapeId append(const Shape& shape, MaterialIndex material);
 
+    void check_solid(const Solid& solid, bool has_material, const std::string& place) const;
+
     Scene scene_;
     ShapeLists lists_;
+    SolidCollector solids_;
 };
 
 } // namespace raylane::core

@@ -3,6 +3,7 @@
 #include "core/numbers/vector.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace raylane::core {
@@ -42,6 +43,23 @@ struct Bounds {
         return size.x * size.y + size.y * size.z + size.z * size.x;
     }
 };
+
+/// Bounds of points, rounded outwards, made to include one more.
+template <class Real>
+void include_point(Bounds& bounds, const Vec3<Real>& point) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto value = static_cast<float>(point[axis]);
+        bounds.lower[axis] = std::min(bounds.lower[axis], std::nextafter(value, -infinity));
+        bounds.upper[axis] = std::max(bounds.upper[axis], std::nextafter(value, infinity));
+    }
+}
+
+inline bool is_finite(const Bounds& bounds) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(bounds.lower[axis]) || !std::isfinite(bounds.upper[axis])) return false;
+    return true;
+}
 
 /// [center - extent, center + extent], given both up to a handful of roundings in double of what is
 /// no larger than `magnitude`; rounded outwards. So are all shapes' bounds: never inwards.

@@ -4,6 +4,8 @@
 #include "core/shapes/flat.hpp"
 #include "core/shapes/shape.hpp"
 
+#include <array>
+
 namespace raylane::core {
 
 /// The unbounded plane through `point`; its front is where `normal` points.
@@ -47,6 +49,12 @@ ExactQuadratic form_along(const PlaneOf<Number>& plane, const ExactRay& ray, Fac
 template <class Real, class Number>
 NormalAlong<Real> normal_along(const PlaneOf<Number>& plane, const Ray<Real>&, Face) {
     return {convert<Real>(plane.normal)};
+}
+
+/// Of the half-space behind it.
+template <class Real, class Number>
+std::array<Real, 1> forms_at(const PlaneOf<Number>& plane, const Vec3<Real>& point) {
+    return {dot(convert<Real>(plane.normal), Vec3<Real>(point - convert<Real>(plane.point)))};
 }
 
 } // namespace raylane::core

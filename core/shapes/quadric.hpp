@@ -6,6 +6,7 @@
 #include "core/shapes/shape.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace raylane::core {
@@ -145,6 +146,12 @@ NormalAlong<Real> normal_along(const QuadricOf<Number>& quadric, const Ray<Real>
     const Vec3<Real> f = ray.origin - convert<Real>(quadric.center);
     return {quadric_half_gradient(quadric, f), quadric_product(quadric, ray.direction),
             apex_direction<Real>(quadric)};
+}
+
+/// Of where its form is negative, in its box and elsewhere.
+template <class Real, class Number>
+std::array<Real, 1> forms_at(const QuadricOf<Number>& quadric, const Vec3<Real>& point) {
+    return {quadric_value(quadric, Vec3<Real>(point - convert<Real>(quadric.center)))};
 }
 
 } // namespace raylane::core

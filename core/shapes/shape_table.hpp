@@ -130,14 +130,33 @@ class Table {
     const BigArray<DoubleBlock<Shape>>& doubles() const { return blocks_.doubles; }
     /// Exactly the shape.
     InDouble<Shape> get(Place place) const {
-        return has_doubles() ? blocks_.doubles[place.block].get(place.lane)
-                             : to_doubles(blocks_.floats[place.block].get(place.lane));
+        const std::size_t count = blocks_.floats.size();
+        if (place.block >= count) [[unlikely]]
+            return get(hidden_, {static_cast<std::uint32_t>(place.block - count), place.lane});
+        return get(blocks_, place);
     }
     ShapeId id(Place place) const { return blocks_.floats[place.block].ids[place.lane]; }
-    std::size_t bytes() const { return blocks_.floats.bytes() + blocks_.doubles.bytes(); }
+    std::size_t bytes() const {
+        return blocks_.floats.bytes() + blocks_.doubles.bytes() + hidden_.floats.bytes() +
+               hidden_.doubles.bytes();
+    }
+
+    /// Keeps shapes that no ray is to cross, in places behind those of the blocks; shape i of them
+    /// is at hidden_place(i).
+    void hide(const ShapeList<Shape>& list) { hidden_ = Table(list).blocks_; }
+    Place hidden_place(std::size_t i) const {
+        return {static_cast<std::uint32_t>(blocks_.floats.size() + i / block_size),
+                static_cast<std::uint8_t>(i % block_size)};
+    }
 
   private:
+    static InDouble<Shape> get(const Blocks<Shape>& blocks, Place place) {
+        return blocks.doubles.empty() ? to_doubles(blocks.floats[place.block].get(place.lane))
+                                      : blocks.doubles[place.block].get(place.lane);
+    }
+
     Blocks<Shape> blocks_;
+    Blocks<Shape> hidden_;
     std::size_t size_ = 0;
 };
 

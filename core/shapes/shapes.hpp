@@ -31,6 +31,11 @@ inline constexpr bool is_solid =
     kind_of<Shape> == Kind::box || kind_of<Shape> == Kind::capped_cylinder ||
     kind_of<Shape> == Kind::capped_cone;
 
+/// True for what may be a part of a solid: solids, and what has a half-space on its inside.
+template <class Shape>
+inline constexpr bool has_inside =
+    is_solid<Shape> || kind_of<Shape> == Kind::plane || kind_of<Shape> == Kind::quadric;
+
 constexpr const ShapeTraits& traits_of(Kind kind) {
     return with_shape_type(kind, []<class Shape>(std::type_identity<Shape>) -> const ShapeTraits& {
         return Shape::traits;

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-/// Which side of a solid a point is on. Each solid has
+/// Which side of a solid a point is on. Each solid, and what is a half-space within solids, has
 ///   std::array<Real, n> forms_at(shape, point)
 /// polynomials that are less than 0 inside of it, all of them, and of which one is more than 0
 /// outside.

@@ -148,7 +148,7 @@ void write_shape(Object& object, const core::ConeOf<double, ends>& s) {
     object.key("capped") << (ends == core::Ends::capped ? "true" : "false");
 }
 
-void write_shape(Object& object, const core::QuadricOf<double>& s) {
+void write_form(Object& object, const core::QuadricOf<double>& s) {
     object.vector("center", s.center);
     const double rows[4][4] = {{s.xx, s.xy, s.xz, s.x},
                                {s.xy, s.yy, s.yz, s.y},
@@ -162,6 +162,10 @@ void write_shape(Object& object, const core::QuadricOf<double>& s) {
         file << "]";
     }
     file << "]";
+}
+
+void write_shape(Object& object, const core::QuadricOf<double>& s) {
+    write_form(object, s);
     object.vector("lower", s.lower);
     object.vector("upper", s.upper);
 }
@@ -279,6 +283,39 @@ void write_lights(Object& root, TextFile& file, const core::Scene& scene) {
     file << "]";
 }
 
+/// Without the box of a quadric, which is a half-space there.
+void write_part(Object& object, const core::QuadricOf<double>& s) {
+    write_form(object, s);
+}
+template <class Shape>
+void write_part(Object& object, const Shape& shape) {
+    write_shape(object, shape);
+}
+
+void write_solid(TextFile& file, const core::Solid& solid) {
+    static constexpr std::string_view types[] = {"", "union", "intersection", "difference", "clip"};
+    Object object(file);
+    if (solid.material != core::no_material)
+        object.text("material", std::to_string(solid.material));
+    if (solid.made == core::Made::of_shape) {
+        std::visit(
+            [&]<class Shape>(const Shape& shape) {
+                object.text("type", core::type_name_of(core::kind_of<Shape>));
+                write_part(object, shape);
+            },
+            solid.shape);
+        return;
+    }
+    object.text("type", types[static_cast<int>(solid.made)]);
+    object.key("objects") << "[";
+    const char* separator = "";
+    for (const core::Solid& part : solid.parts) {
+        file << std::exchange(separator, ",\n");
+        write_solid(file, part);
+    }
+    file << "]";
+}
+
 } // namespace
 
 void write_json(TextFile& file, const core::Scene& scene) {
@@ -296,13 +333,19 @@ void write_json(TextFile& file, const core::Scene& scene) {
     file << "}";
     root.key("objects") << "[";
     separator = "\n";
-    for_each_by_id(scene, [&]<class Shape>(const Shape& shape, core::ShapeId id) {
-        file << std::exchange(separator, ",\n");
-        Object object(file);
-        object.text("type", core::type_name_of(core::kind_of<Shape>));
-        write_shape(object, shape);
-        object.text("material", std::to_string(scene.material_index_of(id)));
-    });
+    for_each_by_id(
+        scene,
+        [&]<class Shape>(const Shape& shape, core::ShapeId id) {
+            file << std::exchange(separator, ",\n");
+            Object object(file);
+            object.text("type", core::type_name_of(core::kind_of<Shape>));
+            write_shape(object, shape);
+            object.text("material", std::to_string(scene.material_index_of(id)));
+        },
+        [&](const core::Solid& solid, core::ShapeId) {
+            file << std::exchange(separator, ",\n");
+            write_solid(file, solid);
+        });
     file << "\n]";
 }
 

@@ -31,13 +31,20 @@ class NffWriter {
             file_.list(light.color, " ") << "\n";
         }
         core::MaterialIndex filled = ~core::MaterialIndex{0};
-        for_each_by_id(scene_, [&](const auto& shape, core::ShapeId id) {
-            const core::MaterialIndex material = scene_.material_index_of(id);
-            if (material != filled) write_fill(scene_.materials()[material]);
-            filled = material;
-            is_inside_ = scene_.materials()[material].visible == core::Visible::inside;
-            write_shape(shape);
-        });
+        for_each_by_id(
+            scene_,
+            [&](const auto& shape, core::ShapeId id) {
+                const core::MaterialIndex material = scene_.material_index_of(id);
+                if (material != filled) write_fill(scene_.materials()[material]);
+                filled = material;
+                is_inside_ = scene_.materials()[material].visible == core::Visible::inside;
+                write_shape(shape);
+            },
+            [](const core::Solid&, core::ShapeId) {
+                throw core::InvalidValue("",
+                                         "has no word for a solid that is made of others: .pov and "
+                                         ".json have");
+            });
     }
 
   private:

@@ -25,14 +25,22 @@ class PovWriter {
             write_light(light);
         for (std::size_t i = 0; i < scene_.materials().size(); ++i)
             write_material(i, scene_.materials()[i]);
-        for_each_by_id(scene_, [&](const auto& shape, core::ShapeId id) {
-            write_shape(shape);
-            if (is_open(shape) && scene_.material_of(id).transmits())
-                differences_.insert(
-                    "bodies that several transmissive surfaces enclose, of which each "
-                    "is a body of its own there");
-            file_ << " material { m" << std::to_string(scene_.material_index_of(id)) << " } }\n";
-        });
+        const auto write_solid_of_others = [&](const core::Solid& solid, core::ShapeId id) {
+            write_solid(solid, scene_.materials()[scene_.medium_index_of(id)].transmits());
+            file_ << "\n";
+        };
+        for_each_by_id(
+            scene_,
+            [&](const auto& shape, core::ShapeId id) {
+                write_shape(shape);
+                if (is_open(shape) && scene_.material_of(id).transmits())
+                    differences_.insert(
+                        "bodies that several transmissive surfaces enclose, of which each "
+                        "is a body of its own there");
+                file_ << " material { m" << std::to_string(scene_.material_index_of(id))
+                      << " } }\n";
+            },
+            write_solid_of_others);
     }
 
   private:
@@ -250,14 +258,53 @@ class PovWriter {
         vector(s.base + s.axis) << ", " << s.top_radius;
         if (ends == core::Ends::open) file_ << " open";
     }
-    void write_shape(const core::QuadricOf<double>& s) {
+    void write_form(const core::QuadricOf<double>& s, bool is_clipped) {
         file_ << "quadric { ";
         vector(Vec3d(s.xx, s.yy, s.zz)) << ", ";
         vector(Vec3d(2.0 * s.xy, 2.0 * s.xz, 2.0 * s.yz)) << ", ";
-        vector(Vec3d(2.0 * s.x, 2.0 * s.y, 2.0 * s.z)) << ", " << s.one << " clipped_by { box { ";
-        vector(s.lower) << ", ";
-        vector(s.upper) << " } }";
+        vector(Vec3d(2.0 * s.x, 2.0 * s.y, 2.0 * s.z)) << ", " << s.one;
+        if (is_clipped) {
+            file_ << " clipped_by { box { ";
+            vector(s.lower) << ", ";
+            vector(s.upper) << " } }";
+        }
         vector("translate", s.center);
+    }
+    void write_shape(const core::QuadricOf<double>& s) { write_form(s, /*is_clipped=*/true); }
+
+    /// A form by itself: its half-space.
+    void write_part(const core::QuadricOf<double>& s) { write_form(s, /*is_clipped=*/false); }
+    void write_part(const auto& shape) { write_shape(shape); }
+
+    /// `transparent`: inner walls of unions would be seen there.
+    void write_solid(const core::Solid& solid, bool transparent) {
+        switch (solid.made) {
+        case core::Made::of_shape:
+            std::visit([&](const auto& shape) { write_part(shape); }, solid.shape);
+            break;
+        case core::Made::by_union:
+            file_ << (transparent ? "merge {" : "union {");
+            break;
+        case core::Made::by_intersection:
+            file_ << "intersection {";
+            break;
+        case core::Made::by_difference:
+            file_ << "difference {";
+            break;
+        case core::Made::by_clip:
+            file_ << "object {";
+            break;
+        }
+        const bool clips = solid.made == core::Made::by_clip;
+        for (std::size_t i = 0; i < solid.parts.size(); ++i) {
+            if (clips && i != 0) file_ << " clipped_by {";
+            file_ << " ";
+            write_solid(solid.parts[i], transparent);
+            if (clips && i != 0) file_ << " }";
+        }
+        if (solid.material != core::no_material)
+            file_ << " material { m" << std::to_string(solid.material) << " }";
+        file_ << " }";
     }
 
     TextFile& file_;

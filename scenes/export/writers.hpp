@@ -2,6 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/export/solid_description.hpp"
 #include "scenes/export/text_file.hpp"
 
 #include <set>
@@ -17,10 +18,11 @@ void write_json(TextFile& file, const core::Scene& scene);
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);
 void write_pov(TextFile& file, const core::Scene& scene, Differences& differences);
 
-/// Calls visit(shape, id) for all shapes that the tables have, in the order of their ids, which
-/// decides where surfaces coincide.
-template <class Visit>
-void for_each_by_id(const core::Scene& scene, const Visit& visit) {
+/// Calls visit(shape, id) for all shapes that the tables have, and visit_solid(description, id) for
+/// solids that are made of others, in the order of their ids, which decides where surfaces
+/// coincide.
+template <class Visit, class VisitSolid>
+void for_each_by_id(const core::Scene& scene, const Visit& visit, const VisitSolid& visit_solid) {
     struct Listed {
         core::Place place;
         core::Kind kind;
@@ -36,9 +38,19 @@ void for_each_by_id(const core::Scene& scene, const Visit& visit) {
             }
     });
     for (core::ShapeId id = 0; id < shapes.size(); ++id)
-        if (shapes[id].exists)
+        if (scene.solids().has(id)) {
+            if (scene.solids().solid_of(id) == id)
+                visit_solid(
+                    description_of(scene, scene.solids().root_of(scene.solids().part_of(id))), id);
+        } else if (shapes[id].exists)
             core::with_table(scene.shapes(), shapes[id].kind,
                              [&](const auto& table) { visit(table.get(shapes[id].place), id); });
+}
+
+/// The same without the solids and their parts.
+template <class Visit>
+void for_each_by_id(const core::Scene& scene, const Visit& visit) {
+    for_each_by_id(scene, visit, [](const core::Solid&, core::ShapeId) {});
 }
 
 } // namespace raylane::scenes

@@ -20,9 +20,12 @@ namespace {
 using nlohmann::json;
 
 // Of one item:
-constexpr std::size_t deepest = 16;
-constexpr std::size_t most_values = 4096;
-constexpr std::size_t most_text = 1 << 20; // bytes of keys, strings and numbers
+struct Most {
+    std::size_t depth, values;
+    std::size_t text; // bytes of keys, strings and numbers
+};
+constexpr Most most_of_plain = {16, 4096, 1 << 20};
+constexpr Most most_of_nested = {256, 1 << 27, std::size_t{1} << 31};
 
 // Wording of the parser's errors: "... - REASON; last read: '...'" where it could not even make a
 // token of what it read, and "; expected ..." behind that.
@@ -233,11 +236,13 @@ bool ItemParser::add(JsonType type, std::string_view text, double number) {
     const auto refuse = [&](const std::string& message) {
         throw BadInput({error(item_.root().positions().value, item_.root().pointer(), message)});
     };
-    if (item_.depth() > deepest)
-        refuse("must not be nested more than " + std::to_string(deepest) + " deep");
-    if (item_.values() > most_values || item_.text_bytes() > most_text)
-        refuse("must not hold more than " + std::to_string(most_values) + " values or " +
-               std::to_string(most_text) + " bytes of text");
+    const bool nested = in_root_ && root_key_->items == Items::nested;
+    const Most& most = nested ? most_of_nested : most_of_plain;
+    if (item_.depth() > most.depth)
+        refuse("must not be nested more than " + std::to_string(most.depth) + " deep");
+    if (item_.values() > most.values || item_.text_bytes() > most.text)
+        refuse("must not hold more than " + std::to_string(most.values) + " values or " +
+               std::to_string(most.text) + " bytes of text");
     return true;
 }
 

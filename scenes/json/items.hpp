@@ -18,11 +18,15 @@ enum class Holds : std::uint8_t {
     named_items, ///< an object of items
 };
 
+/// What items are like: a few values each, or others within others.
+enum class Items : std::uint8_t { plain, nested };
+
 /// A key that the outermost object of a file may have.
 struct RootKey {
     std::string_view name;
     Holds holds;
     bool required = false;
+    Items items = Items::plain;
 };
 
 /// Takes an item, and throws BadInput for what is wrong with it; `name` is its key if it is one of

@@ -19,6 +19,10 @@ class ObjectReader {
     ObjectReader(const JsonValue& object, core::SceneBuilder& builder,
                  const MaterialOf& material_of)
         : object_(object), builder_(builder), material_of_(material_of) {}
+    /// Of a part of a solid, which is put there.
+    ObjectReader(const JsonValue& object, core::SceneBuilder& builder,
+                 const MaterialOf& material_of, core::Solid& part)
+        : object_(object), builder_(builder), material_of_(material_of), part_(&part) {}
 
     void read(std::type_identity<core::Sphere>) {
         object_.allow_only({"type", "material", "center", "radius"});
@@ -82,7 +86,10 @@ class ObjectReader {
                                       axes[2].real_vector()});
     }
 
+    void made(core::Made by);
+
     void sphereflake() {
+        refuse_as_part();
         object_.allow_only({"type", "material", "center", "radius", "depth", "up"});
         Sphereflake flake{.center = object_.at("center").vector(),
                           .radius = object_.at("radius").number(),
@@ -93,6 +100,9 @@ class ObjectReader {
     }
 
     void lattice();
+
+    /// Has an object read by what its type says.
+    static void read(const JsonValue& object, ObjectReader& reader);
 
   private:
     core::Vec3d vector(std::string_view key) const { return object_.at(key).real_vector(); }
@@ -106,8 +116,23 @@ class ObjectReader {
 
     template <class Shape>
     void add(const Shape& shape) {
+        if (part_ != nullptr) {
+            *part_ = {.shape = shape, .material = material_of_part()};
+            return;
+        }
         const core::MaterialIndex own = material();
         checked(object_, [&] { builder_.add(shape, own); });
+    }
+
+    /// Its own, or none: that of the whole.
+    core::MaterialIndex material_of_part() const {
+        const auto own = object_.find("material");
+        return own ? material_of_(*own) : core::no_material;
+    }
+    void refuse_as_part() const {
+        if (part_ != nullptr)
+            object_.at("type").fail("must be of one solid, a plane or a quadric, got \"" +
+                                    std::string(object_.at("type").string()) + "\"");
     }
 
     template <Ends ends>
@@ -125,6 +150,7 @@ class ObjectReader {
     const JsonValue& object_;
     core::SceneBuilder& builder_;
     const MaterialOf& material_of_;
+    core::Solid* part_ = nullptr;
 };
 
 void ObjectReader::read(std::type_identity<core::Box>) {
@@ -145,13 +171,13 @@ void ObjectReader::read(std::type_identity<core::Box>) {
             object_.at("max").array(3, "numbers")[axis].fail_expecting(
                 "more than min's " + object_.at("min").array(3, "numbers")[axis].quoted());
     const core::Vec3d size = upper - lower;
+    const core::BoxOf<double> box{
+        lower, {size.x, 0.0, 0.0}, {0.0, size.y, 0.0}, {0.0, 0.0, size.z}};
+    if (part_ != nullptr) return add(box);
     const core::MaterialIndex own = material();
     checked(object_, [&] {
         try {
-            builder_.add(
-                core::BoxOf<double>{
-                    lower, {size.x, 0.0, 0.0}, {0.0, size.y, 0.0}, {0.0, 0.0, size.z}},
-                own);
+            builder_.add(box, own);
         } catch (const core::InvalidValue& invalid) {
             const bool corner = invalid.field.starts_with("corner");
             throw core::InvalidValue(corner ? "min" : "max", invalid.expectation);
@@ -185,12 +211,36 @@ void ObjectReader::read(std::type_identity<core::Quadric>) {
     quadric.y = matrix[1][3];
     quadric.z = matrix[2][3];
     quadric.one = matrix[3][3];
-    quadric.lower = vector("lower");
-    quadric.upper = vector("upper");
+    if (part_ == nullptr) {
+        quadric.lower = vector("lower");
+        quadric.upper = vector("upper");
+    } else {
+        for (const std::string_view key : {"lower", "upper"})
+            if (const auto end = object_.find(key))
+                end->fail("must not be given in a solid, where a quadric is the half-space of its "
+                          "inside: intersect it with a box");
+    }
     add(quadric);
 }
 
+void ObjectReader::made(core::Made by) {
+    object_.allow_only({"type", "material", "objects"});
+    core::Solid solid{.made = by, .material = material_of_part()};
+    const std::vector<JsonValue> objects = object_.at("objects").array("objects");
+    solid.parts.resize(objects.size());
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        ObjectReader reader(objects[i], builder_, material_of_, solid.parts[i]);
+        read(objects[i], reader);
+    }
+    if (part_ != nullptr) {
+        *part_ = std::move(solid);
+        return;
+    }
+    checked(object_, [&] { builder_.add_solid(solid, core::no_material); });
+}
+
 void ObjectReader::lattice() {
+    refuse_as_part();
     object_.allow_only({"type", "material", "strut_material", "corner", "center", "n", "spacing",
                         "sphere_radius", "strut_radius"});
     object_.exclude("corner", "center");
@@ -226,9 +276,19 @@ const std::vector<std::pair<std::string_view, Read>>& readers() {
         });
         readers.emplace_back("sphereflake", [](ObjectReader& of) { of.sphereflake(); });
         readers.emplace_back("lattice", [](ObjectReader& of) { of.lattice(); });
+        readers.emplace_back("union", [](ObjectReader& of) { of.made(core::Made::by_union); });
+        readers.emplace_back("intersection",
+                             [](ObjectReader& of) { of.made(core::Made::by_intersection); });
+        readers.emplace_back("difference",
+                             [](ObjectReader& of) { of.made(core::Made::by_difference); });
+        readers.emplace_back("clip", [](ObjectReader& of) { of.made(core::Made::by_clip); });
         return readers;
     }();
     return all;
+}
+
+void ObjectReader::read(const JsonValue& object, ObjectReader& reader) {
+    object.at("type").choice(JsonValue::Choices<Read>(readers()))(reader);
 }
 
 } // namespace
@@ -236,7 +296,7 @@ const std::vector<std::pair<std::string_view, Read>>& readers() {
 void add_object(const JsonValue& object, core::SceneBuilder& builder,
                 const MaterialOf& material_of) {
     ObjectReader reader(object, builder, material_of);
-    object.at("type").choice(JsonValue::Choices<Read>(readers()))(reader);
+    ObjectReader::read(object, reader);
 }
 
 } // namespace raylane::scenes

@@ -50,7 +50,7 @@ class SceneReader {
         {"fog", Holds::one_item},
         {"lights", Holds::item_list},
         {"materials", Holds::named_items},
-        {"objects", Holds::item_list, true},
+        {"objects", Holds::item_list, true, Items::nested},
     }};
 
   private:

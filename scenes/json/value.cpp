@@ -250,6 +250,11 @@ std::vector<JsonValue> JsonValue::array(std::size_t count, std::string_view elem
     return values;
 }
 
+std::vector<JsonValue> JsonValue::array(std::string_view elements) const {
+    if (type() != JsonType::array) fail_expecting("an array of " + std::string(elements));
+    return children();
+}
+
 float JsonValue::number() const {
     const float number = nearest_float(document_->get(node().text), real());
     if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");

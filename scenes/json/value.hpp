@@ -121,6 +121,8 @@ class JsonValue {
     /// Elements of an array, of which there must be `count`; `elements` is what they should be
     /// ("numbers").
     std::vector<JsonValue> array(std::size_t count, std::string_view elements) const;
+    /// However many there are.
+    std::vector<JsonValue> array(std::string_view elements) const;
 
     /// The nearest float.
     float number() const;

@@ -2,16 +2,21 @@
 
 #include "core/scene/scene.hpp"
 #include "raylane/scene.hpp"
+#include "raylane/solid.hpp"
 
 #include <memory>
 #include <utility>
 
 namespace raylane::library {
 
-/// Access to the parts of a Scene that it hides from its users.
+/// Access to the parts of a Scene, or a Solid, that it hides from its users.
 struct Internals {
     static Scene scene(std::shared_ptr<const core::Scene> scene) { return Scene(std::move(scene)); }
     static const core::Scene& of(const Scene& scene) { return *scene.scene_; }
+    static Solid solid(core::Solid solid) {
+        return Solid(std::make_shared<const core::Solid>(std::move(solid)));
+    }
+    static const core::Solid& of(const Solid& solid) { return *solid.solid_; }
 };
 
 } // namespace raylane::library

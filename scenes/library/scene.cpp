@@ -49,6 +49,11 @@ MaterialIndex Scene::material_of(ShapeId shape) const {
     return scene_->material_index_of(shape);
 }
 
+ShapeId Scene::solid_of(ShapeId shape) const {
+    require_index(shape, shape_count(), "shapes");
+    return scene_->solids().solid_of(shape);
+}
+
 Material Scene::material(MaterialIndex index) const {
     require_index(index, material_count(), "materials");
     return converted<Material>(scene_->materials()[index]);
@@ -120,6 +125,10 @@ void SceneBuilder::add_light(const Light& light) {
     }
 RAYLANE_SHAPES(RAYLANE_ADD)
 #undef RAYLANE_ADD
+
+ShapeId SceneBuilder::add(const Solid& solid, MaterialIndex material) {
+    return translated([&] { return builder().add_solid(library::Internals::of(solid), material); });
+}
 
 template <class CoreShape, class Shape>
 ShapeId SceneBuilder::add_polygon_as(std::span<const Shape> triangles, MaterialIndex material) {

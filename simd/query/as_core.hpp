@@ -32,6 +32,7 @@ inline core::Hit<double> hit_of(const SceneData& scene, const Paths& paths, cons
     hit.entering = (hits.hit[lane] & hit_entering) != 0;
     hit.kind = shape.kind;
     hit.place = scene.place_of(slot);
+    hit.reversed = shape.reversed;
     return hit;
 }
 
@@ -46,13 +47,15 @@ core::OriginSurfaces<Real> origin_surfaces_of(const SceneData& scene, const Path
     hit.face = static_cast<core::Face>(paths.origin_bits[lane] & origin_face);
     hit.kind = shape.kind;
     hit.place = scene.place_of(slot);
+    hit.reversed = shape.reversed;
     const bool inward = (paths.origin_bits[lane] & origin_inward) != 0;
     const core::Contact<Real> surface{hit,
                                       {paths.origin_first[lane], paths.origin_last[lane]},
                                       shape.material,
                                       core::Vec3<Real>(0),
                                       inward,
-                                      inward};
+                                      inward,
+                                      scene.solid_with(shape.id)};
     return core::OriginSurfaces<Real>(std::span(&surface, 1));
 }
 

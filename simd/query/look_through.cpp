@@ -20,8 +20,8 @@ core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, cons
 } // namespace
 
 LookThrough::LookThrough(const SceneData& scene, const Tracing& tracing)
-    : scene_(scene), query_(scene, tracing, Asked::points) {
-    if (scene.one_sided()) onward_ = std::make_unique<Query>(scene, tracing, Asked::points);
+    : scene_(scene), query_(scene, tracing, Asked::points), solid_surfaces_(scene.scene()) {
+    if (scene.looks_through()) onward_ = std::make_unique<Query>(scene, tracing, Asked::points);
 }
 
 void LookThrough::take_from(Arena& arena, std::size_t capacity) {
@@ -52,7 +52,7 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
         hits.slot[lane] = no_slot; // the reference goes on
     onward_paths_.count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
-        if (is_visible(hits, lane)) continue;
+        if (is_visible(paths, hits, lane)) continue;
         const std::size_t to = onward_paths_.count++;
         onward_paths_.copy(paths, lane, to);
         onward_paths_.sample[to] = static_cast<std::uint32_t>(lane);
@@ -81,7 +81,7 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
             const std::uint32_t lane = onward_paths_.sample[i];
             if (lane == no_slot) continue;
             const core::Vec3d point = point_among(onward_->points(), found, onward_paths_, i);
-            if (is_visible(found, i)) {
+            if (is_visible(onward_paths_, found, i)) {
                 hits.copy(found, i, lane);
                 hits.t[lane] += passed_[i];
                 // What lies behind several is not where the first origin and a sum lead to.
@@ -98,10 +98,15 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
     }
 }
 
-bool LookThrough::is_visible(const Hits& hits, std::size_t lane) const {
+bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t lane) {
     if (hits.slot[lane] == no_slot) return true;
-    const core::MaterialIndex material = scene_.occupant_of(hits.slot[lane]).material;
-    return scene_.scene().materials()[material].is_seen((hits.hit[lane] & hit_entering) != 0);
+    const core::Scene& scene = scene_.scene();
+    const SceneData::Occupant shape = scene_.occupant_of(hits.slot[lane]);
+    if (!scene.materials()[shape.material].is_seen(shape.is_entered(hits.hit[lane]))) return false;
+    return !scene.solids().has(shape.id) ||
+           solid_surfaces_.is_surface(
+               {ray_of(paths, lane), origin_surfaces_of(scene_, paths, lane)},
+               hit_of(scene_, paths, hits, lane));
 }
 
 /// Starts a ray anew behind what it has hit, where it has been moved to.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/reference/solid_surfaces.hpp"
 #include "simd/query/query.hpp"
 
 #include <memory>
@@ -8,7 +9,8 @@
 namespace raylane::simd {
 
 /// The third of what finds a hit, for pictures: rays pass surfaces that cannot be seen from where
-/// they come as if these were not there. Answers are points.
+/// they come, and parts of solids where these have no surface, as if these were not there. Answers
+/// are points.
 class LookThrough {
   public:
     LookThrough(const SceneData& scene, const Tracing& tracing);
@@ -27,13 +29,15 @@ class LookThrough {
 
   private:
     void go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
-    bool is_visible(const Hits& hits, std::size_t lane) const;
+    bool is_visible(const Paths& paths, const Hits& hits, std::size_t lane);
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
 
     const SceneData& scene_;
     Query query_;
     std::vector<std::uint32_t> at_contacts_;
     std::vector<HitPoint> points_;
+
+    core::SolidSurfaces solid_surfaces_;
 
     // Search behind surfaces that cannot be seen; null where all can, from both sides.
     std::unique_ptr<Query> onward_;

@@ -66,6 +66,7 @@ std::size_t Refinery::refine(const Paths& paths, const CandidateSearch& search,
                 doubtful[lane] == 0 && hits.slot[lane] != no_slot && crosses(hits.hit[lane]);
             list(paths, search, lane, is_hit ? hits.t[lane] + hits.error[lane] : infinity,
                  counters);
+            if (is_hit) list_too(hits.slot[lane]);
             if (listed_.size() > most - count_) break;
             rays_.push_back({lane, static_cast<std::uint32_t>(count_)});
             add(paths, lane, listed_);
@@ -113,6 +114,16 @@ void Refinery::list(const Paths& paths, const CandidateSearch& search, std::size
         if (has_room) return;
         limit = std::min(limit, end_of_first(paths, lane, counters));
     }
+}
+
+/// Lists what has been found, too: a part of a solid may be crossed outside of its bounds, which
+/// are those of what is seen of it.
+void Refinery::list_too(std::uint32_t slot) {
+    if (!scene_.scene().solids().any() ||
+        std::any_of(listed_.begin(), listed_.end(),
+                    [slot](const Listed& listed) { return listed.slot == slot; }))
+        return;
+    listed_.insert(listed_.begin(), {0.0, slot});
 }
 
 /// Takes candidates in the order of their bounds.

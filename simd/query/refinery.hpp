@@ -48,6 +48,7 @@ class Refinery {
 
     void list(const Paths& paths, const CandidateSearch& search, std::size_t lane, double limit,
               EngineCounters& counters);
+    void list_too(std::uint32_t slot);
     void take(const CandidateList& list, double before);
     double end_of_first(const Paths& paths, std::size_t lane, EngineCounters& counters);
     double end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters);

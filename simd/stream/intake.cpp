@@ -104,7 +104,8 @@ void StreamIntake::start_on(const RayStream<Real>& rays, std::size_t count, std:
         if (slot == no_slot) {
             paths_.start_nowhere(lane, lane + 1);
         } else {
-            const bool inward = rays.origin_inward != nullptr && rays.origin_inward[i] != 0;
+            const bool inward = (rays.origin_inward != nullptr && rays.origin_inward[i] != 0) !=
+                                scene_.scene().solids().is_reversed(shape);
             const std::uint32_t face = rays.origin_face != nullptr ? rays.origin_face[i] : 0;
             paths_.start_on(lane, slot, scene_.shape_named(shape, slot),
                             face | (inward ? hit_entering : 0), /*through=*/true);

@@ -32,7 +32,7 @@ struct LoneRay {
     }
     /// True if it counts: between the limits, and where it can be seen.
     bool finds(const core::Scene& scene, const core::Hit<double>& hit) const {
-        return scene.material_of(hit.shape).is_seen(hit.entering) && is_behind_t_min(scene, hit) &&
+        return scene.material_of(hit.shape).is_seen(hit.enters()) && is_behind_t_min(scene, hit) &&
                is_before_t_max(scene, hit);
     }
     bool is_before_t_max(const core::Scene& scene, const core::Hit<double>& hit) const {

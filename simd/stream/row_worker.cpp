@@ -49,8 +49,8 @@ class Limits {
 
 RowWorker::RowWorker(const SceneData& scene, const Tracing& tracing, const ShapesByName& shapes)
     : scene_(scene), tracing_{tracing.kernels, core::Precision::exact}, points_(scene.scene()),
-      lengths_(scene.scene()), intake_(scene, tracing_, shapes, at_a_time),
-      search_(scene, tracing_) {
+      solid_surfaces_(scene.scene()), lengths_(scene.scene()),
+      intake_(scene, tracing_, shapes, at_a_time), search_(scene, tracing_) {
     arena_ = arena_for([&](Arena& arena) {
         intake_.take_from(arena);
         search_.take_from(arena, at_a_time);
@@ -167,7 +167,7 @@ bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::
         if ((bits_[k] & hit_doubtful) != 0 ||
             !core::rounds_surely(core::DoubleDouble(high_[k], low_[k]), error_[k]))
             return false;
-        if (scene_.one_sided() && !is_seen(k)) continue;
+        if (scene_.looks_through() && !is_seen(rays, lane, k)) continue;
         const Within within = limits.compare(high_[k] * unit, off_by(k) * unit);
         if (within == Within::unknown) return false;
         if (within == Within::yes) keys_.push_back({high_[k], k});
@@ -191,7 +191,7 @@ bool RowWorker::add_at_once(const RayStream<Real>& rays, std::size_t lane, std::
         rows.t[begin + i] = std::clamp(high_[k] * unit, std::numeric_limits<double>::denorm_min(),
                                        std::numeric_limits<double>::max());
         rows.shape[begin + i] = scene_.id_of(slot_[k / 2]);
-        rows.entering[begin + i] = (bits_[k] & hit_entering) != 0 ? 1 : 0;
+        rows.entering[begin + i] = scene_.occupant_of(slot_[k / 2]).is_entered(bits_[k]) ? 1 : 0;
         rows.face[begin + i] = static_cast<std::uint8_t>(bits_[k] & hit_face);
     }
     return true;
@@ -202,21 +202,34 @@ double RowWorker::off_by(std::size_t k) const {
     return (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
 }
 
-bool RowWorker::is_seen(std::size_t k) const {
-    const core::MaterialIndex material = scene_.occupant_of(slot_[k / 2]).material;
-    return scene_.scene().materials()[material].is_seen((bits_[k] & hit_entering) != 0);
+/// True if a crossing is one of a surface that can be seen.
+template <class Real>
+bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
+    const SceneData::Occupant shape = scene_.occupant_of(slot_[k / 2]);
+    const core::Scene& scene = scene_.scene();
+    if (!scene.materials()[shape.material].is_seen(shape.is_entered(bits_[k]))) return false;
+    if (!scene.solids().has(shape.id)) return true;
+    const core::Hit<double> hit(
+        high_[k], off_by(k), shape.id, static_cast<core::Face>(bits_[k] & hit_face),
+        (bits_[k] & hit_entering) != 0, shape.kind, scene_.place_of(slot_[k / 2]), shape.reversed);
+    const LoneRay ray = intake_.lone(rays, lane, lane);
+    return solid_surfaces_.is_surface(ray.leaving(), hit);
 }
 
 /// Finds the crossings of one ray for which counts(hit) is true, in order.
 template <class Counts>
-void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& counts) {
+void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted) {
     crossed_.clear();
+    const auto counts = [&](const core::Hit<double>& hit) {
+        return wanted(hit) && solid_surfaces_.is_surface(ray.leaving(), hit);
+    };
     for (std::size_t pair = first_of_ray_[lane]; pair < first_of_ray_[lane + 1]; ++pair) {
         const SceneData::Occupant shape = scene_.occupant_of(slot_[pair]);
         core::Hit<double> hit;
         hit.shape = shape.id;
         hit.kind = shape.kind;
         hit.place = scene_.place_of(slot_[pair]);
+        hit.reversed = shape.reversed;
         const core::Start start = ray.origins.start_on(shape.id);
         if (start.on_surface || ((bits_[2 * pair] | bits_[2 * pair + 1]) & hit_doubtful) != 0) {
             core::with_table(scene_.scene().shapes(), shape.kind, [&](const auto& table) {
@@ -303,7 +316,7 @@ void RowWorker::leave_one_of_polygons() {
         const core::Hit<double>& hit = crossed.hit;
         if (hit.joins && kept != 0) {
             const core::Hit<double>& last = crossed_[kept - 1].hit;
-            if (last.entering == hit.entering && last.shape != hit.shape &&
+            if (last.enters() == hit.enters() && last.shape != hit.shape &&
                 scene_.scene().coplanar_with(last.shape).contains(hit.shape))
                 continue;
         }
@@ -328,7 +341,7 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
                              bool normals, CrossingRows& rows) {
     // What is entered comes first; within both sides it goes by shape.
     const auto left = std::find_if(all.begin(), all.end(),
-                                   [](const Crossed& crossed) { return !crossed.hit.entering; });
+                                   [](const Crossed& crossed) { return !crossed.hit.enters(); });
     const auto is_among = [](auto begin, auto end, core::ShapeId shape) {
         const auto found =
             std::lower_bound(begin, end, shape, [](const Crossed& crossed, core::ShapeId id) {
@@ -339,17 +352,18 @@ void RowWorker::add_at_one_t(const LoneRay& ray, std::span<const Crossed> all, s
     const core::Scene& scene = scene_.scene();
     for (const Crossed& crossed : all.first(std::min(most, all.size()))) {
         const core::Hit<double>& hit = crossed.hit;
-        const bool touches = hit.entering ? is_among(left, all.end(), hit.shape)
+        const bool touches = hit.enters() ? is_among(left, all.end(), hit.shape)
                                           : is_among(all.begin(), left, hit.shape);
         const bool is_sure = core::rounds_surely(crossed.t, crossed.error);
         rows.t.push_back(is_sure ? ray.as_answered(crossed.t.high) : ray.double_t_of(scene, hit));
         rows.shape.push_back(hit.shape);
-        rows.entering.push_back(hit.entering ? 1 : 0);
+        rows.entering.push_back(hit.enters() ? 1 : 0);
         rows.face.push_back(hit.face);
         rows.tied.push_back(hit.joins ? 1 : 0);
         rows.touching.push_back(touches ? 1 : 0);
         if (!normals) continue;
-        const core::Vec3f normal = core::rounded_normal(scene, ray.leaving(), hit);
+        core::Vec3f normal = core::rounded_normal(scene, ray.leaving(), hit);
+        if (hit.reversed) normal = core::Vec3f(0.0F) - normal; // no -0
         for (std::size_t axis = 0; axis < 3; ++axis)
             rows.normal[axis].push_back(normal[static_cast<int>(axis)]);
     }
@@ -366,7 +380,9 @@ void RowWorker::path_lengths(const RayStream<Real>& rays, LengthRows& rows) {
                                 (rays.t_max == nullptr || !std::isnan(rays.t_max[i]));
         if (intake_.is_ray(lane) && has_limits) {
             const LoneRay ray = intake_.lone(part_of(rays, first, rays.count - first), lane, lane);
-            find(ray, lane, [](const core::Hit<double>& hit) { return is_solid(hit.kind); });
+            find(ray, lane, [&](const core::Hit<double>& hit) {
+                return is_solid(hit.kind) || scene_.scene().solids().has(hit.shape);
+            });
             hits_.clear();
             for (const Crossed& crossed : crossed_)
                 hits_.push_back(crossed.hit);

@@ -2,6 +2,7 @@
 
 #include "core/reference/containing.hpp"
 #include "core/reference/path_lengths.hpp"
+#include "core/reference/solid_surfaces.hpp"
 #include "simd/arena.hpp"
 #include "simd/query/search.hpp"
 #include "simd/stream/intake.hpp"
@@ -60,7 +61,8 @@ class RowWorker {
     bool add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
                      CrossingRows& rows);
     double off_by(std::size_t k) const;
-    bool is_seen(std::size_t k) const;
+    template <class Real>
+    bool is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k);
     template <class Counts>
     void find(const LoneRay& ray, std::size_t lane, const Counts& counts);
     void sort(const LoneRay& ray);
@@ -76,6 +78,7 @@ class RowWorker {
     const SceneData& scene_;
     Tracing tracing_;
     core::PointSearcher points_;
+    core::SolidSurfaces solid_surfaces_;
     core::PathLengths lengths_;
     StreamIntake intake_;
     CandidateSearch search_;

@@ -33,7 +33,8 @@ StreamWorker::StreamWorker(const SceneData& scene, const Tracing& tracing,
                            const ShapesByName& shapes)
     : scene_(scene), tracing_(tracing),
       searcher_(scene.scene(), core::Search::hierarchy, tracing.precision),
-      query_(scene, tracing, Asked::floats), intake_(scene, tracing, shapes, at_a_time()) {
+      solid_surfaces_(scene.scene()), query_(scene, tracing, Asked::floats),
+      intake_(scene, tracing, shapes, at_a_time()) {
     const std::size_t capacity = at_a_time();
     arena_ = arena_for([&](Arena& arena) {
         query_.take_from(arena, capacity);
@@ -220,7 +221,7 @@ template <class Real>
 void StreamWorker::mark_unanswered(const RayStream<Real>& rays) {
     const Hits& found = query_.hits();
     const auto mark = [&](std::size_t lane) { found.hit[lane] |= hit_doubtful; };
-    if (scene_.one_sided())
+    if (scene_.looks_through())
         for (std::size_t lane = 0; lane < rays.count; ++lane)
             if (found.slot[lane] != no_slot && !is_seen(lane)) mark(lane);
     if (is_exact()) return; // what meets several shapes at one point has the first
@@ -301,10 +302,11 @@ void StreamWorker::search(const LoneRay& ray, const HitStream& hits, std::size_t
     if (wants_normals(hits))
         normal = is_exact() ? core::rounded_normal(scene_.scene(), ray.leaving(), hit)
                             : in_float(searcher_.surface_at(ray.ray, ray.origins, hit).normal);
+    if (hit.reversed) normal = core::Vec3f(0.0F) - normal; // no -0
     const double t_double = hits.t_double == nullptr ? 0.0
                             : is_exact()             ? ray.double_t_of(scene_.scene(), hit)
                                                      : ray.as_answered(hit.t);
-    store(hits, i, ray.t_of(scene_.scene(), hit), t_double, normal, hit.shape, hit.entering,
+    store(hits, i, ray.t_of(scene_.scene(), hit), t_double, normal, hit.shape, hit.enters(),
           hit.face);
 }
 
@@ -354,9 +356,9 @@ void StreamWorker::settle(const RayStream<Real>& rays, std::size_t left, std::ui
         occluded[i] = 0;
         if (query_.hits().slot[k] == no_slot) continue;
         const LoneRay ray = intake_.lone(rays, i, k);
-        occluded[i] = scene_.one_sided() && !is_seen(k) ? is_occluded(ray)
-                      : is_before_t_max(k, ray)         ? 1
-                                                        : 0;
+        occluded[i] = scene_.looks_through() && !is_seen(k) ? is_occluded(ray)
+                      : is_before_t_max(k, ray)             ? 1
+                                                            : 0;
     }
 }
 
@@ -369,11 +371,18 @@ std::uint8_t StreamWorker::is_occluded(const LoneRay& ray) {
     return found;
 }
 
-/// True if the lane's hit can be seen from where the ray comes.
-bool StreamWorker::is_seen(std::size_t lane) const {
+/// True if the lane's hit can be seen from where the ray comes, and is what answers say of shapes
+/// by themselves: a part of a solid is its surface, and not reversed.
+bool StreamWorker::is_seen(std::size_t lane) {
     const Hits& found = query_.hits();
-    const core::MaterialIndex material = scene_.occupant_of(found.slot[lane]).material;
-    return scene_.scene().materials()[material].is_seen((found.hit[lane] & hit_entering) != 0);
+    const SceneData::Occupant shape = scene_.occupant_of(found.slot[lane]);
+    const core::Scene& scene = scene_.scene();
+    if (!scene.materials()[shape.material].is_seen(shape.is_entered(found.hit[lane]))) return false;
+    return !scene.solids().has(shape.id) ||
+           (!shape.reversed &&
+            solid_surfaces_.is_surface(
+                {ray_of(intake_.paths(), lane), origin_surfaces_of(scene_, intake_.paths(), lane)},
+                hit_at(lane)));
 }
 
 /// t of the lane's hit, for the caller.

@@ -51,7 +51,7 @@ class StreamWorker {
     std::uint8_t is_occluded(const LoneRay& ray);
 
     core::Hit<double> hit_at(std::size_t lane) const;
-    bool is_seen(std::size_t lane) const;
+    bool is_seen(std::size_t lane);
     bool is_before_t_max(std::size_t lane, const LoneRay& ray) const;
     float t_at(std::size_t lane, const LoneRay& ray) const;
     double in_double(std::size_t lane, double t) const;
@@ -63,6 +63,7 @@ class StreamWorker {
     const SceneData& scene_;
     Tracing tracing_;
     core::Searcher<double> searcher_;
+    core::SolidSurfaces solid_surfaces_;
     Query query_;
     StreamIntake intake_;
     TileOrder tiles_;

@@ -168,10 +168,10 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
         state_[number] = blocked;
         return false;
     }
-    const bool entering = (found.hit[lane] & hit_entering) != 0;
-    const core::MaterialIndex before =
-        stacks.before(media, shape.material, /*transmits=*/true, entering);
-    const core::Media media_behind = stacks.crossed(media, shape.material, entering);
+    const bool entering = shape.is_entered(found.hit[lane]);
+    const core::MaterialIndex before = stacks.before(
+        media, shape.medium, scene_.scene().materials()[shape.medium].transmits(), entering);
+    const core::Media media_behind = stacks.crossed(media, shape.medium, entering);
     const double behind = scene_.medium(stacks.top(media_behind)).index;
 
     const double t = found.t[lane];

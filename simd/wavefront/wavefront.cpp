@@ -360,18 +360,20 @@ void Wavefront::fill_media() {
         const bool transmits = run.material->transmits;
         for (std::size_t i = run.begin; i < run.end; ++i) {
             const std::uint32_t lane = sorted_.order()[i];
-            const core::MaterialIndex material = sorted_.material_of(lane);
-            const bool entering = (finder_.hits().hit[lane] & hit_entering) != 0;
+            const SceneData::Occupant shape = scene_.occupant_of(finder_.hits().slot[lane]);
+            const bool entering = shape.is_entered(finder_.hits().hit[lane]);
             const core::Media media = paths_.media_at(lane);
-            const SceneData::Medium& before =
-                scene_.medium(stacks.before(media, material, transmits, entering));
+            const SceneData::Medium& before = scene_.medium(
+                stacks.before(media, shape.medium,
+                              scene_.scene().materials()[shape.medium].transmits(), entering));
             media_.inside[i] = before.inside;
             media_.index_before[i] = before.index;
             for (int channel = 0; channel < 3; ++channel)
                 media_.absorption[channel][i] = before.absorption[channel];
-            media_.index_behind[i] = run.material->index;
+            media_.index_behind[i] = scene_.medium(shape.medium).index;
             if (entering || !transmits) continue;
-            media_.index_behind[i] = scene_.medium(stacks.top(stacks.left(media, material))).index;
+            media_.index_behind[i] =
+                scene_.medium(stacks.top(stacks.left(media, shape.medium))).index;
         }
     }
 }
@@ -515,9 +517,9 @@ void Wavefront::add_to_next(const SpawnedRays& spawned, bool through) {
         next_.start_on(to, slot, shape, hit, through);
         if (!with_media_) continue;
         const core::Media media = paths_.media_at(lane);
-        next_.set_media(to, through ? reference_.media().crossed(media, shape.material,
-                                                                 (hit & hit_entering) != 0)
-                                    : media);
+        next_.set_media(
+            to, through ? reference_.media().crossed(media, shape.medium, shape.is_entered(hit))
+                        : media);
     }
 }
 

@@ -243,3 +243,56 @@ TEST_CASE("an ending that is no format's is refused") {
     CHECK(complaint("scene.obj", tests::scene_of(tests::with_objects(""))) ==
           "scene.obj: must end in .json, .nff or .pov");
 }
+
+namespace {
+
+const std::string solids = R"({"camera": {"from": [4, 5, 6], "at": [0, 0, 0]},
+    "lights": [{"type": "point", "position": [30, 40, 50]}],
+    "materials": {"clay": {}, "glass": {"transmission": 1}, "red": {"color": [1, 0, 0]}},
+    "objects": [
+        {"type": "difference", "material": "clay", "objects": [
+            {"type": "intersection", "objects": [
+                {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]},
+                {"type": "sphere", "center": [0, 0, 0], "radius": 1.3, "material": "red"}]},
+            {"type": "difference", "objects": [
+                {"type": "cylinder", "base": [0, 0, 0], "axis": [0, 2, 0], "radius": 0.6},
+                {"type": "union", "objects": [
+                    {"type": "plane", "point": [0, 0.1, 0], "normal": [1, 2, 0.5]},
+                    {"type": "ellipsoid", "center": [0, 0.4, 0], "axes": [[0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.5]]}]}]}]},
+        {"type": "clip", "material": "glass", "objects": [
+            {"type": "union", "objects": [
+                {"type": "cone", "base": [2, 0, 0], "axis": [0, 1, 0], "base_radius": 0.5},
+                {"type": "sphere", "center": [2, 0.4, 0], "radius": 0.4}]},
+            {"type": "plane", "point": [2, 0, 0.1], "normal": [0, 0, 1]}]},
+        {"type": "intersection", "material": "clay", "objects": [
+            {"type": "quadric", "center": [-2, 0, 1], "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -0.1]]},
+            {"type": "box", "min": [-3, -0.5, 0], "max": [-1, 0.5, 2]}]}
+    ]})";
+
+} // namespace
+
+TEST_CASE("solids of others are written as they were, and stay the same picture") {
+    const tests::TemporaryDirectory directory;
+    const core::Scene scene = tests::scene_of(solids);
+    const std::filesystem::path path = directory.path() / "solids.json";
+    export_scene(path, scene);
+    const core::Scene again = load_scene(path);
+    CHECK(again.solids().nodes().size() == scene.solids().nodes().size());
+    CHECK(picture_of(again) == picture_of(scene));
+    const std::string once = tests::content_of(path);
+    export_scene(path, again);
+    CHECK(tests::content_of(path) == once);
+
+    const std::filesystem::path pov = directory.path() / "solids.pov";
+    export_scene(pov, scene);
+    const std::string text = tests::content_of(pov);
+    for (const char* word :
+         {"difference { intersection { box {", "merge { cone {", "clipped_by { plane {",
+          "difference { cylinder {", "intersection { quadric {"}) {
+        INFO(word << " in " << text);
+        CHECK(text.find(word) != std::string::npos);
+    }
+    CHECK(complaint(directory.path() / "solids.nff", scene)
+              .find("has no word for a solid that is made of others: .pov and .json have") !=
+          std::string::npos);
+}

@@ -41,7 +41,7 @@ std::string type_names() {
         name.append(core::type_name_of(static_cast<core::Kind>(kind))).append("\", ");
         if (names.find(name) == std::string::npos) names += name;
     }
-    return names + R"("sphereflake" or "lattice")";
+    return names + R"("sphereflake", "lattice", "union", "intersection", "difference" or "clip")";
 }
 
 /// A clay object of this type at /objects/1.

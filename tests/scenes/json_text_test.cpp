@@ -93,7 +93,7 @@ TEST_CASE("nesting bombs are refused") {
     for (int i = 0; i < 100000; ++i)
         braces += "{\"a\":";
     CHECK(placed_complaint_about_text(braces) ==
-          "1:14: /objects/0: must not be nested more than 16 deep");
+          "1:14: /objects/0: must not be nested more than 256 deep");
 }
 
 TEST_CASE("one item cannot fill the memory") {

@@ -68,9 +68,17 @@ const json& definition(const json& schema, const json& reference) {
 std::map<std::string, Keys> keys_by_type(const json& schema, const json& alternatives) {
     std::map<std::string, Keys> keys;
     for (const json& alternative : alternatives) {
+        if (alternative.contains("oneOf")) {
+            keys.merge(keys_by_type(schema, alternative.at("oneOf")));
+            continue;
+        }
         const json& object = definition(schema, alternative);
-        keys[object.at(json::json_pointer("/properties/type/const")).get<std::string>()].merge(
-            keys_of(object));
+        const json& type = object.at(json::json_pointer("/properties/type"));
+        if (type.contains("enum"))
+            for (const json& one : type.at("enum"))
+                keys[one.get<std::string>()].merge(keys_of(object));
+        else
+            keys[type.at("const").get<std::string>()].merge(keys_of(object));
     }
     return keys;
 }

@@ -13,6 +13,7 @@
 #include "raylane/precision.hpp"
 #include "raylane/scene.hpp"
 #include "raylane/shapes.hpp"
+#include "raylane/solid.hpp"
 #include "raylane/surroundings.hpp"
 #include "raylane/tracer.hpp"
 #include "raylane/vector.hpp"

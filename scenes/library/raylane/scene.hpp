@@ -3,6 +3,7 @@
 #include "raylane/api.h"
 #include "raylane/material.hpp"
 #include "raylane/shapes.hpp"
+#include "raylane/solid.hpp"
 #include "raylane/surroundings.hpp"
 
 #include <cstddef>
@@ -40,6 +41,9 @@ class Scene {
     Bounds bounds() const;
     /// Throws InvalidValue for an id that is no shape's.
     MaterialIndex material_of(ShapeId shape) const;
+    /// The id by which the solid goes that a shape is a part of: that of its first part. Of others
+    /// their own. Throws InvalidValue for an id that is no shape's.
+    ShapeId solid_of(ShapeId shape) const;
     /// Throws InvalidValue for an index that is no material's.
     Material material(MaterialIndex index) const;
     std::vector<Light> lights() const;
@@ -83,6 +87,13 @@ class SceneBuilder {
     /// The id of the new shape: 0, 1, 2, ... `material` is an index that add_material returned.
     template <AnyShape Shape>
     ShapeId add(const Shape& shape, MaterialIndex material);
+
+    /// A solid that is made of others: the id of its first part; those of the others follow, in the
+    /// order in which they were given. `material`: of parts that have none of their own, and of
+    /// what is inside of all. Fields of what is thrown are those of its shapes behind
+    /// "objects/0/objects/2/", ... Throws InvalidValue from build() where quadrics leave it without
+    /// bounds.
+    ShapeId add(const Solid& solid, MaterialIndex material);
 
     /// One or more triangles that tile one flat polygon: no reflection or shadow of one of them
     /// falls on another. Returns the first id; the others follow.

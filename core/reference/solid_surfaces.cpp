@@ -1,0 +1,241 @@
+#include "core/reference/solid_surfaces.hpp"
+
+#include "core/shapes/side.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::core {
+
+namespace {
+
+/// The shape that has the inside of a part: a quadric's does not end where its surface is clipped.
+template <class Shape>
+Shape unclipped(Shape shape) {
+    if constexpr (kind_of<Shape> == Kind::quadric) {
+        shape.lower = Vec3d(-1e300);
+        shape.upper = Vec3d(1e300);
+    }
+    return shape;
+}
+
+/// True if a line that does not cross a shape's surface runs inside of it.
+template <class Shape>
+bool runs_inside(const Shape& shape, const Ray<double>& ray) {
+    if constexpr (!is_solid<Shape> && has_inside<Shape>)
+        return side_of(shape, ray.origin) == Side::inside;
+    else
+        return false;
+}
+
+/// True if a line that only touches a shape's surface runs inside of it.
+template <class Shape>
+bool touches_from_inside(const Shape& shape, const Ray<double>& ray) {
+    if constexpr (kind_of<Shape> == Kind::quadric)
+        return form_along(shape, {convert<Dyadic>(ray.origin), convert<Dyadic>(ray.direction)},
+                          body)
+                   .A.sign() < 0;
+    else
+        return false;
+}
+
+template <class Visit>
+decltype(auto) with_part(const Scene& scene, const Solids::Node& part, const Visit& visit) {
+    return with_table(scene.shapes(), part.kind,
+                      [&](const auto& table) { return visit(table.get(part.place)); });
+}
+
+Hit<double> hit_of(const Solids::Node& part, const Crossing<double>& crossing) {
+    Hit<double> hit;
+    hit.t = crossing.t;
+    hit.error = crossing.error;
+    hit.shape = part.shape;
+    hit.face = crossing.face;
+    hit.entering = crossing.entering;
+    hit.kind = part.kind;
+    hit.place = part.place;
+    return hit;
+}
+
+/// A box of floats that has all that a point with bounds may be.
+Bounds bounds_of(const Somewhere& point) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Bounds bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double error = point[axis].error * (1.0 + 0x1p-50);
+        bounds.lower[axis] =
+            std::nextafter(static_cast<float>(point[axis].value - error), -infinity);
+        bounds.upper[axis] =
+            std::nextafter(static_cast<float>(point[axis].value + error), infinity);
+    }
+    return bounds;
+}
+
+Somewhere point_of(const LeavingRay& from, const Hit<double>& hit) {
+    using Real = Bounded<double>;
+    return mul_add(Real(hit.t, hit.error), convert<Real>(from.ray.direction),
+                   convert<Real>(from.ray.origin));
+}
+
+} // namespace
+
+Value SolidSurfaces::value_of_part(Index index, const LeavingRay& from, const Hit<double>& hit,
+                                   const Somewhere& point) {
+    const Solids::Node& part = solids_.node(index);
+    const Start start = from.origins.start_on(part.shape);
+    const Value inside = with_part(scene_, part, [&](const auto& shape) {
+        if (!start.on_surface) return inside_of(shape, point);
+        // It is on the side to which the ray goes until that meets it again.
+        std::uint64_t widened = 0;
+        Value value = start.inward ? Value::yes : Value::no;
+        for (const Crossing<double>& crossing : solve(unclipped(shape), from.ray, start, widened)) {
+            const Hit<double> other = hit_of(part, crossing);
+            if (hit.is_surely_before(other)) break;
+            if (!other.is_surely_before(hit)) return Value::unknown;
+            value = crossing.entering ? Value::yes : Value::no;
+        }
+        return value;
+    });
+    return part.reversed ? !inside : inside;
+}
+
+Value SolidSurfaces::value_at(Index index, const LeavingRay& from, const Hit<double>& hit,
+                              const Somewhere& point) {
+    const Solids::Node& node = solids_.node(index);
+    if (node.op == Solids::Op::part) return value_of_part(index, from, hit, point);
+    const Value decides = node.op == Solids::Op::all ? Value::no : Value::yes;
+    Value value = !decides;
+    const auto look = [&](Index child) {
+        const Value of_child = value_at(child, from, hit, point);
+        if (of_child != !decides) value = of_child;
+        return of_child != decides;
+    };
+    if (node.many)
+        parts_.each_child(index, bounds_of(point), look);
+    else
+        solids_.each_child(index, look);
+    return value;
+}
+
+/// By numbers with bounds: nothing else is crossed there, and all others of the parts let this one
+/// decide.
+Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit) {
+    if (hit.at_start) return Value::unknown;
+    const Index own = solids_.part_of(hit.shape);
+    const Somewhere point = point_of(from, hit);
+    Value value = Value::yes;
+    for (Index index = own; solids_.node(index).parent != Solids::none;
+         index = solids_.node(index).parent) {
+        const Index parent = solids_.node(index).parent;
+        const Value decides = solids_.node(parent).op == Solids::Op::all ? Value::no : Value::yes;
+        bool matters = true;
+        const auto look = [&](Index child) {
+            if (child == index) return true;
+            const Value other = value_at(child, from, hit, point);
+            if (other == Value::unknown) value = Value::unknown;
+            return matters = other != decides;
+        };
+        if (solids_.node(parent).many)
+            parts_.each_child(parent, bounds_of(point), look);
+        else
+            solids_.each_child(parent, look);
+        if (!matters) return Value::no;
+    }
+    if (value != Value::yes) return value;
+    // A touch changes nothing.
+    const Solids::Node& part = solids_.node(own);
+    const bool is_alone = with_part(scene_, part, [&](const auto& shape) {
+        std::uint64_t widened = 0;
+        int there = 0;
+        for (const Crossing<double>& crossing :
+             solve(shape, from.ray, from.origins.start_on(hit.shape), widened)) {
+            const Hit<double> other = hit_of(part, crossing);
+            there += !other.is_surely_before(hit) && !hit.is_surely_before(other) ? 1 : 0;
+        }
+        return there == 1;
+    });
+    return is_alone ? Value::yes : Value::unknown;
+}
+
+SolidSurfaces::Sides SolidSurfaces::sides_of_part(Index index, const LeavingRay& from,
+                                                  const SharpHit& hit) {
+    const Solids::Node& part = solids_.node(index);
+    const Hit<double>& there = hit.hit();
+    const Contact<double>* contact = from.origins.find(part.shape);
+    if (there.at_start && contact != nullptr)
+        return {contact->inside != part.reversed, contact->goes_inside != part.reversed};
+    Sides inside{};
+    with_part(scene_, part, [&](const auto& shape) {
+        const Start start = from.origins.start_on(part.shape);
+        std::uint64_t widened = 0;
+        const Crossings<double> all = solve(unclipped(shape), from.ray, start, widened);
+        if (all.begin() == all.end()) {
+            inside.before = inside.behind =
+                start.on_surface ? start.inward : runs_inside(shape, from.ray);
+            return;
+        }
+        const CrossingOrder order(scene_, from);
+        const auto last = all.end() - 1;
+        if (last != all.begin() &&
+            order.compare(hit_of(part, *all.begin()), hit_of(part, *last)) == 0) {
+            inside.before = inside.behind = touches_from_inside(shape, from.ray);
+            return;
+        }
+        inside.before = inside.behind = !all.begin()->entering;
+        for (const Crossing<double>& crossing : all) {
+            const Hit<double> other = hit_of(part, crossing);
+            const bool is_same = !there.at_start && other.shape == there.shape &&
+                                 other.face == there.face && other.entering == there.entering;
+            const int before = is_same ? 0
+                               : there.at_start
+                                   ? (other.t > 0.0 ? 1 : -1) // known to be crossed, or not
+                                   : order.compare(other, hit);
+            if (before < 0) inside.before = crossing.entering;
+            if (before <= 0) inside.behind = crossing.entering;
+        }
+    });
+    return {inside.before != part.reversed, inside.behind != part.reversed};
+}
+
+SolidSurfaces::Sides SolidSurfaces::sides_of(Index index, const LeavingRay& from,
+                                             const SharpHit& hit, const Bounds& around) {
+    const Solids::Node& node = solids_.node(index);
+    if (node.op == Solids::Op::part) return sides_of_part(index, from, hit);
+    const bool of_all = node.op == Solids::Op::all;
+    Sides sides{of_all, of_all};
+    const auto look = [&](Index child) {
+        const Sides of_child = sides_of(child, from, hit, around);
+        sides.before = of_all ? sides.before && of_child.before : sides.before || of_child.before;
+        sides.behind = of_all ? sides.behind && of_child.behind : sides.behind || of_child.behind;
+        return sides.before == of_all || sides.behind == of_all;
+    };
+    if (node.many)
+        parts_.each_child(index, around, look, /*sorted=*/true);
+    else
+        solids_.each_child(index, look);
+    return sides;
+}
+
+bool SolidSurfaces::exactly(const LeavingRay& from, const Hit<double>& hit) {
+    const SharpHit sharp(hit);
+    const Bounds around = bounds_of(point_of(from, hit));
+    Index index = solids_.root_of(solids_.part_of(hit.shape));
+    const Sides whole = sides_of(index, from, sharp, around);
+    if (!whole.change()) return false;
+    // The first part that changes as the whole does.
+    while (solids_.node(index).op != Solids::Op::part) {
+        Index changed = Solids::none;
+        const auto look = [&](Index child) {
+            if (sides_of(child, from, sharp, around) == whole) changed = child;
+            return changed == Solids::none;
+        };
+        if (solids_.node(index).many)
+            parts_.each_child(index, around, look, /*sorted=*/true);
+        else
+            solids_.each_child(index, look);
+        index = changed;
+    }
+    return solids_.node(index).shape == hit.shape;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,350 @@
+#include "core/solids/solids.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::core {
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+Bounds everywhere() {
+    return {Vec3f(-infinity), Vec3f(infinity)};
+}
+
+Bounds common(const Bounds& a, const Bounds& b) {
+    Bounds both;
+    for (int axis = 0; axis < 3; ++axis) {
+        both.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
+        both.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
+    }
+    return both;
+}
+
+bool is_empty(const Bounds& bounds) {
+    return !(bounds.lower.x <= bounds.upper.x && bounds.lower.y <= bounds.upper.y &&
+             bounds.lower.z <= bounds.upper.z);
+}
+
+/// What is in front of, or behind, a plane at right angles to an axis has bounds on one side.
+Bounds bounds_of_half_space(const PlaneOf<double>& plane, bool reversed) {
+    Bounds bounds = everywhere();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (plane.normal[(axis + 1) % 3] != 0.0 || plane.normal[(axis + 2) % 3] != 0.0) continue;
+        const auto at = static_cast<float>(plane.point[axis]);
+        if ((plane.normal[axis] > 0.0) != reversed)
+            bounds.upper[axis] = std::nextafter(at, infinity);
+        else
+            bounds.lower[axis] = std::nextafter(at, -infinity);
+    }
+    return bounds;
+}
+
+/// Bounds of all points in a box where something may be; where that is, is found out by halves.
+template <class MayBe>
+class Hull {
+  public:
+    Hull(const Bounds& box, const MayBe& may_be) : may_be_(may_be) { add(box, 3); }
+    const Bounds& bounds() const { return hull_; }
+
+  private:
+    void add(const Bounds& cell, int halvings) {
+        if (!is_empty(hull_) && hull_.contains(cell.lower) && hull_.contains(cell.upper)) return;
+        if (!may_be_(somewhere_in(cell))) return;
+        if (halvings == 0) {
+            hull_.include(cell);
+            return;
+        }
+        const Vec3f middle = 0.5F * cell.lower + 0.5F * cell.upper;
+        for (int octant = 0; octant < 8; ++octant) {
+            Bounds part = cell;
+            for (int axis = 0; axis < 3; ++axis)
+                ((octant >> axis & 1) != 0 ? part.lower : part.upper)[axis] = middle[axis];
+            add(part, halvings - 1);
+        }
+    }
+
+    const MayBe& may_be_;
+    Bounds hull_;
+};
+
+/// The same again and again, while it shrinks.
+template <class MayBe>
+Bounds hull_in(Bounds box, const MayBe& may_be) {
+    for (int turn = 0; turn < 4 && !is_empty(box); ++turn) {
+        const double before = box.half_area();
+        box = Hull<MayBe>(box, may_be).bounds();
+        if (!(box.half_area() < 0.75 * before)) break;
+    }
+    return box;
+}
+
+} // namespace
+
+/// The halves of sums and differences of floats, off by less than an ulp of the larger one.
+Somewhere somewhere_in(const Bounds& bounds) {
+    Somewhere point;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto lower = static_cast<double>(bounds.lower[axis]);
+        const auto upper = static_cast<double>(bounds.upper[axis]);
+        const double error =
+            (0.5 * upper - 0.5 * lower) + 0x1p-50 * std::max(std::abs(lower), std::abs(upper));
+        point[axis] = {0.5 * upper + 0.5 * lower, error * (1.0 + 0x1p-50)};
+    }
+    return point;
+}
+
+SolidCollector::Index SolidCollector::begin(Solids::Op op, Index parent) {
+    const auto index = static_cast<Index>(solids_.nodes_.size());
+    Node node{op};
+    node.parent = parent;
+    node.end = index + 1;
+    solids_.nodes_.push_back(node);
+    shapes_.emplace_back();
+    return index;
+}
+
+Bounds SolidCollector::hull_of(Index index) const {
+    const Node& node = solids_.nodes_[index];
+    if (node.op == Solids::Op::part)
+        return std::visit(
+            [&]<class Shape>(const Shape& shape) {
+                if constexpr (kind_of<Shape> == Kind::plane)
+                    return bounds_of_half_space(shape, node.reversed);
+                else if constexpr (kind_of<Shape> == Kind::quadric)
+                    return everywhere();
+                else
+                    return node.reversed ? everywhere() : core::bounds_of(shape);
+            },
+            shapes_[index]);
+    Bounds hull = node.op == Solids::Op::all ? everywhere() : Bounds{};
+    solids_.each_child(index, [&](Index child) {
+        const Bounds of_child = hull_of(child);
+        if (node.op == Solids::Op::all)
+            hull = common(hull, of_child);
+        else if (!is_empty(of_child))
+            hull.include(of_child);
+        return true;
+    });
+    return hull;
+}
+
+Value SolidCollector::value_in(Index index, const Somewhere& point) const {
+    const Node& node = solids_.nodes_[index];
+    if (node.op == Solids::Op::part) {
+        const Value inside =
+            std::visit([&](const auto& shape) { return inside_of(shape, point); }, shapes_[index]);
+        return node.reversed ? !inside : inside;
+    }
+    if (node.many) return Value::unknown;
+    const Value decides = node.op == Solids::Op::all ? Value::no : Value::yes;
+    Value value = !decides;
+    solids_.each_child(index, [&](Index child) {
+        const Value of_child = value_in(child, point);
+        if (of_child != !decides) value = of_child;
+        return of_child != decides;
+    });
+    return value;
+}
+
+/// Whether it matters there if one is inside or outside of a part; of many, others are not looked
+/// at.
+Value SolidCollector::matters_in(Index part, const Somewhere& point) const {
+    Value matters = Value::yes;
+    for (Index index = part; solids_.nodes_[index].parent != Solids::none;
+         index = solids_.nodes_[index].parent) {
+        const Index parent = solids_.nodes_[index].parent;
+        if (solids_.nodes_[parent].many) continue;
+        const Value decides = solids_.nodes_[parent].op == Solids::Op::all ? Value::no : Value::yes;
+        solids_.each_child(parent, [&](Index child) {
+            if (child == index) return true;
+            const Value other = value_in(child, point);
+            if (other == decides)
+                matters = Value::no;
+            else if (other == Value::unknown && matters == Value::yes)
+                matters = other;
+            return matters != Value::no;
+        });
+        if (matters == Value::no) break;
+    }
+    return matters;
+}
+
+void SolidCollector::find_bounds(Index solid) {
+    Bounds bounds = hull_of(solid);
+    if (is_finite(bounds) && !solids_.nodes_[solid].many)
+        bounds = hull_in(
+            bounds, [&](const Somewhere& point) { return value_in(solid, point) != Value::no; });
+    solids_.bounds_[solid] = bounds;
+}
+
+/// Puts a part into the list of its kind, or of one that is the same half-space and can have
+/// bounds.
+void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) {
+    Node& node = solids_.nodes_[part];
+    const auto in_list = [&]<class Shape>(const Shape& shape) {
+        std::get<ShapeList<InFloat<Shape>>>(lists).add(shape, node.shape);
+    };
+    const auto with_bounds = [&](QuadricOf<double> quadric, const Bounds& bounds) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto lower = static_cast<double>(bounds.lower[axis]) - quadric.center[axis];
+            const auto upper = static_cast<double>(bounds.upper[axis]) - quadric.center[axis];
+            const double beside = 0x1p-20 * (upper - lower) + 0x1p-20 * std::abs(lower) +
+                                  0x1p-20 * std::abs(upper) + 0x1p-100;
+            quadric.lower[axis] = static_cast<double>(static_cast<float>(lower - beside));
+            quadric.upper[axis] = static_cast<double>(static_cast<float>(upper + beside));
+        }
+        shapes_[part] = quadric;
+        node.kind = Kind::quadric;
+        in_list(quadric);
+    };
+    std::visit(
+        [&]<class Shape>(const Shape& shape) {
+            // Its surface; and the inside, too, where it is found to be around points by that.
+            bool with_inside = is_solid<Shape> && !node.reversed;
+            for (Index above = node.parent; above != Solids::none;
+                 above = solids_.nodes_[above].parent)
+                with_inside = with_inside || solids_.nodes_[above].many;
+
+            Bounds& bounds = solids_.bounds_[part];
+            bounds = of_solid;
+            if constexpr (is_bounded<InFloat<Shape>> && kind_of<Shape> != Kind::quadric)
+                if (!with_inside || !node.reversed) bounds = common(bounds, core::bounds_of(shape));
+            if (is_empty(bounds)) {
+                node.traced = false;
+                return;
+            }
+            if (is_finite(bounds)) {
+                const Value matters = matters_in(part, somewhere_in(bounds));
+                if (matters == Value::unknown)
+                    bounds = hull_in(bounds, [&](const Somewhere& point) {
+                        const Value inside = value_in(part, point);
+                        return (inside == Value::unknown ||
+                                (with_inside && inside == Value::yes)) &&
+                               matters_in(part, point) != Value::no;
+                    });
+                if (matters == Value::no || is_empty(bounds)) {
+                    node.traced = false;
+                    return;
+                }
+            }
+            if constexpr (kind_of<Shape> == Kind::quadric) {
+                if (!is_finite(bounds))
+                    throw InvalidValue("", "must have bounds, for it is made of a quadric: "
+                                           "intersect it with a box");
+                with_bounds(shape, bounds);
+            } else if constexpr (kind_of<Shape> == Kind::plane) {
+                if (is_finite(bounds)) {
+                    QuadricOf<double> half_space{};
+                    half_space.center = shape.point;
+                    half_space.x = shape.normal.x;
+                    half_space.y = shape.normal.y;
+                    half_space.z = shape.normal.z;
+                    with_bounds(half_space, bounds);
+                } else {
+                    in_list(shape);
+                }
+            } else {
+                in_list(shape);
+            }
+        },
+        PartShape(shapes_[part]));
+}
+
+/// True if all that is inside of a node is in the bounds of a part that rays cross.
+bool SolidCollector::is_covered(Index index) const {
+    const Node& node = solids_.nodes_[index];
+    if (node.op == Solids::Op::part)
+        return node.traced && !node.reversed &&
+               with_shape_type(node.kind, []<class Shape>(std::type_identity<Shape>) {
+                   return is_solid<Shape>;
+               });
+    const bool of_all = node.op == Solids::Op::all;
+    bool covered = !of_all;
+    solids_.each_child(index, [&](Index child) {
+        covered = is_covered(child);
+        return covered != of_all;
+    });
+    return covered;
+}
+
+/// Has its first part found wherever something is inside of it.
+void SolidCollector::cover(Index index, const Bounds& bounds) {
+    if (is_covered(index)) return;
+    for (Index part = index; part < solids_.nodes_[index].end; ++part)
+        if (solids_.nodes_[part].op == Solids::Op::part && solids_.nodes_[part].traced) {
+            solids_.bounds_[part].include(bounds);
+            return;
+        }
+}
+
+void SolidCollector::list(ShapeLists& lists) {
+    std::vector<Node>& nodes = solids_.nodes_;
+    solids_.media_.resize(nodes.size(), no_material);
+    solids_.bounds_.resize(nodes.size());
+    for (Index index = static_cast<Index>(nodes.size()); index-- > 0;) {
+        Node& node = nodes[index];
+        if (node.op == Solids::Op::part) {
+            if (node.shape == no_shape) continue;
+            if (node.shape >= solids_.node_of_.size())
+                solids_.node_of_.resize(std::size_t{node.shape} + 1, Solids::none);
+            solids_.node_of_[node.shape] = index;
+            continue;
+        }
+        Index children = 0;
+        solids_.each_child(index, [&](Index child) {
+            node.shape = std::min(node.shape, nodes[child].shape);
+            ++children;
+            return true;
+        });
+        // What no ray crosses is in no hierarchy.
+        const bool is_traced =
+            std::all_of(nodes.begin() + index, nodes.begin() + node.end, [](const Node& part) {
+                return part.op != Solids::Op::part || part.traced;
+            });
+        node.many = node.op == Solids::Op::any && children > Solids::few_parts && is_traced;
+    }
+    for (Index solid = 0; solid < nodes.size(); solid = nodes[solid].end) {
+        find_bounds(solid);
+        const Bounds& whole = solids_.bounds_[solid];
+        // What has no bounds is in no hierarchy.
+        if (!is_finite(whole))
+            for (Index index = solid; index < nodes[solid].end; ++index)
+                if (nodes[index].many)
+                    solids_.each_child(index, [&](Index child) {
+                        return nodes[index].many = is_finite(common(hull_of(child), whole));
+                    });
+        for (Index part = solid; part < nodes[solid].end; ++part)
+            if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, whole, lists);
+        if (is_finite(whole)) cover(solid, whole);
+        for (Index index = solid; index < nodes[solid].end; ++index)
+            if (nodes[index].many)
+                solids_.each_child(index, [&](Index child) {
+                    cover(child, common(hull_of(child), whole));
+                    return true;
+                });
+    }
+}
+
+Solids SolidCollector::finish(Tables& tables) {
+    for_each_table(tables, [&]<class Shape>(Table<Shape>& table) {
+        for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
+            for_each_in_block(table, block, [&](Place place, ShapeId id) {
+                if (const Index part = solids_.part_of(id); part != Solids::none)
+                    solids_.nodes_[part].place = place;
+            });
+        ShapeList<Shape> hidden;
+        for (Index index = 0; index < solids_.nodes_.size(); ++index) {
+            Node& node = solids_.nodes_[index];
+            if (node.op != Solids::Op::part || node.traced || node.kind != kind_of<Shape>) continue;
+            node.place = table.hidden_place(hidden.size());
+            hidden.add(std::get<InDouble<Shape>>(shapes_[index]), no_shape);
+        }
+        if (hidden.size() != 0) table.hide(hidden);
+    });
+    shapes_ = {};
+    return std::move(solids_);
+}
+
+} // namespace raylane::core

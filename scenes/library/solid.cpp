@@ -1,0 +1,72 @@
+#include "core/solids/solid.hpp"
+
+#include "raylane/solid.hpp"
+#include "scenes/library/convert.hpp"
+#include "scenes/library/internals.hpp"
+
+#include <utility>
+
+namespace raylane {
+
+namespace {
+
+Solid made(core::Made by, const std::vector<Solid>& parts) {
+    core::Solid solid{by};
+    solid.parts.reserve(parts.size());
+    for (const Solid& part : parts)
+        solid.parts.push_back(library::Internals::of(part));
+    return library::Internals::solid(std::move(solid));
+}
+
+std::vector<Solid> with_first(const Solid& first, const std::vector<Solid>& others) {
+    std::vector<Solid> all{first};
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+}
+
+template <class CoreShape, class Shape>
+std::shared_ptr<const core::Solid> of_shape(const Shape& shape, MaterialIndex material) {
+    core::Solid solid;
+    solid.shape = core::to_doubles(library::core_shape<CoreShape>(shape));
+    solid.material = material;
+    return std::make_shared<const core::Solid>(std::move(solid));
+}
+
+} // namespace
+
+Solid Solid::of(MaterialIndex material) const {
+    core::Solid same = *solid_;
+    same.material = material;
+    return library::Internals::solid(std::move(same));
+}
+
+#define RAYLANE_SOLID_OF(Shape, CoreShape)                                                         \
+    template <>                                                                                    \
+    Solid::Solid(const Shape& shape) : Solid(of_shape<CoreShape>(shape, core::no_material)) {}     \
+    template <>                                                                                    \
+    Solid::Solid(const Shape& shape, MaterialIndex material)                                       \
+        : Solid(of_shape<CoreShape>(shape, material)) {}
+#define RAYLANE_SOLID(Shape, name, text)                                                           \
+    RAYLANE_SOLID_OF(Shape, core::Shape)                                                           \
+    RAYLANE_SOLID_OF(Shape##Of<double>, core::InDouble<core::Shape>)
+RAYLANE_SHAPES(RAYLANE_SOLID)
+#undef RAYLANE_SOLID
+#undef RAYLANE_SOLID_OF
+
+Solid union_of(const std::vector<Solid>& parts) {
+    return made(core::Made::by_union, parts);
+}
+
+Solid intersection_of(const std::vector<Solid>& parts) {
+    return made(core::Made::by_intersection, parts);
+}
+
+Solid difference_of(const Solid& whole, const std::vector<Solid>& taken_away) {
+    return made(core::Made::by_difference, with_first(whole, taken_away));
+}
+
+Solid clipped(const Solid& whole, const std::vector<Solid>& by) {
+    return made(core::Made::by_clip, with_first(whole, by));
+}
+
+} // namespace raylane
