@@ -217,13 +217,28 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
     one_sided_ = std::any_of(materials.begin(), materials.end(), [](const core::Material& m) {
         return m.visible != core::Visible::both;
     });
+    // What is inside of a solid all over blocks rays that start outside, wherever that has its
+    // surface: those of pictures do.
+    std::vector<bool> blocks(solids.nodes().size());
+    for (core::Solids::Index part = 0; part < blocks.size(); ++part)
+        blocks[part] = transmissive == Transmissive::lets_through && solids.node(part).fills;
+    for (core::Solids::Index solid = 0, end = 0; solid < blocks.size(); solid = end) {
+        end = solids.node(solid).end;
+        for (core::Solids::Index part = solid; part < end; ++part)
+            if (solids.node(part).op == core::Solids::Op::part &&
+                solids.node(part).shape != core::no_shape &&
+                !is_plain(scene_.material_of(solids.node(part).shape)))
+                std::fill(blocks.begin() + solid, blocks.begin() + end, false);
+    }
+    const auto is_plain_shape = [&](core::ShapeId id) {
+        return solids.has(id) ? blocks[solids.part_of(id)] : is_plain(scene_.material_of(id));
+    };
     plain_lanes_.reserve(slots_ / core::block_size);
     core::for_each_table(scene_.shapes(), [&](const auto& table) {
         for (const auto& block : table.blocks()) {
             unsigned plain = 0;
             for (int lane = 0; lane < core::block_size; ++lane)
-                if (block.ids[lane] != core::no_shape && !solids.has(block.ids[lane]) &&
-                    is_plain(scene_.material_of(block.ids[lane])))
+                if (block.ids[lane] != core::no_shape && is_plain_shape(block.ids[lane]))
                     plain |= 1U << lane;
             plain_lanes_.push_back(static_cast<std::uint16_t>(plain));
         }

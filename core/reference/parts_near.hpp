@@ -51,8 +51,10 @@ class PartsNear {
         std::vector<Solids::Index> children;
         bool more = true;
         each_block(around, [&](Kind kind, std::uint32_t block) {
-            with_table(scene_.shapes(), kind, [&](const auto& table) {
-                for_each_in_block(table, block, [&](Place, ShapeId id) {
+            with_table(scene_.shapes(), kind, [&]<class Shape>(const Table<Shape>& table) {
+                const unsigned near = near_in(table.blocks()[block], around);
+                for_each_in_block(table, block, [&](Place place, ShapeId id) {
+                    if ((near >> place.lane & 1) == 0) return;
                     const Solids::Index part = solids.part_of(id);
                     if (part == Solids::none || part <= parent || end <= part) return;
                     const Solids::Index child = solids.child_of(parent, part);
@@ -71,6 +73,40 @@ class PartsNear {
     }
 
   private:
+    /// The lanes of a block whose shapes may have something within bounds: of spheres those that
+    /// are as near as that, whatever their floats are rounded by.
+    template <class Shape>
+    static unsigned near_in(const Block<Shape>&, const Bounds&) {
+        return ~0U;
+    }
+    static unsigned near_in(const Block<Sphere>& block, const Bounds& around) {
+        constexpr double rounding = 0x1p-22;
+        double over[block_size], least[block_size];
+        for (int lane = 0; lane < block_size; ++lane) {
+            const auto radius = static_cast<double>(block.values[3][lane]);
+            over[lane] = radius;
+            least[lane] = 0.0;
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto lower = static_cast<double>(around.lower[axis]);
+            const auto upper = static_cast<double>(around.upper[axis]);
+            for (int lane = 0; lane < block_size; ++lane) {
+                const auto center = static_cast<double>(block.values[axis][lane]);
+                const double below = lower - center, above = center - upper;
+                const double farther = below > above ? below : above;
+                const double away = farther > 0.0 ? farther : 0.0;
+                least[lane] += away * away;
+                over[lane] += rounding * std::abs(center);
+            }
+        }
+        unsigned near = 0;
+        for (int lane = 0; lane < block_size; ++lane) {
+            const double reach = over[lane] * (1.0 + rounding);
+            near |= static_cast<unsigned>(!(least[lane] > reach * reach)) << lane;
+        }
+        return near;
+    }
+
     const Scene& scene_;
     std::vector<std::uint32_t> pending_; // nodes of the hierarchy
 };

@@ -99,48 +99,78 @@ Value SolidSurfaces::value_of_part(Index index, const LeavingRay& from, const Hi
     return part.reversed ? !inside : inside;
 }
 
+/// Of a union of many, or of all but one of them. Those on whose surface the ray starts are known
+/// without a search.
+Value SolidSurfaces::value_of_many(Index index, Index without, const LeavingRay& from,
+                                   const Hit<double>& hit, const Somewhere& point) {
+    Value value = Value::no;
+    const auto look = [&](Index child) {
+        if (child == without) return true;
+        const Value of_child = value_at(child, from, hit, point, WayInUnion());
+        if (of_child != Value::no) value = of_child;
+        return of_child != Value::yes;
+    };
+    for (const Contact<double>& contact : from.origins) {
+        const Index part = solids_.part_of(contact.hit.shape);
+        if (part != Solids::none && solids_.node(part).parent == index && !look(part)) return value;
+    }
+    parts_.each_child(index, bounds_of(point), look);
+    return value;
+}
+
 Value SolidSurfaces::value_at(Index index, const LeavingRay& from, const Hit<double>& hit,
-                              const Somewhere& point) {
+                              const Somewhere& point, const WayInUnion& way) {
     const Solids::Node& node = solids_.node(index);
     if (node.op == Solids::Op::part) return value_of_part(index, from, hit, point);
+    if (index == way.counted) return way.inside > 0 ? Value::yes : Value::no;
+    if (node.many) return value_of_many(index, Solids::none, from, hit, point);
     const Value decides = node.op == Solids::Op::all ? Value::no : Value::yes;
     Value value = !decides;
-    const auto look = [&](Index child) {
-        const Value of_child = value_at(child, from, hit, point);
+    solids_.each_child(index, [&](Index child) {
+        const Value of_child = value_at(child, from, hit, point, way);
         if (of_child != !decides) value = of_child;
         return of_child != decides;
-    };
-    if (node.many)
-        parts_.each_child(index, bounds_of(point), look);
-    else
-        solids_.each_child(index, look);
+    });
     return value;
 }
 
 /// By numbers with bounds: nothing else is crossed there, and all others of the parts let this one
-/// decide.
-Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit) {
+/// decide. What takes a search comes last.
+Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit,
+                             const WayInUnion& way) {
     if (hit.at_start) return Value::unknown;
     const Index own = solids_.part_of(hit.shape);
     const Somewhere point = point_of(from, hit);
     Value value = Value::yes;
-    for (Index index = own; solids_.node(index).parent != Solids::none;
-         index = solids_.node(index).parent) {
-        const Index parent = solids_.node(index).parent;
-        const Value decides = solids_.node(parent).op == Solids::Op::all ? Value::no : Value::yes;
-        bool matters = true;
-        const auto look = [&](Index child) {
-            if (child == index) return true;
-            const Value other = value_at(child, from, hit, point);
-            if (other == Value::unknown) value = Value::unknown;
-            return matters = other != decides;
-        };
-        if (solids_.node(parent).many)
-            parts_.each_child(parent, bounds_of(point), look);
-        else
-            solids_.each_child(parent, look);
-        if (!matters) return Value::no;
-    }
+    const auto is_searched = [&](Index index) {
+        return solids_.node(index).many && index != way.counted;
+    };
+    for (const bool searched : {false, true})
+        for (Index index = own; solids_.node(index).parent != Solids::none;
+             index = solids_.node(index).parent) {
+            const Index parent = solids_.node(index).parent;
+            const Value decides =
+                solids_.node(parent).op == Solids::Op::all ? Value::no : Value::yes;
+            if (solids_.node(parent).many) {
+                if (is_searched(parent) != searched) continue;
+                Value others = Value::no;
+                if (searched)
+                    others = value_of_many(parent, index, from, hit, point);
+                else if (way.inside > (hit.entering ? 0 : 1))
+                    others = Value::yes;
+                if (others == decides) return Value::no;
+                if (others == Value::unknown) value = others;
+                continue;
+            }
+            bool matters = true;
+            solids_.each_child(parent, [&](Index child) {
+                if (child == index || is_searched(child) != searched) return true;
+                const Value other = value_at(child, from, hit, point, way);
+                if (other == Value::unknown) value = Value::unknown;
+                return matters = other != decides;
+            });
+            if (!matters) return Value::no;
+        }
     if (value != Value::yes) return value;
     // A touch changes nothing.
     const Solids::Node& part = solids_.node(own);
@@ -155,6 +185,24 @@ Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit) {
         return there == 1;
     });
     return is_alone ? Value::yes : Value::unknown;
+}
+
+WayInUnion::WayInUnion(const Scene& scene, const LeavingRay& from, ShapeId shape) {
+    const Solids& solids = scene.solids();
+    if (!solids.has(shape)) return;
+    const Solids::Index solid = solids.root_of(solids.part_of(shape));
+    const Solids::Index of_solid = solids.counted_of(solid);
+    if (of_solid == Solids::none) return;
+    // On its surface, inside of no other part.
+    for (const Contact<double>& contact : from.origins) {
+        const Solids::Index part = solids.part_of(contact.hit.shape);
+        if (part == Solids::none || part < solid || solids.node(solid).end <= part) continue;
+        if (from.origins.size() != 1 || solids.node(part).parent != of_solid) return;
+        counted = of_solid;
+        inside = contact.goes_inside ? 1 : 0;
+        return;
+    }
+    if (!solids.bounds(of_solid).contains(from.ray.origin)) counted = of_solid;
 }
 
 SolidSurfaces::Sides SolidSurfaces::sides_of_part(Index index, const LeavingRay& from,

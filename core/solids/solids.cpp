@@ -209,8 +209,15 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
 
             Bounds& bounds = solids_.bounds_[part];
             bounds = of_solid;
-            if constexpr (is_bounded<InFloat<Shape>> && kind_of<Shape> != Kind::quadric)
-                if (!with_inside || !node.reversed) bounds = common(bounds, core::bounds_of(shape));
+            // All crossings of those that count are to be found, wherever they are.
+            const bool is_counted =
+                node.parent != Solids::none && solids_.nodes_[node.parent].counts;
+            if constexpr (is_bounded<InFloat<Shape>> && kind_of<Shape> != Kind::quadric) {
+                const Bounds of_shape = core::bounds_of(shape);
+                if (!with_inside || !node.reversed) bounds = common(bounds, of_shape);
+                node.fills = is_solid<Shape> && !node.reversed &&
+                             matters_in(part, somewhere_in(of_shape)) == Value::yes;
+            }
             if (is_empty(bounds)) {
                 node.traced = false;
                 return;
@@ -228,6 +235,8 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
                     node.traced = false;
                     return;
                 }
+                if constexpr (is_solid<Shape>)
+                    if (is_counted) bounds = core::bounds_of(shape);
             }
             if constexpr (kind_of<Shape> == Kind::quadric) {
                 if (!is_finite(bounds))
@@ -279,6 +288,26 @@ void SolidCollector::cover(Index index, const Bounds& bounds) {
         }
 }
 
+void SolidCollector::note_counted(Index solid) {
+    Index counted = Solids::none;
+    int of_many = 0;
+    for (Index index = solid; index < solids_.nodes_[solid].end; ++index) {
+        if (!solids_.nodes_[index].many) continue;
+        ++of_many;
+        counted = index;
+    }
+    if (of_many != 1 || !solids_.nodes_[counted].counts) return;
+    solids_.counted_.resize(solids_.nodes_.size(), Solids::none);
+    solids_.counted_[solid] = counted;
+    Bounds all;
+    for (Index part = counted + 1; part < solids_.nodes_[counted].end; ++part)
+        if (solids_.nodes_[part].traced) all.include(solids_.bounds_[part]);
+    if (counted != solid)
+        solids_.bounds_[counted] = all;
+    else
+        solids_.bounds_[solid].include(all);
+}
+
 void SolidCollector::list(ShapeLists& lists) {
     std::vector<Node>& nodes = solids_.nodes_;
     solids_.media_.resize(nodes.size(), no_material);
@@ -304,19 +333,25 @@ void SolidCollector::list(ShapeLists& lists) {
                 return part.op != Solids::Op::part || part.traced;
             });
         node.many = node.op == Solids::Op::any && children > Solids::few_parts && is_traced;
+        node.counts =
+            node.many && node.end - index == children + 1 &&
+            std::none_of(nodes.begin() + index + 1, nodes.begin() + node.end, [](const Node& part) {
+                return part.reversed || part.kind == Kind::plane || part.kind == Kind::quadric;
+            });
     }
     for (Index solid = 0; solid < nodes.size(); solid = nodes[solid].end) {
         find_bounds(solid);
-        const Bounds& whole = solids_.bounds_[solid];
+        const Bounds whole = solids_.bounds_[solid];
         // What has no bounds is in no hierarchy.
         if (!is_finite(whole))
             for (Index index = solid; index < nodes[solid].end; ++index)
-                if (nodes[index].many)
+                if (nodes[index].many && !nodes[index].counts)
                     solids_.each_child(index, [&](Index child) {
                         return nodes[index].many = is_finite(common(hull_of(child), whole));
                     });
         for (Index part = solid; part < nodes[solid].end; ++part)
             if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, whole, lists);
+        note_counted(solid);
         if (is_finite(whole)) cover(solid, whole);
         for (Index index = solid; index < nodes[solid].end; ++index)
             if (nodes[index].many)

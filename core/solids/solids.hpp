@@ -60,11 +60,13 @@ class Solids {
     enum class Op : std::uint8_t { part, all, any };
     struct Node {
         Op op;
-        bool reversed = false;    ///< part: what is outside of the shape
-        bool traced = true;       ///< part: rays cross it
-        bool many = false;        ///< any, of so many that they are looked for in the hierarchy
-        Kind kind{};              ///< part
-        Place place{};            ///< part
+        bool reversed = false; ///< part: what is outside of the shape
+        bool traced = true;    ///< part: rays cross it
+        bool many = false;     ///< any, of so many that they are looked for in the hierarchy
+        bool counts = false;   ///< many, each of them one shape: how many a ray is inside of counts
+        bool fills = false;    ///< part: the solid has all that is inside of it
+        Kind kind{};           ///< part
+        Place place{};         ///< part
         ShapeId shape = no_shape; ///< part that is a shape of the scene; else the first of these
         Index parent = none;
         Index end = 0; ///< behind its last descendant; the first follows it
@@ -100,18 +102,21 @@ class Solids {
     ShapeId solid_of(ShapeId id) const {
         return has(id) ? nodes_[root_of(node_of_[id])].shape : id;
     }
+    /// The only union of many in a solid, if how many of its parts a ray is inside of counts.
+    Index counted_of(Index solid) const { return counted_.empty() ? none : counted_[solid]; }
     /// The material inside of the part's solid.
     MaterialIndex medium_of(ShapeId id) const { return medium(root_of(node_of_[id])); }
     /// Of a whole solid.
     MaterialIndex medium(Index solid) const { return media_[solid]; }
     /// Where a part may be seen of its solid; for others null.
     const Bounds* bounds_of(ShapeId id) const { return has(id) ? &bounds_[node_of_[id]] : nullptr; }
-    /// Of a whole solid.
+    /// Of a whole solid, or of all parts of a union that counts.
     const Bounds& bounds(Index index) const { return bounds_[index]; }
 
     std::size_t bytes() const {
         return nodes_.capacity() * sizeof(Node) + node_of_.capacity() * sizeof(Index) +
-               bounds_.capacity() * sizeof(Bounds) + media_.capacity() * sizeof(MaterialIndex);
+               bounds_.capacity() * sizeof(Bounds) + media_.capacity() * sizeof(MaterialIndex) +
+               counted_.capacity() * sizeof(Index);
     }
 
   private:
@@ -121,6 +126,7 @@ class Solids {
     std::vector<Index> node_of_;       // by shape
     std::vector<Bounds> bounds_;       // by node
     std::vector<MaterialIndex> media_; // by node, of those that are whole solids
+    std::vector<Index> counted_;       // by node, of the same; empty if there is none
 };
 
 /// Collects solids while a scene is built.
@@ -155,6 +161,7 @@ class SolidCollector {
                   Index parent, const AddPart& add_part);
     Index begin(Solids::Op op, Index parent);
     void find_bounds(Index solid);
+    void note_counted(Index solid);
     Bounds hull_of(Index index) const;
     Value value_in(Index index, const Somewhere& point) const;
     Value matters_in(Index part, const Somewhere& point) const;

@@ -32,6 +32,7 @@ void LookThrough::take_from(Arena& arena, std::size_t capacity) {
     onward_->take_from(arena, capacity);
     onward_paths_.take_from(arena, capacity, false);
     passed_ = arena.take<double>(capacity);
+    ways_.resize(capacity);
 }
 
 void LookThrough::nearest(const Paths& paths, const Coherence* coherence,
@@ -52,8 +53,10 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
         hits.slot[lane] = no_slot; // the reference goes on
     onward_paths_.count = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
-        if (is_visible(paths, hits, lane)) continue;
+        core::WayInUnion way;
+        if (is_visible(paths, hits, lane, way)) continue;
         const std::size_t to = onward_paths_.count++;
+        ways_[to] = way;
         onward_paths_.copy(paths, lane, to);
         onward_paths_.sample[to] = static_cast<std::uint32_t>(lane);
         passed_[to] = 0.0;
@@ -81,7 +84,7 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
             const std::uint32_t lane = onward_paths_.sample[i];
             if (lane == no_slot) continue;
             const core::Vec3d point = point_among(onward_->points(), found, onward_paths_, i);
-            if (is_visible(onward_paths_, found, i)) {
+            if (is_visible(onward_paths_, found, i, ways_[i])) {
                 hits.copy(found, i, lane);
                 hits.t[lane] += passed_[i];
                 // What lies behind several is not where the first origin and a sum lead to.
@@ -91,6 +94,7 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
             }
             onward_paths_.copy(onward_paths_, i, kept);
             passed_[kept] = passed_[i];
+            ways_[kept] = ways_[i];
             onward_paths_.move_to(kept, point);
             move_on(found, i, kept++);
         }
@@ -98,15 +102,45 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
     }
 }
 
-bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t lane) {
+/// True where a ray that is inside of no part of a union of many surely enters one that its solid
+/// has all of.
+bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
+                              core::ShapeId shape) const {
+    const core::Solids& solids = scene_.scene().solids();
+    const core::Solids::Node& part = solids.node(solids.part_of(shape));
+    if (!part.fills || part.kind != core::Kind::sphere || (hits.hit[lane] & hit_entering) == 0 ||
+        part.parent == core::Solids::none || !solids.node(part.parent).counts)
+        return false;
+    double slope = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        slope += paths.direction[axis][lane] * hits.normal[axis][lane];
+    constexpr double no_touch = -0x1p-20; // several times what it is off by
+    if (!(slope < no_touch)) return false;
+    if (paths.origin_slot[lane] == no_slot)
+        return !solids.bounds(part.parent).contains(ray_of(paths, lane).origin);
+    const core::Solids::Index left = solids.part_of(scene_.id_of(paths.origin_slot[lane]));
+    return left != core::Solids::none && solids.node(left).parent == part.parent &&
+           (paths.origin_bits[lane] & origin_inward) == 0;
+}
+
+/// Where it is not, `way` goes on behind it; it is found out where a ray goes to its first hit.
+bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t lane,
+                             core::WayInUnion& way) {
     if (hits.slot[lane] == no_slot) return true;
     const core::Scene& scene = scene_.scene();
     const SceneData::Occupant shape = scene_.occupant_of(hits.slot[lane]);
-    if (!scene.materials()[shape.material].is_seen(shape.is_entered(hits.hit[lane]))) return false;
-    return !scene.solids().has(shape.id) ||
-           solid_surfaces_.is_surface(
-               {ray_of(paths, lane), origin_surfaces_of(scene_, paths, lane)},
-               hit_of(scene_, paths, hits, lane));
+    const bool is_seen =
+        scene.materials()[shape.material].is_seen(shape.is_entered(hits.hit[lane]));
+    if (!scene.solids().has(shape.id)) return is_seen;
+    if (is_seen && &paths != &onward_paths_ && fills_first(paths, hits, lane, shape.id))
+        return true;
+    const core::Ray<double> ray = ray_of(paths, lane);
+    const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths, lane);
+    const core::Hit<double> hit = hit_of(scene_, paths, hits, lane);
+    if (&paths != &onward_paths_) way = {scene, {ray, origins}, shape.id};
+    if (is_seen && solid_surfaces_.is_surface({ray, origins}, hit, way)) return true;
+    way.pass(scene, hit);
+    return false;
 }
 
 /// Starts a ray anew behind what it has hit, where it has been moved to.

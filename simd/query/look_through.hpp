@@ -29,7 +29,9 @@ class LookThrough {
 
   private:
     void go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
-    bool is_visible(const Paths& paths, const Hits& hits, std::size_t lane);
+    bool is_visible(const Paths& paths, const Hits& hits, std::size_t lane, core::WayInUnion& way);
+    bool fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
+                     core::ShapeId shape) const;
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
 
     const SceneData& scene_;
@@ -38,6 +40,7 @@ class LookThrough {
     std::vector<HitPoint> points_;
 
     core::SolidSurfaces solid_surfaces_;
+    std::vector<core::WayInUnion> ways_; // of rays that go on
 
     // Search behind surfaces that cannot be seen; null where all can, from both sides.
     std::unique_ptr<Query> onward_;

@@ -27,6 +27,8 @@ struct Quadratic {
 
     Mask<Arch> opens_up() const { return A > A_error; }
     Mask<Arch> opens_down() const { return A < negated(A_error); }
+    /// A plane's: it has one root.
+    Mask<Arch> is_linear() const { return most_A() == zero<Arch>(); }
     Floats<Arch> most_A() const { return abs(A) + A_error; }
 
     /// The root where F rises (the ray leaves), or else falls. Neither form cancels.
@@ -143,7 +145,8 @@ Finished<Arch> first_passage(const Surface& surface, const Starts<Arch>& starts)
                               result);
         // Where the surface curves away from it, the other root is behind the ray.
         const M behind = (starts.inward & surface.quadratic.opens_down()) |
-                         (~starts.inward & surface.quadratic.opens_up());
+                         (~starts.inward & surface.quadratic.opens_up()) |
+                         surface.quadratic.is_linear();
         // (What rounding alone puts behind the start counts as there: core::not_behind.)
         const M out_of_bounds = onward.root.certain & onward.outside & (onward.t > onward.error);
         result.misses =
