@@ -189,8 +189,10 @@ void SceneBuilder::check_solid(const Solid& solid, bool has_material,
         throw InvalidValue(in(invalid.field), invalid.expectation);
     }
     const auto kind = static_cast<Kind>(solid.shape.index());
-    if (!with_shape_type(kind,
-                         []<class Shape>(std::type_identity<Shape>) { return has_inside<Shape>; }))
+    if (!with_shape_type(kind, []<class Shape>(std::type_identity<Shape>) {
+            return has_inside<Shape> || kind_of<Shape> == Kind::open_cylinder ||
+                   kind_of<Shape> == Kind::open_cone;
+        }))
         throw InvalidValue(in("type"), "must be of a solid, a plane or a quadric, got " +
                                            std::string(name_of(kind)));
     if (!has_material) throw InvalidValue(in("material"), "must be given, here or for the whole");

@@ -1,5 +1,7 @@
 #include "core/solids/solids.hpp"
 
+#include "core/solids/transform.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,6 +95,19 @@ Somewhere somewhere_in(const Bounds& bounds) {
         point[axis] = {0.5 * upper + 0.5 * lower, error * (1.0 + 0x1p-50)};
     }
     return point;
+}
+
+/// Open cylinders and cones have none by themselves.
+PartShape SolidCollector::as_half_space(const PartShape& shape) {
+    return std::visit(
+        []<class Shape>(const Shape& of) -> PartShape {
+            if constexpr (kind_of<Shape> == Kind::open_cylinder ||
+                          kind_of<Shape> == Kind::open_cone)
+                return half_space_of(of);
+            else
+                return of;
+        },
+        shape);
 }
 
 SolidCollector::Index SolidCollector::begin(Solids::Op op, Index parent) {

@@ -160,6 +160,7 @@ class SolidCollector {
     void add_node(const Solid& solid, MaterialIndex material, bool reversed, bool traced,
                   Index parent, const AddPart& add_part);
     Index begin(Solids::Op op, Index parent);
+    static PartShape as_half_space(const PartShape& shape);
     void find_bounds(Index solid);
     void note_counted(Index solid);
     Bounds hull_of(Index index) const;
@@ -193,8 +194,8 @@ void SolidCollector::add_node(const Solid& solid, MaterialIndex material, bool r
         Node& node = solids_.nodes_[index];
         node.reversed = reversed;
         node.traced = traced;
-        node.kind = static_cast<Kind>(solid.shape.index());
-        shapes_[index] = solid.shape;
+        shapes_[index] = as_half_space(solid.shape);
+        node.kind = static_cast<Kind>(shapes_[index].index());
         if (traced) {
             node.shape = add_part(material);
             if (first_material_ == no_material) first_material_ = material;

@@ -1,7 +1,11 @@
 #include "scenes/json/object.hpp"
 
 #include "scenes/generators.hpp"
+#include "scenes/json/transform.hpp"
 
+#include <algorithm>
+#include <array>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -13,34 +17,44 @@ namespace {
 
 using core::Ends;
 
-/// Reads and adds one object.
+using core::Made, core::Solid;
+
+/// What an object is read for.
+enum class Use {
+    object, ///< the scene
+    member, ///< a group, or a definition: by itself
+    part,   ///< a solid
+};
+
+std::vector<Solid> described(const JsonValue& object, const ObjectContext& context, Use use);
+
+/// Reads one object, and adds it or describes it.
 class ObjectReader {
   public:
-    ObjectReader(const JsonValue& object, core::SceneBuilder& builder,
-                 const MaterialOf& material_of)
-        : object_(object), builder_(builder), material_of_(material_of) {}
-    /// Of a part of a solid, which is put there.
-    ObjectReader(const JsonValue& object, core::SceneBuilder& builder,
-                 const MaterialOf& material_of, core::Solid& part)
-        : object_(object), builder_(builder), material_of_(material_of), part_(&part) {}
+    /// Of an object, which is added.
+    ObjectReader(const JsonValue& object, core::SceneBuilder& builder, const ObjectContext& context)
+        : object_(object), builder_(&builder), context_(context), use_(Use::object) {}
+    /// Of one that is described.
+    ObjectReader(const JsonValue& object, const ObjectContext& context, Use use, Solid& described)
+        : object_(object), context_(context), use_(use), described_(&described) {}
 
     void read(std::type_identity<core::Sphere>) {
-        object_.allow_only({"type", "material", "center", "radius"});
+        allow({"type", "material", "center", "radius"});
         add(core::SphereOf<double>{vector("center"), number("radius")});
     }
 
     void read(std::type_identity<core::Plane>) {
-        object_.allow_only({"type", "material", "point", "normal"});
+        allow({"type", "material", "point", "normal"});
         add(core::PlaneOf<double>{vector("point"), vector("normal")});
     }
 
     void read(std::type_identity<core::Disc>) {
-        object_.allow_only({"type", "material", "center", "normal", "radius"});
+        allow({"type", "material", "center", "normal", "radius"});
         add(core::DiscOf<double>{vector("center"), vector("normal"), number("radius")});
     }
 
     void read(std::type_identity<core::Triangle>) {
-        object_.allow_only({"type", "material", "a", "b", "c", "normals"});
+        allow({"type", "material", "a", "b", "c", "normals"});
         const core::TriangleOf<double> flat{vector("a"), vector("b"), vector("c")};
         if (!object_.find("normals")) {
             add(flat);
@@ -59,7 +73,7 @@ class ObjectReader {
 
     template <Ends ends>
     void read(std::type_identity<core::Cylinder<ends>>) {
-        object_.allow_only({"type", "material", "base", "axis", "radius", "capped"});
+        allow({"type", "material", "base", "axis", "radius", "capped"});
         if (capped())
             add(cylinder_with<Ends::capped>());
         else
@@ -68,8 +82,7 @@ class ObjectReader {
 
     template <Ends ends>
     void read(std::type_identity<core::Cone<ends>>) {
-        object_.allow_only(
-            {"type", "material", "base", "axis", "base_radius", "top_radius", "capped"});
+        allow({"type", "material", "base", "axis", "base_radius", "top_radius", "capped"});
         if (capped())
             add(cone_with<Ends::capped>());
         else
@@ -79,24 +92,25 @@ class ObjectReader {
     void read(std::type_identity<core::Quadric>);
 
     void read(std::type_identity<core::Ellipsoid>) {
-        object_.allow_only({"type", "material", "center", "axes"});
+        allow({"type", "material", "center", "axes"});
         const core::Vec3d center = vector("center");
         const std::vector<JsonValue> axes = object_.at("axes").array(3, "vectors");
         add(core::EllipsoidOf<double>{center, axes[0].real_vector(), axes[1].real_vector(),
                                       axes[2].real_vector()});
     }
 
-    void made(core::Made by);
+    void made(Made by);
+    void several();
 
     void sphereflake() {
-        refuse_as_part();
+        refuse_unless_added();
         object_.allow_only({"type", "material", "center", "radius", "depth", "up"});
         Sphereflake flake{.center = object_.at("center").vector(),
                           .radius = object_.at("radius").number(),
                           .depth = integer("depth")};
         if (const auto up = object_.find("up")) flake.up = up->vector();
         const core::MaterialIndex own = material();
-        checked(object_, [&] { scenes::add(builder_, flake, own); });
+        checked(object_, [&] { scenes::add(*builder_, flake, own); });
     }
 
     void lattice();
@@ -112,26 +126,34 @@ class ObjectReader {
         const auto value = object_.find("capped");
         return !value || value->boolean();
     }
-    core::MaterialIndex material() const { return material_of_(object_.at("material")); }
+    core::MaterialIndex material() const { return context_.material_of(object_.at("material")); }
+
+    /// Keys that it may have beside those by which it is moved.
+    void allow(std::initializer_list<std::string_view> keys) const {
+        std::array<std::string_view, 16> all;
+        const auto end = std::copy(keys.begin(), keys.end(), all.begin());
+        const auto last = std::copy(transform_keys.begin(), transform_keys.end(), end);
+        object_.allow_only(std::span<const std::string_view>(all.begin(), last));
+    }
 
     template <class Shape>
     void add(const Shape& shape) {
-        if (part_ != nullptr) {
-            *part_ = {.shape = shape, .material = material_of_part()};
+        if (described_ != nullptr) {
+            *described_ = {.shape = shape, .material = material_if_any()};
             return;
         }
         const core::MaterialIndex own = material();
-        checked(object_, [&] { builder_.add(shape, own); });
+        checked(object_, [&] { builder_->add(shape, own); });
     }
 
     /// Its own, or none: that of the whole.
-    core::MaterialIndex material_of_part() const {
+    core::MaterialIndex material_if_any() const {
         const auto own = object_.find("material");
-        return own ? material_of_(*own) : core::no_material;
+        return own ? context_.material_of(*own) : core::no_material;
     }
-    void refuse_as_part() const {
-        if (part_ != nullptr)
-            object_.at("type").fail("must be of one solid, a plane or a quadric, got \"" +
+    void refuse_unless_added() const {
+        if (described_ != nullptr)
+            object_.at("type").fail("must not be of many shapes here, got \"" +
                                     std::string(object_.at("type").string()) + "\"");
     }
 
@@ -148,13 +170,14 @@ class ObjectReader {
     }
 
     const JsonValue& object_;
-    core::SceneBuilder& builder_;
-    const MaterialOf& material_of_;
-    core::Solid* part_ = nullptr;
+    core::SceneBuilder* builder_ = nullptr;
+    const ObjectContext& context_;
+    Use use_;
+    Solid* described_ = nullptr;
 };
 
 void ObjectReader::read(std::type_identity<core::Box>) {
-    object_.allow_only({"type", "material", "corner", "edges", "min", "max"});
+    allow({"type", "material", "corner", "edges", "min", "max"});
     if (!object_.find("min") && !object_.find("max")) {
         const core::Vec3d corner = vector("corner");
         const std::vector<JsonValue> edges = object_.at("edges").array(3, "vectors");
@@ -173,11 +196,11 @@ void ObjectReader::read(std::type_identity<core::Box>) {
     const core::Vec3d size = upper - lower;
     const core::BoxOf<double> box{
         lower, {size.x, 0.0, 0.0}, {0.0, size.y, 0.0}, {0.0, 0.0, size.z}};
-    if (part_ != nullptr) return add(box);
+    if (described_ != nullptr) return add(box);
     const core::MaterialIndex own = material();
     checked(object_, [&] {
         try {
-            builder_.add(box, own);
+            builder_->add(box, own);
         } catch (const core::InvalidValue& invalid) {
             const bool corner = invalid.field.starts_with("corner");
             throw core::InvalidValue(corner ? "min" : "max", invalid.expectation);
@@ -186,7 +209,7 @@ void ObjectReader::read(std::type_identity<core::Box>) {
 }
 
 void ObjectReader::read(std::type_identity<core::Quadric>) {
-    object_.allow_only({"type", "material", "center", "matrix", "lower", "upper"});
+    allow({"type", "material", "center", "matrix", "lower", "upper"});
     double matrix[4][4];
     const std::vector<JsonValue> rows = object_.at("matrix").array(4, "rows");
     for (int row = 0; row < 4; ++row) {
@@ -211,7 +234,7 @@ void ObjectReader::read(std::type_identity<core::Quadric>) {
     quadric.y = matrix[1][3];
     quadric.z = matrix[2][3];
     quadric.one = matrix[3][3];
-    if (part_ == nullptr) {
+    if (use_ != Use::part) {
         quadric.lower = vector("lower");
         quadric.upper = vector("upper");
     } else {
@@ -223,24 +246,42 @@ void ObjectReader::read(std::type_identity<core::Quadric>) {
     add(quadric);
 }
 
-void ObjectReader::made(core::Made by) {
-    object_.allow_only({"type", "material", "objects"});
-    core::Solid solid{.made = by, .material = material_of_part()};
-    const std::vector<JsonValue> objects = object_.at("objects").array("objects");
-    solid.parts.resize(objects.size());
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-        ObjectReader reader(objects[i], builder_, material_of_, solid.parts[i]);
-        read(objects[i], reader);
+void ObjectReader::made(Made by) {
+    allow({"type", "material", "objects"});
+    Solid solid{.made = by, .material = material_if_any()};
+    for (const JsonValue& object : object_.at("objects").array("objects")) {
+        std::vector<Solid> parts = described(object, context_, Use::part);
+        if (parts.size() == 1) {
+            solid.parts.push_back(std::move(parts[0]));
+        } else { // a group is what is in any of its objects
+            Solid all{Made::by_union};
+            all.parts = std::move(parts);
+            solid.parts.push_back(std::move(all));
+        }
     }
-    if (part_ != nullptr) {
-        *part_ = std::move(solid);
-        return;
+    if (described_ != nullptr)
+        *described_ = std::move(solid);
+    else
+        checked(object_, [&] { builder_->add_solid(solid, core::no_material); });
+}
+
+/// A group, an instance, or what is moved.
+void ObjectReader::several() {
+    for (const Solid& solid : described(object_, context_, Use::member)) {
+        if (solid.material == core::no_material && solid.made == Made::of_shape)
+            static_cast<void>(object_.at("material")); // which is missed
+        checked(object_, [&] {
+            if (solid.made != Made::of_shape)
+                builder_->add_solid(solid, core::no_material);
+            else
+                std::visit([&](const auto& shape) { builder_->add(shape, solid.material); },
+                           solid.shape);
+        });
     }
-    checked(object_, [&] { builder_.add_solid(solid, core::no_material); });
 }
 
 void ObjectReader::lattice() {
-    refuse_as_part();
+    refuse_unless_added();
     object_.allow_only({"type", "material", "strut_material", "corner", "center", "n", "spacing",
                         "sphere_radius", "strut_radius"});
     object_.exclude("corner", "center");
@@ -257,8 +298,8 @@ void ObjectReader::lattice() {
         lattice.corner = core::convert<double>(object_.at("corner").vector());
     const auto struts = object_.find("strut_material");
     const core::MaterialIndex own = material();
-    const core::MaterialIndex strut_material = struts ? material_of_(*struts) : own;
-    checked(object_, [&] { scenes::add(builder_, lattice, own, strut_material); });
+    const core::MaterialIndex strut_material = struts ? context_.material_of(*struts) : own;
+    checked(object_, [&] { scenes::add(*builder_, lattice, own, strut_material); });
 }
 
 using Read = void (*)(ObjectReader&);
@@ -276,12 +317,13 @@ const std::vector<std::pair<std::string_view, Read>>& readers() {
         });
         readers.emplace_back("sphereflake", [](ObjectReader& of) { of.sphereflake(); });
         readers.emplace_back("lattice", [](ObjectReader& of) { of.lattice(); });
-        readers.emplace_back("union", [](ObjectReader& of) { of.made(core::Made::by_union); });
+        readers.emplace_back("union", [](ObjectReader& of) { of.made(Made::by_union); });
         readers.emplace_back("intersection",
-                             [](ObjectReader& of) { of.made(core::Made::by_intersection); });
-        readers.emplace_back("difference",
-                             [](ObjectReader& of) { of.made(core::Made::by_difference); });
-        readers.emplace_back("clip", [](ObjectReader& of) { of.made(core::Made::by_clip); });
+                             [](ObjectReader& of) { of.made(Made::by_intersection); });
+        readers.emplace_back("difference", [](ObjectReader& of) { of.made(Made::by_difference); });
+        readers.emplace_back("clip", [](ObjectReader& of) { of.made(Made::by_clip); });
+        readers.emplace_back("group", [](ObjectReader& of) { of.several(); });
+        readers.emplace_back("instance", [](ObjectReader& of) { of.several(); });
         return readers;
     }();
     return all;
@@ -291,12 +333,82 @@ void ObjectReader::read(const JsonValue& object, ObjectReader& reader) {
     object.at("type").choice(JsonValue::Choices<Read>(readers()))(reader);
 }
 
+/// A quadric that ends at its box, where that is to be turned, or to be a part.
+Solid in_box(const Solid& solid, Made by) {
+    const auto& quadric = std::get<core::QuadricOf<double>>(solid.shape);
+    const core::Vec3d size = quadric.upper - quadric.lower;
+    Solid box, result{by};
+    box.shape = core::BoxOf<double>{
+        quadric.center + quadric.lower, {size.x, 0.0, 0.0}, {0.0, size.y, 0.0}, {0.0, 0.0, size.z}};
+    result.parts = {solid, box};
+    result.material = solid.material;
+    return result;
+}
+
+bool is_quadric(const Solid& solid) {
+    return solid.made == Made::of_shape &&
+           std::holds_alternative<core::QuadricOf<double>>(solid.shape);
+}
+
+std::vector<Solid> instance_of(const JsonValue& object, const ObjectContext& context, Use use) {
+    const JsonValue name = object.at("of");
+    const auto found = context.definitions.find(name.string());
+    if (found == context.definitions.end())
+        name.fail_expecting("the name of a definition that comes before");
+    std::vector<Solid> solids = found->second;
+    for (Solid& solid : solids)
+        if (use == Use::part && is_quadric(solid)) solid = in_box(solid, Made::by_intersection);
+    return solids;
+}
+
+/// All that an object is, moved as it says, with the materials that it gives.
+std::vector<Solid> described(const JsonValue& object, const ObjectContext& context, Use use) {
+    std::vector<std::string_view> keys = {"type", "material"};
+    keys.insert(keys.end(), transform_keys.begin(), transform_keys.end());
+    const std::string_view type = object.at("type").string();
+    std::vector<Solid> all;
+    if (type == "group") {
+        keys.push_back("objects");
+        object.allow_only(keys);
+        for (const JsonValue& member : object.at("objects").array("objects"))
+            for (Solid& solid : described(member, context, use))
+                all.push_back(std::move(solid));
+    } else if (type == "instance") {
+        keys.push_back("of");
+        object.allow_only(keys);
+        all = instance_of(object, context, use);
+    } else {
+        ObjectReader reader(object, context, use, all.emplace_back());
+        ObjectReader::read(object, reader);
+    }
+    if (has_transform(object)) {
+        const core::Transform transform = transform_of(object);
+        for (Solid& solid : all) {
+            if (use != Use::part && is_quadric(solid)) solid = in_box(solid, Made::by_clip);
+            solid = checked(object, [&] { return transform(solid); });
+        }
+    }
+    if (const auto material = object.find("material");
+        material && (type == "group" || type == "instance"))
+        for (Solid& solid : all)
+            if (solid.material == core::no_material)
+                solid.material = context.material_of(*material);
+    return all;
+}
+
 } // namespace
 
 void add_object(const JsonValue& object, core::SceneBuilder& builder,
-                const MaterialOf& material_of) {
-    ObjectReader reader(object, builder, material_of);
-    ObjectReader::read(object, reader);
+                const ObjectContext& context) {
+    ObjectReader reader(object, builder, context);
+    if (has_transform(object))
+        reader.several();
+    else
+        ObjectReader::read(object, reader);
+}
+
+std::vector<Solid> described_object(const JsonValue& object, const ObjectContext& context) {
+    return described(object, context, Use::member);
 }
 
 } // namespace raylane::scenes

@@ -4,14 +4,30 @@
 #include "scenes/json/value.hpp"
 
 #include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace raylane::scenes {
 
 /// The material that the value of a key "material" means.
 using MaterialOf = std::function<core::MaterialIndex(const JsonValue& value)>;
 
-/// Adds what the schema calls an object: a shape, or all shapes of a generator.
-void add_object(const JsonValue& object, core::SceneBuilder& builder,
-                const MaterialOf& material_of);
+/// Objects that are there by name, each what it is described as: shapes and solids. Without
+/// materials of their own, they have those of their instances.
+using Definitions = std::map<std::string, std::vector<core::Solid>, std::less<>>;
+
+/// What objects refer to.
+struct ObjectContext {
+    const MaterialOf& material_of;
+    const Definitions& definitions;
+};
+
+/// Adds what the schema calls an object: a shape, a solid, or all shapes of a group, an instance or
+/// a generator.
+void add_object(const JsonValue& object, core::SceneBuilder& builder, const ObjectContext& context);
+
+/// What an object is, for others to be instances of.
+std::vector<core::Solid> described_object(const JsonValue& object, const ObjectContext& context);
 
 } // namespace raylane::scenes

@@ -40,7 +40,7 @@ class SceneReader {
     /// Throws BadInput for `errors` and what is wrong with the scene as a whole.
     core::Scene finish(const Outline& outline, InputErrors& errors);
 
-    static constexpr std::array<RootKey, 10> keys = {{
+    static constexpr std::array<RootKey, 11> keys = {{
         {"$schema", Holds::one_item},
         {"image", Holds::one_item},
         {"sampling", Holds::one_item},
@@ -50,6 +50,7 @@ class SceneReader {
         {"fog", Holds::one_item},
         {"lights", Holds::item_list},
         {"materials", Holds::named_items},
+        {"definitions", Holds::named_items, false, Items::nested},
         {"objects", Holds::item_list, true, Items::nested},
     }};
 
@@ -69,6 +70,7 @@ class SceneReader {
     void take_fog(const JsonValue& value);
     void take_light(const JsonValue& value);
     void take_material(std::string_view name, const JsonValue& value);
+    void take_definition(std::string_view name, const JsonValue& value);
     void take_object(const JsonValue& value);
 
     core::MaterialIndex add(const core::Material& material) {
@@ -86,6 +88,7 @@ class SceneReader {
     core::SceneBuilder builder_;
     std::map<std::string, core::MaterialIndex, std::less<>> materials_;
     std::map<std::string, UnknownName, std::less<>> unknown_names_;
+    Definitions definitions_;
     std::vector<core::MaterialIndex> named_; // in the order of the file
     std::size_t material_count_ = 0;
     std::vector<TextPosition> lights_;     // of their positions
@@ -114,6 +117,8 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
         take_light(value);
     else if (key.name == "materials")
         take_material(name, value);
+    else if (key.name == "definitions")
+        take_definition(name, value);
     else
         take_object(value);
 }
@@ -168,10 +173,19 @@ void SceneReader::take_material(std::string_view name, const JsonValue& value) {
     named_.push_back(entry->second);
 }
 
+void SceneReader::take_definition(std::string_view name, const JsonValue& value) {
+    if (definitions_.contains(name)) {
+        InputError repeated = value.error("must be given only once");
+        repeated.position = value.positions().key;
+        throw BadInput({repeated});
+    }
+    definitions_.emplace(name, described_object(value, {material_of_, definitions_}));
+}
+
 void SceneReader::take_object(const JsonValue& value) {
     has_objects_ = true;
     const std::size_t before = builder_.shape_count();
-    add_object(value, builder_, material_of_);
+    add_object(value, builder_, {material_of_, definitions_});
     const std::size_t after = builder_.shape_count();
     if (after - before > 1)
         generated_.push_back(

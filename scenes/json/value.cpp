@@ -208,12 +208,12 @@ void JsonValue::require(JsonType wanted) const {
     if (type() != wanted) fail_expecting(name_of(wanted));
 }
 
-void JsonValue::allow_only(std::initializer_list<std::string_view> keys) const {
+void JsonValue::allow_only(std::span<const std::string_view> keys) const {
     require(JsonType::object);
     std::vector<InputError> errors;
     for (const JsonValue& child : children()) {
         if (std::find(keys.begin(), keys.end(), child.key()) != keys.end()) continue;
-        errors.push_back(error(unknown_key(child.key(), keys)));
+        errors.push_back(error(unknown_key(child.key(), {keys.begin(), keys.end()})));
         errors.back().position = child.positions().key;
     }
     if (!errors.empty()) throw BadInput(std::move(errors));

@@ -111,7 +111,10 @@ class JsonValue {
     [[noreturn]] void fail(const core::InvalidValue& invalid) const;
 
     /// Refuses every key of an object but these, each with an error of its own.
-    void allow_only(std::initializer_list<std::string_view> keys) const;
+    void allow_only(std::span<const std::string_view> keys) const;
+    void allow_only(std::initializer_list<std::string_view> keys) const {
+        allow_only(std::span(keys.begin(), keys.size()));
+    }
     std::optional<JsonValue> find(std::string_view key) const;
     JsonValue at(std::string_view key) const;
 

@@ -41,7 +41,8 @@ std::string type_names() {
         name.append(core::type_name_of(static_cast<core::Kind>(kind))).append("\", ");
         if (names.find(name) == std::string::npos) names += name;
     }
-    return names + R"("sphereflake", "lattice", "union", "intersection", "difference" or "clip")";
+    return names +
+           R"("sphereflake", "lattice", "union", "intersection", "difference", "clip", "group" or "instance")";
 }
 
 /// A clay object of this type at /objects/1.
@@ -76,14 +77,14 @@ TEST_CASE("complaints about keys") {
         {"{" + camera + "}", R"(must have the key "objects")"},
         {with(R"("light": [])"), R"(unknown key "light", did you mean "lights"?)"},
         {with(R"("zzzzzzzz": [])"),
-         R"(unknown key "zzzzzzzz", must be "$schema", "image", "sampling", "limits", "camera", "background", "fog", "lights", "materials" or "objects")"},
+         R"(unknown key "zzzzzzzz", must be "$schema", "image", "sampling", "limits", "camera", "background", "fog", "lights", "materials", "definitions" or "objects")"},
         {with(R"("objects": [])"), "/objects: must be given only once"},
         {with(R"("image": {"width": 1, "width": 2})"), "/image/width: must be given only once"},
         {with(R"("materials": {"a": {}, "a": {}})"), "/materials/a: must be given only once"},
         {object("sphere", R"("center": [0, 0, 0], "raduis": 1)"),
          R"(/objects/1: unknown key "raduis", did you mean "radius"?)"},
         {object("sphere", R"("center": [0, 0, 0], "normal": 1)"),
-         R"(/objects/1: unknown key "normal", must be "type", "material", "center" or "radius")"},
+         R"(/objects/1: unknown key "normal", must be "type", "material", "center", "radius", "scale", "rotate", "translate" or "transform")"},
         {object("sphere", R"("center": [0, 0, 0])"), R"(/objects/1: must have the key "radius")"},
         {with_objects(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1})"),
          R"(/objects/0: must have the key "material")"},

@@ -69,7 +69,7 @@ TEST_CASE("a key that should not be there is where it begins") {
         "colour": 3, "material": "clay"})") ==
           "6:6: /objects/0: unknown key \"raduis\", did you mean \"radius\"?\n"
           "7:9: /objects/0: unknown key \"colour\", must be \"type\", \"material\", "
-          "\"center\" or \"radius\"");
+          "\"center\", \"radius\", \"scale\", \"rotate\", \"translate\" or \"transform\"");
     CHECK(complaint_about_objects("],\n \"light\": [[{\"a\": 3}], {}], \"lights\": [3") ==
           "7:2: unknown key \"light\", did you mean \"lights\"?\n"
           "7:29: /lights: must be given only once");

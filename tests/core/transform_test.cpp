@@ -1,0 +1,155 @@
+#include "core/reference/containing.hpp"
+#include "core/shapes/side.hpp"
+#include "core/solids/transform.hpp"
+#include "tests/catch.hpp"
+#include "tests/oracle/exact.hpp"
+#include "tests/ray_sets.hpp"
+
+#include <cmath>
+
+using namespace raylane;
+using namespace raylane::core;
+using Whole = oracle::Exact;
+using tests::Random;
+
+namespace {
+
+/// True if no double is nearer.
+bool is_nearest(double value, const Whole& exact) {
+    const auto distance = [&](double to) {
+        const Whole off = exact - Whole(to);
+        return off.sign() < 0 ? -off : off;
+    };
+    const Whole own = distance(value);
+    for (const double other : {std::nextafter(value, -HUGE_VAL), std::nextafter(value, HUGE_VAL)})
+        if ((distance(other) - own).sign() < 0) return false;
+    return true;
+}
+
+double any_number(Random& random) {
+    return random.uniform(-1.0, 1.0) * random.log_uniform(1e-3, 1e3);
+}
+
+template <class Shape>
+const Shape& shape_in(const Solid& solid) {
+    return std::get<Shape>(solid.shape);
+}
+
+Scene scene_of(const Solid& solid) {
+    SceneBuilder builder;
+    builder.wants_light = false;
+    const MaterialIndex material = builder.add_material({});
+    if (solid.made == Made::of_shape)
+        std::visit([&](const auto& shape) { builder.add(shape, material); }, solid.shape);
+    else
+        builder.add_solid(solid, material);
+    return std::move(builder).build();
+}
+
+Transform any_transform(Random& random, bool even) {
+    const double scale = random.log_uniform(0.3, 3.0);
+    const Vec3d sizes = even ? Vec3d(random.integer(0, 1) == 0 ? scale : -scale)
+                             : Vec3d(scale, random.uniform(0.4, 2.0), -random.uniform(0.4, 2.0));
+    return Transform::translation(random.cube(5.0))
+        .after(Transform::rotation(random.cube(180.0)))
+        .after(Transform::scaling(sizes));
+}
+
+} // namespace
+
+TEST_CASE("what is moved has each of its numbers rounded once") {
+    Random random(3);
+    for (int round = 0; round < 300; ++round) {
+        double first[3][4], second[3][4];
+        for (auto* rows : {&first, &second})
+            for (auto& row : *rows)
+                for (double& number : row)
+                    number = any_number(random);
+        const Transform both = Transform::matrix(second).after(Transform::matrix(first));
+        const BoxOf<double> box{
+            random.cube(9.0), {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+        Solid solid;
+        solid.shape = box;
+        const auto moved = shape_in<BoxOf<double>>(both(solid));
+        for (int axis = 0; axis < 3; ++axis) {
+            Whole corner = second[axis][3], edge;
+            for (int k = 0; k < 3; ++k) {
+                Whole middle = first[k][3];
+                for (int j = 0; j < 3; ++j)
+                    middle = middle + Whole(first[k][j]) * Whole(box.corner[j]);
+                corner = corner + Whole(second[axis][k]) * middle;
+                edge = edge + Whole(second[axis][k]) * Whole(first[k][0]);
+            }
+            CHECK(is_nearest(moved.corner[axis], corner));
+            CHECK(is_nearest(moved.edge_u[axis], edge));
+        }
+    }
+}
+
+TEST_CASE("quarters of a turn, and powers of two, are exact") {
+    Solid solid;
+    solid.shape = CylinderOf<double, Ends::capped>{{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}, 0.7};
+    const auto turned =
+        shape_in<CylinderOf<double, Ends::capped>>(Transform::rotation({0, 0, 90})(solid));
+    CHECK(turned.base == Vec3d(-0.2, 0.1, 0.3));
+    CHECK(turned.axis == Vec3d(-0.5, 0.4, 0.6));
+    CHECK(turned.radius == 0.7);
+    const auto larger = shape_in<CylinderOf<double, Ends::capped>>(
+        Transform::scaling(Vec3d(-4.0)).after(Transform::rotation({180, 270, -90}))(solid));
+    CHECK(larger.radius == 2.8);
+    CHECK(squared_length(larger.axis) == Approx(16.0 * 0.77));
+}
+
+TEST_CASE("what is moved has inside what was inside") {
+    Random random(5);
+    for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+        if constexpr (is_solid<Shape>)
+            for (int round = 0; round < 60; ++round) {
+                const auto shape = to_doubles(ray_sets::Target<Shape>::make(random, false));
+                const Transform transform = any_transform(random, round % 2 == 0);
+                Solid solid;
+                solid.shape = shape;
+                const Solid moved = transform(solid);
+                CHECK((moved.made != Made::of_shape) ==
+                      (round % 2 == 1 && (kind_of<Shape> == Kind::capped_cylinder ||
+                                          kind_of<Shape> == Kind::capped_cone)));
+                const Scene scene = scene_of(moved);
+                PointSearcher points(scene);
+                int inside = 0;
+                for (int i = 0; i < 100; ++i) {
+                    const ray_sets::SurfacePoint at =
+                        ray_sets::Target<Shape>::surface(to_floats(shape), random);
+                    const Vec3d point =
+                        at.point +
+                        random.cube(0.1 * ray_sets::Target<Shape>::size(to_floats(shape)));
+                    Solid there;
+                    there.shape = SphereOf<double>{point, 1.0};
+                    const Solid sphere = transform(there);
+                    const Vec3d center = std::visit(
+                        [](const auto& s) {
+                            if constexpr (requires { s.center; })
+                                return s.center;
+                            else
+                                return Vec3d(0.0);
+                        },
+                        sphere.shape);
+                    std::vector<Containing> found;
+                    points.add_containing(center, found);
+                    const bool is_in = side_of(shape, point) == Side::inside;
+                    inside += is_in ? 1 : 0;
+                    CHECK(found.empty() != is_in);
+                }
+                CHECK(inside > 0);
+            }
+    });
+}
+
+TEST_CASE("fronts of what is mirrored stay fronts") {
+    Solid solid;
+    solid.shape = TriangleOf<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}; // towards z
+    const auto mirrored = shape_in<TriangleOf<double>>(Transform::scaling({-1, 1, 1})(solid));
+    CHECK(cross(Vec3d(mirrored.b - mirrored.a), Vec3d(mirrored.c - mirrored.a)).z > 0.0);
+    solid.shape = PlaneOf<double>{{0, 0, 1}, {0, 0, 1}};
+    CHECK(shape_in<PlaneOf<double>>(Transform::scaling({1, 1, -1})(solid)).normal.z < 0.0);
+    CHECK(shape_in<PlaneOf<double>>(Transform::scaling({-1, 2, 1})(solid)).normal.z > 0.0);
+}
