@@ -1,5 +1,6 @@
 #include "simd/render.hpp"
 
+#include "core/optics/spectrum.hpp"
 #include "core/reference/tracer.hpp"
 #include "core/scene/validate.hpp"
 #include "simd/tiles.hpp"
@@ -10,6 +11,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
 
 namespace raylane::simd {
 
@@ -41,6 +45,49 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
     return rendering;
 }
 
+/// Draws a picture for each of some wavelengths, and adds their shares up.
+template <class Tracer>
+class SpectralTracer {
+  public:
+    SpectralTracer(std::vector<Tracer> tracers, const std::vector<core::Color>& shares,
+                   const core::Settings& settings)
+        : tracers_(std::move(tracers)), shares_(shares), film_(settings.width, settings.height) {}
+
+    void render(const core::Region& region, core::Film& film) {
+        for (std::size_t i = 0; i < tracers_.size(); ++i) {
+            tracers_[i].render(region, film_);
+            for (int y = region.y0; y < region.y1; ++y)
+                for (int x = region.x0; x < region.x1; ++x) {
+                    const core::Color share = shares_[i] * film_.at(x, y);
+                    film.at(x, y) = i == 0 ? share : film.at(x, y) + share;
+                }
+        }
+    }
+
+    auto counters() const {
+        auto all = tracers_.front().counters();
+        for (std::size_t i = 1; i < tracers_.size(); ++i)
+            all += tracers_[i].counters();
+        return all;
+    }
+
+  private:
+    std::vector<Tracer> tracers_;
+    const std::vector<core::Color>& shares_;
+    core::Film film_;
+};
+
+/// The scene in light of each of its wavelengths, and the shares of these.
+struct Spectrum {
+    std::vector<core::Scene> scenes;
+    std::vector<core::Color> shares;
+
+    explicit Spectrum(const core::Scene& scene) : shares(core::shares_of(scene.wavelengths())) {
+        for (const double wavelength : scene.wavelengths())
+            scenes.push_back(scene.in_light_of(wavelength));
+    }
+};
+
 /// With a quality, tiles consist of whole squares.
 int fitting(int tile, const core::Settings& settings) {
     if (settings.quality == 0.0F) return tile;
@@ -53,6 +100,18 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                            const RenderOptions& options) {
     using Tracer = core::ReferenceTracer<Real>;
     const int tile = options.tile != 0 ? options.tile : 16;
+    if (!scene.wavelengths().empty()) {
+        const Spectrum spectrum(scene);
+        return render_by<SpectralTracer<Tracer>>(
+            [&] {
+                std::vector<Tracer> tracers;
+                for (const core::Scene& of_one : spectrum.scenes)
+                    tracers.emplace_back(of_one, settings, core::Search::hierarchy,
+                                         options.precision);
+                return SpectralTracer<Tracer>(std::move(tracers), spectrum.shares, settings);
+            },
+            fitting(tile, settings), settings, options);
+    }
     return render_by<Tracer>(
         [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); },
         fitting(tile, settings), settings, options);
@@ -60,21 +119,58 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
 
 } // namespace
 
+namespace {
+
+int tile_of(const core::Settings& settings, const RenderOptions& options) {
+    return options.tile != 0          ? std::clamp(options.tile, 1, Wavefront::max_region)
+           : settings.quality != 0.0F ? Wavefront::max_region
+                                      : 32;
+}
+
+/// Wavefronts stay where they are made.
+struct MovableWavefront {
+    std::unique_ptr<Wavefront> wavefront;
+
+    void render(const core::Region& region, core::Film& film) { wavefront->render(region, film); }
+    EngineCounters counters() const { return wavefront->counters(); }
+};
+
+Rendering render_spectrum(const core::Scene& scene, const core::Settings& settings,
+                          const RenderOptions& options, const Tracing& tracing) {
+    const Spectrum spectrum(scene);
+    const std::vector<SceneData> data(spectrum.scenes.begin(), spectrum.scenes.end());
+    using Tracer = SpectralTracer<MovableWavefront>;
+    return render_by<Tracer>(
+        [&] {
+            std::vector<MovableWavefront> tracers;
+            for (const SceneData& of_one : data)
+                tracers.push_back({std::make_unique<Wavefront>(of_one, settings, tracing)});
+            return Tracer(std::move(tracers), spectrum.shares, settings);
+        },
+        fitting(tile_of(settings, options), settings), settings, options);
+}
+
+} // namespace
+
 Rendering render_vector(const SceneData& scene, const core::Settings& settings,
                         const RenderOptions& options, const Tracing& tracing) {
-    const int tile = options.tile != 0          ? std::clamp(options.tile, 1, Wavefront::max_region)
-                     : settings.quality != 0.0F ? Wavefront::max_region
-                                                : 32;
+    const int tile = tile_of(settings, options);
     return render_by<Wavefront>([&] { return Wavefront(scene, settings, tracing); },
                                 fitting(tile, settings), settings, options);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,
-                 const RenderOptions& options) {
+                 const RenderOptions& asked) {
     core::validate(settings);
-    if (options.engine == Engine::vector)
-        return render_vector(SceneData(scene), settings, options,
-                             {&kernels_of(options.isa), options.precision});
+    RenderOptions options = asked;
+    // Where a solid has its surface is decided exactly or not at all.
+    if (scene.solids().any()) options.precision = core::Precision::exact;
+    if (options.engine == Engine::vector) {
+        const Tracing tracing{&kernels_of(options.isa), options.precision};
+        return scene.wavelengths().empty()
+                   ? render_vector(SceneData(scene), settings, options, tracing)
+                   : render_spectrum(scene, settings, options, tracing);
+    }
     return core::is_single(options.precision) ? render_reference<float>(scene, settings, options)
                                               : render_reference<double>(scene, settings, options);
 }

@@ -52,7 +52,8 @@ struct Rendering {
 /// core::Precision::exact it depends on scene, settings and engine alone. So it does with the
 /// others, as long as rounding moves no hit out of its shape's bounds, nor by more than 2^-10 of t
 /// before them: whether bounds keep a ray from such a hit depends on the instruction set and on the
-/// rays that are traced together. Throws std::bad_alloc, InvalidValue for settings that are none,
+/// rays that are traced together. Scenes with solids that are made of others are always drawn
+/// exactly. Throws std::bad_alloc, InvalidValue for settings that are none,
 /// and what `after_tile` throws.
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& options);

@@ -255,9 +255,14 @@ SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
         table.blocks + std::size_t{table.block_floats} * (place / core::block_size);
     const core::ShapeId id = reinterpret_cast<const core::ShapeId*>(
         block + std::size_t{core::block_size} * table.values)[place % core::block_size];
-    if (id == core::no_shape) return {id, {id, id}, 0, kind, false, 0};
-    return {id,   scene_.coplanar_with(id),        scene_.material_index_of(id),
-            kind, scene_.solids().is_reversed(id), scene_.medium_index_of(id)};
+    if (id == core::no_shape) return {id, {id, id}, 0, kind, false, 0, false};
+    return {id,
+            scene_.coplanar_with(id),
+            scene_.material_index_of(id),
+            kind,
+            scene_.solids().is_reversed(id),
+            scene_.medium_index_of(id),
+            is_flat_part(id)};
 }
 
 core::Place SceneData::place_of(std::uint32_t slot) const {

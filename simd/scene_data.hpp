@@ -70,7 +70,11 @@ class SceneData {
         core::Kind kind;
         bool reversed;              ///< a part of a solid by what is outside of it
         core::MaterialIndex medium; ///< the material inside
+        bool flat;                  ///< a plane, whatever its kind
 
+        bool may_be_met_again(bool inward) const {
+            return !flat && core::may_meet_again(kind, inward);
+        }
         /// True if a hit with these bits goes to the inside of it or, reversed, of its solid.
         bool is_entered(std::uint32_t hit) const { return ((hit & hit_entering) != 0) != reversed; }
     };
@@ -83,9 +87,18 @@ class SceneData {
     struct NamedShape {
         core::IdRange coplanar;
         core::Kind kind;
+        bool flat;
+
+        bool may_be_met_again(bool inward) const {
+            return !flat && core::may_meet_again(kind, inward);
+        }
     };
     NamedShape shape_named(core::ShapeId id, std::uint32_t slot) const {
-        return {scene_.coplanar_with(id), kind_of(slot)};
+        return {scene_.coplanar_with(id), kind_of(slot), is_flat_part(id)};
+    }
+    bool is_flat_part(core::ShapeId id) const {
+        const core::Solids::Index part = scene_.solids().part_of(id);
+        return part != core::Solids::none && scene_.solids().node(part).flat;
     }
     /// The solid that a shape is a part of; core::no_shape if of none.
     core::ShapeId solid_with(core::ShapeId id) const {

@@ -14,7 +14,8 @@ namespace raylane::simd {
 StreamTracer::StreamTracer(const core::Scene& scene, int threads, Isa isa,
                            core::Precision precision)
     : threads_(threads), data_(std::make_unique<const SceneData>(scene, Transmissive::blocks)),
-      tracing_{&kernels_of(isa), precision}, shapes_(*data_) {}
+      tracing_{&kernels_of(isa), scene.solids().any() ? core::Precision::exact : precision},
+      shapes_(*data_) {}
 
 StreamTracer::~StreamTracer() = default;
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "core/scene/scene.hpp"
+#include "core/scene/solid_description.hpp"
+#include "core/solids/transform.hpp"
 #include "tests/any_shape.hpp"
 
 #include <vector>
@@ -39,6 +40,7 @@ class ScaledScene {
         }
         for (const core::Material& material : scene_.materials())
             builder.add_material(scaled(material));
+        builder.wavelengths = scene_.wavelengths();
         add_shapes(builder);
         return std::move(builder).build();
     }
@@ -62,7 +64,19 @@ class ScaledScene {
                     if (block.ids[lane] != core::no_shape)
                         shapes[block.ids[lane]] = placing_(block.get(lane));
         });
+        const core::Solids& solids = scene_.solids();
         for (core::ShapeId id = 0; id < shapes.size();) {
+            if (solids.has(id)) {
+                const core::Solids::Index solid = solids.root_of(solids.part_of(id));
+                const core::Solid described = core::description_of(scene_, solid);
+                const auto scaling =
+                    core::Transform::scaling(core::Vec3d(static_cast<double>(factor_)));
+                builder.add_solid(scaling(described), described.material);
+                while (id < shapes.size() && solids.has(id) &&
+                       solids.root_of(solids.part_of(id)) == solid)
+                    ++id;
+                continue;
+            }
             const core::IdRange range = scene_.coplanar_with(id);
             std::visit([&](const auto& shape) { add(builder, shape, shapes, range); }, shapes[id]);
             id = range.last + 1;

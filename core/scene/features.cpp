@@ -4,9 +4,10 @@
 
 namespace raylane::core {
 
-std::array<std::pair<std::string_view, bool>, 16> Features::named() const {
+std::array<std::pair<std::string_view, bool>, 18> Features::named() const {
     return {{{"hierarchy", bounded_shapes},
              {"planes", planes},
+             {"solids of others", solids},
              {"shapes in double", doubles},
              {"smooth normals", smooth_normals},
              {"patterns", patterns},
@@ -19,6 +20,7 @@ std::array<std::pair<std::string_view, bool>, 16> Features::named() const {
              {"refracted rays", refraction},
              {"absorption", absorption},
              {"fog", fog},
+             {"spectrum", spectrum},
              {"one-sided surfaces", one_sided},
              {"supersampling", supersampling}}};
 }
@@ -52,6 +54,8 @@ Features features_of(const Scene& scene, const Settings& settings) {
     features.soft_light =
         features.shading && std::any_of(scene.lights().begin(), scene.lights().end(),
                                         [](const Light& light) { return is_soft(light.kind); });
+    features.solids = scene.solids().any();
+    features.spectrum = !scene.wavelengths().empty();
     features.lens = scene.camera().lens_radius > 0.0F;
     features.fog = scene.fog().kind != FogKind::none;
     features.supersampling = settings.grid > 1 || settings.quality != 0.0F;

@@ -12,6 +12,7 @@ namespace raylane::core {
 struct Features {
     bool bounded_shapes = false; ///< so a hierarchy to walk
     bool planes = false;
+    bool solids = false;         ///< that are made of others
     bool doubles = false;        ///< shapes whose numbers are no floats
     bool smooth_normals = false; ///< smooth triangles
     bool patterns = false;       ///< colours other than solid
@@ -24,11 +25,12 @@ struct Features {
     bool refraction = false;     ///< transmissive materials, so refracted rays and tinted shadows
     bool absorption = false;     ///< inside of these
     bool fog = false;
+    bool spectrum = false;      ///< a picture for each of some wavelengths
     bool one_sided = false;     ///< surfaces that are visible from one side alone
     bool supersampling = false; ///< more than one sample per pixel
 
     /// Each with its name, in words.
-    std::array<std::pair<std::string_view, bool>, 16> named() const;
+    std::array<std::pair<std::string_view, bool>, 18> named() const;
 };
 
 /// Shapes decide which materials are in use. `settings` may differ from the scene's own.

@@ -2,6 +2,7 @@
 
 #include "core/numbers/vector.hpp"
 #include "core/scene/appearance.hpp"
+#include "core/scene/glass.hpp"
 
 #include <array>
 #include <cstdint>
@@ -48,6 +49,7 @@ struct Material {
     float reflectivity = 0.0F; ///< [0, 1]
     float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
     float index = 1.5F;        ///< index of refraction, > 0; what surrounds the scene has 1
+    Sellmeier glass{}; ///< if any: `index` is its n_d, or where a scene has wavelengths, for each
     Vec3f absorption{
         0.0F}; ///< per unit of length inside, >= 0 (Beer-Lambert: exp(-absorption * length))
     Visible visible = Visible::both;

@@ -154,7 +154,9 @@ class FloatMethod {
 
 void consider_floats(MethodEstimate& method, const Scene& scene, const Settings& settings,
                      const Features& features) {
-    if (features.planes) {
+    if (features.solids) {
+        method.objection = "where solids that are made of others have their surface is not bounded";
+    } else if (features.planes) {
         method.objection = "planes have no end, nor has its error there";
     } else if (features.reflection || features.refraction) {
         method.objection = "reflections and refractions magnify its errors";

@@ -75,6 +75,15 @@ std::size_t Scene::double_bytes() const {
     return bytes;
 }
 
+Scene Scene::in_light_of(double wavelength) const {
+    Scene scene = *this;
+    scene.wavelengths_.clear();
+    for (Material& material : scene.materials_)
+        if (material.glass.any())
+            material.index = static_cast<float>(index_at(material.glass, wavelength));
+    return scene;
+}
+
 void SceneBuilder::require_material(MaterialIndex material) const {
     if (material >= scene_.materials_.size())
         throw InvalidValue("material",
@@ -89,6 +98,8 @@ void SceneBuilder::require_room(std::size_t count) const {
 MaterialIndex SceneBuilder::add_material(const Material& material) {
     validate(material);
     scene_.materials_.push_back(material);
+    if (material.glass.any())
+        scene_.materials_.back().index = static_cast<float>(index_at(material.glass, line_d));
     return static_cast<MaterialIndex>(scene_.materials_.size() - 1);
 }
 
@@ -214,6 +225,26 @@ void SceneBuilder::reserve(std::size_t count) {
     scene_.material_of_.reserve(shape_count() + count);
 }
 
+void SceneBuilder::check_wavelengths() const {
+    const std::string field = "spectrum/wavelengths";
+    constexpr std::size_t most = 64;
+    if (wavelengths.size() > most)
+        throw InvalidValue(field,
+                           "must be at most 64 numbers, got " + std::to_string(wavelengths.size()));
+    for (std::size_t i = 0; i < wavelengths.size(); ++i) {
+        const std::string place = field + "/" + std::to_string(i);
+        if (!(wavelengths[i] >= 380.0 && wavelengths[i] <= 780.0))
+            throw InvalidValue(place,
+                               "must be from 380 to 780, got " + checks::text_of(wavelengths[i]));
+        for (const Material& material : scene_.materials_)
+            if (material.glass.any() && !(index_at(material.glass, wavelengths[i]) > 0.0))
+                throw InvalidValue(place,
+                                   "must be a wavelength for which all glasses have an index "
+                                   "of refraction, got " +
+                                       checks::text_of(wavelengths[i]));
+    }
+}
+
 Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     validate_in("settings", settings);
     validate_in("camera", camera);
@@ -223,6 +254,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
         throw InvalidValue("lights",
                            "must have at least one light where there are objects, got none");
 
+    check_wavelengths();
     if (solids_.any()) solids_.list(lists_);
     Workers alone;
     scene_.hierarchy_ =
@@ -245,6 +277,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     scene_.background_ = background;
     scene_.fog_ = fog;
     scene_.settings_ = settings;
+    scene_.wavelengths_ = wavelengths;
     return std::move(scene_);
 }
 

@@ -52,6 +52,11 @@ class Scene {
     const Camera& camera() const { return camera_; }
     const Color& background() const { return background_; }
     const Settings& settings() const { return settings_; }
+    /// Wavelengths in nanometres for each of which a picture is drawn, with the index that glass
+    /// has for it; none: with that of each material.
+    const std::vector<double>& wavelengths() const { return wavelengths_; }
+    /// The scene in light of one wavelength.
+    Scene in_light_of(double wavelength) const;
 
     /// The shapes that lie in one flat polygon with `id`: itself alone unless added by add_polygon.
     IdRange coplanar_with(ShapeId id) const;
@@ -78,18 +83,20 @@ class Scene {
     Camera camera_;
     Color background_{0.0F};
     Settings settings_;
+    std::vector<double> wavelengths_;
 };
 
 /// Collects a scene, in any order, and checks each value as it comes. All functions throw
 /// InvalidValue, whose field is relative to what was passed in, and leave the builder as it was.
 class SceneBuilder {
   public:
-    Camera camera;              ///< checked by build(), field "camera/..."
-    Color background{0.0F};     ///< checked by build(), field "background"
-    Fog fog;                    ///< checked by build(), field "fog/..."
-    Settings settings;          ///< checked by build(), field "settings/..."
-    bool wants_light = true;    ///< true if build() refuses shapes without a light
-    Workers* workers = nullptr; ///< that build the hierarchy; default: the caller's thread
+    Camera camera;                   ///< checked by build(), field "camera/..."
+    Color background{0.0F};          ///< checked by build(), field "background"
+    Fog fog;                         ///< checked by build(), field "fog/..."
+    Settings settings;               ///< checked by build(), field "settings/..."
+    std::vector<double> wavelengths; ///< checked by build(), field "spectrum/wavelengths/..."
+    bool wants_light = true;         ///< true if build() refuses shapes without a light
+    Workers* workers = nullptr;      ///< that build the hierarchy; default: the caller's thread
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
@@ -134,6 +141,7 @@ class SceneBuilder {
     template <class Shape>
     ShapeId append(const Shape& shape, MaterialIndex material);
 
+    void check_wavelengths() const;
     void check_solid(const Solid& solid, bool has_material, const std::string& place) const;
 
     Scene scene_;

@@ -259,6 +259,7 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
                                            "intersect it with a box");
                 with_bounds(shape, bounds);
             } else if constexpr (kind_of<Shape> == Kind::plane) {
+                node.flat = true;
                 if (is_finite(bounds)) {
                     QuadricOf<double> half_space{};
                     half_space.center = shape.point;

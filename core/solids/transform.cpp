@@ -142,6 +142,13 @@ Transform Transform::rotation(const Vec3d& degrees) {
     return result;
 }
 
+Transform Transform::turn(const Vec3d& x, const Vec3d& y, const Vec3d& z) {
+    Transform result;
+    for (int axis = 0; axis < 3; ++axis)
+        result.rows_[axis] = {x[axis], y[axis], z[axis]};
+    return result;
+}
+
 Transform Transform::scaling(const Vec3d& by) {
     Transform result;
     for (int axis = 0; axis < 3; ++axis) {

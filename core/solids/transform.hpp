@@ -16,6 +16,8 @@ class Transform {
     /// About the axes x, y and z, one after the other, in degrees. The matrix has the sines and
     /// cosines as doubles: of multiples of 90 degrees exactly.
     static Transform rotation(const Vec3d& degrees);
+    /// From the axes x, y and z to others of length 1 at right angles to each other.
+    static Transform turn(const Vec3d& x, const Vec3d& y, const Vec3d& z);
     /// No factor is 0.
     static Transform scaling(const Vec3d& by);
     /// Rows of M with t behind; M must not be singular.

@@ -89,7 +89,17 @@ void write_material(TextFile& file, const core::Material& material) {
         object.text("reflection",
                     material.reflection == core::Reflection::schlick ? "schlick" : "dielectric");
     object.number("transmission", material.transmission);
-    object.number("index", material.index);
+    if (material.glass.any()) {
+        TextFile& glass = object.key("glass");
+        const char* before = "{\"B\": [";
+        for (const auto* numbers : {&material.glass.B, &material.glass.C}) {
+            glass << before << (*numbers)[0] << ", " << (*numbers)[1] << ", " << (*numbers)[2];
+            before = "], \"C\": [";
+        }
+        glass << "]}";
+    } else {
+        object.number("index", material.index);
+    }
     object.vector("absorption", material.absorption);
     if (material.visible != core::Visible::both)
         object.text("visible", material.visible == core::Visible::outside ? "outside" : "inside");
@@ -221,6 +231,13 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         if (camera.focus_distance > 0.0F) object.number("focus_distance", camera.focus_distance);
     }
     root.vector("background", scene.background());
+    if (!scene.wavelengths().empty()) {
+        TextFile& list = root.key("spectrum");
+        const char* before = "{\"wavelengths\": [";
+        for (const double wavelength : scene.wavelengths())
+            list << std::exchange(before, ", ") << wavelength;
+        list << "]}";
+    }
     const core::Fog& fog = scene.fog();
     if (fog.kind != core::FogKind::none) {
         root.key("fog");

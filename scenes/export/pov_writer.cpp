@@ -19,6 +19,8 @@ class PovWriter {
               << scene_.settings().max_depth + 1 << " adc_bailout " << scene_.settings().min_weight
               << " }\nbackground { color rgb ";
         vector(scene_.background()) << " }\n";
+        if (!scene_.wavelengths().empty())
+            differences_.insert("the spectrum: glass has one index there");
         write_camera();
         write_fog();
         for (const core::Light& light : scene_.lights())

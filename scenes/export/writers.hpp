@@ -1,8 +1,7 @@
 #pragma once
 
-#include "core/scene/scene.hpp"
+#include "core/scene/solid_description.hpp"
 #include "scenes/errors.hpp"
-#include "scenes/export/solid_description.hpp"
 #include "scenes/export/text_file.hpp"
 
 #include <set>
@@ -41,7 +40,8 @@ void for_each_by_id(const core::Scene& scene, const Visit& visit, const VisitSol
         if (scene.solids().has(id)) {
             if (scene.solids().solid_of(id) == id)
                 visit_solid(
-                    description_of(scene, scene.solids().root_of(scene.solids().part_of(id))), id);
+                    core::description_of(scene, scene.solids().root_of(scene.solids().part_of(id))),
+                    id);
         } else if (shapes[id].exists)
             core::with_table(scene.shapes(), shapes[id].kind,
                              [&](const auto& table) { visit(table.get(shapes[id].place), id); });

@@ -64,14 +64,34 @@ Pattern read_pattern(const JsonValue& value) {
     return read(value);
 }
 
+/// By name, or by its numbers.
+core::Sellmeier read_glass(const JsonValue& value) {
+    if (value.type() == JsonType::object) {
+        value.allow_only({"B", "C"});
+        core::Sellmeier glass;
+        for (const auto& [key, numbers] : {std::pair{"B", &glass.B}, std::pair{"C", &glass.C}}) {
+            const std::vector<JsonValue> values = value.at(key).array(3, "numbers");
+            for (std::size_t i = 0; i < 3; ++i)
+                (*numbers)[i] = values[i].real();
+        }
+        if (!glass.any()) value.at("B").fail("must not be 0, all of them");
+        return glass;
+    }
+    std::vector<std::pair<std::string_view, core::Sellmeier>> glasses;
+    for (const core::NamedGlass& named : core::glass_catalogue())
+        glasses.emplace_back(named.name, named.glass);
+    return value.choice(JsonValue::Choices<core::Sellmeier>(glasses));
+}
+
 } // namespace
 
 core::Material read_material(const JsonValue& value) {
     value.allow_only({"color", "pattern", "ambient", "diffuse", "specular", "exponent",
-                      "reflectivity", "reflection", "transmission", "index", "absorption",
+                      "reflectivity", "reflection", "transmission", "index", "glass", "absorption",
                       "visible"});
     value.exclude("color", "pattern");
     value.exclude("reflectivity", "reflection");
+    value.exclude("index", "glass");
 
     core::Material material;
     if (const auto color = value.find("color")) material.pattern.colors[0] = color->color();
@@ -89,6 +109,7 @@ core::Material read_material(const JsonValue& value) {
     if (const auto reflection = value.find("reflection"))
         material.reflection = reflection->choice<core::Reflection>(
             {{"schlick", core::Reflection::schlick}, {"dielectric", core::Reflection::dielectric}});
+    if (const auto glass = value.find("glass")) material.glass = read_glass(*glass);
     if (const auto absorption = value.find("absorption"))
         material.absorption = absorption->vector();
     if (const auto visible = value.find("visible"))

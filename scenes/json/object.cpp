@@ -1,5 +1,6 @@
 #include "scenes/json/object.hpp"
 
+#include "core/solids/lens.hpp"
 #include "scenes/generators.hpp"
 #include "scenes/json/transform.hpp"
 
@@ -100,6 +101,7 @@ class ObjectReader {
     }
 
     void made(Made by);
+    void lens();
     void several();
 
     void sphereflake() {
@@ -265,6 +267,30 @@ void ObjectReader::made(Made by) {
         checked(object_, [&] { builder_->add_solid(solid, core::no_material); });
 }
 
+void ObjectReader::lens() {
+    allow({"type", "material", "vertex", "axis", "radii", "conics", "thickness", "radius"});
+    core::Lens lens;
+    if (const auto vertex = object_.find("vertex")) lens.vertex = vertex->real_vector();
+    if (const auto axis = object_.find("axis")) lens.axis = axis->real_vector();
+    for (const auto& [key, numbers] :
+         {std::pair{"radii", &lens.radii}, std::pair{"conics", &lens.conics}}) {
+        const auto found = object_.find(key);
+        if (!found && numbers == &lens.conics) continue;
+        const std::vector<JsonValue> values = object_.at(key).array(2, "numbers");
+        *numbers = {values[0].real(), values[1].real()};
+    }
+    lens.thickness = number("thickness");
+    lens.radius = number("radius");
+    Solid solid = checked(object_, [&] { return core::solid_of(lens); });
+    if (described_ != nullptr) {
+        solid.material = material_if_any();
+        *described_ = std::move(solid);
+        return;
+    }
+    const core::MaterialIndex own = material();
+    checked(object_, [&] { builder_->add_solid(solid, own); });
+}
+
 /// A group, an instance, or what is moved.
 void ObjectReader::several() {
     for (const Solid& solid : described(object_, context_, Use::member)) {
@@ -322,6 +348,7 @@ const std::vector<std::pair<std::string_view, Read>>& readers() {
                              [](ObjectReader& of) { of.made(Made::by_intersection); });
         readers.emplace_back("difference", [](ObjectReader& of) { of.made(Made::by_difference); });
         readers.emplace_back("clip", [](ObjectReader& of) { of.made(Made::by_clip); });
+        readers.emplace_back("lens", [](ObjectReader& of) { of.lens(); });
         readers.emplace_back("group", [](ObjectReader& of) { of.several(); });
         readers.emplace_back("instance", [](ObjectReader& of) { of.several(); });
         return readers;

@@ -40,7 +40,7 @@ class SceneReader {
     /// Throws BadInput for `errors` and what is wrong with the scene as a whole.
     core::Scene finish(const Outline& outline, InputErrors& errors);
 
-    static constexpr std::array<RootKey, 11> keys = {{
+    static constexpr std::array<RootKey, 12> keys = {{
         {"$schema", Holds::one_item},
         {"image", Holds::one_item},
         {"sampling", Holds::one_item},
@@ -48,6 +48,7 @@ class SceneReader {
         {"camera", Holds::one_item, true},
         {"background", Holds::one_item},
         {"fog", Holds::one_item},
+        {"spectrum", Holds::one_item},
         {"lights", Holds::item_list},
         {"materials", Holds::named_items},
         {"definitions", Holds::named_items, false, Items::nested},
@@ -68,6 +69,7 @@ class SceneReader {
     void take_camera(const JsonValue& value);
     void take_background(const JsonValue& value);
     void take_fog(const JsonValue& value);
+    void take_spectrum(const JsonValue& value);
     void take_light(const JsonValue& value);
     void take_material(std::string_view name, const JsonValue& value);
     void take_definition(std::string_view name, const JsonValue& value);
@@ -113,6 +115,8 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
         take_background(value);
     else if (key.name == "fog")
         take_fog(value);
+    else if (key.name == "spectrum")
+        take_spectrum(value);
     else if (key.name == "lights")
         take_light(value);
     else if (key.name == "materials")
@@ -154,6 +158,13 @@ void SceneReader::take_fog(const JsonValue& value) {
     const core::Fog fog = read_fog(value);
     checked(value, [&] { core::validate(fog); });
     builder_.fog = fog;
+}
+
+void SceneReader::take_spectrum(const JsonValue& value) {
+    value.allow_only({"wavelengths"});
+    builder_.wavelengths.clear();
+    for (const JsonValue& wavelength : value.at("wavelengths").array("numbers"))
+        builder_.wavelengths.push_back(wavelength.real());
 }
 
 void SceneReader::take_light(const JsonValue& value) {

@@ -58,6 +58,8 @@ void copy(const From& from, To& to) {
     copy(from.reflectivity, to.reflectivity);
     copy(from.transmission, to.transmission);
     copy(from.index, to.index);
+    to.glass.B = from.glass.B;
+    to.glass.C = from.glass.C;
     copy(from.absorption, to.absorption);
     copy(from.visible, to.visible);
 }

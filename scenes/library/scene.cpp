@@ -93,6 +93,7 @@ SceneBuilder& SceneBuilder::operator=(SceneBuilder&& other) noexcept {
     background = std::exchange(other.background, {});
     fog = std::exchange(other.fog, {});
     settings = std::exchange(other.settings, {});
+    wavelengths = std::exchange(other.wavelengths, {});
     builder_ = std::move(other.builder_);
     return *this;
 }
@@ -168,6 +169,7 @@ Scene SceneBuilder::build() {
     library::copy(taken.background, builder.background);
     library::copy(taken.fog, builder.fog);
     library::copy(taken.settings, builder.settings);
+    builder.wavelengths = taken.wavelengths;
     builder.wants_light = false;
     simd::ParallelWorkers workers;
     builder.workers = &workers;

@@ -1,8 +1,9 @@
-#include "core/solids/solid.hpp"
-
 #include "raylane/solid.hpp"
+
+#include "core/solids/lens.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
+#include "scenes/library/translate.hpp"
 
 #include <utility>
 
@@ -52,6 +53,18 @@ Solid Solid::of(MaterialIndex material) const {
 RAYLANE_SHAPES(RAYLANE_SOLID)
 #undef RAYLANE_SOLID
 #undef RAYLANE_SOLID_OF
+
+Solid solid_of(const Lens& lens) {
+    const auto vector = [](const Vec3Of<double>& v) { return core::Vec3d(v.x, v.y, v.z); };
+    return library::translated([&] {
+        return library::Internals::solid(core::solid_of({vector(lens.vertex),
+                                                         vector(lens.axis),
+                                                         {lens.radii[0], lens.radii[1]},
+                                                         {lens.conics[0], lens.conics[1]},
+                                                         lens.thickness,
+                                                         lens.radius}));
+    });
+}
 
 Solid union_of(const std::vector<Solid>& parts) {
     return made(core::Made::by_union, parts);

@@ -24,6 +24,7 @@ Certifier::Certifier(const SceneData& scene, const Tracing& tracing, Asked asked
 
 void Certifier::take_from(Arena& arena, std::size_t capacity) {
     doubtful_ = arena.take<std::uint8_t>(capacity);
+    refined_ = arena.take<std::uint8_t>(capacity);
     at_contacts_ = arena.take<std::uint32_t>(capacity);
     gathered_.take_from(arena, capacity, false, asked_ == Asked::floats);
     gathered_hits_.take_from(arena, capacity, scene_.smooth());
@@ -34,6 +35,7 @@ void Certifier::take_from(Arena& arena, std::size_t capacity) {
 void Certifier::find_own_exits(const Paths& paths, const CandidateSearch& search,
                                const Candidates& candidates) {
     std::fill_n(doubtful_, (paths.count + 15) / 16 * 16, std::uint8_t{0});
+    std::fill_n(refined_, paths.count, std::uint8_t{0});
     std::uint32_t any = 0;
     for (std::size_t lane = 0; lane < paths.count; ++lane)
         any |= paths.origin_bits[lane];
@@ -80,6 +82,8 @@ void Certifier::certify(const Paths& paths, CandidateSearch& search, const Candi
         compare_in_double(paths, {lanes_, uncertain}, hits, counters);
         return;
     }
+    for (std::size_t k = 0; k < uncertain; ++k)
+        refined_[lanes_[k]] = 1;
     contact_count_ =
         refinery_.refine(paths, search, doubtful_, {lanes_, uncertain}, hits, counters);
     std::copy_n(lanes_, contact_count_, at_contacts_);

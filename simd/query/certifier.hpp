@@ -32,6 +32,8 @@ class Certifier {
     void find_of_few(const Paths& paths, const Candidates& candidates, const Hits& hits,
                      EngineCounters& counters);
 
+    /// True if the lane's hit had to be told from others.
+    bool was_refined(std::size_t lane) const { return refined_[lane] != 0; }
     /// Lanes of the last rays; see Query.
     std::span<const std::uint32_t> at_contacts() const { return {at_contacts_, contact_count_}; }
     std::span<const HitPoint> points() const { return refinery_.points(); }
@@ -51,6 +53,7 @@ class Certifier {
     Refinery refinery_;
 
     std::uint8_t* doubtful_ = nullptr; // whatever the search says
+    std::uint8_t* refined_ = nullptr;
     std::uint32_t* at_contacts_ = nullptr;
     std::size_t contact_count_ = 0;
     // Some of the rays, put together.

@@ -21,7 +21,10 @@ core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, cons
 
 LookThrough::LookThrough(const SceneData& scene, const Tracing& tracing)
     : scene_(scene), query_(scene, tracing, Asked::points), solid_surfaces_(scene.scene()) {
-    if (scene.looks_through()) onward_ = std::make_unique<Query>(scene, tracing, Asked::points);
+    if (!scene.looks_through()) return;
+    searcher_ = std::make_unique<core::Searcher<double>>(scene.scene(), core::Search::hierarchy,
+                                                         tracing.precision);
+    onward_ = std::make_unique<Query>(scene, tracing, Asked::points);
 }
 
 void LookThrough::take_from(Arena& arena, std::size_t capacity) {
@@ -55,6 +58,10 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
     for (std::size_t lane = 0; lane < paths.count; ++lane) {
         core::WayInUnion way;
         if (is_visible(paths, hits, lane, way)) continue;
+        if (!query_.is_apart(paths, lane)) {
+            settle(paths, lane);
+            continue;
+        }
         const std::size_t to = onward_paths_.count++;
         ways_[to] = way;
         onward_paths_.copy(paths, lane, to);
@@ -92,6 +99,10 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
                     if (known.lane == i) points_.push_back({lane, known.point});
                 continue;
             }
+            if (!onward_->is_apart(onward_paths_, i)) {
+                settle(paths, lane);
+                continue;
+            }
             onward_paths_.copy(onward_paths_, i, kept);
             passed_[kept] = passed_[i];
             ways_[kept] = ways_[i];
@@ -100,6 +111,40 @@ void LookThrough::go_on(const Paths& paths, const Coherence* coherence, EngineCo
         }
         onward_paths_.count = kept;
     }
+}
+
+/// Has the scalar search find what a ray sees first.
+void LookThrough::settle(const Paths& paths, std::size_t lane) {
+    const core::Ray<double> ray = ray_of(paths, lane);
+    const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths, lane);
+    const core::Scene& scene = scene_.scene();
+    const auto is_seen = [&](const core::Hit<double>& hit) {
+        return scene.material_of(hit.shape).is_seen(hit.enters());
+    };
+    const core::Encounter<double> first = searcher_->nearest(ray, origins, is_seen);
+    const Hits& hits = query_.hits();
+    std::erase_if(points_, [&](const HitPoint& of) { return of.lane == lane; });
+    if (first.contacts.size() > 1) {
+        hits.slot[lane] = no_slot;
+        at_contacts_.push_back(static_cast<std::uint32_t>(lane));
+        return;
+    }
+    if (!first.hit.any()) {
+        hits.slot[lane] = no_slot;
+        return;
+    }
+    const core::Hit<double>& hit = first.hit;
+    const auto [point, normal] = searcher_->surface_at(ray, origins, hit);
+    core::Vec3d shading = core::with_table(scene.shapes(), hit.kind, [&](const auto& table) {
+        return core::shading_normal_at(table.get(hit.place), point, normal);
+    });
+    if (core::dot(shading, normal) < 0.0) shading = -shading;
+    hits.slot[lane] = scene_.slot_of(hit.kind, hit.place);
+    hits.t[lane] = hit.t;
+    hits.error[lane] = hit.error;
+    hits.hit[lane] = hit.face | (hit.entering ? hit_entering : 0U);
+    hits.set_normals(lane, normal, shading);
+    points_.push_back({static_cast<std::uint32_t>(lane), point});
 }
 
 /// True where a ray that is inside of no part of a union of many surely enters one that its solid

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/reference/solid_surfaces.hpp"
+#include "core/reference/search.hpp"
 #include "simd/query/query.hpp"
 
 #include <memory>
@@ -30,6 +30,7 @@ class LookThrough {
   private:
     void go_on(const Paths& paths, const Coherence* coherence, EngineCounters& counters);
     bool is_visible(const Paths& paths, const Hits& hits, std::size_t lane, core::WayInUnion& way);
+    void settle(const Paths& paths, std::size_t lane);
     bool fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
                      core::ShapeId shape) const;
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
@@ -44,7 +45,8 @@ class LookThrough {
 
     // Search behind surfaces that cannot be seen; null where all can, from both sides.
     std::unique_ptr<Query> onward_;
-    Paths onward_paths_{}; // sample: the lane
+    std::unique_ptr<core::Searcher<double>> searcher_; // for what is too close to start between
+    Paths onward_paths_{};                             // sample: the lane
     double* passed_ = nullptr;
 };
 

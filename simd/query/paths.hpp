@@ -96,7 +96,7 @@ struct Paths {
         origin_last[lane] = shape.coplanar.last;
         origin_slot[lane] = slot;
         origin_bits[lane] = (hit & hit_face) | (inward ? origin_inward : 0) |
-                            (core::may_meet_again(shape.kind, inward) ? origin_may_return : 0);
+                            (shape.may_be_met_again(inward) ? origin_may_return : 0);
     }
 
     /// Lanes `begin` to `end` start on no surface.

@@ -1,6 +1,7 @@
 #include "simd/query/query.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace raylane::simd {
@@ -41,6 +42,17 @@ void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounte
     if (few) return certifier_.find_of_few(paths, candidates, hits_, counters);
     search_.nearest(coherence, candidates, counters);
     certifier_.certify(paths, search_, candidates, hits_, counters);
+}
+
+bool Query::is_apart(const Paths& paths, std::size_t lane) const {
+    if (!tracing_.certifies()) return true;
+    if (certifier_.was_refined(lane)) return false;
+    double reach = hits_.t[lane];
+    for (int axis = 0; axis < 3; ++axis)
+        reach = std::max(reach, std::abs(paths.origin[axis][lane]));
+    const double second = static_cast<double>(second_[lane]) + search_.approach().before(lane);
+    // Several times what a point, its t and its ray are rounded by.
+    return second > hits_.t[lane] + 0x1p-44 * reach;
 }
 
 /// A distance, less what lies before where a ray has been brought, may be off by little more than

@@ -25,6 +25,9 @@ class Query {
                  const double* t_most = nullptr);
     /// Hits of the last rays.
     const Hits& hits() const { return hits_; }
+    /// True if nothing else is crossed as near behind the lane's hit as its point in double may be
+    /// off: what starts there loses nothing.
+    bool is_apart(const Paths& paths, std::size_t lane) const;
     /// Lanes that meet several surfaces at one point, where only the reference can go on. They have
     /// the one that comes first.
     std::span<const std::uint32_t> at_contacts() const { return certifier_.at_contacts(); }

@@ -77,8 +77,7 @@ void ShadowTracer::look_at(const Wave& wave) {
         leave_last_[position] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
         const bool in_medium = wave.paths.media_at(lane) != core::empty_space;
-        leave_state_[position] =
-            in_medium || core::may_meet_again(shape.kind, inward) ? doubtful : unblocked;
+        leave_state_[position] = in_medium || shape.may_be_met_again(inward) ? doubtful : unblocked;
     }
 }
 

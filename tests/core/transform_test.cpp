@@ -103,6 +103,7 @@ TEST_CASE("quarters of a turn, and powers of two, are exact") {
 TEST_CASE("what is moved has inside what was inside") {
     Random random(5);
     for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
+        int inside = 0;
         if constexpr (is_solid<Shape>)
             for (int round = 0; round < 60; ++round) {
                 const auto shape = to_doubles(ray_sets::Target<Shape>::make(random, false));
@@ -115,7 +116,6 @@ TEST_CASE("what is moved has inside what was inside") {
                                           kind_of<Shape> == Kind::capped_cone)));
                 const Scene scene = scene_of(moved);
                 PointSearcher points(scene);
-                int inside = 0;
                 for (int i = 0; i < 100; ++i) {
                     const ray_sets::SurfacePoint at =
                         ray_sets::Target<Shape>::surface(to_floats(shape), random);
@@ -139,8 +139,8 @@ TEST_CASE("what is moved has inside what was inside") {
                     inside += is_in ? 1 : 0;
                     CHECK(found.empty() != is_in);
                 }
-                CHECK(inside > 0);
             }
+        if constexpr (is_solid<Shape>) CHECK(inside > 300);
     });
 }
 

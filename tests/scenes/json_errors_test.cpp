@@ -42,7 +42,7 @@ std::string type_names() {
         if (names.find(name) == std::string::npos) names += name;
     }
     return names +
-           R"("sphereflake", "lattice", "union", "intersection", "difference", "clip", "group" or "instance")";
+           R"("sphereflake", "lattice", "union", "intersection", "difference", "clip", "lens", "group" or "instance")";
 }
 
 /// A clay object of this type at /objects/1.
@@ -77,7 +77,7 @@ TEST_CASE("complaints about keys") {
         {"{" + camera + "}", R"(must have the key "objects")"},
         {with(R"("light": [])"), R"(unknown key "light", did you mean "lights"?)"},
         {with(R"("zzzzzzzz": [])"),
-         R"(unknown key "zzzzzzzz", must be "$schema", "image", "sampling", "limits", "camera", "background", "fog", "lights", "materials", "definitions" or "objects")"},
+         R"(unknown key "zzzzzzzz", must be "$schema", "image", "sampling", "limits", "camera", "background", "fog", "spectrum", "lights", "materials", "definitions" or "objects")"},
         {with(R"("objects": [])"), "/objects: must be given only once"},
         {with(R"("image": {"width": 1, "width": 2})"), "/image/width: must be given only once"},
         {with(R"("materials": {"a": {}, "a": {}})"), "/materials/a: must be given only once"},

@@ -2,17 +2,20 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <vector>
+
 using namespace raylane;
 
-TEST_CASE("the README's scene is one") {
+TEST_CASE("the README's scenes are some") {
     const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
     const std::string opening = "```json\n";
-    const std::size_t begin = readme.find(opening);
-    REQUIRE(begin != std::string::npos);
-    const std::size_t first = begin + opening.size();
-    const std::string text = readme.substr(first, readme.find("```", first) - first);
-
     const tests::TemporaryDirectory directory;
-    scenes::InputFile file(directory.write("my.json", text));
-    CHECK(scenes::read_json(file).shape_count() == 2);
+    std::vector<std::size_t> shapes;
+    for (std::size_t begin = 0; (begin = readme.find(opening, begin)) != std::string::npos;) {
+        begin += opening.size();
+        const std::string text = readme.substr(begin, readme.find("```", begin) - begin);
+        scenes::InputFile file(directory.write("my.json", text));
+        shapes.push_back(scenes::read_json(file).shape_count());
+    }
+    CHECK(shapes == std::vector<std::size_t>{2, 4});
 }

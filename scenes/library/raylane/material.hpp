@@ -3,6 +3,7 @@
 #include "raylane/api.h"
 #include "raylane/vector.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace RAYLANE_API raylane {
@@ -37,6 +38,12 @@ enum class Reflection : std::uint8_t {
 /// Tracer's. A shadow ray looks from a surface to the light.
 enum class Visible : std::uint8_t { both, outside, inside };
 
+/// Glass by Sellmeier's formula: n^2 = 1 + sum of B_i w^2 / (w^2 - C_i) for a wavelength w in
+/// micrometres. A scene's `wavelengths` are drawn each with the index for it.
+struct Sellmeier {
+    std::array<double, 3> B{}, C{}; ///< C in square micrometres
+};
+
 /// The colour seen along a ray that hits this material, with light l of colour L_l, unit vectors n
 /// (normal), l (to the light) and h (halfway between l and the viewer), S what of the light the
 /// shadow lets through, C the pattern's colour and R the reflected fraction:
@@ -52,6 +59,7 @@ struct Material {
     float reflectivity = 0.0F; ///< [0, 1]
     float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
     float index = 1.5F;        ///< index of refraction, > 0; what surrounds the scene has 1
+    Sellmeier glass{}; ///< if it has any B: in place of `index`, which then is that for 587.56 nm
     /// Per unit of length inside, >= 0 (Beer and Lambert: exp(-absorption * length)).
     Vec3 absorption{};
     Visible visible = Visible::both;

@@ -8,7 +8,8 @@ namespace RAYLANE_API raylane {
 
 /// Method by which the hits of rays are found. `exact` decides as real arithmetic does for the
 /// numbers given, and is hardly slower than `robust`: the others are there to compare with, and for
-/// previews.
+/// previews. Scenes with solids that are made of others (Solid) are asked exactly, whatever is
+/// wanted.
 enum class Precision : std::uint8_t {
     fast,         ///< float, by the textbooks' formulas: wrong where these cancel
     robust,       ///< float, by the best formulas that float has

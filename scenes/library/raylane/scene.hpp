@@ -74,6 +74,9 @@ class SceneBuilder {
         background; ///< colour of rays that hit nothing; checked by build(), field "background/..."
     Fog fog;        ///< checked by build(), field "fog/..."
     Settings settings; ///< checked by build(), field "settings/..."
+    /// In nanometres, from 380 to 780, at most 64: a picture is drawn for each, with the index that
+    /// glass has for it; none: one with `index`. Checked by build(), "spectrum/wavelengths/0".
+    std::vector<double> wavelengths;
 
     SceneBuilder();
     ~SceneBuilder();

@@ -45,6 +45,23 @@ class Solid {
     std::shared_ptr<const core::Solid> solid_;
 };
 
+/// A lens about an axis: between two surfaces of revolution, each a sphere, a plane or a conic, and
+/// in a cylinder.
+struct Lens {
+    Vec3Of<double> vertex;        ///< of the first surface
+    Vec3Of<double> axis{0, 0, 1}; ///< from there to the second; of any length but 0
+    /// Radii of curvature at the vertices: positive where the centre is behind the surface, going
+    /// along the axis; 0: flat.
+    double radii[2] = {0.0, 0.0};
+    double conics[2] = {0.0, 0.0}; ///< conic constants; 0: spheres
+    double thickness = 0.0;        ///< between the vertices, > 0
+    double radius = 0.0;           ///< of the cylinder, > 0
+};
+
+/// Throws InvalidValue for what is no lens: surfaces that meet inside of its cylinder, or do not
+/// reach it.
+RAYLANE_API Solid solid_of(const Lens& lens);
+
 /// What is in any of several parts.
 RAYLANE_API Solid union_of(const std::vector<Solid>& parts);
 /// What is in all of them.

@@ -152,6 +152,8 @@ struct TracerOptions {
 /// open surface, or in a quadric, does not hit it there; one in a face or along the side of a solid
 /// does, where it comes upon it.
 ///
+/// - Parts of a Solid that is made of others are crossed where the solid has its surface; hits say
+///   which part that is, and normals, and whether the ray enters, are the solid's.
 /// - Sides that Material::visible hides are not hit. Glass is: any surface occludes.
 /// - A crossing at the origin itself (t = 0) is none. But an origin that was computed is seldom
 ///   exactly on its surface: let such rays name what they leave (RaySpan::origin_shape).
@@ -188,8 +190,11 @@ class Tracer {
                    const CrossingOptions& options = {},
                    CrossingStatistics* statistics = nullptr) const;
 
-    /// The solids (spheres, ellipsoids, boxes, capped cylinders and cones) that each point is in,
-    /// or on the surface of: as real arithmetic says. Rows are replaced. Throws as intersect does.
+    /// The solids (spheres, ellipsoids, boxes, capped cylinders and cones, and those that are made
+    /// of others, which go by the id of their first part) that each point is in, or on the surface
+    /// of: as real arithmetic says. A point on the surface of parts counts as inside, or outside,
+    /// of their solid if it were so whichever side of these it is on. Rows are replaced. Throws as
+    /// intersect does.
     void contains(const PointSpan& points, SolidRows& rows) const;
     void contains(const DoublePointSpan& points, SolidRows& rows) const;
 

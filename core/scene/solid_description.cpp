@@ -1,18 +1,17 @@
-#include "scenes/export/solid_description.hpp"
+#include "core/scene/solid_description.hpp"
 
 #include <utility>
 #include <vector>
 
-namespace raylane::scenes {
+namespace raylane::core {
 
 namespace {
 
-using core::Made, core::Solid, core::Solids;
 using Op = Solids::Op;
 
 class Describer {
   public:
-    Describer(const core::Scene& scene, Solids::Index solid)
+    Describer(const Scene& scene, Solids::Index solid)
         : scene_(scene), solids_(scene.solids()), whole_(solids_.medium(solid)) {}
 
     /// A node or, `outside`, all that is not in it; either is described by what has an inside.
@@ -67,38 +66,37 @@ class Describer {
     /// True for what clips, and has no faces.
     bool cuts_only(Solids::Index index) const {
         for (Solids::Index part = index; part < solids_.node(index).end; ++part)
-            if (solids_.node(part).op == Op::part && solids_.node(part).shape != core::no_shape)
+            if (solids_.node(part).op == Op::part && solids_.node(part).shape != no_shape)
                 return false;
         return true;
     }
 
     Solid shape_of(const Solids::Node& part) const {
         Solid solid;
-        core::with_table(scene_.shapes(), part.kind,
-                         [&]<class Shape>(const core::Table<Shape>& table) {
-                             solid.shape = table.get(part.place);
-                         });
+        with_table(scene_.shapes(), part.kind, [&]<class Shape>(const Table<Shape>& table) {
+            solid.shape = table.get(part.place);
+        });
         // A plane of a solid with bounds.
-        if (const auto* q = std::get_if<core::QuadricOf<double>>(&solid.shape))
+        if (const auto* q = std::get_if<QuadricOf<double>>(&solid.shape))
             if (q->xx == 0.0 && q->yy == 0.0 && q->zz == 0.0 && q->xy == 0.0 && q->xz == 0.0 &&
                 q->yz == 0.0 && q->one == 0.0)
-                solid.shape = core::PlaneOf<double>{q->center, {q->x, q->y, q->z}};
-        if (part.shape != core::no_shape && scene_.material_index_of(part.shape) != whole_)
+                solid.shape = PlaneOf<double>{q->center, {q->x, q->y, q->z}};
+        if (part.shape != no_shape && scene_.material_index_of(part.shape) != whole_)
             solid.material = scene_.material_index_of(part.shape);
         return solid;
     }
 
-    const core::Scene& scene_;
+    const Scene& scene_;
     const Solids& solids_;
-    core::MaterialIndex whole_;
+    MaterialIndex whole_;
 };
 
 } // namespace
 
-core::Solid description_of(const core::Scene& scene, core::Solids::Index solid) {
-    core::Solid described = Describer(scene, solid).describe(solid, false);
+Solid description_of(const Scene& scene, Solids::Index solid) {
+    Solid described = Describer(scene, solid).describe(solid, false);
     described.material = scene.solids().medium(solid);
     return described;
 }
 
-} // namespace raylane::scenes
+} // namespace raylane::core

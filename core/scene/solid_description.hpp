@@ -2,10 +2,10 @@
 
 #include "core/scene/scene.hpp"
 
-namespace raylane::scenes {
+namespace raylane::core {
 
 /// A solid of a scene as it can be described: by unions, intersections, differences and clips of
 /// what has an inside. Parts have materials of their own where these are not the whole's.
-core::Solid description_of(const core::Scene& scene, core::Solids::Index solid);
+Solid description_of(const Scene& scene, Solids::Index solid);
 
-} // namespace raylane::scenes
+} // namespace raylane::core

@@ -1,0 +1,103 @@
+#include "core/solids/lens.hpp"
+
+#include "core/solids/transform.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace raylane::core {
+
+namespace {
+
+Solid of_shape(const PartShape& shape) {
+    Solid solid;
+    solid.shape = shape;
+    return solid;
+}
+
+/// How far a surface is behind its vertex at the lens' edge; NaN if it does not reach it.
+double sag(double radius, double conic, double at) {
+    if (radius == 0.0) return 0.0;
+    const double curvature = 1.0 / radius;
+    return curvature * at * at /
+           (1.0 + std::sqrt(1.0 - (1.0 + conic) * curvature * curvature * at * at));
+}
+
+/// What is behind a surface, or where its centre is.
+PartShape behind(double vertex, double radius, double conic) {
+    if (radius == 0.0) return PlaneOf<double>{{0.0, 0.0, vertex}, {0.0, 0.0, -1.0}};
+    if (conic == 0.0) return SphereOf<double>{{0.0, 0.0, vertex + radius}, std::abs(radius)};
+    // x^2 + y^2 + (1 + k) z^2 - 2 R z = 0
+    QuadricOf<double> form{};
+    form.center = {0.0, 0.0, vertex};
+    form.xx = form.yy = 1.0;
+    form.zz = 1.0 + conic;
+    form.z = -radius;
+    form.lower = Vec3d(-1.0);
+    form.upper = Vec3d(1.0);
+    return form;
+}
+
+/// From the axis z to another.
+Transform turned_to(const Vec3d& axis) {
+    if (axis.x == 0.0 && axis.y == 0.0)
+        return axis.z > 0.0 ? Transform() : Transform::rotation({180.0, 0.0, 0.0});
+    const Vec3d z = normalized(axis);
+    const Vec3d x = normalized(std::abs(z.x) < 0.9 ? cross(Vec3d(1.0, 0.0, 0.0), z)
+                                                   : cross(Vec3d(0.0, 1.0, 0.0), z));
+    const Vec3d y = cross(z, x);
+    return Transform::turn(x, y, z);
+}
+
+} // namespace
+
+Solid solid_of(const Lens& lens) {
+    checks::require_point("vertex", lens.vertex);
+    checks::require_direction("axis", lens.axis);
+    checks::require_positive("thickness", lens.thickness);
+    checks::require_positive("radius", lens.radius);
+    double edges[2];
+    for (int side = 0; side < 2; ++side) {
+        const checks::Field field = checks::Field("radii").at(side);
+        checks::require_coordinate(field, lens.radii[side]);
+        checks::require_coordinate(checks::Field("conics").at(side), lens.conics[side]);
+        edges[side] = sag(lens.radii[side], lens.conics[side], lens.radius) +
+                      (side == 0 ? 0.0 : lens.thickness);
+        if (!std::isfinite(edges[side]))
+            throw InvalidValue(field.text(), "must be of a surface that reaches the lens' radius, "
+                                             "got " +
+                                                 checks::text_of(lens.radii[side]));
+    }
+    if (!(edges[0] <= edges[1]))
+        throw InvalidValue("thickness", "must be so much that the surfaces do not meet inside of "
+                                        "the lens' radius, got " +
+                                            checks::text_of(lens.thickness));
+
+    // Its ends are outside of the lens, and before a conic's other sheet.
+    double beyond = 0.5 * lens.thickness;
+    for (int side = 0; side < 2; ++side)
+        if (lens.conics[side] < -1.0)
+            beyond = std::min(beyond, std::abs(lens.radii[side] / (1.0 + lens.conics[side])));
+    const double first = std::min(0.0, edges[0]) - beyond;
+    const double last = std::max(lens.thickness, edges[1]) + beyond;
+    Solid whole{Made::by_difference};
+    Solid inside{Made::by_intersection};
+    for (int side = 0; side < 2; ++side) {
+        const double radius = lens.radii[side];
+        PartShape shape = behind(side == 0 ? 0.0 : lens.thickness, radius, lens.conics[side]);
+        if (side == 1 && radius == 0.0) std::get<PlaneOf<double>>(shape).normal = {0.0, 0.0, 1.0};
+        const bool bulges = radius == 0.0 || (radius > 0.0) == (side == 0);
+        (bulges ? inside : whole).parts.push_back(of_shape(shape));
+    }
+    inside.parts.push_back(of_shape(CylinderOf<double, Ends::capped>{
+        {0.0, 0.0, first}, {0.0, 0.0, last - first}, lens.radius}));
+    Solid result = std::move(inside);
+    if (!whole.parts.empty()) {
+        whole.parts.insert(whole.parts.begin(), std::move(result));
+        result = std::move(whole);
+    }
+    return Transform::translation(lens.vertex).after(turned_to(lens.axis))(result);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,149 @@
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+/// Pictures of solids that are made of others: both engines, and all instruction sets, have one.
+using namespace raylane;
+using namespace raylane::core;
+
+namespace {
+
+Solid of_shape(const PartShape& shape, MaterialIndex material = no_material) {
+    Solid solid;
+    solid.shape = shape;
+    solid.material = material;
+    return solid;
+}
+
+Solid made(Made by, std::vector<Solid> parts) {
+    Solid solid{by};
+    solid.parts = std::move(parts);
+    return solid;
+}
+
+/// Rounded, bored and cut blocks of clay and glass on a floor, flush and not.
+Scene blocks(std::vector<double> wavelengths = {}) {
+    SceneBuilder builder;
+    builder.settings.width = 72;
+    builder.settings.height = 54;
+    builder.settings.grid = 2;
+    builder.camera.from = {4, 3.5F, 6};
+    builder.camera.at = {0, 0.6F, 0};
+    builder.background = {0.6F, 0.7F, 0.9F};
+    builder.wavelengths = std::move(wavelengths);
+    builder.add_light({.position = {4, 6, 5}});
+    builder.add_light({.kind = LightKind::sky, .color = {0.3F, 0.3F, 0.3F}});
+    const MaterialIndex floor = builder.add_material({});
+    Material of_clay;
+    of_clay.specular = 0.3F;
+    const MaterialIndex clay = builder.add_material(of_clay);
+    Material of_red;
+    of_red.pattern.colors[0] = {1, 0, 0};
+    const MaterialIndex red = builder.add_material(of_red);
+    Material of_glass;
+    of_glass.ambient = of_glass.diffuse = 0;
+    of_glass.reflection = Reflection::dielectric;
+    of_glass.transmission = 1;
+    of_glass.glass = glass_catalogue()[8].glass;
+    const MaterialIndex glass = builder.add_material(of_glass);
+    builder.add(Plane{{0, 0, 0}, {0, 1, 0}}, floor);
+    const auto box = [](const Vec3d& lower, const Vec3d& size) {
+        return of_shape(BoxOf<double>{lower, {size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}});
+    };
+    builder.add_solid(
+        made(Made::by_difference,
+             {made(Made::by_intersection,
+                   {box({-1, 0, -1}, {2, 2, 2}), of_shape(SphereOf<double>{{0, 1, 0}, 1.35}, red)}),
+              of_shape(CylinderOf<double, Ends::capped>{{-2, 1, 0}, {4, 0, 0}, 0.6}),
+              of_shape(CylinderOf<double, Ends::capped>{{0, 0.5, 0}, {0, 1.5, 0}, 0.5})}), // flush
+        clay);
+    builder.add_solid(
+        made(Made::by_intersection, {of_shape(SphereOf<double>{{1.9, 0.8, 1.2}, 0.8}),
+                                     of_shape(SphereOf<double>{{2.3, 0.8, 1.8}, 0.8}),
+                                     of_shape(PlaneOf<double>{{2, 1, 1.5}, {0, 1, 0.2}})}),
+        glass);
+    std::vector<Solid> balls;
+    for (int i = 0; i < 20; ++i)
+        balls.push_back(of_shape(SphereOf<double>{
+            {-2.5 + 0.3 * (i % 5), 0.3 + 0.25 * (i / 10), 0.8 + 0.3 * (i / 5 % 2)}, 0.28}));
+    builder.add_solid(
+        made(Made::by_difference, {made(Made::by_union, balls),
+                                   of_shape(PlaneOf<double>{{0, 0, 1.2}, {0.1, 0, -1}}, red)}),
+        clay);
+    return std::move(builder).build();
+}
+
+std::vector<Color> picture(const Scene& scene, simd::Engine engine,
+                           simd::Isa isa = simd::best_isa()) {
+    simd::RenderOptions options;
+    options.engine = engine;
+    options.isa = isa;
+    return simd::render(scene, scene.settings(), options).film.pixels();
+}
+
+} // namespace
+
+TEST_CASE("solids of others are the same picture by both engines and all instruction sets") {
+    const Scene scene = blocks();
+    const std::vector<Color> vector = picture(scene, simd::Engine::vector);
+    const std::vector<Color> reference = picture(scene, simd::Engine::reference);
+    int differ = 0;
+    for (std::size_t i = 0; i < vector.size(); ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            differ += std::abs(vector[i][channel] - reference[i][channel]) > 1e-5F ? 1 : 0;
+    CHECK(differ == 0);
+    for (const simd::Isa isa : simd::all_isas)
+        if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == vector);
+}
+
+TEST_CASE("a spectrum changes what glass refracts alone") {
+    const std::vector<Color> white = picture(blocks(), simd::Engine::vector);
+    const std::vector<Color> one = picture(blocks({line_d}), simd::Engine::vector);
+    const Scene of_many = blocks({430, 500, 560, 620});
+    const std::vector<Color> many = picture(of_many, simd::Engine::vector);
+    const std::vector<Color> reference = picture(of_many, simd::Engine::reference);
+    std::size_t same = 0, colored = 0;
+    for (std::size_t i = 0; i < white.size(); ++i) {
+        const auto off = [](const Color& a, const Color& b) {
+            return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
+        };
+        CHECK(off(one[i], white[i]) < 1e-5F);
+        CHECK(off(reference[i], many[i]) < 1e-4F);
+        same += off(many[i], white[i]) < 1e-5F ? 1 : 0;
+        colored += off(many[i], white[i]) > 0.02F ? 1 : 0;
+    }
+    CHECK(same > 2 * white.size() / 3);
+    CHECK(colored > 20);
+}
+
+TEST_CASE("what a solid's shadow is cast by is where the solid is") {
+    // A ball whose upper half is taken away, and one that is whole: the light is above.
+    for (const bool cut : {false, true}) {
+        SceneBuilder builder;
+        builder.settings.width = builder.settings.height = 33;
+        builder.camera = {.projection = Projection::orthographic,
+                          .from = {0, 10, 0},
+                          .at = {0, 0, 0},
+                          .up = {0, 0, -1},
+                          .height = 8};
+        builder.add_light({.kind = LightKind::directional, .direction = {1, -1, 0}});
+        Material without_light;
+        without_light.ambient = 0;
+        const MaterialIndex material = builder.add_material(without_light);
+        builder.add(Plane{{0, -1, 0}, {0, 1, 0}}, material);
+        std::vector<Solid> parts = {of_shape(SphereOf<double>{{0, 0, 0}, 1})};
+        if (cut) parts.push_back(of_shape(PlaneOf<double>{{0, 0, 0}, {0, -1, 0}}));
+        builder.add_solid(made(Made::by_difference, parts), material);
+        const Scene scene = std::move(builder).build();
+        const std::vector<Color> seen = picture(scene, simd::Engine::vector);
+        long dark =
+            std::count_if(seen.begin(), seen.end(), [](const Color& c) { return c.x == 0.0F; });
+        CHECK(picture(scene, simd::Engine::reference) == seen);
+        // By an ellipse of half axes 1 and sqrt(2) that begins under the ball, or half of it less.
+        CHECK(dark > (cut ? 10 : 40));
+        CHECK(dark < (cut ? 45 : 90));
+    }
+}
