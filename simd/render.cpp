@@ -143,6 +143,7 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
     return render_by<Tracer>(
         [&] {
             std::vector<MovableWavefront> tracers;
+            tracers.reserve(data.size());
             for (const SceneData& of_one : data)
                 tracers.push_back({std::make_unique<Wavefront>(of_one, settings, tracing)});
             return Tracer(std::move(tracers), spectrum.shares, settings);

@@ -328,7 +328,7 @@ void SolidCollector::list(ShapeLists& lists) {
     std::vector<Node>& nodes = solids_.nodes_;
     solids_.media_.resize(nodes.size(), no_material);
     solids_.bounds_.resize(nodes.size());
-    for (Index index = static_cast<Index>(nodes.size()); index-- > 0;) {
+    for (auto index = static_cast<Index>(nodes.size()); index-- > 0;) {
         Node& node = nodes[index];
         if (node.op == Solids::Op::part) {
             if (node.shape == no_shape) continue;

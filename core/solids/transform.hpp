@@ -3,6 +3,7 @@
 #include "core/numbers/dyadic.hpp"
 #include "core/solids/solid.hpp"
 
+#include <array>
 #include <optional>
 
 namespace raylane::core {
@@ -60,7 +61,7 @@ class Transform {
     Solid between_ends(const Form& form, const Vec3d& base, const Vec3d& axis, double radius,
                        Ends ends) const;
 
-    Row rows_[3];
+    std::array<Row, 3> rows_;
     Row translation_{};
     std::optional<Dyadic> even_; ///< the factor of all lengths, if there is one
 };

@@ -395,13 +395,13 @@ std::vector<Solid> described(const JsonValue& object, const ObjectContext& conte
     const std::string_view type = object.at("type").string();
     std::vector<Solid> all;
     if (type == "group") {
-        keys.push_back("objects");
+        keys.emplace_back("objects");
         object.allow_only(keys);
         for (const JsonValue& member : object.at("objects").array("objects"))
             for (Solid& solid : described(member, context, use))
                 all.push_back(std::move(solid));
     } else if (type == "instance") {
-        keys.push_back("of");
+        keys.emplace_back("of");
         object.allow_only(keys);
         all = instance_of(object, context, use);
     } else {

@@ -134,17 +134,17 @@ void LookThrough::settle(const Paths& paths, std::size_t lane) {
         return;
     }
     const core::Hit<double>& hit = first.hit;
-    const auto [point, normal] = searcher_->surface_at(ray, origins, hit);
+    const auto surface = searcher_->surface_at(ray, origins, hit);
     core::Vec3d shading = core::with_table(scene.shapes(), hit.kind, [&](const auto& table) {
-        return core::shading_normal_at(table.get(hit.place), point, normal);
+        return core::shading_normal_at(table.get(hit.place), surface.point, surface.normal);
     });
-    if (core::dot(shading, normal) < 0.0) shading = -shading;
+    if (core::dot(shading, surface.normal) < 0.0) shading = -shading;
     hits.slot[lane] = scene_.slot_of(hit.kind, hit.place);
     hits.t[lane] = hit.t;
     hits.error[lane] = hit.error;
     hits.hit[lane] = hit.face | (hit.entering ? hit_entering : 0U);
-    hits.set_normals(lane, normal, shading);
-    points_.push_back({static_cast<std::uint32_t>(lane), point});
+    hits.set_normals(lane, surface.normal, shading);
+    points_.push_back({static_cast<std::uint32_t>(lane), surface.point});
 }
 
 /// True where a ray that is inside of no part of a union of many surely enters one that its solid
