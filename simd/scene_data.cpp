@@ -1,5 +1,6 @@
 #include "simd/scene_data.hpp"
 
+#include "core/reference/containing.hpp"
 #include "core/shapes/rounded_to_floats.hpp"
 
 #include <algorithm>
@@ -206,6 +207,29 @@ void SceneData::view_hierarchy() {
     radius_ = 0.5F * core::length(core::Vec3f(bounds.upper - bounds.lower));
 }
 
+/// False if no ray from the camera surely starts inside of a solid.
+bool SceneData::may_see_inside(core::Solids::Index solid) const {
+    const core::Camera& camera = scene_.camera();
+    const core::Bounds& bounds = scene_.solids().bounds(solid);
+    const core::Vec3d from = core::convert<double>(camera.from);
+    // All start in a plane, with a lens or without one.
+    const core::Vec3d forward = core::convert<double>(camera.at) - from;
+    bool is_in_front = core::is_finite(bounds);
+    for (int corner = 0; is_in_front && corner < 8; ++corner) {
+        core::Vec3d to_corner;
+        for (int axis = 0; axis < 3; ++axis)
+            to_corner[axis] = static_cast<double>(
+                                  ((corner >> axis & 1) != 0 ? bounds.upper : bounds.lower)[axis]) -
+                              from[axis];
+        is_in_front = core::dot(to_corner, forward) >
+                      0x1p-40 * core::length(to_corner) * core::length(forward);
+    }
+    if (is_in_front) return false;
+    if (camera.projection != core::Projection::perspective || camera.lens_radius > 0.0F)
+        return true;
+    return core::PointSearcher(scene_).side_of(solid, from) != core::Side::outside;
+}
+
 void SceneData::find_plain_lanes(Transmissive transmissive) {
     const auto is_plain = [transmissive](const core::Material& material) {
         return (transmissive == Transmissive::blocks || !material.transmits()) &&
@@ -217,18 +241,19 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
     one_sided_ = std::any_of(materials.begin(), materials.end(), [](const core::Material& m) {
         return m.visible != core::Visible::both;
     });
-    // What is inside of a solid all over blocks rays that start outside, wherever that has its
-    // surface: those of pictures do.
+    // What a solid has all of blocks rays that start outside, wherever its surface is: those of
+    // pictures do, unless the camera is inside.
     std::vector<bool> blocks(solids.nodes().size());
-    for (core::Solids::Index part = 0; part < blocks.size(); ++part)
-        blocks[part] = transmissive == Transmissive::lets_through && solids.node(part).fills;
     for (core::Solids::Index solid = 0, end = 0; solid < blocks.size(); solid = end) {
         end = solids.node(solid).end;
-        for (core::Solids::Index part = solid; part < end; ++part)
-            if (solids.node(part).op == core::Solids::Op::part &&
-                solids.node(part).shape != core::no_shape &&
-                !is_plain(scene_.material_of(solids.node(part).shape)))
-                std::fill(blocks.begin() + solid, blocks.begin() + end, false);
+        bool is_opaque = transmissive == Transmissive::lets_through && !may_see_inside(solid);
+        for (core::Solids::Index part = solid; is_opaque && part < end; ++part) {
+            const core::ShapeId id = solids.node(part).shape;
+            is_opaque = solids.node(part).op != core::Solids::Op::part || id == core::no_shape ||
+                        is_plain(scene_.material_of(id));
+        }
+        for (core::Solids::Index part = solid; is_opaque && part < end; ++part)
+            blocks[part] = solids.node(part).fills;
     }
     const auto is_plain_shape = [&](core::ShapeId id) {
         return solids.has(id) ? blocks[solids.part_of(id)] : is_plain(scene_.material_of(id));

@@ -115,6 +115,7 @@ class SceneData {
     void view_tables();
     void fill_occupants();
     void view_hierarchy();
+    bool may_see_inside(core::Solids::Index solid) const;
     void find_plain_lanes(Transmissive transmissive);
     core::Kind kind_of(std::uint32_t slot) const {
         int kind = core::kind_count - 1;

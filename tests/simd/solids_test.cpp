@@ -147,3 +147,24 @@ TEST_CASE("what a solid's shadow is cast by is where the solid is") {
         CHECK(dark < (cut ? 45 : 90));
     }
 }
+
+TEST_CASE("inside of a union no wall is seen, nor casts a shadow") {
+    SceneBuilder builder;
+    builder.settings.width = builder.settings.height = 40;
+    builder.camera.from = {0, 0, 0};
+    builder.camera.at = {1, 0.2F, 0.1F};
+    builder.camera.field_of_view = 100;
+    builder.add_light({.position = {-0.3F, 0.2F, 0.4F}});
+    Material red;
+    red.pattern.colors[0] = {1, 0, 0};
+    const MaterialIndex material = builder.add_material(red);
+    std::vector<Solid> balls = {of_shape(SphereOf<double>{{0, 0, 0}, 3})};
+    for (int i = 0; i < 24; ++i)
+        balls.push_back(of_shape(SphereOf<double>{
+            {1.5 * std::cos(0.7 * i), 1.5 * std::sin(0.7 * i), 0.1 * i - 1.2}, 0.5}));
+    builder.add_solid(made(Made::by_union, balls), material);
+    const Scene scene = std::move(builder).build();
+    const std::vector<Color> seen = picture(scene, simd::Engine::vector);
+    CHECK(picture(scene, simd::Engine::reference) == seen);
+    CHECK(std::all_of(seen.begin(), seen.end(), [](const Color& c) { return c.x > 0.3F; }));
+}
