@@ -19,11 +19,12 @@ class Describer {
         const Solids::Node& node = solids_.node(index);
         if (node.op == Op::part) return shape_of(node);
         // Of what the intersection of others is cut by, what a union leaves out.
-        std::vector<Solid> inside, taken_away, cuts;
+        std::vector<Solid> inside, taken_away, cuts, cut_away;
         solids_.each_child(index, [&](Solids::Index child) {
-            if (cuts_only(child))
-                cuts.push_back(describe(child, outside));
-            else if (has_inside(child, outside))
+            if (cuts_only(child)) {
+                const bool is_kept = has_inside(child, outside);
+                (is_kept ? cuts : cut_away).push_back(describe(child, outside == is_kept));
+            } else if (has_inside(child, outside))
                 inside.push_back(describe(child, outside));
             else
                 taken_away.push_back(describe(child, !outside));
@@ -34,6 +35,11 @@ class Describer {
         if (!taken_away.empty()) {
             taken_away.insert(taken_away.begin(), std::move(solid));
             solid = made(Made::by_difference, std::move(taken_away));
+        }
+        // What clips has an inside, so what it leaves out is left out of something.
+        if (!cuts.empty() && !cut_away.empty()) {
+            cut_away.insert(cut_away.begin(), std::move(cuts[0]));
+            cuts[0] = made(Made::by_difference, std::move(cut_away));
         }
         if (!cuts.empty()) {
             cuts.insert(cuts.begin(), std::move(solid));

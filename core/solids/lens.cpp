@@ -39,6 +39,18 @@ PartShape behind(double vertex, double radius, double conic) {
     return form;
 }
 
+/// On the side of z that `outward`, of 1 or -1 along the axis, points away from.
+Solid half_space(double z, double outward) {
+    return of_shape(PlaneOf<double>{{0.0, 0.0, z}, {0.0, 0.0, outward}});
+}
+
+Solid of_two(Made by, Solid first, Solid second) {
+    Solid solid{by};
+    solid.parts.push_back(std::move(first));
+    solid.parts.push_back(std::move(second));
+    return solid;
+}
+
 /// From the axis z to another.
 Transform turned_to(const Vec3d& axis) {
     if (axis.x == 0.0 && axis.y == 0.0)
@@ -79,19 +91,44 @@ Solid solid_of(const Lens& lens) {
     for (int side = 0; side < 2; ++side)
         if (lens.conics[side] < -1.0)
             beyond = std::min(beyond, std::abs(lens.radii[side] / (1.0 + lens.conics[side])));
-    const double first = std::min(0.0, edges[0]) - beyond;
-    const double last = std::max(lens.thickness, edges[1]) + beyond;
+    double ends[2] = {std::min(0.0, edges[0]) - beyond,
+                      std::max(lens.thickness, edges[1]) + beyond};
+    const bool is_symmetric = lens.radii[0] == -lens.radii[1] && lens.conics[0] == lens.conics[1];
     Solid whole{Made::by_difference};
     Solid inside{Made::by_intersection};
     for (int side = 0; side < 2; ++side) {
+        const double vertex = side == 0 ? 0.0 : lens.thickness;
         const double radius = lens.radii[side];
-        PartShape shape = behind(side == 0 ? 0.0 : lens.thickness, radius, lens.conics[side]);
+        const double conic = lens.conics[side];
+        const double into = side == 0 ? 1.0 : -1.0; // of the lens, along z
+        PartShape shape = behind(vertex, radius, conic);
         if (side == 1 && radius == 0.0) std::get<PlaneOf<double>>(shape).normal = {0.0, 0.0, 1.0};
         const bool bulges = radius == 0.0 || (radius > 0.0) == (side == 0);
-        (bulges ? inside : whole).parts.push_back(of_shape(shape));
+        Solid behind_it = of_shape(shape);
+        if (radius != 0.0 && conic != -1.0) {
+            // An ellipsoid ends, and a hyperboloid has another sheet: neither is of the lens.
+            const double to_middle = into * radius / (1.0 + conic);
+            const double middle = vertex + into * to_middle;
+            const double depth = side == 0 ? std::max(lens.thickness, edges[1])
+                                           : lens.thickness - std::min(0.0, edges[0]);
+            if (bulges && conic > -1.0) {
+                const double rim = std::abs(edges[side] - vertex);
+                const bool reaches = 2.0 * to_middle - rim >= depth ||
+                                     (is_symmetric && 2.0 * to_middle >= lens.thickness);
+                if (!reaches)
+                    behind_it =
+                        of_two(Made::by_union, std::move(behind_it), half_space(middle, -into));
+            } else if (!bulges && conic < -1.0 && 2.0 * to_middle <= depth) {
+                behind_it =
+                    of_two(Made::by_intersection, std::move(behind_it), half_space(middle, into));
+            } else if (!bulges && conic > -1.0) {
+                ends[side] = side == 0 ? std::max(ends[0], middle) : std::min(ends[1], middle);
+            }
+        }
+        (bulges ? inside : whole).parts.push_back(std::move(behind_it));
     }
     inside.parts.push_back(of_shape(CylinderOf<double, Ends::capped>{
-        {0.0, 0.0, first}, {0.0, 0.0, last - first}, lens.radius}));
+        {0.0, 0.0, ends[0]}, {0.0, 0.0, ends[1] - ends[0]}, lens.radius}));
     Solid result = std::move(inside);
     if (!whole.parts.empty()) {
         whole.parts.insert(whole.parts.begin(), std::move(result));

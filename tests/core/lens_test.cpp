@@ -118,6 +118,34 @@ TEST_CASE("lenses are between their surfaces, and in their cylinder") {
     }
 }
 
+TEST_CASE("of a thick lens no surface's far side is seen") {
+    // Convex, concave, of a hyperboloid, of an ellipsoid; both ways round. A ball.
+    const Lens lenses[] = {{{0, 0, 0}, {0, 0, 1}, {1, 0}, {0, 0}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {0, -1}, {0, 0}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {-1, 0}, {0, 0}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {0, 1}, {0, 0}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {-1, 0}, {-2, 0}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {0, 1}, {0, -2}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {0.5, -1}, {-0.5, 0.5}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {1, -1}, {0, 0}, 5, 0.5},
+                           {{0, 0, 0}, {0, 0, 1}, {1, -1}, {0, 0}, 2, 1}};
+    for (const Lens& lens : lenses) {
+        CAPTURE(lens.radii[0], lens.radii[1], lens.conics[0], lens.conics[1]);
+        const Scene scene = scene_of(lens);
+        const double y = 0.6 * lens.radius;
+        const std::vector<double> t = crossings(scene, {0, y, -20}, {0, 0, 1});
+        REQUIRE(t.size() == 2);
+        for (std::size_t side = 0; side < 2; ++side) {
+            const double R = lens.radii[side], k = lens.conics[side];
+            const double z = side == 0 ? 0 : lens.thickness;
+            const double sag =
+                R == 0 ? 0 : y * y / R / (1 + std::sqrt(1 - (1 + k) * y * y / R / R));
+            CHECK(t[side] - 20 == Approx(z + sag));
+        }
+        CHECK(crossings(scene, {0, -20, 0.5 * lens.thickness}, {0, 1, 0}).size() == 2);
+    }
+}
+
 TEST_CASE("a lens may stand anywhere, and cemented ones have one surface in common") {
     const Vec3d axis(1, 2, -2), vertex(3, -1, 0.5);
     const Scene scene = scene_of({vertex, axis, {6, -6}, {0, 0}, 1.5, 2});

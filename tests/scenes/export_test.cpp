@@ -263,7 +263,10 @@ const std::string solids = R"({"camera": {"from": [4, 5, 6], "at": [0, 0, 0]},
             {"type": "union", "objects": [
                 {"type": "cone", "base": [2, 0, 0], "axis": [0, 1, 0], "base_radius": 0.5},
                 {"type": "sphere", "center": [2, 0.4, 0], "radius": 0.4}]},
-            {"type": "plane", "point": [2, 0, 0.1], "normal": [0, 0, 1]}]},
+            {"type": "plane", "point": [2, 0, 0.1], "normal": [0, 0, 1]},
+            {"type": "difference", "objects": [
+                {"type": "box", "min": [1, -1, -1], "max": [3, 2, 1]},
+                {"type": "sphere", "center": [2, 0.9, 0], "radius": 0.4}]}]},
         {"type": "intersection", "material": "clay", "objects": [
             {"type": "quadric", "center": [-2, 0, 1], "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -0.1]]},
             {"type": "box", "min": [-3, -0.5, 0], "max": [-1, 0.5, 2]}]}
@@ -286,9 +289,9 @@ TEST_CASE("solids of others are written as they were, and stay the same picture"
     const std::filesystem::path pov = directory.path() / "solids.pov";
     export_scene(pov, scene);
     const std::string text = tests::content_of(pov);
-    for (const char* word :
-         {"difference { intersection { box {", "merge { cone {", "clipped_by { plane {",
-          "difference { cylinder {", "intersection { quadric {"}) {
+    for (const char* word : {"difference { intersection { box {", "merge { cone {",
+                             "clipped_by { difference { plane {", "difference { cylinder {",
+                             "intersection { quadric {"}) {
         INFO(word << " in " << text);
         CHECK(text.find(word) != std::string::npos);
     }
