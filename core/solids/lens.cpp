@@ -24,9 +24,8 @@ double sag(double radius, double conic, double at) {
            (1.0 + std::sqrt(1.0 - (1.0 + conic) * curvature * curvature * at * at));
 }
 
-/// What is behind a surface, or where its centre is.
+/// What is behind a round surface: where its centre is.
 PartShape behind(double vertex, double radius, double conic) {
-    if (radius == 0.0) return PlaneOf<double>{{0.0, 0.0, vertex}, {0.0, 0.0, -1.0}};
     if (conic == 0.0) return SphereOf<double>{{0.0, 0.0, vertex + radius}, std::abs(radius)};
     // x^2 + y^2 + (1 + k) z^2 - 2 R z = 0
     QuadricOf<double> form{};
@@ -51,6 +50,42 @@ Solid of_two(Made by, Solid first, Solid second) {
     return solid;
 }
 
+/// The two sides of a lens, the front at z = 0.
+struct Sides {
+    const Lens& lens;
+    double edges[2]; ///< z at the rim
+
+    double vertex(int side) const { return side == 0 ? 0.0 : lens.thickness; }
+    bool is_flat(int side) const { return lens.radii[side] == 0.0; }
+    bool bulges(int side) const { return is_flat(side) || (lens.radii[side] > 0.0) == (side == 0); }
+    /// Of an ellipsoid, or between both sheets of a hyperboloid; of a paraboloid not finite.
+    double middle(int side) const {
+        return vertex(side) + lens.radii[side] / (1.0 + lens.conics[side]);
+    }
+
+    /// All that is behind a bulge, or before a hollow, as far as the lens goes.
+    Solid body(int side) const {
+        const double into = side == 0 ? 1.0 : -1.0; // of the lens, along z
+        if (is_flat(side)) return half_space(vertex(side), -into);
+        Solid round = of_shape(behind(vertex(side), lens.radii[side], lens.conics[side]));
+        const double conic = lens.conics[side];
+        const double across = 2.0 * into * lens.radii[side] / (1.0 + conic);
+        const double depth = side == 0 ? std::max(lens.thickness, edges[1])
+                                       : lens.thickness - std::min(0.0, edges[0]);
+        // Neither the far side of an ellipsoid nor the other sheet of a hyperboloid is of the lens.
+        if (bulges(side)) {
+            const double rim = std::abs(edges[side] - vertex(side));
+            const bool is_ball = lens.radii[0] == -lens.radii[1] &&
+                                 lens.conics[0] == lens.conics[1] && across >= lens.thickness;
+            if (conic > -1.0 && !is_ball && !(across - rim >= depth))
+                return of_two(Made::by_union, std::move(round), half_space(middle(side), -into));
+        } else if (conic < -1.0 && across <= depth) {
+            return of_two(Made::by_intersection, std::move(round), half_space(middle(side), into));
+        }
+        return round;
+    }
+};
+
 /// From the axis z to another.
 Transform turned_to(const Vec3d& axis) {
     if (axis.x == 0.0 && axis.y == 0.0)
@@ -69,13 +104,13 @@ Solid solid_of(const Lens& lens) {
     checks::require_direction("axis", lens.axis);
     checks::require_positive("thickness", lens.thickness);
     checks::require_positive("radius", lens.radius);
-    double edges[2];
+    Sides surfaces{lens, {}};
+    auto& edges = surfaces.edges;
     for (int side = 0; side < 2; ++side) {
         const checks::Field field = checks::Field("radii").at(side);
         checks::require_coordinate(field, lens.radii[side]);
         checks::require_coordinate(checks::Field("conics").at(side), lens.conics[side]);
-        edges[side] = sag(lens.radii[side], lens.conics[side], lens.radius) +
-                      (side == 0 ? 0.0 : lens.thickness);
+        edges[side] = sag(lens.radii[side], lens.conics[side], lens.radius) + surfaces.vertex(side);
         if (!std::isfinite(edges[side]))
             throw InvalidValue(field.text(), "must be of a surface that reaches the lens' radius, "
                                              "got " +
@@ -93,39 +128,15 @@ Solid solid_of(const Lens& lens) {
             beyond = std::min(beyond, std::abs(lens.radii[side] / (1.0 + lens.conics[side])));
     double ends[2] = {std::min(0.0, edges[0]) - beyond,
                       std::max(lens.thickness, edges[1]) + beyond};
-    const bool is_symmetric = lens.radii[0] == -lens.radii[1] && lens.conics[0] == lens.conics[1];
     Solid whole{Made::by_difference};
     Solid inside{Made::by_intersection};
     for (int side = 0; side < 2; ++side) {
-        const double vertex = side == 0 ? 0.0 : lens.thickness;
-        const double radius = lens.radii[side];
-        const double conic = lens.conics[side];
-        const double into = side == 0 ? 1.0 : -1.0; // of the lens, along z
-        PartShape shape = behind(vertex, radius, conic);
-        if (side == 1 && radius == 0.0) std::get<PlaneOf<double>>(shape).normal = {0.0, 0.0, 1.0};
-        const bool bulges = radius == 0.0 || (radius > 0.0) == (side == 0);
-        Solid behind_it = of_shape(shape);
-        if (radius != 0.0 && conic != -1.0) {
-            // An ellipsoid ends, and a hyperboloid has another sheet: neither is of the lens.
-            const double to_middle = into * radius / (1.0 + conic);
-            const double middle = vertex + into * to_middle;
-            const double depth = side == 0 ? std::max(lens.thickness, edges[1])
-                                           : lens.thickness - std::min(0.0, edges[0]);
-            if (bulges && conic > -1.0) {
-                const double rim = std::abs(edges[side] - vertex);
-                const bool reaches = 2.0 * to_middle - rim >= depth ||
-                                     (is_symmetric && 2.0 * to_middle >= lens.thickness);
-                if (!reaches)
-                    behind_it =
-                        of_two(Made::by_union, std::move(behind_it), half_space(middle, -into));
-            } else if (!bulges && conic < -1.0 && 2.0 * to_middle <= depth) {
-                behind_it =
-                    of_two(Made::by_intersection, std::move(behind_it), half_space(middle, into));
-            } else if (!bulges && conic > -1.0) {
-                ends[side] = side == 0 ? std::max(ends[0], middle) : std::min(ends[1], middle);
-            }
-        }
-        (bulges ? inside : whole).parts.push_back(std::move(behind_it));
+        const bool bulges = surfaces.bulges(side);
+        (bulges ? inside : whole).parts.push_back(surfaces.body(side));
+        if (bulges || !(lens.conics[side] > -1.0)) continue;
+        // An ellipsoid ends behind its middle.
+        const double middle = surfaces.middle(side);
+        ends[side] = side == 0 ? std::max(ends[0], middle) : std::min(ends[1], middle);
     }
     inside.parts.push_back(of_shape(CylinderOf<double, Ends::capped>{
         {0.0, 0.0, ends[0]}, {0.0, 0.0, ends[1] - ends[0]}, lens.radius}));
