@@ -23,10 +23,9 @@ struct Hit {
     bool reversed = false; ///< its shape is a part of a solid by what is outside of it
 
     Hit() = default;
-    Hit(Real t_, double error_, ShapeId shape_, Face face_, bool entering_, Kind kind_,
-        Place place_, bool reversed_)
-        : t(t_), error(error_), shape(shape_), face(face_), entering(entering_), kind(kind_),
-          place(place_), reversed(reversed_) {}
+    Hit(const Crossing<Real>& crossing, ShapeId shape_, Kind kind_, Place place_, bool reversed_)
+        : t(crossing.t), error(crossing.error), shape(shape_), face(crossing.face),
+          entering(crossing.entering), kind(kind_), place(place_), reversed(reversed_) {}
     template <class Other>
     explicit Hit(const Hit<Other>& other)
         : t(Real(other.t)), error(other.error), at_start(other.at_start), shape(other.shape),

@@ -308,9 +308,8 @@ class Searcher {
                 for (const Crossing<Real>& crossing :
                      solve(table.get(place), ray, start, counters.widened, precision_))
                     if (crossing.t > Real(0) || (start.on_surface && crossing.t == Real(0)))
-                        visit(Hit<Real>(crossing.t, crossing.error, id, crossing.face,
-                                        crossing.entering, kind, place,
-                                        scene_.solids().is_reversed(id)));
+                        visit(
+                            Hit<Real>(crossing, id, kind, place, scene_.solids().is_reversed(id)));
             });
         });
     }

@@ -46,15 +46,7 @@ decltype(auto) with_part(const Scene& scene, const Solids::Node& part, const Vis
 }
 
 Hit<double> hit_of(const Solids::Node& part, const Crossing<double>& crossing) {
-    Hit<double> hit;
-    hit.t = crossing.t;
-    hit.error = crossing.error;
-    hit.shape = part.shape;
-    hit.face = crossing.face;
-    hit.entering = crossing.entering;
-    hit.kind = part.kind;
-    hit.place = part.place;
-    return hit;
+    return {crossing, part.shape, part.kind, part.place, part.reversed};
 }
 
 /// A box of floats that has all that a point with bounds may be.

@@ -277,14 +277,8 @@ void Refinery::solve(std::size_t candidate, EngineCounters& counters) {
 bool Refinery::counts(std::size_t candidate, const core::Crossing<double>& crossing) const {
     if (paths_.t_after == nullptr || !(paths_.t_after[candidate] > 0.0)) return true;
     const SceneData::Occupant shape = scene_.occupant_of(hits_.slot[candidate]);
-    core::Hit<double> hit;
-    hit.t = crossing.t;
-    hit.error = crossing.error;
-    hit.shape = shape.id;
-    hit.face = crossing.face;
-    hit.entering = crossing.entering;
-    hit.kind = shape.kind;
-    hit.place = scene_.place_of(hits_.slot[candidate]);
+    const core::Hit<double> hit(crossing, shape.id, shape.kind,
+                                scene_.place_of(hits_.slot[candidate]), shape.reversed);
     const core::Ray<double> ray = ray_of(paths_, candidate);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths_, candidate);
     const int side =

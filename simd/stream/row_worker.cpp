@@ -202,6 +202,11 @@ double RowWorker::off_by(std::size_t k) const {
     return (std::abs(low_[k]) + error_[k]) * (1.0 + 0x1p-50);
 }
 
+core::Crossing<double> RowWorker::crossing_at(std::size_t k, const core::DoubleDouble& t) const {
+    return {t.high, static_cast<core::Face>(bits_[k] & hit_face), (bits_[k] & hit_entering) != 0,
+            (error_[k] + std::abs(t.low)) * (1.0 + 0x1p-50)};
+}
+
 /// True if a crossing is one of a surface that can be seen.
 template <class Real>
 bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k) {
@@ -209,9 +214,8 @@ bool RowWorker::is_seen(const RayStream<Real>& rays, std::size_t lane, std::size
     const core::Scene& scene = scene_.scene();
     if (!scene.materials()[shape.material].is_seen(shape.is_entered(bits_[k]))) return false;
     if (!scene.solids().has(shape.id)) return true;
-    const core::Hit<double> hit(
-        high_[k], off_by(k), shape.id, static_cast<core::Face>(bits_[k] & hit_face),
-        (bits_[k] & hit_entering) != 0, shape.kind, scene_.place_of(slot_[k / 2]), shape.reversed);
+    const core::Hit<double> hit(crossing_at(k, {high_[k], low_[k]}), shape.id, shape.kind,
+                                scene_.place_of(slot_[k / 2]), shape.reversed);
     const LoneRay ray = intake_.lone(rays, lane, lane);
     return solid_surfaces_.is_surface(ray.leaving(), hit);
 }
@@ -225,21 +229,17 @@ void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted)
     };
     for (std::size_t pair = first_of_ray_[lane]; pair < first_of_ray_[lane + 1]; ++pair) {
         const SceneData::Occupant shape = scene_.occupant_of(slot_[pair]);
-        core::Hit<double> hit;
-        hit.shape = shape.id;
-        hit.kind = shape.kind;
-        hit.place = scene_.place_of(slot_[pair]);
-        hit.reversed = shape.reversed;
+        const core::Place place = scene_.place_of(slot_[pair]);
+        const auto hit_of = [&](const core::Crossing<double>& crossing) {
+            return core::Hit<double>(crossing, shape.id, shape.kind, place, shape.reversed);
+        };
         const core::Start start = ray.origins.start_on(shape.id);
         if (start.on_surface || ((bits_[2 * pair] | bits_[2 * pair + 1]) & hit_doubtful) != 0) {
             core::with_table(scene_.scene().shapes(), shape.kind, [&](const auto& table) {
                 for (const core::Crossing<double>& crossing :
-                     core::solve(table.get(hit.place), ray.ray, start, counters_.widened)) {
+                     core::solve(table.get(place), ray.ray, start, counters_.widened)) {
                     if (!(crossing.t > 0.0 || (start.on_surface && crossing.t == 0.0))) continue;
-                    hit.t = crossing.t;
-                    hit.error = crossing.error;
-                    hit.face = crossing.face;
-                    hit.entering = crossing.entering;
+                    const core::Hit<double> hit = hit_of(crossing);
                     if (counts(hit)) crossed_.push_back({hit, crossing.t, crossing.error});
                 }
             });
@@ -248,10 +248,7 @@ void RowWorker::find(const LoneRay& ray, std::size_t lane, const Counts& wanted)
         for (std::size_t k = 2 * pair; k < 2 * pair + 2; ++k) {
             if ((bits_[k] & hit_none) != 0) continue;
             const core::DoubleDouble t = core::double_double::two_sum(high_[k], low_[k]);
-            hit.t = t.high;
-            hit.error = (error_[k] + std::abs(t.low)) * (1.0 + 0x1p-50);
-            hit.face = static_cast<core::Face>(bits_[k] & hit_face);
-            hit.entering = (bits_[k] & hit_entering) != 0;
+            const core::Hit<double> hit = hit_of(crossing_at(k, t));
             if (counts(hit)) crossed_.push_back({hit, t, error_[k]});
         }
     }

@@ -61,6 +61,7 @@ class RowWorker {
     bool add_at_once(const RayStream<Real>& rays, std::size_t lane, std::size_t most,
                      CrossingRows& rows);
     double off_by(std::size_t k) const;
+    core::Crossing<double> crossing_at(std::size_t k, const core::DoubleDouble& t) const;
     template <class Real>
     bool is_seen(const RayStream<Real>& rays, std::size_t lane, std::size_t k);
     template <class Counts>
