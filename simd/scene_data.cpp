@@ -140,6 +140,7 @@ SceneData::SceneData(const core::Scene& scene, Transmissive transmissive)
     fill_occupants();
     view_hierarchy();
     find_plain_lanes(transmissive);
+    cuts_.find(scene_, view_, slots_);
 }
 
 void SceneData::view_surroundings() {
@@ -230,6 +231,33 @@ bool SceneData::may_see_inside(core::Solids::Index solid) const {
     return core::PointSearcher(scene_).side_of(solid, from) != core::Side::outside;
 }
 
+/// True if nothing else is where a solid is.
+bool SceneData::is_apart(core::Solids::Index solid) const {
+    const core::Solids& solids = scene_.solids();
+    const core::Bounds& bounds = solids.bounds(solid);
+    bool apart = core::is_finite(bounds);
+    core::for_each_table(scene_.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+        if (!apart) return;
+        core::for_each_shape(table, [&](const auto& shape, core::ShapeId id) {
+            const core::Solids::Index part = solids.part_of(id);
+            if (part != core::Solids::none && solid <= part && part < solids.node(solid).end)
+                return;
+            if constexpr (core::is_bounded<Shape>) {
+                const core::Bounds other = core::bounds_of(shape);
+                bool beside = false;
+                for (int axis = 0; axis < 3; ++axis)
+                    beside = beside || other.upper[axis] < bounds.lower[axis] ||
+                             bounds.upper[axis] < other.lower[axis];
+                apart = apart && beside;
+            } else {
+                apart = apart &&
+                        core::inside_of(shape, core::somewhere_in(bounds)) != core::Value::unknown;
+            }
+        });
+    });
+    return apart;
+}
+
 void SceneData::find_plain_lanes(Transmissive transmissive) {
     const auto is_plain = [transmissive](const core::Material& material) {
         return (transmissive == Transmissive::blocks || !material.transmits()) &&
@@ -242,7 +270,7 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
         return m.visible != core::Visible::both;
     });
     // What a solid has all of blocks rays that start outside, wherever its surface is: those of
-    // pictures do, unless the camera is inside.
+    // pictures do, unless the camera is inside, or they leave what is seen inside of an open one.
     std::vector<bool> blocks(solids.nodes().size());
     for (core::Solids::Index solid = 0, end = 0; solid < blocks.size(); solid = end) {
         end = solids.node(solid).end;
@@ -252,6 +280,7 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
             is_opaque = solids.node(part).op != core::Solids::Op::part || id == core::no_shape ||
                         is_plain(scene_.material_of(id));
         }
+        is_opaque = is_opaque && (!solids.node(solid).open || is_apart(solid));
         for (core::Solids::Index part = solid; is_opaque && part < end; ++part)
             blocks[part] = solids.node(part).fills;
     }

@@ -2,6 +2,7 @@
 
 #include "core/optics/media.hpp"
 #include "core/scene/scene.hpp"
+#include "simd/cuts.hpp"
 #include "simd/kernels.hpp"
 #include "simd/shade_kernels.hpp"
 #include "simd/trace_kernels.hpp"
@@ -47,6 +48,17 @@ class SceneData {
     /// True if some crossings are none of a surface that is seen: of those that are visible from
     /// one side only, and of parts within solids.
     bool looks_through() const { return one_sided_ || scene_.solids().any(); }
+    /// See Cuts::cuts.
+    bool is_cut(core::Solids::Index of_many) const { return cuts_.cuts(of_many); }
+    /// See Cuts::cut_by.
+    const CutUnion* cut_by(core::ShapeId id) const {
+        return cuts_.cut_by(scene_.solids().part_of(id));
+    }
+    /// See SceneView::only_cut_lanes.
+    bool only_cuts(std::uint32_t slot) const {
+        return view_.only_cut_lanes != nullptr &&
+               (view_.only_cut_lanes[slot / 16] >> slot % 16 & 1) != 0;
+    }
     bool smooth() const { return smooth_; }
     /// Of a sphere around all that is in the tree; without one it is infinite.
     float radius() const { return radius_; }
@@ -116,6 +128,7 @@ class SceneData {
     void fill_occupants();
     void view_hierarchy();
     bool may_see_inside(core::Solids::Index solid) const;
+    bool is_apart(core::Solids::Index solid) const;
     void find_plain_lanes(Transmissive transmissive);
     core::Kind kind_of(std::uint32_t slot) const {
         int kind = core::kind_count - 1;
@@ -129,6 +142,7 @@ class SceneData {
     SceneView view_{};
     std::vector<Occupant> occupants_; // by slot, in scenes that are not large
     std::vector<std::uint16_t> plain_lanes_;
+    Cuts cuts_;
     std::vector<std::uint64_t> orders_;
     std::vector<MaterialView> materials_;
     std::vector<Medium> media_; // empty space, then what each material is inside

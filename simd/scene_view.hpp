@@ -29,6 +29,18 @@ struct NodeView {
     std::uint32_t children[16]; ///< core::Child's bits
 };
 
+/// Half-spaces outside of which nothing is left of what they cut, in groups: that is so where a
+/// point is outside of all of one group.
+struct CutView {
+    static constexpr int most = 16;
+    float normal[3][most];     ///< outward, of length 1 but for rounding
+    float offset[most];        ///< outside, normal . point is larger
+    std::uint32_t shape[most]; ///< id of the one that has it as a face; below no_slot, if none
+    float size;                ///< none smaller than offsets, nor than what they have been made of
+    int count;
+    std::uint32_t group_ends; ///< bit k: half-space k is the last of a group
+};
+
 struct SceneView {
     TableView tables[core::kind_count]; ///< by core::Kind
     const NodeView* nodes;              ///< the root first
@@ -43,6 +55,13 @@ struct SceneView {
     /// Plain lanes by slot / 16: which of a block are opaque and seen from both sides, so that
     /// whatever hits them is blocked. Null: all are.
     const std::uint16_t* plain_lanes;
+    /// By slot / 16: which of `cuts` cuts the block's shapes, or some of them; 0: none. Null: none
+    /// is cut. Shapes that are cut are no plain ones; quadrics that are have no quadratic part.
+    const std::uint16_t* cut_of_block;
+    const CutView* cuts;
+    /// By slot / 16: lanes of what block no ray that they are not inside of, but for others that
+    /// may block it, too. Null: there are none.
+    const std::uint16_t* only_cut_lanes;
 };
 
 /// core::Child's bits.

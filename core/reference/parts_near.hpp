@@ -3,6 +3,7 @@
 #include "core/scene/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace raylane::core {
@@ -73,8 +74,9 @@ class PartsNear {
     }
 
   private:
-    /// The lanes of a block whose shapes may have something within bounds: of spheres those that
-    /// are as near as that, whatever their floats are rounded by.
+    /// The lanes of a block whose shapes may have something within bounds: of spheres, and of
+    /// capped cylinders and cones as if their ends were round, those that are as near as that,
+    /// whatever their floats are rounded by.
     template <class Shape>
     static unsigned near_in(const Block<Shape>&, const Bounds&) {
         return ~0U;
@@ -103,6 +105,45 @@ class PartsNear {
         for (int lane = 0; lane < block_size; ++lane) {
             const double reach = over[lane] * (1.0 + rounding);
             near |= static_cast<unsigned>(!(least[lane] > reach * reach)) << lane;
+        }
+        return near;
+    }
+
+    static unsigned near_in(const Block<CappedCylinder>& block, const Bounds& around) {
+        return near_axes(block.values, block.values[6], block.values[6], around);
+    }
+    static unsigned near_in(const Block<CappedCone>& block, const Bounds& around) {
+        return near_axes(block.values, block.values[6], block.values[7], around);
+    }
+    /// `values`: the base and the axis.
+    static unsigned near_axes(const float (*values)[block_size], const float* base_radius,
+                              const float* top_radius, const Bounds& around) {
+        constexpr double rounding = 0x1p-22;
+        const Vec3d lower = convert<double>(around.lower), upper = convert<double>(around.upper);
+        const Vec3d middle = 0.5 * lower + 0.5 * upper;
+        const double extent =
+            0.5 * ((upper.x - lower.x) + (upper.y - lower.y) + (upper.z - lower.z));
+        unsigned near = 0;
+        for (int lane = 0; lane < block_size; ++lane) {
+            double along = 0.0, squared = 0.0, away = 0.0, size = 0.0;
+            double from_base[3], axis[3];
+            for (int k = 0; k < 3; ++k) {
+                const auto base = static_cast<double>(values[k][lane]);
+                axis[k] = static_cast<double>(values[3 + k][lane]);
+                from_base[k] = middle[k] - base;
+                along += from_base[k] * axis[k];
+                squared += axis[k] * axis[k];
+                size += std::abs(base) + std::abs(axis[k]);
+            }
+            const double share = along / squared;
+            const double nearest = share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share;
+            for (int k = 0; k < 3; ++k) {
+                const double off = from_base[k] - nearest * axis[k];
+                away += off * off;
+            }
+            const auto radius = static_cast<double>(std::max(base_radius[lane], top_radius[lane]));
+            const double reach = (radius + extent) * (1.0 + rounding) + rounding * size;
+            near |= static_cast<unsigned>(!(away > reach * reach)) << lane;
         }
         return near;
     }

@@ -100,8 +100,10 @@ Value SolidSurfaces::value_of_many(Index index, Index without, const LeavingRay&
         if (child == without) return true;
         const Value of_child = value_at(child, from, hit, point, WayInUnion());
         if (of_child != Value::no) value = of_child;
+        if (of_child == Value::yes) last_around_ = child;
         return of_child != Value::yes;
     };
+    last_around_ = Solids::none;
     for (const Contact<double>& contact : from.origins) {
         const Index part = solids_.part_of(contact.hit.shape);
         if (part != Solids::none && solids_.node(part).parent == index && !look(part)) return value;

@@ -41,6 +41,9 @@ class SolidSurfaces {
         return surely == Value::unknown ? exactly(from, hit) : surely == Value::yes;
     }
 
+    /// The part of a union of many that the last point was found inside of; none if it was not.
+    Solids::Index last_around() const { return last_around_; }
+
   private:
     using Index = Solids::Index;
 
@@ -67,6 +70,7 @@ class SolidSurfaces {
     const Scene& scene_;
     const Solids& solids_;
     PartsNear parts_;
+    Index last_around_ = Solids::none;
 };
 
 } // namespace raylane::core

@@ -368,6 +368,10 @@ void SolidCollector::list(ShapeLists& lists) {
         for (Index part = solid; part < nodes[solid].end; ++part)
             if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, whole, lists);
         note_counted(solid);
+        nodes[solid].open = std::any_of(
+            nodes.begin() + solid, nodes.begin() + nodes[solid].end, [](const Node& node) {
+                return node.op == Solids::Op::part && node.shape == no_shape;
+            });
         if (is_finite(whole)) cover(solid, whole);
         for (Index index = solid; index < nodes[solid].end; ++index)
             if (nodes[index].many)

@@ -66,6 +66,7 @@ class Solids {
         bool counts = false;   ///< many, each of them one shape: how many a ray is inside of counts
         bool fills = false;    ///< part: the solid has all that is inside of it
         bool flat = false;     ///< part: a plane, whatever its kind
+        bool open = false;     ///< whole solid: something cuts it that has no surface
         Kind kind{};           ///< part
         Place place{};         ///< part
         ShapeId shape = no_shape; ///< part that is a shape of the scene; else the first of these

@@ -3,6 +3,7 @@
 #include "simd/query/as_core.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace raylane::simd {
 
@@ -20,7 +21,8 @@ core::Vec3d point_among(std::span<const HitPoint> points, const Hits& hits, cons
 } // namespace
 
 LookThrough::LookThrough(const SceneData& scene, const Tracing& tracing)
-    : scene_(scene), query_(scene, tracing, Asked::points), solid_surfaces_(scene.scene()) {
+    : scene_(scene), query_(scene, tracing, Asked::points), solid_surfaces_(scene.scene()),
+      cut_faces_(scene.scene()) {
     if (!scene.looks_through()) return;
     searcher_ = std::make_unique<core::Searcher<double>>(scene.scene(), core::Search::hierarchy,
                                                          tracing.precision);
@@ -154,7 +156,8 @@ bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t 
     const core::Solids& solids = scene_.scene().solids();
     const core::Solids::Node& part = solids.node(solids.part_of(shape));
     if (!part.fills || part.kind != core::Kind::sphere || (hits.hit[lane] & hit_entering) == 0 ||
-        part.parent == core::Solids::none || !solids.node(part.parent).counts)
+        part.parent == core::Solids::none || !solids.node(part.parent).counts ||
+        solids.node(solids.root_of(part.parent)).open)
         return false;
     double slope = 0.0;
     for (int axis = 0; axis < 3; ++axis)
@@ -179,13 +182,37 @@ bool LookThrough::is_visible(const Paths& paths, const Hits& hits, std::size_t l
     if (!scene.solids().has(shape.id)) return is_seen;
     if (is_seen && &paths != &onward_paths_ && fills_first(paths, hits, lane, shape.id))
         return true;
+    const CutUnion* cut = scene_.cut_by(shape.id);
+    if (is_seen && cut != nullptr) {
+        const core::Value is_face = is_cut_face(paths, hits, lane, shape.id, *cut);
+        if (is_face != core::Value::unknown) return is_face == core::Value::yes;
+    }
     const core::Ray<double> ray = ray_of(paths, lane);
     const core::OriginSurfaces<double> origins = origin_surfaces_of(scene_, paths, lane);
     const core::Hit<double> hit = hit_of(scene_, paths, hits, lane);
-    if (&paths != &onward_paths_) way = {scene, {ray, origins}, shape.id};
-    if (is_seen && solid_surfaces_.is_surface({ray, origins}, hit, way)) return true;
+    if (&paths != &onward_paths_) {
+        way = {scene, {ray, origins}, shape.id};
+        if (way.counted != core::Solids::none && scene_.is_cut(way.counted)) way = {};
+    }
+    if (is_seen && solid_surfaces_.is_surface({ray, origins}, hit, way)) {
+        if (cut != nullptr) cut_faces_.remember(*cut, solid_surfaces_.last_around());
+        return true;
+    }
     way.pass(scene, hit);
     return false;
+}
+
+/// Whether a part that cuts a union is seen there, as far as that is easily told.
+core::Value LookThrough::is_cut_face(const Paths& paths, const Hits& hits, std::size_t lane,
+                                     core::ShapeId shape, const CutUnion& cut) {
+    const core::Ray<double> ray = ray_of(paths, lane);
+    const double t = hits.t[lane];
+    double size = t;
+    for (int axis = 0; axis < 3; ++axis)
+        size += std::abs(ray.origin[axis]);
+    return cut_faces_.is_surface(cut, shape, ray.direction,
+                                 core::mul_add(t, ray.direction, ray.origin),
+                                 hits.error[lane] + 0x1p-48 * size);
 }
 
 /// Starts a ray anew behind what it has hit, where it has been moved to.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/reference/search.hpp"
+#include "simd/query/cut_faces.hpp"
 #include "simd/query/query.hpp"
 
 #include <memory>
@@ -33,6 +34,8 @@ class LookThrough {
     void settle(const Paths& paths, std::size_t lane);
     bool fills_first(const Paths& paths, const Hits& hits, std::size_t lane,
                      core::ShapeId shape) const;
+    core::Value is_cut_face(const Paths& paths, const Hits& hits, std::size_t lane,
+                            core::ShapeId shape, const CutUnion& cut);
     void move_on(const Hits& hits, std::size_t lane, std::size_t to);
 
     const SceneData& scene_;
@@ -41,6 +44,7 @@ class LookThrough {
     std::vector<HitPoint> points_;
 
     core::SolidSurfaces solid_surfaces_;
+    CutFaces cut_faces_;
     std::vector<core::WayInUnion> ways_; // of rays that go on
 
     // Search behind surfaces that cannot be seen; null where all can, from both sides.

@@ -11,6 +11,9 @@ namespace raylane::simd {
 
 namespace {
 
+/// Beside those of Occlusion: only a walk can tell.
+constexpr std::uint8_t unasked = 3;
+
 RayColumns columns_of(const SpawnedRays& rays, const std::uint32_t* origin_first,
                       const std::uint32_t* origin_last) {
     return {rays.count,
@@ -77,7 +80,12 @@ void ShadowTracer::look_at(const Wave& wave) {
         leave_last_[position] = shape.coplanar.last;
         const bool inward = (wave.hits.hit[lane] & hit_entering) == 0;
         const bool in_medium = wave.paths.media_at(lane) != core::empty_space;
-        leave_state_[position] = in_medium || shape.may_be_met_again(inward) ? doubtful : unblocked;
+        const bool may_return =
+            shape.may_be_met_again(inward) && !scene_.only_cuts(wave.hits.slot[lane]);
+        leave_state_[position] = in_medium || may_return ? doubtful : unblocked;
+        // Inside of an open solid's parts no part of it blocks by itself.
+        if (!shape.is_entered(wave.hits.hit[lane]) && scene_.scene().solids().has(shape.id))
+            leave_state_[position] = unasked;
     }
 }
 
@@ -86,13 +94,16 @@ void ShadowTracer::start() {
         const auto position = static_cast<std::size_t>(rays_.parent[k]);
         origin_first_[k] = leave_first_[position];
         origin_last_[k] = leave_last_[position];
-        state_[k] = leave_state_[position];
+        state_[k] = std::min<std::uint8_t>(leave_state_[position], blocked);
     }
 }
 
 void ShadowTracer::find_blocked(const Coherence* coherence, EngineCounters& counters) {
     walker_.query().occluded(columns_of(rays_, origin_first_, origin_last_), rays_.distance, state_,
                              coherence, counters);
+    for (std::size_t k = 0; k < rays_.count; ++k)
+        if (leave_state_[static_cast<std::size_t>(rays_.parent[k])] == unasked)
+            state_[k] = doubtful;
 }
 
 void ShadowTracer::start_walk(std::size_t ray) {

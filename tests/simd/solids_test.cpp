@@ -168,3 +168,66 @@ TEST_CASE("inside of a union no wall is seen, nor casts a shadow") {
     CHECK(picture(scene, simd::Engine::reference) == seen);
     CHECK(std::all_of(seen.begin(), seen.end(), [](const Color& c) { return c.x > 0.3F; }));
 }
+
+namespace {
+
+/// A crowd of balls and sticks, cut in some way, with a ball of another kind in the hole.
+Scene cut_crowd(int way, bool is_near) {
+    SceneBuilder builder;
+    builder.settings.width = 80;
+    builder.settings.height = 60;
+    builder.camera.from = is_near ? Vec3f{0.7F, 0.9F, 1.1F} : Vec3f{5, 4, 7};
+    builder.camera.at = {0, 0, 0};
+    builder.background = {0.6F, 0.7F, 0.9F};
+    builder.add_light({.position = {4, 6, 5}});
+    builder.add_light({.kind = LightKind::directional, .direction = {-0.4F, -1, -0.3F}});
+    Material mirror;
+    mirror.reflectivity = 0.3F;
+    const MaterialIndex clay = builder.add_material(mirror);
+    Material of_red;
+    of_red.pattern.colors[0] = {1, 0, 0};
+    const MaterialIndex red = builder.add_material(of_red);
+    builder.add(Plane{{0, -1.7F, 0}, {0, 1, 0.02F}}, clay);
+    std::vector<Solid> parts;
+    for (int i = 0; i < 125; ++i) {
+        const Vec3d at = {0.8 * (i % 5 - 2) + 0.1 * (i % 3), 0.8 * (i / 5 % 5 - 2),
+                          0.8 * (i / 25 - 2) + 0.07 * (i % 4)};
+        parts.push_back(of_shape(SphereOf<double>{at, 0.3 + 0.03 * (i % 7)}));
+        if (i % 4 == 0)
+            parts.push_back(of_shape(CylinderOf<double, Ends::capped>{at, {0.8, 0, 0}, 0.2}));
+    }
+    const auto plane = [&](const Vec3d& point, const Vec3d& normal) {
+        return of_shape(PlaneOf<double>{point, normal}, red);
+    };
+    const Solid crowd = made(Made::by_union, parts);
+    const Solid box = of_shape(BoxOf<double>{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}}, red);
+    const Solid ball = of_shape(SphereOf<double>{{1, 1, 1}, 1.5}, red);
+    const Solid wedge = made(Made::by_intersection,
+                             {plane({0, 0, 0}, {-1, 0.2, 0.1}), plane({0, 0, 0}, {0.1, 0.1, -1})});
+    const std::vector<Solid> ways[] = {
+        {crowd, plane({0, 0, 0}, {-0.5, -0.4, -1})},
+        {crowd, plane({1, 0, 0}, {-1, 0, 0}), plane({0, 1, 0}, {0, -1, 0.1}),
+         plane({0, 0, 0.8}, {0, 0, -1})},
+        {crowd, wedge},
+        {crowd, box},
+        {crowd, ball, plane({0.5, 0, 0}, {-1, 0, -1})},
+    };
+    constexpr int count = 5;
+    builder.add_solid(made(way < count ? Made::by_difference : Made::by_clip, ways[way % count]),
+                      clay);
+    builder.add(Sphere{{0.9F, 0.9F, 0.9F}, 0.4F}, red);
+    return std::move(builder).build();
+}
+
+} // namespace
+
+TEST_CASE("a crowd that is cut is the same picture by both engines") {
+    const int way = GENERATE(range(0, 10));
+    const bool is_near = GENERATE(false, true);
+    const Scene scene = cut_crowd(way, is_near);
+    const std::vector<Color> seen = picture(scene, simd::Engine::vector);
+    CAPTURE(way, is_near);
+    CHECK(picture(scene, simd::Engine::reference) == seen);
+    for (const simd::Isa isa : simd::all_isas)
+        if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == seen);
+}

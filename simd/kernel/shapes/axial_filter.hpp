@@ -1,7 +1,9 @@
 #pragma once
 
 #include "simd/kernel/shapes/axial.hpp"
+#include "simd/kernel/shapes/enclosing.hpp"
 #include "simd/kernel/shapes/first_crossing.hpp"
+#include "simd/kernel/shapes/sphere.hpp"
 
 /// Cylinders and cones. Each ray is first moved to t = `start`, where it enters the slab between
 /// the ends or a sphere about the shape, if it is not inside: so magnitudes are the shape's, the
@@ -118,6 +120,16 @@ struct AxialFilter {
             (abs(along - half_way) > room);
         const Mask<Arch> known = beside_squared + abs(along) < F(__builtin_inff());
         return is_number<Arch>(f.x) & ~(missed & known);
+    }
+
+    /// That of a sphere around it; where in that it is entered and left is not told.
+    static constexpr bool has_chord_around = true;
+    [[gnu::always_inline]] Chord<Arch> chord(const FilterRays<Arch>& rays) const requires capped {
+        const Vectors<Arch> middle = fast_mul_add<Arch>(F(0.5F), whole_axis, base);
+        // What underflows is less.
+        const F radius = half_length + largest_radius + F(0x1p-40F);
+        const Chord<Arch> around = SphereFilter<Arch>(rounded_up<Arch>(middle, radius)).chord(rays);
+        return {around.entry, around.exit_end, zero<Arch>(), around.exit_end};
     }
 
     [[gnu::always_inline]] Bounds<Arch> bounds(const FilterRays<Arch>& rays) const {

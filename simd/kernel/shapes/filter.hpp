@@ -52,6 +52,13 @@ struct Obstacle {
     Mask<Arch> certain;  ///< where possible: it is
 };
 
+/// Where lines cross a convex shape, behind the rays' origins, too.
+template <class Arch>
+struct Chord {
+    Floats<Arch> entry, entry_end; ///< the first crossing is between these
+    Floats<Arch> exit, exit_end;   ///< and the last between these
+};
+
 /// Obstacle of lanes that are asked about, as bits: whether the shape may be entered before one t,
 /// and is before another, which is not later. By the filter's own way, or its bounds.
 template <class Arch, class Filter, class Rays>

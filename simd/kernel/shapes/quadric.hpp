@@ -61,6 +61,7 @@ template <class Arch>
 struct QuadricFilter {
     using F = Floats<Arch>;
     static constexpr bool is_costly = true;
+    static constexpr bool is_quadric = true;
 
     Vectors<Arch> center;
     F xx, yy, zz, xy, xz, yz;

@@ -14,6 +14,8 @@ struct SphereNumbers {
     template <class Reader>
     explicit SphereNumbers(Reader reader)
         : center(next_vector<Arch>(reader)), radius(reader.next()) {}
+    explicit SphereNumbers(const SphereAround<Arch>& sphere)
+        : center(sphere.center), radius(sphere.radius) {}
 
     /// The enclosing sphere is the numbers themselves.
     static constexpr bool encloses_itself = true;
@@ -97,6 +99,20 @@ struct SphereFilter : SphereNumbers<Arch> {
             result.upper = select(inside, exit, result.upper);
         }
         return result;
+    }
+
+    static constexpr bool has_chord_around = false;
+    /// Of rays that meet it.
+    [[gnu::always_inline]] Chord<Arch> chord(const FilterRays<Arch>& rays) const {
+        using F = Floats<Arch>;
+        const F o = zero<Arch>();
+        const auto [there, tau, foot_squared, rounding, outer, inner] = near(rays);
+        const F outer_half = sqrt(outer * outer - foot_squared);
+        const F inner_chord = inner * inner - foot_squared, inner_half = sqrt(inner_chord);
+        const Mask<Arch> meets = (inner > o) & (inner_chord > o);
+        const F entry = tau - outer_half - rounding, exit_end = tau + outer_half + rounding;
+        return {entry, select(meets, tau - inner_half + rounding, exit_end),
+                select(meets, tau + inner_half - rounding, entry), exit_end};
     }
 
   private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "simd/kernel/traverse/box_ray.hpp"
+#include "simd/kernel/traverse/cut.hpp"
 #include "simd/kernel/traverse/rays.hpp"
 
 namespace raylane::simd {
@@ -66,23 +67,37 @@ struct Leaf : Streams<Arch> {
         return some;
     }
 
-    /// Finds those that may be crossed before `second`.
+    /// Finds those that may be crossed before `second`, where they are not cut off.
     template <class Filter>
     [[gnu::always_inline]] static void find(const TableView& table, std::uint32_t number,
-                                            const RoundedRays& rays, std::size_t i, float second,
-                                            LeafHits& hits) {
+                                            const CutView* cut, const RoundedRays& rays,
+                                            std::size_t i, float second, LeafHits& hits) {
         const float* block = S::block_of(table, number);
         const std::uint32_t* ids = S::ids_of(table, block);
         const typename Method::Rays ray = Method::broadcast(rays, i);
         hits.lanes = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
-            const Bounds<Arch> bounds = filter.bounds(ray);
+            const Bounds<Arch> bounds = bounds_of(filter, ray, rays, i, cut);
             const M counts =
                 bounds.possible & elsewhere(ids + from, rays, i) & (bounds.lower < F(second));
             hits.lanes |= Lanes<Arch>::bits(counts) << from;
             bounds.lower.store_unaligned(hits.t + from);
         }
+    }
+
+    static CutRays<Arch> to_cut(const typename Method::Rays& ray, const RoundedRays& rays,
+                                std::size_t i) {
+        return {ray, S::broadcast_bits(rays.origin_first[i]),
+                S::broadcast_bits(rays.origin_last[i])};
+    }
+    template <class Filter>
+    [[gnu::always_inline]] static Bounds<Arch>
+    bounds_of(const Filter& filter, const typename Method::Rays& ray, const RoundedRays& rays,
+              std::size_t i, const CutView* cut) {
+        if constexpr (knows_cuts<Method>)
+            if (cut != nullptr) return bounds_of_cut<Arch>(filter, to_cut(ray, rays, i), *cut);
+        return filter.bounds(ray);
     }
 
     /// Takes account of what was found, which is something.
@@ -110,13 +125,24 @@ struct Leaf : Streams<Arch> {
         const float* block = S::block_of(table, number);
         const std::uint32_t* ids = S::ids_of(table, block);
         const typename Method::Rays ray = Method::broadcast(rays, i);
-        const std::uint32_t plain = S::plain_lanes(scene, table.first_slot + 16 * number);
+        const std::uint32_t slot = table.first_slot + 16 * number;
+        const std::uint32_t plain = S::plain_lanes(scene, slot);
+        const std::uint32_t counts = ~S::only_cut_lanes(scene, slot);
+        const CutView* cut = cut_of<Method>(scene, slot);
         std::uint8_t state = unblocked;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
-            const std::uint32_t asked = Lanes<Arch>::bits(elsewhere(ids + from, rays, i));
+            std::uint32_t asked =
+                Lanes<Arch>::bits(elsewhere(ids + from, rays, i)) & counts >> from;
             const Obstacle<Arch> obstacle = obstacle_of<Arch>(
                 filter, ray, asked, F(t_most * perhaps_within), F(t_most * surely_within));
+            if constexpr (knows_cuts<Method>)
+                if (cut != nullptr) {
+                    const std::uint32_t perhaps = Lanes<Arch>::bits(may_cross_cut<Arch>(
+                        filter, to_cut(ray, rays, i), *cut, F(t_most * perhaps_within)));
+                    if ((perhaps & asked & ~(plain >> from)) != 0) state = doubtful;
+                    asked &= plain >> from;
+                }
             if ((Lanes<Arch>::bits(obstacle.possible) & asked) == 0) continue;
             if ((Lanes<Arch>::bits(obstacle.possible & obstacle.certain) & asked & plain >> from) !=
                 0)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/kernel/traverse/rays.hpp"
+#include "simd/kernel/traverse/cut.hpp"
 
 namespace raylane::simd {
 
@@ -18,6 +18,8 @@ struct RayLanes {
     RayLanes(const RoundedRays& stream, std::size_t i)
         : rays(Method::packet(stream, i)), origin_first(S::load_bits(stream.origin_first + i)),
           origin_last(S::load_bits(stream.origin_last + i)) {}
+
+    CutRays<Arch> to_cut() const { return {rays, origin_first, origin_last}; }
 
     /// Those that do not leave the shape.
     Mask<Arch> elsewhere(std::uint32_t id) const {
@@ -46,10 +48,14 @@ struct LaneCandidates {
     /// Takes account of one shape.
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id,
-                                     std::uint32_t this_slot,
+                                     std::uint32_t this_slot, const CutView* cut,
                                      const RayLanes<Arch, Method>& packet) {
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
+        if constexpr (knows_cuts<Method>)
+            if (cut != nullptr)
+                return take(bounds_of_cut<Arch>(filter, packet.to_cut(), *cut),
+                            packet.elsewhere(id), this_slot);
         take(filter.bounds(packet.rays), packet.elsewhere(id), this_slot);
     }
 
@@ -80,12 +86,19 @@ struct LaneOcclusions {
     /// Takes account of one shape, for those of the rays that are `asked` about.
     template <class Filter, class Method>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, bool plain,
-                                     const RayLanes<Arch, Method>& packet,
+                                     const CutView* cut, const RayLanes<Arch, Method>& packet,
                                      std::uint32_t asked = ~0U) {
         asked &= Lanes<Arch>::bits(packet.elsewhere(id));
         if (asked == 0) return;
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
+        if constexpr (knows_cuts<Method>)
+            if (cut != nullptr && !plain) {
+                some |= Lanes<Arch>::bits(
+                            may_cross_cut<Arch>(filter, packet.to_cut(), *cut, perhaps_before)) &
+                        asked;
+                return;
+            }
         const Obstacle<Arch> obstacle =
             obstacle_of<Arch>(filter, packet.rays, asked, perhaps_before, surely_before);
         some |= Lanes<Arch>::bits(obstacle.possible) & asked;

@@ -65,6 +65,15 @@ struct Streams {
         return (plain_lanes(scene, slot) >> slot % 16 & 1) != 0;
     }
 
+    /// Those of its lanes that need not be asked what they block, as bits; and whether a slot is
+    /// one.
+    static std::uint32_t only_cut_lanes(const SceneView& scene, std::uint32_t slot) {
+        return scene.only_cut_lanes == nullptr ? 0 : scene.only_cut_lanes[slot / 16];
+    }
+    static bool only_cuts(const SceneView& scene, std::uint32_t slot) {
+        return (only_cut_lanes(scene, slot) >> slot % 16 & 1) != 0;
+    }
+
     static core::Kind kind_of(std::uint32_t child) {
         return static_cast<core::Kind>(child >> 27 & 0xF);
     }

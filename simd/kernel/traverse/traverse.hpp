@@ -52,7 +52,7 @@ struct Trace : Streams<Arch> {
                                workspace, counters);
                 continue;
             }
-            FrustumCandidates<Arch, Method> found(rays, candidates, begin, end);
+            FrustumCandidates<Arch, Method> found(scene, rays, candidates, begin, end);
             if (!Walk<true>(scene, frustum, workspace, counters, most_candidates)
                      .go(kind_bits, found)) {
                 nearest_of_any(scene, kind_bits, &neighbours, begin, count, rays, candidates,

@@ -64,6 +64,64 @@ Expression any_expression(Random& random, bool lattice, int depth,
     return made;
 }
 
+/// A crowd of balls and a few others, less what planes, boxes and balls take away.
+Expression any_cut_crowd(Random& random, bool lattice) {
+    const auto number = [&](double least, double most) {
+        const double any = random.uniform(least, most);
+        return lattice ? std::round(any) : any;
+    };
+    const auto point = [&] { return core::Vec3d(number(-3, 3), number(-3, 3), number(-3, 3)); };
+    Expression crowd{Op::unite};
+    for (int i = random.integer(25, 60); i > 0; --i) {
+        const core::Vec3d center = point();
+        const double radius = lattice ? 0.5 * random.integer(1, 3) : random.uniform(0.3, 1.2);
+        if (random.integer(0, 7) != 0)
+            crowd.of.push_back({Op::part, core::SphereOf<double>{center, radius}});
+        else if (random.integer(0, 1) != 0)
+            crowd.of.push_back({Op::part, core::CylinderOf<double, core::Ends::capped>{
+                                              center, {0, number(1, 3), 1}, radius}});
+        else
+            crowd.of.push_back(
+                {Op::part,
+                 core::BoxOf<double>{center, {radius, 0, 0}, {0, radius, 0}, {0, 0, radius}}});
+    }
+    const auto plane = [&] {
+        core::Vec3d normal = point();
+        if (core::squared_length(normal) == 0.0) normal = {0, 0, 1};
+        return Expression{Op::part, core::PlaneOf<double>{point(), normal}};
+    };
+    Expression made{random.integer(0, 3) == 0 ? Op::clip : Op::subtract};
+    made.of.push_back(std::move(crowd));
+    for (int i = random.integer(1, 3); i > 0; --i) {
+        switch (random.integer(0, 4)) {
+        case 0: {
+            Expression wedge{Op::intersect};
+            for (int k = random.integer(2, 3); k > 0; --k)
+                wedge.of.push_back(plane());
+            made.of.push_back(std::move(wedge));
+            break;
+        }
+        case 1:
+            made.of.push_back({Op::part, core::BoxOf<double>{point(),
+                                                             {number(1, 4), 0, 0},
+                                                             {0, number(1, 4), 0},
+                                                             {0, 0, number(1, 4)}}});
+            break;
+        case 2:
+            made.of.push_back({Op::part, core::SphereOf<double>{point(), number(1, 3)}});
+            break;
+        default:
+            made.of.push_back(plane());
+        }
+    }
+    if (random.integer(0, 2) != 0) return made;
+    // Beside something else.
+    Expression both{Op::unite};
+    both.of.push_back(std::move(made));
+    both.of.push_back({Op::part, core::SphereOf<double>{point(), 1.0}});
+    return both;
+}
+
 raylane::Solid solid_of(const Expression& expression) {
     if (expression.op == Op::part)
         return std::visit(
@@ -234,6 +292,21 @@ TEST_CASE("solids of any others are what real arithmetic says") {
         if (random.integer(0, 3) != 0) made.of.push_back({Op::part, any_box(random)});
         ask(made, random, lattice, 200, wrong);
     }
+    CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
+    CHECK(wrong.rows == 0);
+    CHECK(wrong.hits == 0);
+    CHECK(wrong.blocked == 0);
+    CHECK(wrong.sides == 0);
+    CHECK(wrong.surfaces > wrong.asked / 10);
+}
+
+TEST_CASE("a crowd that is cut is what real arithmetic says") {
+    const bool lattice = GENERATE(true, false);
+    Random random(seed(23));
+    Wrong wrong;
+    const int scenes = rounds(60);
+    for (int i = 0; i < scenes; ++i)
+        ask(any_cut_crowd(random, lattice), random, lattice, 100, wrong);
     CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
     CHECK(wrong.rows == 0);
     CHECK(wrong.hits == 0);

@@ -84,15 +84,16 @@ struct EveryShape : Streams<Arch> {
     static const F& limit_of(const LaneOcclusions<Arch>& found) { return found.t_most; }
     template <class Filter>
     [[gnu::always_inline]] static void test(LaneCandidates<Arch>& found, const Filter& filter,
-                                            std::uint32_t id, std::uint32_t slot, const SceneView&,
-                                            const Packet& packet) {
-        found.test(filter, id, slot, packet);
+                                            std::uint32_t id, std::uint32_t slot,
+                                            const SceneView& scene, const Packet& packet) {
+        found.test(filter, id, slot, cut_of<Method>(scene, slot), packet);
     }
     template <class Filter>
     [[gnu::always_inline]] static void test(LaneOcclusions<Arch>& found, const Filter& filter,
                                             std::uint32_t id, std::uint32_t slot,
                                             const SceneView& scene, const Packet& packet) {
-        found.test(filter, id, S::is_plain(scene, slot), packet);
+        if (S::only_cuts(scene, slot)) return;
+        found.test(filter, id, S::is_plain(scene, slot), cut_of<Method>(scene, slot), packet);
     }
 
     /// Tests a packet against all shapes of a kind that some of its rays may meet. By itself, as

@@ -63,11 +63,13 @@ class FrustumCandidates : Streams<Arch> {
 
         Candidates found() { return {first, second, slot}; }
     };
+    const SceneView& scene_;
     Rays packets_[16];
 
   public:
-    FrustumCandidates(const RoundedRays& rays, const Candidates& candidates, std::size_t begin,
-                      std::size_t end) {
+    FrustumCandidates(const SceneView& scene, const RoundedRays& rays, const Candidates& candidates,
+                      std::size_t begin, std::size_t end)
+        : scene_(scene) {
         for (std::size_t i = begin; i < end; i += 16) {
             Rays& packet = packets_[(i - begin) / 16];
             packet.gather(rays, i);
@@ -88,7 +90,7 @@ class FrustumCandidates : Streams<Arch> {
         Rays& packet = packets_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {
             LaneCandidates<Arch> found(packet.found(), k);
-            found.test(filter, id, slot, packet.packet(k));
+            found.test(filter, id, slot, cut_of<Method>(scene_, slot), packet.packet(k));
             found.store(packet.found(), k);
         }
     }
@@ -140,12 +142,13 @@ class FrustumOcclusions : Streams<Arch> {
     template <class Filter>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
                                      std::size_t which) {
-        if (blocked_[which] == 0xFFFF) return;
+        if (blocked_[which] == 0xFFFF || S::only_cuts(scene_, slot)) return;
         const bool plain = S::is_plain(scene_, slot);
         const Rays& packet = packets_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {
             LaneOcclusions<Arch> found({packet.t_most, nullptr}, k);
-            found.test(filter, id, plain, packet.packet(k), ~blocked_[which] >> k);
+            found.test(filter, id, plain, cut_of<Method>(scene_, slot), packet.packet(k),
+                       ~blocked_[which] >> k);
             blocked_[which] |= found.sure << k;
             doubtful_[which] |= found.some << k;
         }

@@ -76,8 +76,10 @@ class InFlightNearest : InFlight<Arch, Method> {
     /// Finds what may be crossed in the block that a ray is at.
     template <class Filter>
     [[gnu::always_inline]] void all(Flight& flight, const TableView& table) const {
-        Leaf<Arch, Method>::template find<Filter>(table, flight.child & child_index, rays_,
-                                                  flight.i, flight.best.second, flight.hits);
+        const std::uint32_t number = flight.child & child_index;
+        const CutView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
+        Leaf<Arch, Method>::template find<Filter>(table, number, cut, rays_, flight.i,
+                                                  flight.best.second, flight.hits);
     }
     /// Takes account of what may be crossed of some pairs.
     template <class Filter>

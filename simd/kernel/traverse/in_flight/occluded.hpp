@@ -96,10 +96,15 @@ class InFlightOccluded : InFlight<Arch, Method> {
         for (std::uint32_t bits = bounds.possible; bits != 0; bits &= bits - 1) {
             const int k = __builtin_ctz(bits);
             Shadow& shadow = shadows_[pairs.whose[k]];
-            if (!(bounds.lower[k] < shadow.t_most * perhaps_within)) continue;
+            const std::uint32_t slot = pairs.slot[k];
+            if (S::only_cuts(scene_, slot)) continue;
+            // What is cut inside of it may be nearer.
+            if (!(bounds.lower[k] < shadow.t_most * perhaps_within) &&
+                (cut_of<Method>(scene_, slot) == nullptr || S::is_plain(scene_, slot)))
+                continue;
             const bool certain =
                 (bounds.certain >> k & 1) != 0 && bounds.upper[k] < shadow.t_most * surely_within;
-            take(shadow, certain && S::is_plain(scene_, pairs.slot[k]) ? blocked : doubtful);
+            take(shadow, certain && S::is_plain(scene_, slot) ? blocked : doubtful);
         }
     }
 

@@ -191,7 +191,8 @@ class ListNearest : Streams<Arch> {
                                      std::size_t i) const {
         Best& best = records_[i].best;
         LeafHits hits;
-        Leaf<Arch, Method>::template find<Filter>(table, number, rays_, i, best.second, hits);
+        const CutView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
+        Leaf<Arch, Method>::template find<Filter>(table, number, cut, rays_, i, best.second, hits);
         if (hits.lanes != 0) Leaf<Arch, Method>::take(hits, table.first_slot + 16 * number, best);
     }
 

@@ -1,0 +1,237 @@
+#include "simd/cuts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace raylane::simd {
+
+namespace {
+
+using core::Solids;
+using core::Vec3d;
+
+/// `inside`: whether it is what is behind the plane.
+std::optional<HalfSpace> half_space(const Vec3d& point, const Vec3d& normal, bool inside,
+                                    core::ShapeId shape) {
+    const double length = core::length(normal);
+    if (!(length > 0x1p-400) || !(length < 0x1p+400)) return {};
+    const Vec3d unit = (inside ? 1.0 : -1.0) / length * normal;
+    const double size =
+        std::abs(unit.x * point.x) + std::abs(unit.y * point.y) + std::abs(unit.z * point.z);
+    return HalfSpace{unit, core::dot(unit, point), size, shape, false};
+}
+
+/// All that make a part; where it is reversed, it is outside of one of them.
+class HalfSpacesOf {
+  public:
+    HalfSpacesOf(const core::Scene& scene, const Solids::Node& part, bool inside)
+        : shape_(part.traced ? part.shape : core::no_shape - 1) {
+        core::with_table(scene.shapes(), part.kind,
+                         [&](const auto& table) { add(table.get(part.place), inside); });
+    }
+    std::vector<HalfSpace>::const_iterator begin() const { return found_.begin(); }
+    std::vector<HalfSpace>::const_iterator end() const { return found_.end(); }
+    std::size_t size() const { return found_.size(); }
+
+  private:
+    void add(const core::PlaneOf<double>& plane, bool inside) {
+        take(half_space(plane.point, plane.normal, inside, shape_));
+    }
+    /// Only planes.
+    void add(const core::QuadricOf<double>& q, bool inside) {
+        if (q.xx == 0.0 && q.yy == 0.0 && q.zz == 0.0 && q.xy == 0.0 && q.xz == 0.0 &&
+            q.yz == 0.0 && q.one == 0.0)
+            take(half_space(q.center, {q.x, q.y, q.z}, inside, shape_));
+    }
+    void add(const core::BoxOf<double>& box, bool inside) {
+        const Vec3d* const edges[] = {&box.edge_u, &box.edge_v, &box.edge_w};
+        for (int k = 0; k < 3; ++k) {
+            const Vec3d &u = *edges[(k + 1) % 3], &v = *edges[(k + 2) % 3];
+            Vec3d normal = core::cross(u, v);
+            // Few digits are lost by the differences.
+            if (!(core::length(normal) > 0x1p-10 * core::length(u) * core::length(v))) continue;
+            if (core::dot(normal, *edges[k]) < 0.0) normal = -normal;
+            const Vec3d opposite = box.corner + *edges[k];
+            take(half_space(box.corner, -normal, inside, shape_));
+            take(half_space(opposite, normal, inside, shape_));
+        }
+        if (!inside && found_.size() != 6) found_.clear();
+    }
+    template <class Shape>
+    void add(const Shape&, bool) {}
+
+    void take(const std::optional<HalfSpace>& half) {
+        if (half) found_.push_back(*half);
+    }
+
+    core::ShapeId shape_;
+
+    std::vector<HalfSpace> found_;
+};
+
+/// Half-spaces, in groups, outside of one of which nothing of a solid is left.
+class Collector {
+  public:
+    explicit Collector(const core::Scene& scene) : scene_(scene), solids_(scene.solids()) {}
+
+    /// All that cuts what is below a node.
+    CutUnion around(const Solids::Index below) {
+        cut_ = {below, {}, true};
+        for (Solids::Index index = below; solids_.node(index).parent != Solids::none;
+             index = solids_.node(index).parent) {
+            const Solids::Index parent = solids_.node(index).parent;
+            if (solids_.node(parent).op != Solids::Op::all) {
+                cut_.is_all = false;
+                continue;
+            }
+            solids_.each_child(parent, [&](Solids::Index child) {
+                if (child != index) add(child);
+                return true;
+            });
+        }
+        return cut_;
+    }
+
+  private:
+    void add(Solids::Index index) {
+        const Solids::Node& node = solids_.node(index);
+        if (node.op == Solids::Op::part && !node.reversed) {
+            // Outside of any of its half-spaces is outside of it.
+            const HalfSpacesOf halves(scene_, node, true);
+            for (const HalfSpace& half : halves)
+                add_group({half});
+            cut_.is_all = cut_.is_all && halves.size() == faces_of(node);
+            return;
+        }
+        // Outside of a union is what is outside of all its parts.
+        std::vector<HalfSpace> group;
+        bool is_known = !node.many;
+        for (Solids::Index part = index; is_known && part < node.end; ++part) {
+            const Solids::Node& of = solids_.node(part);
+            if (of.op == Solids::Op::part) {
+                const HalfSpacesOf more(scene_, of, !of.reversed);
+                // Of what is not reversed, each half-space would be in another group.
+                is_known = more.size() == faces_of(of) && (of.reversed || more.size() == 1);
+                group.insert(group.end(), more.begin(), more.end());
+            } else {
+                is_known = of.op == Solids::Op::any;
+            }
+        }
+        if (is_known)
+            add_group(std::move(group));
+        else
+            cut_.is_all = false;
+    }
+
+    static std::size_t faces_of(const Solids::Node& part) {
+        return part.kind == core::Kind::box ? 6 : 1;
+    }
+
+    void add_group(std::vector<HalfSpace> group) {
+        if (cut_.by.size() + group.size() > CutView::most) {
+            cut_.is_all = false;
+            return;
+        }
+        group.back().ends_group = true;
+        cut_.by.insert(cut_.by.end(), group.begin(), group.end());
+    }
+
+    const core::Scene& scene_;
+    const Solids& solids_;
+    CutUnion cut_{};
+};
+
+CutView view_of(const CutUnion& cut) {
+    CutView view{};
+    for (const HalfSpace& half : cut.by) {
+        const int k = view.count++;
+        for (int axis = 0; axis < 3; ++axis)
+            view.normal[axis][k] = static_cast<float>(half.normal[axis]);
+        view.offset[k] = static_cast<float>(half.offset);
+        view.shape[k] = half.shape;
+        view.size = std::max(
+            {view.size, 2.0F * std::abs(view.offset[k]), static_cast<float>(0x1p-20 * half.size)});
+        if (half.ends_group) view.group_ends |= 1U << k;
+    }
+    return view;
+}
+
+} // namespace
+
+void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) {
+    constexpr std::uint16_t cuts_nothing = 1;
+    const Solids& solids = scene.solids();
+    number_.resize(solids.nodes().size());
+    for (Solids::Index index = 0; index < number_.size(); ++index) {
+        if (!solids.node(index).counts) continue;
+        CutUnion cut = Collector(scene).around(index);
+        if (cut.by.empty() || unions_.size() > std::numeric_limits<std::uint16_t>::max()) continue;
+        if (unions_.empty()) {
+            unions_.resize(cuts_nothing + 1);
+            views_.resize(cuts_nothing + 1);
+        }
+        number_[index] = static_cast<std::uint16_t>(unions_.size());
+        views_.push_back(view_of(cut));
+        unions_.push_back(std::move(cut));
+    }
+    if (unions_.empty()) {
+        number_ = {};
+        return;
+    }
+
+    // Where a part that is beside one of these unions in an intersection is seen, that is cut.
+    cut_by_.resize(solids.nodes().size());
+    for (Solids::Index index = 0; index < number_.size(); ++index) {
+        const Solids::Index parent = solids.node(index).parent;
+        if (number_[index] == 0 || solids.node(parent).op != Solids::Op::all) continue;
+        solids.each_child(parent, [&](Solids::Index child) {
+            // Of two unions of many one has to be seen.
+            const auto begin = solids.nodes().begin();
+            if (child == index || std::any_of(begin + child, begin + solids.node(child).end,
+                                              [](const Solids::Node& of) { return of.many; }))
+                return true;
+            for (Solids::Index part = child; part < solids.node(child).end; ++part)
+                if (solids.node(part).op == Solids::Op::part) cut_by_[part] = number_[index];
+            return true;
+        });
+    }
+    of_block_.resize(slots / core::block_size);
+    only_cut_.resize(slots / core::block_size);
+    std::size_t block_number = 0;
+    core::for_each_table(scene.shapes(), [&](const auto& table) {
+        for (const auto& block : table.blocks()) {
+            bool is_of_one = true, is_cut = false;
+            bool is_flat = true;
+            std::uint16_t of_all = 0, by_all = 0;
+            for (int lane = 0; lane < core::block_size; ++lane) {
+                if (block.ids[lane] == core::no_shape) continue;
+                const Solids::Index part = solids.part_of(block.ids[lane]);
+                const Solids::Index parent =
+                    part != Solids::none ? solids.node(part).parent : Solids::none;
+                const std::uint16_t cut =
+                    parent != Solids::none ? number_[parent] : std::uint16_t{0};
+                const std::uint16_t cuts = part != Solids::none ? cut_by_[part] : std::uint16_t{0};
+                is_cut = is_cut || (cut != 0 && !solids.node(part).fills);
+                is_of_one = is_of_one && (lane == 0 || cut == of_all);
+                of_all = cut;
+                is_flat =
+                    is_flat && cuts != 0 && solids.node(part).flat && (lane == 0 || cuts == by_all);
+                by_all = cuts;
+                if (cuts != 0)
+                    only_cut_[block_number] =
+                        static_cast<std::uint16_t>(only_cut_[block_number] | 1U << lane);
+            }
+            if (is_cut) of_block_[block_number] = is_of_one ? of_all : cuts_nothing;
+            // What cuts is cut by the others.
+            if (is_flat) of_block_[block_number] = by_all;
+            ++block_number;
+        }
+    });
+    view.cuts = views_.data();
+    view.cut_of_block = of_block_.data();
+    view.only_cut_lanes = only_cut_.data();
+}
+
+} // namespace raylane::simd

@@ -1,0 +1,158 @@
+#pragma once
+
+#include "simd/kernel/shapes/shapes.hpp"
+#include "simd/kernel/traverse/rays.hpp"
+
+/// Parts that a solid is cut by take their crossings from the others on their outer side. Where
+/// float arithmetic is sure of that, no ray has to stop there.
+namespace raylane::simd {
+
+/// True if a method's filters know of cuts. Of what they do not know rays stop, and go on.
+template <class Method>
+inline constexpr bool knows_cuts = Method::certifies&& Method::rounded_alone;
+
+template <class Filter, class Rays>
+inline constexpr bool has_chord = requires(const Filter& filter, const Rays& rays) {
+    filter.chord(rays);
+};
+
+/// True of filters whose shapes are crossed but once, those that are cut: of quadrics only planes
+/// are.
+template <class Filter>
+inline constexpr bool crosses_once_where_cut = requires {
+    Filter::is_quadric;
+};
+
+/// Rays with the ids of the shapes that they start on.
+template <class Arch>
+struct CutRays {
+    const FilterRays<Arch>& rays;
+    Floats<Arch> origin_first, origin_last;
+
+    [[gnu::always_inline]] Mask<Arch> starts_on(std::uint32_t id) const {
+        return Lanes<Arch>::in_range(Streams<Arch>::broadcast_bits(id), origin_first, origin_last);
+    }
+};
+
+/// Where rays are surely on the side of a cut on which nothing is left, with what is convex.
+///
+/// A ray that starts on a plane, or on a box, and then is surely on one side of it has been there
+/// from the start.
+///
+/// With the normal and point of a plane rounded to float, a normal of length 1 -+ 2 u, and P the
+/// point at t, n . P - c is off by slack + u (5 |o|_1 + 15 t + 2 |c|) at most.
+template <class Arch>
+class Removed {
+    using F = Floats<Arch>;
+    using M = Mask<Arch>;
+
+  public:
+    M entry; ///< the first crossing surely is
+    M chord; ///< all of it, from the first crossing to the last
+
+    [[gnu::always_inline]] Removed(const CutView& cut, const CutRays<Arch>& of,
+                                   const Chord<Arch>& where)
+        : entry(none<Arch>()), chord(none<Arch>()) {
+        const FilterRays<Arch>& rays = of.rays;
+        const Place begin(cut, rays, positive_part<Arch>(where.entry));
+        const Place middle(cut, rays, positive_part<Arch>(where.entry_end));
+        const Place end(cut, rays, where.exit_end);
+        M of_entry = all<Arch>(), of_chord = all<Arch>();
+        for (int k = 0; k < cut.count; ++k) {
+            const M at_begin = begin.is_outside(cut, k) | of.starts_on(cut.shape[k]);
+            of_entry = of_entry & at_begin & middle.is_outside(cut, k);
+            of_chord = of_chord & at_begin & end.is_outside(cut, k);
+            if ((cut.group_ends >> k & 1) == 0) continue;
+            entry = entry | of_entry;
+            chord = chord | of_chord;
+            of_entry = of_chord = all<Arch>();
+        }
+    }
+
+  private:
+    struct Place {
+        Vectors<Arch> point;
+        F error;
+
+        [[gnu::always_inline]] Place(const CutView& cut, const FilterRays<Arch>& rays, const F& t)
+            : point(fast_mul_add<Arch>(t, rays.direction, rays.origin)) {
+            const Vectors<Arch>& o = rays.origin;
+            const F size = abs(o.x) + abs(o.y) + abs(o.z) + t + F(cut.size);
+            error = fast_mul_add<Arch>(F(24 * half_ulp), size, rays.slack + rays.slack);
+        }
+        [[gnu::always_inline]] M is_outside(const CutView& cut, int k) const {
+            const Vectors<Arch> normal = {F(cut.normal[0][k]), F(cut.normal[1][k]),
+                                          F(cut.normal[2][k])};
+            return fast_dot(normal, point, F(-cut.offset[k])) > error;
+        }
+    };
+};
+
+/// Where rays do not leave a convex shape before, which all is over at t = `end`: by the ray from
+/// there to where they start, whose origin is off by the roundings of end * direction and of the
+/// sum.
+template <class Arch, class Filter>
+[[gnu::noinline]] inline Floats<Arch> least_exit(const Filter& filter, const FilterRays<Arch>& rays,
+                                                 const Floats<Arch>& end) {
+    using F = Floats<Arch>;
+    const Vectors<Arch>& o = rays.origin;
+    const F size = abs(o.x) + abs(o.y) + abs(o.z) + end;
+    const FilterRays<Arch> back = {fast_mul_add<Arch>(end, rays.direction, o), -rays.direction,
+                                   fast_mul_add<Arch>(F(8 * half_ulp), size, rays.slack)};
+    const Bounds<Arch> bounds = filter.bounds(back);
+    const F exit = end - bounds.upper - F(8 * half_ulp) * size;
+    return select(bounds.possible & bounds.certain, exit, zero<Arch>());
+}
+
+/// The bounds of a part that is cut: the first crossing that is not removed is not before that. Not
+/// all that is possible is certain then.
+template <class Arch, class Filter>
+[[gnu::always_inline]] inline Bounds<Arch>
+bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cut) {
+    using F = Floats<Arch>;
+    Bounds<Arch> bounds = filter.bounds(rays.rays);
+    if (Lanes<Arch>::bits(bounds.possible) == 0) return bounds;
+    if constexpr (has_chord<Filter, FilterRays<Arch>>) {
+        const Chord<Arch> chord = filter.chord(rays.rays);
+        const F end = select(bounds.certain, bounds.upper, chord.exit_end);
+        const Removed<Arch> removed(cut, rays, {bounds.lower, end, chord.exit, chord.exit_end});
+        bounds.possible = bounds.possible & ~removed.chord;
+        const Mask<Arch> goes_on = bounds.possible & removed.entry;
+        if (Lanes<Arch>::bits(goes_on) == 0) return bounds;
+        F exit = chord.exit;
+        if constexpr (Filter::has_chord_around)
+            exit = least_exit<Arch>(filter, rays.rays, chord.exit_end);
+        bounds.lower = select(goes_on & (exit > bounds.lower), exit, bounds.lower);
+    } else if constexpr (crosses_once_where_cut<Filter>) {
+        const Removed<Arch> removed(cut, rays,
+                                    {bounds.lower, bounds.upper, bounds.lower, bounds.upper});
+        bounds.possible = bounds.possible & ~(bounds.certain & removed.entry);
+    }
+    return bounds;
+}
+
+/// Whether rays may cross a part that is cut, or its inside where something cuts it, before a t.
+template <class Arch, class Filter>
+[[gnu::always_inline]] inline Mask<Arch> may_cross_cut(const Filter& filter,
+                                                       const CutRays<Arch>& rays,
+                                                       const CutView& cut, const Floats<Arch>& t) {
+    Mask<Arch> possible = filter.bounds(rays.rays).possible;
+    if constexpr (has_chord<Filter, FilterRays<Arch>>) {
+        if (Lanes<Arch>::bits(possible) == 0) return possible;
+        const Chord<Arch> chord = filter.chord(rays.rays);
+        const Removed<Arch> removed(cut, rays, chord);
+        possible = possible & ~removed.chord & ~(chord.entry >= t);
+    }
+    return possible;
+}
+
+/// How the block of a slot is cut; null where it is not.
+template <class Method>
+[[gnu::always_inline]] inline const CutView* cut_of(const SceneView& scene, std::uint32_t slot) {
+    if constexpr (!knows_cuts<Method>) return nullptr;
+    if (scene.cut_of_block == nullptr || scene.cut_of_block[slot / 16] == 0) [[likely]]
+        return nullptr;
+    return scene.cuts + scene.cut_of_block[slot / 16];
+}
+
+} // namespace raylane::simd
