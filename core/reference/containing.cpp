@@ -38,6 +38,7 @@ void PointSearcher::add_containing(const Vec3d& point, std::vector<Containing>& 
     std::sort(solids_.begin(), solids_.end());
     solids_.erase(std::unique(solids_.begin(), solids_.end()), solids_.end());
     for (const Solids::Index solid : solids_) {
+        if (scene_.solids().node(solid).open) continue;
         const Side side = side_of(solid, point);
         if (side != Side::outside)
             found.push_back({scene_.solids().node(solid).shape, side == Side::surface});

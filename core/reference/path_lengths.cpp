@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace raylane::core {
 
@@ -36,9 +37,18 @@ PathLengths::OfMaterial& PathLengths::of(const Hit<double>& hit) {
     return added;
 }
 
-void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> hits, double t_min,
+void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, double t_min,
                       double t_max, std::vector<MaterialLength>& lengths) {
     if (!(t_min < t_max)) return;
+    // What has been cut open is left without having been entered.
+    std::span<const Hit<double>> hits = all;
+    if (std::any_of(all.begin(), all.end(),
+                    [&](const Hit<double>& hit) { return scene_.solids().is_open(hit.shape); })) {
+        closed_.clear();
+        std::copy_if(all.begin(), all.end(), std::back_inserter(closed_),
+                     [&](const Hit<double>& hit) { return !scene_.solids().is_open(hit.shape); });
+        hits = closed_;
+    }
     sharp_.assign(hits.begin(), hits.end());
     count_ = 0;
 

@@ -14,7 +14,7 @@ struct MaterialLength {
 };
 
 /// Measures how much of a ray, from t_min to t_max, is inside of each material's solids: of what is
-/// in several of one material, once. To be used by one thread.
+/// in several of one material, once; what is cut open has no inside. To be used by one thread.
 class PathLengths {
   public:
     explicit PathLengths(const Scene& scene)
@@ -49,6 +49,7 @@ class PathLengths {
                                        const std::vector<Inside>& parts) const;
 
     const Scene& scene_;
+    std::vector<Hit<double>> closed_; // those of solids that are not cut open, where some are
     std::vector<SharpHit> sharp_;
     std::vector<std::pair<ShapeId, std::size_t>> by_solid_; // with the number of the hit
     std::vector<OfMaterial> materials_; // of the ray, and some more of earlier ones

@@ -1,8 +1,13 @@
 #include "core/scene/glass.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace raylane::core {
+
+bool is_index(double index) {
+    return index > 0.0 && index <= static_cast<double>(std::numeric_limits<float>::max());
+}
 
 double index_at(const Sellmeier& glass, double wavelength) {
     const double square = wavelength * wavelength * 1e-6;

@@ -21,6 +21,8 @@ inline constexpr double line_d = 587.5618;
 
 /// The index at a wavelength in nanometres; NaN where the formula has none.
 double index_at(const Sellmeier& glass, double wavelength);
+/// True of what a material may have as its index.
+bool is_index(double index);
 
 struct NamedGlass {
     std::string_view name;

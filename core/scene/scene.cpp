@@ -214,10 +214,15 @@ ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
     check_solid(solid, material != no_material, "");
     require_room(count_parts(solid));
     const auto first = static_cast<ShapeId>(shape_count());
-    solids_.add(solid, material, [&](MaterialIndex of_part) {
-        scene_.material_of_.push_back(of_part);
-        return static_cast<ShapeId>(shape_count() - 1);
-    });
+    try {
+        solids_.add(solid, material, [&](MaterialIndex of_part) {
+            scene_.material_of_.push_back(of_part);
+            return static_cast<ShapeId>(shape_count() - 1);
+        });
+    } catch (const InvalidValue&) {
+        scene_.material_of_.resize(first);
+        throw;
+    }
     return first;
 }
 
@@ -237,7 +242,7 @@ void SceneBuilder::check_wavelengths() const {
             throw InvalidValue(place,
                                "must be from 380 to 780, got " + checks::text_of(wavelengths[i]));
         for (const Material& material : scene_.materials_)
-            if (material.glass.any() && !(index_at(material.glass, wavelengths[i]) > 0.0))
+            if (material.glass.any() && !is_index(index_at(material.glass, wavelengths[i])))
                 throw InvalidValue(place,
                                    "must be a wavelength for which all glasses have an index "
                                    "of refraction, got " +

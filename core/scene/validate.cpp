@@ -43,7 +43,7 @@ void validate(const Material& material) {
     require_fraction("reflectivity", material.reflectivity);
     require_fraction("transmission", material.transmission);
     require_positive("index", material.index);
-    if (material.glass.any() && !(index_at(material.glass, line_d) > 0.0))
+    if (material.glass.any() && !is_index(index_at(material.glass, line_d)))
         throw InvalidValue("glass", "must have an index of refraction for 587.56 nm");
     validate_color("absorption", material.absorption);
     require_enumerator("visible", material.visible, Visible::inside);

@@ -37,6 +37,9 @@ struct Solid {
     std::vector<Solid> parts{}; ///< else; by_difference: the first, less all others; by_clip: what
                                 ///< of the first is inside of all others
     MaterialIndex material = no_material; ///< none: that of the whole
+    bool endless_as_part = false; ///< an open cylinder or cone that was stretched: as a part of
+                                  ///< another it is what its own first part is
+    bool cuts_nothing = false;    ///< of what clips: it only says where the others are
 };
 
 } // namespace raylane::core

@@ -120,29 +120,70 @@ SolidCollector::Index SolidCollector::begin(Solids::Op op, Index parent) {
     return index;
 }
 
-Bounds SolidCollector::hull_of(Index index) const {
-    const Node& node = solids_.nodes_[index];
-    if (node.op == Solids::Op::part)
-        return std::visit(
-            [&]<class Shape>(const Shape& shape) {
-                if constexpr (kind_of<Shape> == Kind::plane)
-                    return bounds_of_half_space(shape, node.reversed);
-                else if constexpr (kind_of<Shape> == Kind::quadric)
-                    return everywhere();
-                else
-                    return node.reversed ? everywhere() : core::bounds_of(shape);
-            },
-            shapes_[index]);
-    Bounds hull = node.op == Solids::Op::all ? everywhere() : Bounds{};
-    solids_.each_child(index, [&](Index child) {
-        const Bounds of_child = hull_of(child);
-        if (node.op == Solids::Op::all)
-            hull = common(hull, of_child);
-        else if (!is_empty(of_child))
-            hull.include(of_child);
-        return true;
-    });
-    return hull;
+/// Of what is inside of a part, or of what is not.
+Bounds SolidCollector::bounds_of_part(Index index, bool outside) const {
+    const bool reversed = solids_.nodes_[index].reversed != outside;
+    return std::visit(
+        [&]<class Shape>(const Shape& shape) {
+            if constexpr (kind_of<Shape> == Kind::plane)
+                return bounds_of_half_space(shape, reversed);
+            else if constexpr (kind_of<Shape> == Kind::quadric)
+                return everywhere();
+            else
+                return reversed ? everywhere() : core::bounds_of(shape);
+        },
+        shapes_[index]);
+}
+
+/// Of nodes from one on.
+void SolidCollector::find_hulls(Index first) {
+    hulls_.resize(solids_.nodes_.size());
+    for (auto index = static_cast<Index>(solids_.nodes_.size()); index-- > first;) {
+        const Node& node = solids_.nodes_[index];
+        if (node.op == Solids::Op::part) {
+            hulls_[index] = {bounds_of_part(index, false), bounds_of_part(index, true)};
+            continue;
+        }
+        Hulls hulls;
+        Bounds& common_to_all = node.op == Solids::Op::all ? hulls.inside : hulls.outside;
+        Bounds& around_any = node.op == Solids::Op::all ? hulls.outside : hulls.inside;
+        common_to_all = everywhere();
+        around_any = Bounds{};
+        solids_.each_child(index, [&](Index child) {
+            const Hulls& of = hulls_[child];
+            const bool of_all = node.op == Solids::Op::all;
+            common_to_all = common(common_to_all, of_all ? of.inside : of.outside);
+            const Bounds& more = of_all ? of.outside : of.inside;
+            if (!is_empty(more)) around_any.include(more);
+            return true;
+        });
+        hulls_[index] = hulls;
+    }
+}
+
+/// Bounds of where it may matter that one is inside of a part, and of where it has a surface:
+/// inside of all with which it is intersected, outside of what it is united with.
+Bounds SolidCollector::allowed(Index part) const {
+    Bounds bounds = everywhere();
+    for (Index above = solids_.nodes_[part].parent; above != Solids::none;
+         above = solids_.nodes_[above].parent) {
+        const Node& node = solids_.nodes_[above];
+        bounds = common(bounds, node.op == Solids::Op::all ? hulls_[above].inside
+                                : node.many                ? everywhere()
+                                                           : hulls_[above].outside);
+    }
+    return bounds;
+}
+
+/// True if all quadrics of a solid have bounds.
+bool SolidCollector::has_bounds(Index solid) const {
+    for (Index part = solid; part < solids_.nodes_[solid].end; ++part) {
+        const Node& node = solids_.nodes_[part];
+        if (node.op == Solids::Op::part && node.traced && node.kind == Kind::quadric &&
+            !is_finite(common(allowed(part), hulls_[solid].inside)))
+            return false;
+    }
+    return true;
 }
 
 Value SolidCollector::value_in(Index index, const Somewhere& point) const {
@@ -187,7 +228,7 @@ Value SolidCollector::matters_in(Index part, const Somewhere& point) const {
 }
 
 void SolidCollector::find_bounds(Index solid) {
-    Bounds bounds = hull_of(solid);
+    Bounds bounds = hulls_[solid].inside;
     if (is_finite(bounds) && !solids_.nodes_[solid].many)
         bounds = hull_in(
             bounds, [&](const Somewhere& point) { return value_in(solid, point) != Value::no; });
@@ -223,7 +264,7 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
                 with_inside = with_inside || solids_.nodes_[above].many;
 
             Bounds& bounds = solids_.bounds_[part];
-            bounds = of_solid;
+            bounds = common(of_solid, allowed(part));
             // All crossings of those that count are to be found, wherever they are.
             const bool is_counted =
                 node.parent != Solids::none && solids_.nodes_[node.parent].counts;
@@ -254,9 +295,6 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
                     if (is_counted) bounds = core::bounds_of(shape);
             }
             if constexpr (kind_of<Shape> == Kind::quadric) {
-                if (!is_finite(bounds))
-                    throw InvalidValue("", "must have bounds, for it is made of a quadric: "
-                                           "intersect it with a box");
                 with_bounds(shape, bounds);
             } else if constexpr (kind_of<Shape> == Kind::plane) {
                 node.flat = true;
@@ -363,20 +401,20 @@ void SolidCollector::list(ShapeLists& lists) {
             for (Index index = solid; index < nodes[solid].end; ++index)
                 if (nodes[index].many && !nodes[index].counts)
                     solids_.each_child(index, [&](Index child) {
-                        return nodes[index].many = is_finite(common(hull_of(child), whole));
+                        return nodes[index].many = is_finite(common(hulls_[child].inside, whole));
                     });
         for (Index part = solid; part < nodes[solid].end; ++part)
             if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, whole, lists);
         note_counted(solid);
         nodes[solid].open = std::any_of(
             nodes.begin() + solid, nodes.begin() + nodes[solid].end, [](const Node& node) {
-                return node.op == Solids::Op::part && node.shape == no_shape;
+                return node.op == Solids::Op::part && node.shape == no_shape && !node.cuts_nothing;
             });
         if (is_finite(whole)) cover(solid, whole);
         for (Index index = solid; index < nodes[solid].end; ++index)
             if (nodes[index].many)
                 solids_.each_child(index, [&](Index child) {
-                    cover(child, common(hull_of(child), whole));
+                    cover(child, common(hulls_[child].inside, whole));
                     return true;
                 });
     }
@@ -399,6 +437,7 @@ Solids SolidCollector::finish(Tables& tables) {
         if (hidden.size() != 0) table.hide(hidden);
     });
     shapes_ = {};
+    hulls_ = {};
     return std::move(solids_);
 }
 

@@ -66,10 +66,11 @@ class Solids {
         bool counts = false;   ///< many, each of them one shape: how many a ray is inside of counts
         bool fills = false;    ///< part: the solid has all that is inside of it
         bool flat = false;     ///< part: a plane, whatever its kind
-        bool open = false;     ///< whole solid: something cuts it that has no surface
-        Kind kind{};           ///< part
-        Place place{};         ///< part
-        ShapeId shape = no_shape; ///< part that is a shape of the scene; else the first of these
+        bool cuts_nothing = false; ///< part that is not traced: others are inside of it
+        bool open = false;         ///< whole solid: something cuts it that has no surface
+        Kind kind{};               ///< part
+        Place place{};             ///< part
+        ShapeId shape = no_shape;  ///< part that is a shape of the scene; else the first of these
         Index parent = none;
         Index end = 0; ///< behind its last descendant; the first follows it
     };
@@ -106,6 +107,8 @@ class Solids {
     }
     /// The only union of many in a solid, if how many of its parts a ray is inside of counts.
     Index counted_of(Index solid) const { return counted_.empty() ? none : counted_[solid]; }
+    /// True if something cuts a part's solid that has no surface.
+    bool is_open(ShapeId id) const { return has(id) && nodes_[root_of(node_of_[id])].open; }
     /// The material inside of the part's solid.
     MaterialIndex medium_of(ShapeId id) const { return medium(root_of(node_of_[id])); }
     /// Of a whole solid.
@@ -137,7 +140,8 @@ class SolidCollector {
     bool any() const { return !solids_.nodes_.empty(); }
 
     /// Adds a solid, all of whose shapes are valid. Calls add_part(material) for each that is to be
-    /// a shape of the scene, which returns its id.
+    /// a shape of the scene, which returns its id. Throws InvalidValue, and is as before, for what
+    /// has no bounds and would need some.
     template <class AddPart>
     void add(const Solid& solid, MaterialIndex material, const AddPart& add_part);
 
@@ -146,8 +150,7 @@ class SolidCollector {
             if (medium != no_material) medium = new_index[medium];
     }
 
-    /// Finds out which parts of shapes may be seen, and puts those that may into the lists. Throws
-    /// InvalidValue for what has no bounds and would need some.
+    /// Finds out which parts of shapes may be seen, and puts those that may into the lists.
     void list(ShapeLists& lists);
     /// As far as they are known before the tables are filled.
     const Solids& solids() const { return solids_; }
@@ -165,7 +168,10 @@ class SolidCollector {
     static PartShape as_half_space(const PartShape& shape);
     void find_bounds(Index solid);
     void note_counted(Index solid);
-    Bounds hull_of(Index index) const;
+    Bounds bounds_of_part(Index index, bool outside) const;
+    void find_hulls(Index first);
+    Bounds allowed(Index part) const;
+    bool has_bounds(Index solid) const;
     Value value_in(Index index, const Somewhere& point) const;
     Value matters_in(Index part, const Somewhere& point) const;
     void put(Index part, const Bounds& of_solid, ShapeLists& lists);
@@ -173,7 +179,12 @@ class SolidCollector {
     void cover(Index index, const Bounds& bounds);
 
     Solids solids_;
+    /// Bounds of what is in a node, and of what is not.
+    struct Hulls {
+        Bounds inside, outside;
+    };
     std::vector<PartShape> shapes_;              // by node
+    std::vector<Hulls> hulls_;                   // the same
     MaterialIndex first_material_ = no_material; // of the solid that is being added
 };
 
@@ -182,6 +193,14 @@ void SolidCollector::add(const Solid& solid, MaterialIndex material, const AddPa
     const auto root = static_cast<Index>(solids_.nodes_.size());
     first_material_ = no_material;
     add_node(solid, material, false, true, Solids::none, add_part);
+    find_hulls(root);
+    if (!has_bounds(root)) {
+        solids_.nodes_.resize(root);
+        shapes_.resize(root);
+        hulls_.resize(root);
+        throw InvalidValue("", "must have bounds, for it is made of a quadric: intersect it with "
+                               "a box");
+    }
     if (solid.material != no_material) material = solid.material;
     solids_.media_.resize(solids_.nodes_.size(), no_material);
     solids_.media_[root] = material != no_material ? material : first_material_;
@@ -191,11 +210,14 @@ template <class AddPart>
 void SolidCollector::add_node(const Solid& solid, MaterialIndex material, bool reversed,
                               bool traced, Index parent, const AddPart& add_part) {
     if (solid.material != no_material) material = solid.material;
+    if (solid.endless_as_part && parent != Solids::none)
+        return add_node(solid.parts.front(), material, reversed, traced, parent, add_part);
     if (solid.made == Made::of_shape) {
         const Index index = begin(Solids::Op::part, parent);
         Node& node = solids_.nodes_[index];
         node.reversed = reversed;
         node.traced = traced;
+        node.cuts_nothing = solid.cuts_nothing;
         shapes_[index] = as_half_space(solid.shape);
         node.kind = static_cast<Kind>(shapes_[index].index());
         if (traced) {

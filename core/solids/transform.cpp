@@ -233,10 +233,12 @@ Solid Transform::operator()(const Solid& solid) const {
     if (solid.made == Made::of_shape) {
         Solid result = std::visit([&](const auto& shape) { return moved(shape); }, solid.shape);
         result.material = solid.material;
+        result.cuts_nothing = solid.cuts_nothing;
         return result;
     }
     Solid result{solid.made};
     result.material = solid.material;
+    result.endless_as_part = solid.endless_as_part;
     result.parts.reserve(solid.parts.size());
     for (const Solid& part : solid.parts)
         result.parts.push_back((*this)(part));
@@ -338,6 +340,8 @@ Solid Transform::between_ends(const Form& form, const Vec3d& base, const Vec3d& 
         result = std::move(clipped);
     }
     result.parts.push_back(moved(around));
+    result.parts.back().cuts_nothing = true;
+    result.endless_as_part = ends == Ends::open;
     return result;
 }
 

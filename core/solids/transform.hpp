@@ -28,8 +28,9 @@ class Transform {
     Transform after(const Transform& first) const;
 
     /// A solid, or any shape, moved. What round shapes become by a map that stretches them is an
-    /// ellipsoid, or a quadric between planes; an open one of these is clipped by them. Throws
-    /// InvalidValue for a disc that is stretched, which is no disc.
+    /// ellipsoid, or a quadric between planes; an open one of these is clipped by them, but as a
+    /// part of another solid endless like any. Throws InvalidValue for a disc that is stretched,
+    /// which is no disc.
     Solid operator()(const Solid& solid) const;
 
     struct Form; ///< of a quadric

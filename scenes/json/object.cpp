@@ -27,7 +27,38 @@ enum class Use {
     part,   ///< a solid
 };
 
-std::vector<Solid> described(const JsonValue& object, const ObjectContext& context, Use use);
+/// Of what an object is by way of instances.
+constexpr std::size_t most_parts = std::size_t{1} << 20;
+constexpr int most_depth = 256;
+
+std::size_t parts_of(const Solid& solid) {
+    std::size_t parts = solid.made == Made::of_shape ? 1 : 0;
+    for (const Solid& part : solid.parts)
+        parts += parts_of(part);
+    return parts;
+}
+
+int depth_of(const Solid& solid) {
+    int depth = 0;
+    for (const Solid& part : solid.parts)
+        depth = std::max(depth, depth_of(part));
+    return depth + 1;
+}
+
+/// Describes objects within one object of the file.
+class Describer {
+  public:
+    explicit Describer(const ObjectContext& given) : context(given) {}
+
+    std::vector<Solid> described(const JsonValue& object, Use use);
+
+    const ObjectContext& context;
+
+  private:
+    std::vector<Solid> instance_of(const JsonValue& object, Use use);
+
+    std::size_t parts_ = 0; // of instances
+};
 
 /// Reads one object, and adds it or describes it.
 class ObjectReader {
@@ -36,8 +67,9 @@ class ObjectReader {
     ObjectReader(const JsonValue& object, core::SceneBuilder& builder, const ObjectContext& context)
         : object_(object), builder_(&builder), context_(context), use_(Use::object) {}
     /// Of one that is described.
-    ObjectReader(const JsonValue& object, const ObjectContext& context, Use use, Solid& described)
-        : object_(object), context_(context), use_(use), described_(&described) {}
+    ObjectReader(const JsonValue& object, Describer& describer, Use use, Solid& described)
+        : object_(object), context_(describer.context), describer_(&describer), use_(use),
+          described_(&described) {}
 
     void read(std::type_identity<core::Sphere>) {
         allow({"type", "material", "center", "radius"});
@@ -141,6 +173,11 @@ class ObjectReader {
     template <class Shape>
     void add(const Shape& shape) {
         if (described_ != nullptr) {
+            // Here, where its place is known. A quadric's ends have been looked at, or are none.
+            checked(object_, [&] {
+                if (use_ != Use::part || !std::is_same_v<Shape, core::QuadricOf<double>>)
+                    validate(shape);
+            });
             *described_ = {.shape = shape, .material = material_if_any()};
             return;
         }
@@ -174,6 +211,7 @@ class ObjectReader {
     const JsonValue& object_;
     core::SceneBuilder* builder_ = nullptr;
     const ObjectContext& context_;
+    Describer* describer_ = nullptr;
     Use use_;
     Solid* described_ = nullptr;
 };
@@ -251,8 +289,10 @@ void ObjectReader::read(std::type_identity<core::Quadric>) {
 void ObjectReader::made(Made by) {
     allow({"type", "material", "objects"});
     Solid solid{.made = by, .material = material_if_any()};
+    Describer own(context_);
+    Describer& describer = describer_ != nullptr ? *describer_ : own;
     for (const JsonValue& object : object_.at("objects").array("objects")) {
-        std::vector<Solid> parts = described(object, context_, Use::part);
+        std::vector<Solid> parts = describer.described(object, Use::part);
         if (parts.size() == 1) {
             solid.parts.push_back(std::move(parts[0]));
         } else { // a group is what is in any of its objects
@@ -293,7 +333,7 @@ void ObjectReader::lens() {
 
 /// A group, an instance, or what is moved.
 void ObjectReader::several() {
-    for (const Solid& solid : described(object_, context_, Use::member)) {
+    for (const Solid& solid : Describer(context_).described(object_, Use::member)) {
         if (solid.material == core::no_material && solid.made == Made::of_shape)
             static_cast<void>(object_.at("material")); // which is missed
         checked(object_, [&] {
@@ -377,19 +417,23 @@ bool is_quadric(const Solid& solid) {
            std::holds_alternative<core::QuadricOf<double>>(solid.shape);
 }
 
-std::vector<Solid> instance_of(const JsonValue& object, const ObjectContext& context, Use use) {
+std::vector<Solid> Describer::instance_of(const JsonValue& object, Use use) {
     const JsonValue name = object.at("of");
     const auto found = context.definitions.find(name.string());
     if (found == context.definitions.end())
         name.fail_expecting("the name of a definition that comes before");
-    std::vector<Solid> solids = found->second;
+    parts_ += found->second.parts;
+    if (parts_ > most_parts)
+        name.fail("must not lead to more than " + std::to_string(most_parts) +
+                  " shapes in one object");
+    std::vector<Solid> solids = found->second.solids;
     for (Solid& solid : solids)
         if (use == Use::part && is_quadric(solid)) solid = in_box(solid, Made::by_intersection);
     return solids;
 }
 
 /// All that an object is, moved as it says, with the materials that it gives.
-std::vector<Solid> described(const JsonValue& object, const ObjectContext& context, Use use) {
+std::vector<Solid> Describer::described(const JsonValue& object, Use use) {
     std::vector<std::string_view> keys = {"type", "material"};
     keys.insert(keys.end(), transform_keys.begin(), transform_keys.end());
     const std::string_view type = object.at("type").string();
@@ -398,14 +442,14 @@ std::vector<Solid> described(const JsonValue& object, const ObjectContext& conte
         keys.emplace_back("objects");
         object.allow_only(keys);
         for (const JsonValue& member : object.at("objects").array("objects"))
-            for (Solid& solid : described(member, context, use))
+            for (Solid& solid : described(member, use))
                 all.push_back(std::move(solid));
     } else if (type == "instance") {
         keys.emplace_back("of");
         object.allow_only(keys);
-        all = instance_of(object, context, use);
+        all = instance_of(object, use);
     } else {
-        ObjectReader reader(object, context, use, all.emplace_back());
+        ObjectReader reader(object, *this, use, all.emplace_back());
         ObjectReader::read(object, reader);
     }
     if (has_transform(object)) {
@@ -434,8 +478,15 @@ void add_object(const JsonValue& object, core::SceneBuilder& builder,
         ObjectReader::read(object, reader);
 }
 
-std::vector<Solid> described_object(const JsonValue& object, const ObjectContext& context) {
-    return described(object, context, Use::member);
+Definition described_object(const JsonValue& object, const ObjectContext& context) {
+    Definition definition{Describer(context).described(object, Use::member), 0};
+    for (const Solid& solid : definition.solids) {
+        definition.parts += parts_of(solid);
+        if (depth_of(solid) > most_depth)
+            object.fail("must not be of solids that are nested more than " +
+                        std::to_string(most_depth) + " deep");
+    }
+    return definition;
 }
 
 } // namespace raylane::scenes

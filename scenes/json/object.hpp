@@ -15,7 +15,11 @@ using MaterialOf = std::function<core::MaterialIndex(const JsonValue& value)>;
 
 /// Objects that are there by name, each what it is described as: shapes and solids. Without
 /// materials of their own, they have those of their instances.
-using Definitions = std::map<std::string, std::vector<core::Solid>, std::less<>>;
+struct Definition {
+    std::vector<core::Solid> solids;
+    std::size_t parts; ///< shapes that these are made of
+};
+using Definitions = std::map<std::string, Definition, std::less<>>;
 
 /// What objects refer to.
 struct ObjectContext {
@@ -28,6 +32,6 @@ struct ObjectContext {
 void add_object(const JsonValue& object, core::SceneBuilder& builder, const ObjectContext& context);
 
 /// What an object is, for others to be instances of.
-std::vector<core::Solid> described_object(const JsonValue& object, const ObjectContext& context);
+Definition described_object(const JsonValue& object, const ObjectContext& context);
 
 } // namespace raylane::scenes

@@ -153,3 +153,71 @@ TEST_CASE("fronts of what is mirrored stay fronts") {
     CHECK(shape_in<PlaneOf<double>>(Transform::scaling({1, 1, -1})(solid)).normal.z < 0.0);
     CHECK(shape_in<PlaneOf<double>>(Transform::scaling({-1, 2, 1})(solid)).normal.z > 0.0);
 }
+
+TEST_CASE(
+    "a stretched open cylinder or cone is endless as a part, and by itself as long as it was") {
+    const Transform stretched = Transform::scaling({1, 2, 1});
+    const auto moved = [&](const PartShape& shape) {
+        Solid solid;
+        solid.shape = shape;
+        return stretched(Transform::rotation({0, 0, 90})(stretched(solid)));
+    };
+    Solid ball;
+    ball.shape = SphereOf<double>{{0, 0, 5}, 1.0};
+    for (const Solid& part : {moved(CylinderOf<double, Ends::open>{{0, 0, 0}, {0, 0, 2}, 0.5}),
+                              moved(ConeOf<double, Ends::open>{{0, 0, 0}, {0, 0, 2}, 0.5, 0.4})}) {
+        Solid both{Made::by_intersection};
+        both.parts = {ball, part};
+        const Scene scene = scene_of(both);
+        PointSearcher points(scene);
+        std::vector<Containing> found;
+        points.add_containing({0, 0, 5}, found);
+        CHECK(found.size() == 1);
+        points.add_containing({0.9, 0, 5.9}, found);
+        CHECK(found.size() == 1);
+        const Scene alone = scene_of(part);
+        CHECK(alone.solids().bounds(0).upper.z < 3.5F);
+    }
+}
+
+TEST_CASE("a quadric in a box has bounds, whatever else is in its solid") {
+    const auto part = [](const PartShape& shape) {
+        Solid solid;
+        solid.shape = shape;
+        return solid;
+    };
+    QuadricOf<double> pipe{};
+    pipe.xx = pipe.yy = 1.0;
+    pipe.one = -1.0;
+    Solid in_box{Made::by_intersection};
+    in_box.parts = {part(pipe), part(BoxOf<double>{{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}})};
+    Solid on_floor{Made::by_union};
+    on_floor.parts = {in_box, part(PlaneOf<double>{{0, 0, -1}, {0, 0, 1}})};
+    const Scene scene = scene_of(on_floor);
+    PointSearcher points(scene);
+    for (const auto& [point, is_in] : {std::pair{Vec3d(0, 0, 1), true},
+                                       {Vec3d(0, 0, 3), false},
+                                       {Vec3d(9, 9, -2), true},
+                                       {Vec3d(1.5, 0, 0), false}}) {
+        std::vector<Containing> found;
+        points.add_containing(point, found);
+        CHECK(found.empty() != is_in);
+    }
+
+    SceneBuilder builder;
+    const MaterialIndex material = builder.add_material({});
+    Solid endless{Made::by_union};
+    endless.parts = {part(pipe), part(SphereOf<double>{{0, 0, 0}, 3.0})};
+    CHECK_THROWS_AS(builder.add_solid(endless, material), InvalidValue);
+    CHECK(builder.shape_count() == 0);
+    CHECK(builder.add_solid(in_box, material) == 0);
+}
+
+TEST_CASE("glass has an index that is a number") {
+    SceneBuilder builder;
+    Material material;
+    material.glass = glass_catalogue()[0].glass;
+    CHECK_NOTHROW(builder.add_material(material));
+    material.glass.B[0] = 1e308;
+    CHECK_THROWS_AS(builder.add_material(material), InvalidValue);
+}

@@ -108,6 +108,40 @@ TEST_CASE("complaints about keys") {
     });
 }
 
+TEST_CASE("complaints about solids name the shape, and there is an end to instances") {
+    const std::string ball = R"({"type": "sphere", "center": [0, 0, 0], "radius": 1})";
+    const std::string flat = R"({"type": "sphere", "center": [0, 0, 0], "radius": -1})";
+    check({
+        {with_objects(R"({"type": "group", "material": "clay", "objects": [)" + ball + ", " + flat +
+                      "]}"),
+         "/objects/0/objects/1/radius: must be positive, got -1"},
+        {with_objects(
+             R"({"type": "union", "material": "clay", "objects": [{"type": "group", "objects": [)" +
+             flat + "]}]}"),
+         "/objects/0/objects/0/objects/0/radius: must be positive, got -1"},
+        {with_objects(
+             R"({"type": "union", "material": "clay", "objects": [{"type": "quadric", "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -1]]}]})"),
+         "/objects/0: must have bounds, for it is made of a quadric: intersect it with a box"},
+    });
+    std::string twice = R"("definitions": {"0": )" + ball;
+    std::string deep = twice;
+    for (int i = 1; i < 22; ++i) {
+        const std::string of = R"({"type": "instance", "of": ")" + std::to_string(i - 1) + "\"}";
+        twice += ", \"" + std::to_string(i) + R"(": {"type": "union", "objects": [)" + of + ", " +
+                 of + "]}";
+    }
+    for (int i = 1; i < 257; ++i)
+        deep += ", \"" + std::to_string(i) +
+                R"(": {"type": "union", "objects": [{"type": "instance", "of": ")" +
+                std::to_string(i - 1) + "\"}]}";
+    check({
+        {with(twice + "}"),
+         "/definitions/21/objects/1/of: must not lead to more than 1048576 shapes in one object"},
+        {with(deep + "}"),
+         "/definitions/256: must not be of solids that are nested more than 256 deep"},
+    });
+}
+
 TEST_CASE("complaints about types") {
     check({
         {"[]", "must be an object, got an array"},

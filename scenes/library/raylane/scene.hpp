@@ -92,10 +92,10 @@ class SceneBuilder {
     ShapeId add(const Shape& shape, MaterialIndex material);
 
     /// A solid that is made of others: the id of its first part; those of the others follow, in the
-    /// order in which they were given. `material`: of parts that have none of their own, and of
+    /// order in which they were given. What a solid is clipped by has no surface, and no id.
+    /// `material`: of parts that have none of their own, and of
     /// what is inside of all. Fields of what is thrown are those of its shapes behind
-    /// "objects/0/objects/2/", ... Throws InvalidValue from build() where quadrics leave it without
-    /// bounds.
+    /// "objects/0/objects/2/", ... Throws InvalidValue where quadrics leave it without bounds.
     ShapeId add(const Solid& solid, MaterialIndex material);
 
     /// One or more triangles that tile one flat polygon: no reflection or shadow of one of them

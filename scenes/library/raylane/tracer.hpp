@@ -191,7 +191,8 @@ class Tracer {
                    CrossingStatistics* statistics = nullptr) const;
 
     /// The solids (spheres, ellipsoids, boxes, capped cylinders and cones, and those that are made
-    /// of others, which go by the id of their first part) that each point is in, or on the surface
+    /// of others, which go by the id of their first part, but for those that are clipped, which are
+    /// open) that each point is in, or on the surface
     /// of: as real arithmetic says. A point on the surface of parts counts as inside, or outside,
     /// of their solid if it were so whichever side of these it is on. Rows are replaced. Throws as
     /// intersect does.

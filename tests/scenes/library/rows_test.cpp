@@ -223,6 +223,27 @@ TEST_CASE("lengths are those of what is inside of a material") {
     CHECK(lengths({-6, -5, 0}, {0, 1, 0}, 0, infinity).empty()); // touches
 }
 
+TEST_CASE("what is cut open has no inside, for lengths and points") {
+    SceneBuilder builder;
+    const MaterialIndex glass = builder.add_material({});
+    const raylane::Solid ball(Sphere{{0, 0, 0}, 1}), plane(Plane{{0, 0, 0}, {-1, 0, 0}});
+    builder.add(clipped(ball, {plane}), glass);
+    builder.add(raylane::Solid(Sphere{{4, 0, 0}, 1}), glass);
+    const Scene scene = builder.build();
+    LengthRows rows;
+    // Twice through the open side, and out of the other.
+    Rays rays = one_ray({0, 0.5F, 0}, {1, 0, 0});
+    rays.add({-3, 0, 0}, {1, 0, 0});
+    Tracer(scene).path_lengths(rays.span(), rows);
+    REQUIRE(rows.first == std::vector<std::uint64_t>{0, 1, 2});
+    CHECK(rows.length[0] == Approx(std::sqrt(3.0)));
+    CHECK(rows.length[1] == 2.0);
+    SolidRows solids;
+    const std::vector<double> x = {0.5, 4}, zero = {0, 0};
+    Tracer(scene).contains(DoublePointSpan{x, zero, zero}, solids);
+    CHECK(solids.first == std::vector<std::uint64_t>{0, 0, 1});
+}
+
 TEST_CASE("lengths inside of solids are within an ulp, however the rays graze") {
     ray_sets::Random random(seed(20261124));
     long measured = 0;

@@ -203,9 +203,9 @@ std::string word(core::ShapeId shape, double t, bool entering) {
 
 void ask(const Expression& expression, Random& random, bool lattice, int count, Wrong& wrong) {
     SceneBuilder builder;
-    builder.add(solid_of(expression), builder.add_material({}));
     std::optional<Scene> scene;
     try {
+        builder.add(solid_of(expression), builder.add_material({}));
         scene = builder.build();
     } catch (const InvalidValue&) { // a quadric without bounds
         return;
