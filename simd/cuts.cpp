@@ -20,7 +20,7 @@ std::optional<HalfSpace> half_space(const Vec3d& point, const Vec3d& normal, boo
     const Vec3d unit = (inside ? 1.0 : -1.0) / length * normal;
     const double size =
         std::abs(unit.x * point.x) + std::abs(unit.y * point.y) + std::abs(unit.z * point.z);
-    return HalfSpace{unit, core::dot(unit, point), size, shape, false};
+    return HalfSpace{unit, core::dot(unit, point), size, shape, true, false};
 }
 
 /// All that make a part; where it is reversed, it is outside of one of them.
@@ -50,14 +50,17 @@ class HalfSpacesOf {
         for (int k = 0; k < 3; ++k) {
             const Vec3d &u = *edges[(k + 1) % 3], &v = *edges[(k + 2) % 3];
             Vec3d normal = core::cross(u, v);
-            // Few digits are lost by the differences.
-            if (!(core::length(normal) > 0x1p-10 * core::length(u) * core::length(v))) continue;
+            // Hardly a digit is lost by the differences.
+            if (!(core::length(normal) > 0x1p-3 * core::length(u) * core::length(v))) continue;
             if (core::dot(normal, *edges[k]) < 0.0) normal = -normal;
             const Vec3d opposite = box.corner + *edges[k];
             take(half_space(box.corner, -normal, inside, shape_));
             take(half_space(opposite, normal, inside, shape_));
         }
         if (!inside && found_.size() != 6) found_.clear();
+        // Into a box one goes through one face, and out of it by another.
+        for (HalfSpace& half : found_)
+            half.stays = !inside;
     }
     template <class Shape>
     void add(const Shape&, bool) {}
@@ -130,7 +133,7 @@ class Collector {
     }
 
     void add_group(std::vector<HalfSpace> group) {
-        if (cut_.by.size() + group.size() > CutView::most) {
+        if (group.empty() || cut_.by.size() + group.size() > CutView::most) {
             cut_.is_all = false;
             return;
         }
@@ -150,7 +153,7 @@ CutView view_of(const CutUnion& cut) {
         for (int axis = 0; axis < 3; ++axis)
             view.normal[axis][k] = static_cast<float>(half.normal[axis]);
         view.offset[k] = static_cast<float>(half.offset);
-        view.shape[k] = half.shape;
+        view.shape[k] = half.stays ? half.shape : core::no_shape - 1;
         view.size = std::max(
             {view.size, 2.0F * std::abs(view.offset[k]), static_cast<float>(0x1p-20 * half.size)});
         if (half.ends_group) view.group_ends |= 1U << k;

@@ -14,6 +14,7 @@ struct HalfSpace {
     double offset;
     double size;         ///< of what the offset has been made of, which is off by 2^-50 of that
     core::ShapeId shape; ///< that has it as a face; no_shape - 1 if none that rays cross
+    bool stays;          ///< what starts on the shape, and then is outside, has been so from there
     bool ends_group;     ///< as in CutView
 };
 

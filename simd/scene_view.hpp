@@ -33,10 +33,12 @@ struct NodeView {
 /// point is outside of all of one group.
 struct CutView {
     static constexpr int most = 16;
-    float normal[3][most];     ///< outward, of length 1 but for rounding
-    float offset[most];        ///< outside, normal . point is larger
-    std::uint32_t shape[most]; ///< id of the one that has it as a face; below no_slot, if none
-    float size;                ///< none smaller than offsets, nor than what they have been made of
+    float normal[3][most]; ///< outward, of length 1 but for rounding
+    float offset[most];    ///< outside, normal . point is larger
+    /// Id of the one that has it as a face, if a ray that starts on that and then is outside has
+    /// been so from the start; else no_slot - 1.
+    std::uint32_t shape[most];
+    float size; ///< none smaller than offsets, nor than what they have been made of
     int count;
     std::uint32_t group_ends; ///< bit k: half-space k is the last of a group
 };

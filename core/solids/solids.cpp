@@ -3,6 +3,7 @@
 #include "core/solids/transform.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace raylane::core {
@@ -295,6 +296,7 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
                     if (is_counted) bounds = core::bounds_of(shape);
             }
             if constexpr (kind_of<Shape> == Kind::quadric) {
+                assert(is_finite(bounds)); // as add() has seen to
                 with_bounds(shape, bounds);
             } else if constexpr (kind_of<Shape> == Kind::plane) {
                 node.flat = true;

@@ -156,9 +156,10 @@ bool LookThrough::fills_first(const Paths& paths, const Hits& hits, std::size_t 
     const core::Solids& solids = scene_.scene().solids();
     const core::Solids::Node& part = solids.node(solids.part_of(shape));
     if (!part.fills || part.kind != core::Kind::sphere || (hits.hit[lane] & hit_entering) == 0 ||
-        part.parent == core::Solids::none || !solids.node(part.parent).counts ||
-        solids.node(solids.root_of(part.parent)).open)
+        part.parent == core::Solids::none || !solids.node(part.parent).counts)
         return false;
+    const core::Solids::Index solid = solids.root_of(part.parent);
+    if (solids.node(solid).open || solids.counted_of(solid) != part.parent) return false;
     double slope = 0.0;
     for (int axis = 0; axis < 3; ++axis)
         slope += paths.direction[axis][lane] * hits.normal[axis][lane];

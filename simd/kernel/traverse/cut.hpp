@@ -36,8 +36,8 @@ struct CutRays {
 
 /// Where rays are surely on the side of a cut on which nothing is left, with what is convex.
 ///
-/// A ray that starts on a plane, or on a box, and then is surely on one side of it has been there
-/// from the start.
+/// A ray that starts on a plane, or on a box that is taken away, and then is surely where nothing
+/// is left has been there from the start.
 ///
 /// With the normal and point of a plane rounded to float, a normal of length 1 -+ 2 u, and P the
 /// point at t, n . P - c is off by slack + u (5 |o|_1 + 15 t + 2 |c|) at most.
@@ -87,6 +87,12 @@ class Removed {
         }
     };
 };
+
+/// True of a slot whose shape no method that knows of cuts has to ask about what it blocks.
+template <class Arch, class Method>
+[[gnu::always_inline]] inline bool only_cuts(const SceneView& scene, std::uint32_t slot) {
+    return knows_cuts<Method> && Streams<Arch>::only_cuts(scene, slot);
+}
 
 /// Where rays do not leave a convex shape before, which all is over at t = `end`: by the ray from
 /// there to where they start, whose origin is off by the roundings of end * direction and of the

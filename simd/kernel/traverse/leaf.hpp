@@ -127,7 +127,7 @@ struct Leaf : Streams<Arch> {
         const typename Method::Rays ray = Method::broadcast(rays, i);
         const std::uint32_t slot = table.first_slot + 16 * number;
         const std::uint32_t plain = S::plain_lanes(scene, slot);
-        const std::uint32_t counts = ~S::only_cut_lanes(scene, slot);
+        const std::uint32_t counts = knows_cuts<Method> ? ~S::only_cut_lanes(scene, slot) : ~0U;
         const CutView* cut = cut_of<Method>(scene, slot);
         std::uint8_t state = unblocked;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {

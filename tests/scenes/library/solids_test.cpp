@@ -91,6 +91,15 @@ Expression any_cut_crowd(Random& random, bool lattice) {
         return Expression{Op::part, core::PlaneOf<double>{point(), normal}};
     };
     Expression made{random.integer(0, 3) == 0 ? Op::clip : Op::subtract};
+    if (random.integer(0, 2) == 0) { // what is left of it in a box
+        Expression boxed{Op::intersect};
+        boxed.of.push_back(std::move(crowd));
+        boxed.of.push_back({Op::part, core::BoxOf<double>{point(),
+                                                          {number(2, 5), 0, 0},
+                                                          {0, number(2, 5), 0},
+                                                          {0, 0, number(2, 5)}}});
+        crowd = std::move(boxed);
+    }
     made.of.push_back(std::move(crowd));
     for (int i = random.integer(1, 3); i > 0; --i) {
         switch (random.integer(0, 4)) {

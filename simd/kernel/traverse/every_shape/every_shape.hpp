@@ -92,7 +92,7 @@ struct EveryShape : Streams<Arch> {
     [[gnu::always_inline]] static void test(LaneOcclusions<Arch>& found, const Filter& filter,
                                             std::uint32_t id, std::uint32_t slot,
                                             const SceneView& scene, const Packet& packet) {
-        if (S::only_cuts(scene, slot)) return;
+        if (only_cuts<Arch, Method>(scene, slot)) return;
         found.test(filter, id, S::is_plain(scene, slot), cut_of<Method>(scene, slot), packet);
     }
 

@@ -142,7 +142,7 @@ class FrustumOcclusions : Streams<Arch> {
     template <class Filter>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
                                      std::size_t which) {
-        if (blocked_[which] == 0xFFFF || S::only_cuts(scene_, slot)) return;
+        if (blocked_[which] == 0xFFFF || only_cuts<Arch, Method>(scene_, slot)) return;
         const bool plain = S::is_plain(scene_, slot);
         const Rays& packet = packets_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {

@@ -97,7 +97,7 @@ class InFlightOccluded : InFlight<Arch, Method> {
             const int k = __builtin_ctz(bits);
             Shadow& shadow = shadows_[pairs.whose[k]];
             const std::uint32_t slot = pairs.slot[k];
-            if (S::only_cuts(scene_, slot)) continue;
+            if (only_cuts<Arch, Method>(scene_, slot)) continue;
             // What is cut inside of it may be nearer.
             if (!(bounds.lower[k] < shadow.t_most * perhaps_within) &&
                 (cut_of<Method>(scene_, slot) == nullptr || S::is_plain(scene_, slot)))
