@@ -2,6 +2,7 @@
 
 #include "core/scene/surface.hpp"
 #include "core/scene/validate.hpp"
+#include "core/solids/solid_size.hpp"
 
 #include <algorithm>
 
@@ -152,17 +153,6 @@ ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, Materi
     if (last != first) scene_.polygons_.push_back({first, last});
     return first;
 }
-
-namespace {
-
-std::size_t count_parts(const Solid& solid) {
-    std::size_t count = solid.made == Made::of_shape ? 1 : 0;
-    for (const Solid& part : solid.parts)
-        count += count_parts(part);
-    return count;
-}
-
-} // namespace
 
 /// Quadrics are checked as what they are, wherever they end.
 void SceneBuilder::check_solid(const Solid& solid, bool has_material,

@@ -145,20 +145,17 @@ void SolidCollector::find_hulls(Index first) {
             hulls_[index] = {bounds_of_part(index, false), bounds_of_part(index, true)};
             continue;
         }
-        Hulls hulls;
-        Bounds& common_to_all = node.op == Solids::Op::all ? hulls.inside : hulls.outside;
-        Bounds& around_any = node.op == Solids::Op::all ? hulls.outside : hulls.inside;
-        common_to_all = everywhere();
-        around_any = Bounds{};
+        const bool of_all = node.op == Solids::Op::all;
+        Bounds common_to_all = everywhere(), around_any;
         solids_.each_child(index, [&](Index child) {
             const Hulls& of = hulls_[child];
-            const bool of_all = node.op == Solids::Op::all;
             common_to_all = common(common_to_all, of_all ? of.inside : of.outside);
             const Bounds& more = of_all ? of.outside : of.inside;
             if (!is_empty(more)) around_any.include(more);
             return true;
         });
-        hulls_[index] = hulls;
+        hulls_[index] =
+            of_all ? Hulls{common_to_all, around_any} : Hulls{around_any, common_to_all};
     }
 }
 

@@ -1,6 +1,7 @@
 #include "scenes/json/object.hpp"
 
 #include "core/solids/lens.hpp"
+#include "core/solids/solid_size.hpp"
 #include "scenes/generators.hpp"
 #include "scenes/json/transform.hpp"
 
@@ -30,20 +31,6 @@ enum class Use {
 /// Of what an object is by way of instances.
 constexpr std::size_t most_parts = std::size_t{1} << 20;
 constexpr int most_depth = 256;
-
-std::size_t parts_of(const Solid& solid) {
-    std::size_t parts = solid.made == Made::of_shape ? 1 : 0;
-    for (const Solid& part : solid.parts)
-        parts += parts_of(part);
-    return parts;
-}
-
-int depth_of(const Solid& solid) {
-    int depth = 0;
-    for (const Solid& part : solid.parts)
-        depth = std::max(depth, depth_of(part));
-    return depth + 1;
-}
 
 /// Describes objects within one object of the file.
 class Describer {
@@ -481,8 +468,8 @@ void add_object(const JsonValue& object, core::SceneBuilder& builder,
 Definition described_object(const JsonValue& object, const ObjectContext& context) {
     Definition definition{Describer(context).described(object, Use::member), 0};
     for (const Solid& solid : definition.solids) {
-        definition.parts += parts_of(solid);
-        if (depth_of(solid) > most_depth)
+        definition.parts += core::count_parts(solid);
+        if (core::depth_of(solid) > most_depth)
             object.fail("must not be of solids that are nested more than " +
                         std::to_string(most_depth) + " deep");
     }

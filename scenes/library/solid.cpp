@@ -1,11 +1,11 @@
 #include "raylane/solid.hpp"
 
 #include "core/solids/lens.hpp"
+#include "core/solids/solid_size.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -16,19 +16,12 @@ namespace {
 /// Levels of solids; more would not fit on a thread's stack.
 constexpr int most_depth = 1024;
 
-int depth_of(const core::Solid& solid) {
-    int depth = 0;
-    for (const core::Solid& part : solid.parts)
-        depth = std::max(depth, depth_of(part));
-    return depth + 1;
-}
-
 Solid made(core::Made by, const std::vector<Solid>& parts) {
     core::Solid solid{by};
     solid.parts.reserve(parts.size());
     for (const Solid& part : parts)
         solid.parts.push_back(library::Internals::of(part));
-    if (depth_of(solid) > most_depth)
+    if (core::depth_of(solid) > most_depth)
         throw InvalidValue("", "must not be nested more than " + std::to_string(most_depth) +
                                    " deep: a union has any number of parts");
     return library::Internals::solid(std::move(solid));

@@ -24,6 +24,21 @@ Solid made(Made by, std::vector<Solid> parts) {
     return solid;
 }
 
+Material of_red() {
+    Material red;
+    red.pattern.colors[0] = {1, 0, 0};
+    return red;
+}
+
+/// What lets all light through that it does not reflect.
+Material clear() {
+    Material glass;
+    glass.ambient = glass.diffuse = 0;
+    glass.reflection = Reflection::dielectric;
+    glass.transmission = 1;
+    return glass;
+}
+
 /// Rounded, bored and cut blocks of clay and glass on a floor, flush and not.
 Scene blocks(std::vector<double> wavelengths = {}) {
     SceneBuilder builder;
@@ -40,13 +55,8 @@ Scene blocks(std::vector<double> wavelengths = {}) {
     Material of_clay;
     of_clay.specular = 0.3F;
     const MaterialIndex clay = builder.add_material(of_clay);
-    Material of_red;
-    of_red.pattern.colors[0] = {1, 0, 0};
-    const MaterialIndex red = builder.add_material(of_red);
-    Material of_glass;
-    of_glass.ambient = of_glass.diffuse = 0;
-    of_glass.reflection = Reflection::dielectric;
-    of_glass.transmission = 1;
+    const MaterialIndex red = builder.add_material(of_red());
+    Material of_glass = clear();
     of_glass.glass = glass_catalogue()[8].glass;
     const MaterialIndex glass = builder.add_material(of_glass);
     builder.add(Plane{{0, 0, 0}, {0, 1, 0}}, floor);
@@ -155,9 +165,7 @@ TEST_CASE("inside of a union no wall is seen, nor casts a shadow") {
     builder.camera.at = {1, 0.2F, 0.1F};
     builder.camera.field_of_view = 100;
     builder.add_light({.position = {-0.3F, 0.2F, 0.4F}});
-    Material red;
-    red.pattern.colors[0] = {1, 0, 0};
-    const MaterialIndex material = builder.add_material(red);
+    const MaterialIndex material = builder.add_material(of_red());
     std::vector<Solid> balls = {of_shape(SphereOf<double>{{0, 0, 0}, 3})};
     for (int i = 0; i < 24; ++i)
         balls.push_back(of_shape(SphereOf<double>{
@@ -184,13 +192,8 @@ Scene cut_crowd(int way, bool is_near) {
     Material mirror;
     mirror.reflectivity = 0.3F;
     const MaterialIndex clay = builder.add_material(mirror);
-    Material of_red;
-    of_red.pattern.colors[0] = {1, 0, 0};
-    const MaterialIndex red = builder.add_material(of_red);
-    Material of_glass;
-    of_glass.ambient = of_glass.diffuse = 0;
-    of_glass.reflection = Reflection::dielectric;
-    of_glass.transmission = 1;
+    const MaterialIndex red = builder.add_material(of_red());
+    Material of_glass = clear();
     of_glass.index = 1.1F;
     const MaterialIndex glass = builder.add_material(of_glass);
     builder.add(Plane{{0, -1.7F, 0}, {0, 1, 0.02F}}, clay);

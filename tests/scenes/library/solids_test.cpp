@@ -287,6 +287,15 @@ void ask(const Expression& expression, Random& random, bool lattice, int count, 
     }
 }
 
+void check(const Wrong& wrong, bool lattice) {
+    CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
+    CHECK(wrong.rows == 0);
+    CHECK(wrong.hits == 0);
+    CHECK(wrong.blocked == 0);
+    CHECK(wrong.sides == 0);
+    CHECK(wrong.surfaces > wrong.asked / 10);
+}
+
 } // namespace
 
 TEST_CASE("solids of any others are what real arithmetic says") {
@@ -301,12 +310,7 @@ TEST_CASE("solids of any others are what real arithmetic says") {
         if (random.integer(0, 3) != 0) made.of.push_back({Op::part, any_box(random)});
         ask(made, random, lattice, 200, wrong);
     }
-    CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
-    CHECK(wrong.rows == 0);
-    CHECK(wrong.hits == 0);
-    CHECK(wrong.blocked == 0);
-    CHECK(wrong.sides == 0);
-    CHECK(wrong.surfaces > wrong.asked / 10);
+    check(wrong, lattice);
 }
 
 TEST_CASE("a crowd that is cut is what real arithmetic says") {
@@ -316,10 +320,5 @@ TEST_CASE("a crowd that is cut is what real arithmetic says") {
     const int scenes = rounds(60);
     for (int i = 0; i < scenes; ++i)
         ask(any_cut_crowd(random, lattice), random, lattice, 100, wrong);
-    CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
-    CHECK(wrong.rows == 0);
-    CHECK(wrong.hits == 0);
-    CHECK(wrong.blocked == 0);
-    CHECK(wrong.sides == 0);
-    CHECK(wrong.surfaces > wrong.asked / 10);
+    check(wrong, lattice);
 }
