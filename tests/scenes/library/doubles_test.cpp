@@ -54,22 +54,27 @@ struct Answers {
     CrossingRows rows;
 };
 
-/// A ray beside one in float, as doubles can be: by some of their ulps, or by what no float has.
+/// A ray beside one in float, as doubles can be: by some of their ulps, or by what no float has. As
+/// small as it may be, it is no smaller than floats are, so that it still is one.
 core::Ray<double> beside(const core::Ray<float>& ray, Random& random) {
     core::Ray<double> result{core::convert<double>(ray.origin),
                              core::convert<double>(ray.direction)};
+    const auto scale = [](double& component, double by) {
+        const double scaled = component * by;
+        if (!(std::abs(scaled) < 0x1p-149)) component = scaled;
+    };
     const int way = random.integer(0, 4);
     if (way == 0) return result;
     if (way == 1) { // the same line, in thirds
         const double third = 1.0 / 3.0;
         for (int axis = 0; axis < 3; ++axis)
-            result.direction[axis] *= third;
+            scale(result.direction[axis], third);
         return result;
     }
     const double size = way == 2 ? 0x1p-53 : random.log_uniform(0x1p-53, 0x1p-24);
     for (int axis = 0; axis < 3; ++axis) {
-        result.origin[axis] *= 1.0 + size * random.integer(-2, 2);
-        if (way != 3) result.direction[axis] *= 1.0 + size * random.integer(-2, 2);
+        scale(result.origin[axis], 1.0 + size * random.integer(-2, 2));
+        if (way != 3) scale(result.direction[axis], 1.0 + size * random.integer(-2, 2));
         if (way == 4 && random.integer(0, 3) == 0) result.direction[axis] += 0x1p-90;
     }
     return result;
@@ -206,7 +211,7 @@ TEST_CASE("rays in double are taken for exactly their doubles", "[meetings]") {
                 ask(meeting.shapes, rays, faults);
             }
     CAPTURE(faults.rays, faults.hits, faults.shape, faults.t, faults.t_double, faults.side,
-            faults.normal, faults.occlusion);
+            faults.normal, faults.occlusion, faults.crossings, faults.first);
     CHECK(faults.all() == 0);
     CHECK(faults.hits > faults.rays / 4);
 }
