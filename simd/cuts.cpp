@@ -33,7 +33,7 @@ class HalfSpacesOf {
     }
     std::vector<HalfSpace>::const_iterator begin() const { return found_.begin(); }
     std::vector<HalfSpace>::const_iterator end() const { return found_.end(); }
-    std::size_t size() const { return found_.size(); }
+    std::ptrdiff_t size() const { return std::ssize(found_); }
 
   private:
     void add(const core::PlaneOf<double>& plane, bool inside) {
@@ -73,6 +73,10 @@ class HalfSpacesOf {
 
     std::vector<HalfSpace> found_;
 };
+
+std::ptrdiff_t faces_of(const Solids::Node& part) {
+    return part.kind == core::Kind::box ? 6 : 1;
+}
 
 /// Half-spaces, in groups, outside of one of which nothing of a solid is left.
 class Collector {
@@ -128,10 +132,6 @@ class Collector {
             cut_.is_all = false;
     }
 
-    static std::size_t faces_of(const Solids::Node& part) {
-        return part.kind == core::Kind::box ? 6 : 1;
-    }
-
     void add_group(std::vector<HalfSpace> group) {
         if (group.empty() || cut_.by.size() + group.size() > CutView::most) {
             cut_.is_all = false;
@@ -154,10 +154,12 @@ CutView view_of(const CutUnion& cut) {
             view.normal[axis][k] = static_cast<float>(half.normal[axis]);
         view.offset[k] = static_cast<float>(half.offset);
         view.shape[k] = half.stays ? half.shape : core::no_shape - 1;
+        view.face[k] = no_slot;
         view.size = std::max(
             {view.size, 2.0F * std::abs(view.offset[k]), static_cast<float>(0x1p-20 * half.size)});
         if (half.ends_group) view.group_ends |= 1U << k;
     }
+    view.is_all = cut.is_all;
     return view;
 }
 
@@ -232,9 +234,44 @@ void Cuts::find(const core::Scene& scene, SceneView& view, std::uint32_t slots) 
             ++block_number;
         }
     });
+    let_faces_wait(scene);
     view.cuts = views_.data();
     view.cut_of_block = of_block_.data();
     view.only_cut_lanes = only_cut_.data();
+    view.waiting_lanes = waiting_.data();
+}
+
+/// Of those that cut no union with a part in a block that others are in, too, so that its cut is
+/// not known there.
+void Cuts::let_faces_wait(const core::Scene& scene) {
+    const Solids& solids = scene.solids();
+    const auto for_each_lane = [&](const auto& visit) {
+        std::uint32_t slot = 0;
+        core::for_each_table(scene.shapes(), [&](const auto& table) {
+            for (const auto& block : table.blocks())
+                for (const core::ShapeId id : block.ids)
+                    visit(slot++, id, id != core::no_shape ? solids.part_of(id) : Solids::none);
+        });
+    };
+    std::vector<char> is_known(unions_.size(), 1);
+    for_each_lane([&](std::uint32_t slot, core::ShapeId, Solids::Index part) {
+        if (part == Solids::none || solids.node(part).fills) return;
+        const Solids::Index parent = solids.node(part).parent;
+        const std::uint16_t cut = parent != Solids::none ? number_[parent] : std::uint16_t{0};
+        if (cut != 0 && of_block_[slot / core::block_size] != cut) is_known[cut] = 0;
+    });
+    waiting_.resize(only_cut_.size());
+    for_each_lane([&](std::uint32_t slot, core::ShapeId id, Solids::Index part) {
+        const std::uint16_t cut = part != Solids::none ? cut_by_[part] : std::uint16_t{0};
+        if (cut == 0 || is_known[cut] == 0) return;
+        const std::vector<HalfSpace>& by = unions_[cut].by;
+        const auto is_its = [&](const HalfSpace& half) { return half.shape == id; };
+        if (std::count_if(by.begin(), by.end(), is_its) != faces_of(solids.node(part))) return;
+        for (std::size_t k = 0; k < by.size(); ++k)
+            if (is_its(by[k])) views_[cut].face[k] = slot;
+        std::uint16_t& lanes = waiting_[slot / core::block_size];
+        lanes = static_cast<std::uint16_t>(lanes | 1U << slot % core::block_size);
+    });
 }
 
 } // namespace raylane::simd

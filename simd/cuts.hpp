@@ -42,12 +42,15 @@ class Cuts {
     }
 
   private:
+    void let_faces_wait(const core::Scene& scene);
+
     std::vector<CutUnion> unions_;
     std::vector<CutView> views_;
     std::vector<std::uint16_t> number_; // of these, by node of the solids; 0: none
     std::vector<std::uint16_t> cut_by_; // the same, of what only cuts
     std::vector<std::uint16_t> of_block_;
     std::vector<std::uint16_t> only_cut_;
+    std::vector<std::uint16_t> waiting_;
 };
 
 } // namespace raylane::simd

@@ -38,9 +38,12 @@ struct CutView {
     /// Id of the one that has it as a face, if a ray that starts on that and then is outside has
     /// been so from the start; else no_slot - 1.
     std::uint32_t shape[most];
+    /// Slot of the one that has it as a face, if that waits for what it cuts; else no_slot.
+    std::uint32_t face[most];
     float size; ///< none smaller than offsets, nor than what they have been made of
     int count;
     std::uint32_t group_ends; ///< bit k: half-space k is the last of a group
+    bool is_all;              ///< nothing else cuts
 };
 
 struct SceneView {
@@ -64,6 +67,9 @@ struct SceneView {
     /// By slot / 16: lanes of what block no ray that they are not inside of, but for others that
     /// may block it, too. Null: there are none.
     const std::uint16_t* only_cut_lanes;
+    /// Those of them that need not be looked for but where rays cross them within what they cut,
+    /// all of which is in blocks with their cut. Null: there are none.
+    const std::uint16_t* waiting_lanes;
 };
 
 /// core::Child's bits.

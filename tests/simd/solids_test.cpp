@@ -179,12 +179,14 @@ TEST_CASE("inside of a union no wall is seen, nor casts a shadow") {
 
 namespace {
 
-/// A crowd of balls and sticks, cut in some way, with a ball of another kind in the hole.
-Scene cut_crowd(int way, bool is_near) {
+/// A crowd of balls and sticks, cut in some way, with a ball of another kind in the hole; seen from
+/// afar, from the hole, or from inside of a ball.
+Scene cut_crowd(int way, int place) {
+    const Vec3f places[] = {{5, 4, 7}, {0.7F, 0.9F, 1.1F}, {-0.7F, -0.8F, -0.75F}};
     SceneBuilder builder;
     builder.settings.width = 80;
     builder.settings.height = 60;
-    builder.camera.from = is_near ? Vec3f{0.7F, 0.9F, 1.1F} : Vec3f{5, 4, 7};
+    builder.camera.from = places[place];
     builder.camera.at = {0, 0, 0};
     builder.background = {0.6F, 0.7F, 0.9F};
     builder.add_light({.position = {4, 6, 5}});
@@ -204,6 +206,12 @@ Scene cut_crowd(int way, bool is_near) {
         parts.push_back(of_shape(SphereOf<double>{at, (way < 10 ? 0.3 : 0.2) + 0.03 * (i % 7)}));
         if (i % 4 == 0)
             parts.push_back(of_shape(CylinderOf<double, Ends::capped>{at, {0.8, 0, 0}, 0.2}));
+        if (i % 9 == 0)
+            parts.push_back(of_shape(
+                EllipsoidOf<double>{at, {0.5, 0.1, 0}, {-0.05, 0.25, 0}, {0, 0.02, 0.35}}));
+        if (i % 11 == 0)
+            parts.push_back(
+                of_shape(BoxOf<double>{at, {0.4, 0.1, 0}, {-0.1, 0.4, 0}, {0, 0, 0.5}}));
     }
     const auto plane = [&](const Vec3d& point, const Vec3d& normal) {
         return of_shape(PlaneOf<double>{point, normal}, red);
@@ -238,11 +246,40 @@ Scene cut_crowd(int way, bool is_near) {
 
 TEST_CASE("a crowd that is cut is the same picture by both engines") {
     const int way = GENERATE(range(0, 12));
-    const bool is_near = GENERATE(false, true);
-    const Scene scene = cut_crowd(way, is_near);
+    const int place = GENERATE(range(0, 3));
+    const Scene scene = cut_crowd(way, place);
     const std::vector<Color> seen = picture(scene, simd::Engine::vector);
-    CAPTURE(way, is_near);
+    CAPTURE(way, place);
     CHECK(picture(scene, simd::Engine::reference) == seen);
     for (const simd::Isa isa : simd::all_isas)
         if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == seen);
+}
+
+TEST_CASE("rays that see more cuts than they keep in mind lose none") {
+    SceneBuilder builder;
+    builder.settings.width = builder.settings.height = 16;
+    builder.camera = {.projection = Projection::orthographic,
+                      .from = {0, 10, 0},
+                      .at = {0, 0, 0},
+                      .up = {0, 0, -1},
+                      .height = 17};
+    builder.add_light({.kind = LightKind::directional, .direction = {-0.4F, -1, -0.3F}});
+    const MaterialIndex red = builder.add_material(of_red());
+    for (int crowd = 0; crowd < 64; ++crowd) {
+        const Vec3d at = {2.0 * (crowd % 8) - 7.0, 0.0, 2.0 * (crowd / 8) - 7.0};
+        std::vector<Solid> balls;
+        for (int i = 0; i < 20; ++i)
+            balls.push_back(of_shape(SphereOf<double>{
+                at + Vec3d(0.6 * std::cos(i), 0.02 * i - 0.2, 0.6 * std::sin(i)), 0.3}));
+        builder.add_solid(
+            made(Made::by_difference,
+                 {made(Made::by_union, balls),
+                  of_shape(PlaneOf<double>{at, {0.02 * (crowd % 5), -1.0, 0.01 * (crowd % 7)}})}),
+            red);
+    }
+    const Scene scene = std::move(builder).build();
+    const std::vector<Color> seen = picture(scene, simd::Engine::vector);
+    CHECK(picture(scene, simd::Engine::reference) == seen);
+    CHECK(std::count_if(seen.begin(), seen.end(), [](const Color& c) { return c.x > 2 * c.y; }) >
+          100);
 }

@@ -34,6 +34,11 @@ struct CutRays {
     }
 };
 
+/// Told of none of the half-spaces that rays cross within what they cut.
+struct NoCrossedFaces {
+    static constexpr bool asks = false;
+};
+
 /// Where rays are surely on the side of a cut on which nothing is left, with what is convex.
 ///
 /// A ray that starts on a plane, or on a box that is taken away, and then is surely where nothing
@@ -50,8 +55,12 @@ class Removed {
     M entry; ///< the first crossing surely is
     M chord; ///< all of it, from the first crossing to the last
 
+    /// Calls crossed(slot, rays as bits) of each face that waits and that `possible` ones of them
+    /// may cross between the first crossing and the last.
+    template <class Crossed = NoCrossedFaces>
     [[gnu::always_inline]] Removed(const CutView& cut, const CutRays<Arch>& of,
-                                   const Chord<Arch>& where)
+                                   const Chord<Arch>& where, const M& possible = all<Arch>(),
+                                   const Crossed& crossed = {})
         : entry(none<Arch>()), chord(none<Arch>()) {
         const FilterRays<Arch>& rays = of.rays;
         const Place begin(cut, rays, positive_part<Arch>(where.entry));
@@ -59,9 +68,18 @@ class Removed {
         const Place end(cut, rays, where.exit_end);
         M of_entry = all<Arch>(), of_chord = all<Arch>();
         for (int k = 0; k < cut.count; ++k) {
-            const M at_begin = begin.is_outside(cut, k) | of.starts_on(cut.shape[k]);
+            const F first = begin.outside(cut, k), last = end.outside(cut, k);
+            const M at_begin = (first > begin.error) | of.starts_on(cut.shape[k]);
+            const M at_end = last > end.error;
             of_entry = of_entry & at_begin & middle.is_outside(cut, k);
-            of_chord = of_chord & at_begin & end.is_outside(cut, k);
+            of_chord = of_chord & at_begin & at_end;
+            if constexpr (Crossed::asks)
+                if (cut.face[k] != no_slot) {
+                    const M stays = ((first > begin.error) & at_end) |
+                                    ((first < negated(begin.error)) & (last < negated(end.error)));
+                    const std::uint32_t bits = Lanes<Arch>::bits(possible & ~stays);
+                    if (bits != 0) crossed(cut.face[k], bits);
+                }
             if ((cut.group_ends >> k & 1) == 0) continue;
             entry = entry | of_entry;
             chord = chord | of_chord;
@@ -80,10 +98,13 @@ class Removed {
             const F size = abs(o.x) + abs(o.y) + abs(o.z) + t + F(cut.size);
             error = fast_mul_add<Arch>(F(24 * half_ulp), size, rays.slack + rays.slack);
         }
-        [[gnu::always_inline]] M is_outside(const CutView& cut, int k) const {
+        [[gnu::always_inline]] F outside(const CutView& cut, int k) const {
             const Vectors<Arch> normal = {F(cut.normal[0][k]), F(cut.normal[1][k]),
                                           F(cut.normal[2][k])};
-            return fast_dot(normal, point, F(-cut.offset[k])) > error;
+            return fast_dot(normal, point, F(-cut.offset[k]));
+        }
+        [[gnu::always_inline]] M is_outside(const CutView& cut, int k) const {
+            return outside(cut, k) > error;
         }
     };
 };
@@ -111,17 +132,22 @@ template <class Arch, class Filter>
 }
 
 /// The bounds of a part that is cut: the first crossing that is not removed is not before that. Not
-/// all that is possible is certain then.
-template <class Arch, class Filter>
+/// all that is possible is certain then. Calls crossed(slot, rays as bits) of faces that wait and
+/// may be crossed within the part.
+template <class Arch, class Filter, class Crossed = NoCrossedFaces>
 [[gnu::always_inline]] inline Bounds<Arch>
-bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cut) {
+bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cut,
+              const Crossed& crossed = {}) {
     using F = Floats<Arch>;
     Bounds<Arch> bounds = filter.bounds(rays.rays);
     if (Lanes<Arch>::bits(bounds.possible) == 0) return bounds;
     if constexpr (has_chord<Filter, FilterRays<Arch>>) {
         const Chord<Arch> chord = filter.chord(rays.rays);
         const F end = select(bounds.certain, bounds.upper, chord.exit_end);
-        const Removed<Arch> removed(cut, rays, {bounds.lower, end, chord.exit, chord.exit_end});
+        F begin = bounds.lower;
+        if constexpr (Crossed::asks) begin = min(begin, chord.entry); // of rays that start inside
+        const Removed<Arch> removed(cut, rays, {begin, end, chord.exit, chord.exit_end},
+                                    bounds.possible, crossed);
         bounds.possible = bounds.possible & ~removed.chord;
         const Mask<Arch> goes_on = bounds.possible & removed.entry;
         if (Lanes<Arch>::bits(goes_on) == 0) return bounds;
@@ -133,6 +159,9 @@ bounds_of_cut(const Filter& filter, const CutRays<Arch>& rays, const CutView& cu
         const Removed<Arch> removed(cut, rays,
                                     {bounds.lower, bounds.upper, bounds.lower, bounds.upper});
         bounds.possible = bounds.possible & ~(bounds.certain & removed.entry);
+    } else if constexpr (Crossed::asks) {
+        for (int k = 0; k < cut.count; ++k)
+            if (cut.face[k] != no_slot) crossed(cut.face[k], Lanes<Arch>::bits(bounds.possible));
     }
     return bounds;
 }

@@ -45,18 +45,25 @@ struct LaneCandidates {
         S::store_bits(slot, candidates.slot + i);
     }
 
-    /// Takes account of one shape.
-    template <class Filter, class Method>
-    [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id,
-                                     std::uint32_t this_slot, const CutView* cut,
-                                     const RayLanes<Arch, Method>& packet) {
+    /// Takes account of one shape; `crossed` as in bounds_of_cut().
+    template <class Filter, class Method, class Crossed = NoCrossedFaces>
+    [[gnu::always_inline]] void
+    test(const Filter& filter, std::uint32_t id, std::uint32_t this_slot, const CutView* cut,
+         const RayLanes<Arch, Method>& packet, const Crossed& crossed = {}) {
         if constexpr (sifts_packets<Filter, typename Method::Rays>)
             if (Lanes<Arch>::bits(filter.may_meet(packet.rays)) == 0) return;
         if constexpr (knows_cuts<Method>)
             if (cut != nullptr)
-                return take(bounds_of_cut<Arch>(filter, packet.to_cut(), *cut),
+                return take(bounds_of_cut<Arch>(filter, packet.to_cut(), *cut, crossed),
                             packet.elsewhere(id), this_slot);
         take(filter.bounds(packet.rays), packet.elsewhere(id), this_slot);
+    }
+
+    /// Becomes what it was before, but in some lanes.
+    void keep(const Mask<Arch>& some, const LaneCandidates& before) {
+        first = select(some, first, before.first);
+        second = select(some, second, before.second);
+        slot = select(some, slot, before.slot);
     }
 
     /// Takes in the bounds of one shape, where it counts.

@@ -74,6 +74,12 @@ struct Streams {
         return (only_cut_lanes(scene, slot) >> slot % 16 & 1) != 0;
     }
 
+    /// Whether a slot's shape waits for what it cuts.
+    static bool waits(const SceneView& scene, std::uint32_t slot) {
+        return scene.waiting_lanes != nullptr &&
+               (scene.waiting_lanes[slot / 16] >> slot % 16 & 1) != 0;
+    }
+
     static core::Kind kind_of(std::uint32_t child) {
         return static_cast<core::Kind>(child >> 27 & 0xF);
     }

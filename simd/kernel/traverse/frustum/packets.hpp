@@ -52,6 +52,40 @@ requires(!Method::rounded_alone) struct alignas(64) Packet<Arch, Method> {
     RayLanes<Arch, Method> packet(std::size_t k) const { return {*stream, begin + k}; }
 };
 
+/// Faces that waited for rays of a frustum which cross them within what they cut, and these rays.
+template <class Arch>
+class CrossedFaces {
+  public:
+    /// Rays of a packet from one on, as bits.
+    void note(std::uint32_t slot, std::size_t packet, std::uint32_t rays) {
+        int face = 0;
+        while (face < count_ && slots_[face] != slot)
+            ++face;
+        if (face == most) {
+            has_room_ = false;
+            return;
+        }
+        if (face == count_) {
+            slots_[count_++] = slot;
+            for (std::uint16_t& of_packet : rays_[face])
+                of_packet = 0;
+        }
+        rays_[face][packet] = static_cast<std::uint16_t>(rays_[face][packet] | rays);
+    }
+    bool has_room() const { return has_room_; }
+    int count() const { return count_; }
+    std::uint32_t slot(int face) const { return slots_[face]; }
+    std::uint32_t rays(int face, std::size_t packet) const { return rays_[face][packet]; }
+
+  private:
+    static constexpr int most = 32;
+
+    int count_ = 0;
+    bool has_room_ = true;
+    std::uint32_t slots_[most];
+    std::uint16_t rays_[most][16];
+};
+
 /// Candidates for the nearest hits that a frustum looks for, as FrustumWalk asks for them.
 template <class Arch, class Method>
 class FrustumCandidates : Streams<Arch> {
@@ -65,6 +99,18 @@ class FrustumCandidates : Streams<Arch> {
     };
     const SceneView& scene_;
     Rays packets_[16];
+    CrossedFaces<Arch> crossed_;
+
+    /// Notes faces that rays of a packet from one on cross.
+    struct Notes {
+        static constexpr bool asks = true;
+        CrossedFaces<Arch>& to;
+        std::size_t packet, k;
+
+        void operator()(std::uint32_t slot, std::uint32_t rays) const {
+            to.note(slot, packet, rays << k);
+        }
+    };
 
   public:
     FrustumCandidates(const SceneView& scene, const RoundedRays& rays, const Candidates& candidates,
@@ -87,11 +133,35 @@ class FrustumCandidates : Streams<Arch> {
     template <class Filter>
     [[gnu::always_inline]] void test(const Filter& filter, std::uint32_t id, std::uint32_t slot,
                                      std::size_t which) {
+        if (knows_cuts<Method> && S::waits(scene_, slot)) return;
         Rays& packet = packets_[which];
         for (std::size_t k = 0; k < 16; k += S::lanes) {
             LaneCandidates<Arch> found(packet.found(), k);
-            found.test(filter, id, slot, cut_of<Method>(scene_, slot), packet.packet(k));
+            found.test(filter, id, slot, cut_of<Method>(scene_, slot), packet.packet(k),
+                       Notes{crossed_, which, k});
             found.store(packet.found(), k);
+        }
+    }
+
+    /// The faces that have waited, and are to be tested against the rays that cross them.
+    const CrossedFaces<Arch>& crossed() const { return crossed_; }
+    template <class Filter>
+    [[gnu::always_inline]] void test_crossed(const Filter& filter, std::uint32_t id, int face) {
+        const std::uint32_t slot = crossed_.slot(face);
+        for (std::size_t which = 0; which < 16; ++which) {
+            const std::uint32_t bits = crossed_.rays(face, which);
+            if (bits == 0) continue;
+            float crosses[16];
+            for (std::size_t k = 0; k < 16; ++k)
+                crosses[k] = static_cast<float>(bits >> k & 1);
+            Rays& packet = packets_[which];
+            for (std::size_t k = 0; k < 16; k += S::lanes) {
+                LaneCandidates<Arch> found(packet.found(), k);
+                const LaneCandidates<Arch> before = found;
+                found.test(filter, id, slot, cut_of<Method>(scene_, slot), packet.packet(k));
+                found.keep(S::load(crosses + k) > zero<Arch>(), before);
+                found.store(packet.found(), k);
+            }
         }
     }
 

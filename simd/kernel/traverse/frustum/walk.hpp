@@ -47,7 +47,7 @@ struct FrustumWalk : Streams<Arch> {
                 at_blocks(&child, 1, found);
             }
         });
-        if (workspace.key == nullptr) return true;
+        if (workspace.key == nullptr) return test_crossed(found);
         int budget = most_shapes; // what is listed has to be tested whatever the way
         const Prefetcher<Arch> prefetcher(scene);
         TraversalQueue<Arch> queue;
@@ -69,10 +69,32 @@ struct FrustumWalk : Streams<Arch> {
             }
             budget -= at_blocks(blocks, count, found);
         }
-        return true;
+        return test_crossed(found);
     }
 
   private:
+    /// The faces that have waited. Returns whether there was room for them.
+    template <class Found>
+    bool test_crossed(Found& found) const {
+        if constexpr (requires { found.crossed(); }) {
+            const auto& crossed = found.crossed();
+            for (int face = 0; face < crossed.count(); ++face)
+                S::for_each_kind((1U << core::kind_count) - 1, [&](core::Kind kind) {
+                    const TableView& table = S::table_of(scene, kind);
+                    const std::uint32_t within = crossed.slot(face) - table.first_slot;
+                    if (within / 16 >= table.block_count) return;
+                    const auto lane = static_cast<int>(within % 16);
+                    const float* block = S::block_of(table, within / 16);
+                    Method::with_filter(kind, [&]<class Filter>() {
+                        found.test_crossed(Filter(BroadcastReader<Arch>(S::rows_of(block), lane)),
+                                           S::ids_of(table, block)[lane], face);
+                    });
+                });
+            return crossed.has_room();
+        }
+        return true;
+    }
+
     void at_node(const NodeView& node, TraversalQueue<Arch>& queue,
                  const Prefetcher<Arch>& prefetcher) {
         ++counters.nodes;
