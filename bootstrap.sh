@@ -20,6 +20,8 @@ libcli11-dev        reads the command line
 libstb-dev          writes pictures
 zlib1g-dev          compresses them
 libpng-dev          reads PNG
+gemmi-dev           reads PDB and mmCIF,
+tao-pegtl-dev       which needs this
 libbenchmark-dev    measures speed
 catch2              runs the tests
 libboost-dev        the tests'"'"' 100-digit oracle

@@ -8,12 +8,70 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
+#include <vector>
+#include <zlib.h>
 
 namespace raylane::scenes {
 
 namespace {
 constexpr std::size_t head_size = 64 << 10;
 }
+
+/// Gives back what gzip has compressed, one piece or several one after the other.
+class InputFile::Inflater {
+  public:
+    /// `begin`: the file's first bytes.
+    Inflater(InputFile& file, std::string begin) : file_(file), packed_(std::move(begin)) {
+        constexpr int largest_window = 15, with_gzip_header = 16;
+        stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
+        stream_.avail_in = static_cast<uInt>(packed_.size());
+        if (::inflateInit2(&stream_, largest_window + with_gzip_header) != Z_OK)
+            throw std::bad_alloc();
+    }
+    ~Inflater() { ::inflateEnd(&stream_); }
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
+
+    std::size_t read(std::span<char> buffer) {
+        stream_.next_out = reinterpret_cast<Bytef*>(buffer.data());
+        stream_.avail_out = static_cast<uInt>(std::min(buffer.size(), std::size_t{1} << 30));
+        const uInt room = stream_.avail_out;
+        while (stream_.avail_out == room && room > 0) {
+            if (stream_.avail_in == 0 && !refill()) {
+                if (is_between_) return 0;
+                throw BadInput(file_.name(), "",
+                               "must be whole: what is compressed ends too early");
+            }
+            if (is_between_) ::inflateReset(&stream_);
+            is_between_ = false;
+            const int result = ::inflate(&stream_, Z_NO_FLUSH);
+            if (result == Z_STREAM_END) {
+                is_between_ = true;
+            } else if (result == Z_MEM_ERROR) {
+                throw std::bad_alloc();
+            } else if (result != Z_OK && result != Z_BUF_ERROR) {
+                throw BadInput(file_.name(), "",
+                               std::string("must be what gzip makes: ") +
+                                   (stream_.msg != nullptr ? stream_.msg : "it is damaged"));
+            }
+        }
+        return room - stream_.avail_out;
+    }
+
+  private:
+    bool refill() {
+        packed_.resize(head_size);
+        const std::size_t count = file_.read_as_it_is(packed_);
+        stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
+        stream_.avail_in = static_cast<uInt>(count);
+        return count != 0;
+    }
+
+    InputFile& file_;
+    std::string packed_;
+    z_stream stream_{};
+    bool is_between_ = false; // two pieces
+};
 
 InputFile::InputFile(const std::filesystem::path& path)
     : name_(path == "-" ? "standard input" : path.string()),
@@ -51,11 +109,16 @@ std::string_view InputFile::head() {
             filled += count;
         }
         head_.resize(filled);
+        if (inflater_ == nullptr && head_.starts_with("\x1F\x8B")) {
+            inflater_ = std::make_unique<Inflater>(*this, std::exchange(head_, {}));
+            return head();
+        }
     }
     return std::string_view(head_).substr(head_used_, head_size);
 }
 
 std::size_t InputFile::read(std::span<char> buffer) {
+    if (head_.empty()) head();
     if (head_used_ == head_.size()) return read_some(buffer);
     const std::size_t count = std::min(buffer.size(), head_.size() - head_used_);
     std::memcpy(buffer.data(), head_.data() + head_used_, count);
@@ -65,7 +128,7 @@ std::size_t InputFile::read(std::span<char> buffer) {
 
 std::string InputFile::read_all() {
     std::string text;
-    text.resize(size_ + 1); // one more, so that the end shows without growing
+    text.resize(size() + 1); // one more, so that the end shows without growing
     std::size_t filled = 0;
     while (const std::size_t count = read(std::span(text).subspan(filled))) {
         filled += count;
@@ -79,6 +142,7 @@ bool InputFile::rewind() {
     if (descriptor_ >= 0) {
         if (::lseek(descriptor_, 0, SEEK_SET) != 0) return false;
         head_.clear();
+        inflater_.reset();
         bytes_read_ = 0;
     }
     head_used_ = 0;
@@ -86,6 +150,10 @@ bool InputFile::rewind() {
 }
 
 std::size_t InputFile::read_some(std::span<char> buffer) {
+    return inflater_ != nullptr ? inflater_->read(buffer) : read_as_it_is(buffer);
+}
+
+std::size_t InputFile::read_as_it_is(std::span<char> buffer) {
     while (descriptor_ >= 0) {
         const ssize_t count = ::read(descriptor_, buffer.data(), buffer.size());
         if (count >= 0) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,7 +14,8 @@ namespace raylane::scenes {
 /// Is told how many bytes have been read so far, and how many there are or 0.
 using OnRead = std::function<void(std::uint64_t bytes, std::uint64_t of)>;
 
-/// A file, or anything else that can be read from start to end.
+/// A file, or anything else that can be read from start to end. What gzip has compressed reads as
+/// what that was.
 class InputFile {
   public:
     /// Throws BadInput if there is no such file or it is a directory, SystemRefused if it cannot be
@@ -30,8 +32,8 @@ class InputFile {
 
     /// Name as the user wrote it, for messages.
     const std::string& name() const { return name_; }
-    /// Bytes in all, or 0 where that is unknown (a pipe).
-    std::uint64_t size() const { return size_; }
+    /// Bytes in all, or 0 where that is unknown: of a pipe, and of what is compressed.
+    std::uint64_t size() const { return inflater_ == nullptr ? size_ : 0; }
 
     /// The first bytes, at most 64 KiB, without consuming them.
     std::string_view head();
@@ -45,7 +47,10 @@ class InputFile {
     bool rewind();
 
   private:
+    class Inflater;
+
     std::size_t read_some(std::span<char> buffer);
+    std::size_t read_as_it_is(std::span<char> buffer);
     void require_same_size() const;
 
     std::string name_;
@@ -54,6 +59,7 @@ class InputFile {
     std::uint64_t bytes_read_ = 0;
     std::string head_; // read ahead; all of a text
     std::size_t head_used_ = 0;
+    std::unique_ptr<Inflater> inflater_; // of what is compressed
 };
 
 } // namespace raylane::scenes

@@ -2,6 +2,7 @@
 
 #include "core/scene/scene.hpp"
 #include "scenes/input_file.hpp"
+#include "scenes/structure/drawing.hpp"
 
 #include <filesystem>
 #include <string>
@@ -11,11 +12,14 @@ namespace raylane::scenes {
 
 struct LoadOptions {
     core::Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
-    OnRead on_read;
+    OnRead on_read = {};
+    Drawing drawing = {}; ///< of files of atoms
+    /// What a scene is refused with: an option that says how atoms are drawn; empty: none is given.
+    std::string option_for_atoms = {};
 };
 
-/// Reads a scene, JSON or NFF. The format follows the file's ending (.json, .nff) or else its
-/// content. Throws BadInput for what is malformed, with file and place, and SystemRefused.
+/// Reads a scene, or atoms, of which it makes one; scenes/format.hpp has the formats. Throws
+/// BadInput for what is malformed, with file and place, and SystemRefused.
 core::Scene load_scene(const std::filesystem::path& path, const LoadOptions& options = {});
 
 /// The same for the text of a file; `name` is what messages call it.

@@ -15,6 +15,11 @@ std::uint8_t encode(float linear, Transfer transfer) {
     return static_cast<std::uint8_t>(255.0 * value + 0.5); // NOLINT: not negative
 }
 
+float decode_srgb(std::uint8_t code) {
+    const double c = code / 255.0;
+    return static_cast<float>(c <= 0.04045 ? c / 12.92 : core::pow((c + 0.055) / 1.055, 2.4));
+}
+
 Encoder::Encoder(Transfer transfer) {
     starts_[0] = 0.0F;
     starts_[256] = std::numeric_limits<float>::infinity();

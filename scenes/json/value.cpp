@@ -1,6 +1,6 @@
 #include "scenes/json/value.hpp"
 
-#include "core/numbers/elementary.hpp"
+#include "core/scene/transfer.hpp"
 #include "core/shapes/checks.hpp"
 #include "scenes/number.hpp"
 
@@ -12,12 +12,6 @@
 namespace raylane::scenes {
 
 namespace {
-
-/// The linear component for an 8-bit sRGB code (IEC 61966-2-1).
-float linear_of_srgb(int code) {
-    const double c = code / 255.0;
-    return static_cast<float>(c <= 0.04045 ? c / 12.92 : core::pow((c + 0.055) / 1.055, 2.4));
-}
 
 /// The float nearest to a decimal number, infinite if there is none. `rounded` is the nearest
 /// double: going by way of it would round twice.
@@ -309,8 +303,10 @@ core::Color JsonValue::color() const {
     if (text.size() != 7 || text[0] != '#' ||
         std::from_chars(text.data() + 1, end, code, 16).ptr != end)
         fail_expecting("[red, green, blue] or \"#rrggbb\"");
-    return {linear_of_srgb(code >> 16 & 0xFF), linear_of_srgb(code >> 8 & 0xFF),
-            linear_of_srgb(code & 0xFF)};
+    const auto channel = [&](int shift) {
+        return core::decode_srgb(static_cast<std::uint8_t>(code >> shift & 0xFF));
+    };
+    return {channel(16), channel(8), channel(0)};
 }
 
 } // namespace raylane::scenes

@@ -178,12 +178,13 @@ Scene SceneBuilder::build() {
 
 Scene load(const std::filesystem::path& path) {
     simd::ParallelWorkers workers;
-    return translated([&] { return owning(scenes::load_scene(path, {&workers, {}})); });
+    return translated([&] { return owning(scenes::load_scene(path, {.workers = &workers})); });
 }
 
 Scene parse(std::string_view text, const std::string& name) {
     simd::ParallelWorkers workers;
-    return translated([&] { return owning(scenes::parse_scene(name, text, {&workers, {}})); });
+    return translated(
+        [&] { return owning(scenes::parse_scene(name, text, {.workers = &workers})); });
 }
 
 } // namespace raylane

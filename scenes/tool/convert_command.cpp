@@ -13,6 +13,7 @@ namespace {
 
 struct ConvertArguments {
     Argument scene, output;
+    DrawingArguments drawing;
 };
 
 int convert(const ConvertArguments& arguments) {
@@ -21,7 +22,9 @@ int convert(const ConvertArguments& arguments) {
     require_other_file("OUTPUT", output, "SCENE", scene);
     require_scene_ending(output);
     std::string differences;
-    for (const std::string& what : export_scene(output, load_with_progress(scene)))
+    const core::Scene loaded =
+        load_with_progress(scene, arguments.drawing.drawing(), arguments.drawing.first_given());
+    for (const std::string& what : export_scene(output, loaded))
         differences.append(differences.empty() ? "" : ", ").append(what);
     if (!differences.empty())
         std::fprintf(stderr, "%s: not as in the scene, for want of a word in the format: %s\n",
@@ -35,11 +38,12 @@ Command add_convert_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("convert", "Write a scene in another format");
     auto arguments = std::make_shared<ConvertArguments>();
     add_positional(*command, "SCENE", arguments->scene,
-                   "A scene in JSON or NFF; - is standard input");
+                   "A scene, or atoms, as render reads them; - is standard input");
     add_positional(
         *command, "OUTPUT", arguments->output,
         "The file to write: .json, .nff, or .pov for POV-Ray 3.7; or - for JSON to standard "
         "output");
+    arguments->drawing.add_to(*command);
     command->footer("Example: raylane convert scenes/lattice.json lattice.pov");
     return {command, [arguments] { return convert(*arguments); }};
 }

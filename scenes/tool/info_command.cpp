@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoArguments {
     Argument scene;
+    DrawingArguments drawing;
     bool json = false;
 };
 
@@ -169,7 +170,8 @@ void print(const Json& info) {
 
 int info(const InfoArguments& arguments) {
     const std::string& scene = file_argument("SCENE", *arguments.scene);
-    const Json info = info_of(scene, load_with_progress(scene));
+    const Json info = info_of(scene, load_with_progress(scene, arguments.drawing.drawing(),
+                                                        arguments.drawing.first_given()));
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else
@@ -183,8 +185,9 @@ Command add_info_command(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("info", "Say what a scene holds and what its picture therefore needs");
     auto arguments = std::make_shared<InfoArguments>();
-    add_positional(*command, "SCENE", arguments->scene, "A scene in JSON or NFF");
+    add_positional(*command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
     add_flag(*command, "--json", arguments->json, "Print it as JSON");
+    arguments->drawing.add_to(*command);
     command->footer("Example: raylane info scenes/birthday.json");
     return {command, [arguments] { return info(*arguments); }};
 }

@@ -23,11 +23,13 @@ class Loader : public simd::ParallelWorkers {
   public:
     using ParallelWorkers::ParallelWorkers;
 
-    core::Scene load(const std::filesystem::path& path) {
-        return load_scene(path, {this, [this](std::uint64_t bytes, std::uint64_t of) {
-                                     bytes_ = bytes;
-                                     all_bytes_ = of;
-                                 }});
+    core::Scene load(const std::filesystem::path& path, const Drawing& drawing,
+                     const std::string& option_for_atoms) {
+        const auto note = [this](std::uint64_t bytes, std::uint64_t of) {
+            bytes_ = bytes;
+            all_bytes_ = of;
+        };
+        return load_scene(path, {this, note, drawing, option_for_atoms});
     }
 
     void added(std::size_t count) override { added_ = count; }
@@ -56,10 +58,11 @@ class Loader : public simd::ParallelWorkers {
 
 } // namespace
 
-core::Scene load_with_progress(const std::filesystem::path& path, int threads) {
+core::Scene load_with_progress(const std::filesystem::path& path, const Drawing& drawing,
+                               const std::string& option_for_atoms, int threads) {
     Loader loader(threads);
     const ProgressLine line([&] { return loader.text(); });
-    return loader.load(path);
+    return loader.load(path, drawing, option_for_atoms);
 }
 
 } // namespace raylane::scenes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
+#include "scenes/tool/drawing_arguments.hpp"
 
 #include <filesystem>
 
@@ -8,6 +9,7 @@ namespace raylane::scenes {
 
 /// load_scene with `threads` threads (0: all that the machine has), and on a terminal with a line
 /// that shows how far it is.
-core::Scene load_with_progress(const std::filesystem::path& path, int threads = 0);
+core::Scene load_with_progress(const std::filesystem::path& path, const Drawing& drawing,
+                               const std::string& option_for_atoms, int threads = 0);
 
 } // namespace raylane::scenes

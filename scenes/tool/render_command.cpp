@@ -25,6 +25,7 @@ struct RenderArguments {
     Argument scene, output, size, samples, quality, filter, light_samples, max_depth, min_weight,
         threads, transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
+    DrawingArguments drawing;
 };
 
 class Stopwatch {
@@ -47,7 +48,10 @@ struct Times {
 
 std::string default_output(const std::filesystem::path& scene) {
     // A name that ends in a slash has no stem. It is refused when it is to be read.
-    return scene.has_stem() && scene != "-" ? scene.stem().concat(".png").string() : "scene.png";
+    if (!scene.has_stem() || scene == "-") return "scene.png";
+    std::filesystem::path name = scene.filename();
+    if (name.extension() == ".gz") name = name.stem();
+    return name.stem().concat(".png").string();
 }
 
 struct Files {
@@ -205,13 +209,16 @@ int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
+    Drawing drawing = arguments.drawing.drawing();
+    if (overrides.size) std::tie(drawing.width, drawing.height) = *overrides.size;
     const Files files(arguments);
     OutputFile output(files.output);
     std::optional<AtomicFile> stats;
     if (files.stats) stats.emplace(*files.stats);
 
     Stopwatch stopwatch;
-    const core::Scene scene = load_with_progress(files.scene, options.threads);
+    const core::Scene scene =
+        load_with_progress(files.scene, drawing, arguments.drawing.first_given(), options.threads);
     const core::Settings settings = overrides.applied_to(scene.settings());
     options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     output.reserve(settings.width, settings.height);
@@ -254,7 +261,8 @@ Command add_render_command(CLI::App& app) {
         add_option(*command, names, value, help, type);
     };
     add_positional(*command, "SCENE", arguments->scene,
-                   "A scene in JSON or NFF; - is standard input");
+                   "A scene in JSON or NFF, or atoms in PDB, mmCIF, CIF, XYZ, GRO or LAMMPS' "
+                   "formats, compressed by gzip or not; - is standard input");
     add("-o,--output", arguments->output,
         "The picture: .png, .hdr or .pfm, or - for a PNG to standard output (default: the "
         "scene's name, .png)",
@@ -299,6 +307,7 @@ Command add_render_command(CLI::App& app) {
         "From light to PNG: srgb or linear (default: as the scene says)", "CURVE");
     add("--stats", arguments->stats,
         "Write figures about the rendering as JSON; - is standard output", "FILE");
+    arguments->drawing.add_to(*command);
     command->footer("Example: raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");
     return {command, [arguments] { return render(*arguments); }};

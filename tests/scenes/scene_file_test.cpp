@@ -41,12 +41,14 @@ TEST_CASE("a file of another kind is told from a scene with a mistake") {
         return raylane::tests::message_of<BadInput>([&] { parse_scene("a" + ending, text); });
     };
     const std::string neither =
-        ": must be a scene in JSON (.json) or NFF (.nff), and what it holds is neither";
+        ": must be a scene in JSON (.json) or NFF (.nff), or atoms in PDB (.pdb), mmCIF or CIF "
+        "(.cif), XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), and what it "
+        "holds "
+        "is none of these";
     const std::string pdb = "HEADER    HYDROLASE\nATOM      1  N   PRO A   1      29.361  39.686\n";
     const std::string obj = "# a cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
-    CHECK(error_of(pdb, ".pdb") == "a.pdb" + neither);
     CHECK(error_of(obj, ".obj") == "a.obj" + neither);
-    CHECK(error_of("3\n\nC 0 0 0\n", ".xyz") == "a.xyz" + neither);
+    CHECK(error_of("3\n\nC 0 0 0\n", ".txt") == "a.txt:4: must be atom 2 of 3, and the file ends");
     CHECK(error_of("s one\n", "") == "a" + neither);
     // Here it is clear what was meant.
     CHECK(error_of(pdb, ".nff").starts_with("a.nff:1: "));

@@ -77,7 +77,7 @@ TEST_CASE("scenes are parsed from text") {
     CHECK(message("{}", "x") ==
           "x:1:1: must have the key \"camera\"\nx:1:1: must have the key \"objects\"");
     CHECK(refusal_of([] { parse("\x01"); }) ==
-          "scene: must be a scene in JSON or NFF, got a binary file");
+          "scene: must be a scene or atoms in a text format, got a binary file");
     // Longer than what is looked at to tell the format.
     const std::string blank(200'000, ' ');
     CHECK(parse(blank + with_objects("") + blank, "x.json").shape_count() == 0);

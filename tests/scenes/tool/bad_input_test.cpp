@@ -81,7 +81,11 @@ TEST_CASE("what is no file that holds a scene is told in one line") {
         {"JSON of nothing", "a.json", " // nothing\n", "must be a scene, got an empty file"},
         {"NFF of nothing", "a.nff", "# nothing\n", "must have a v entity, got none"},
         {"no scene at all", "a", "Dear Sir,\n",
-         "must be a scene in JSON (.json) or NFF (.nff), and what it holds is neither"},
+         "must be a scene in JSON (.json) or NFF (.nff), or atoms in PDB (.pdb), mmCIF or CIF "
+         "(.cif), "
+         "XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), and what it holds is "
+         "none "
+         "of these"},
         {"no NFF at all", "a.nff", "Dear Sir,\n",
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "Dear")"},
         {"a binary JSON file", "a.json",
@@ -90,7 +94,7 @@ TEST_CASE("what is no file that holds a scene is told in one line") {
                      7),
          "must be a value, got \\x7FELF"},
         {"a binary file", "a", std::string("\x89PNG\r\n\x1A\n\0\0\0\rIHDR", 16),
-         "must be a scene in JSON or NFF, got a binary file"},
+         "must be a scene or atoms in a text format, got a binary file"},
         {"a binary NFF file", "a.nff", "\x89PNG\r\n\x1A\n",
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "\x89PNG")"},
     });
@@ -269,7 +273,7 @@ TEST_CASE("a line of 200 MB is told in seconds and within little memory") {
         {"a.nff", view_and_light + "p 9999999 ", '1',
          "line 9: must have words shorter than 256 bytes, got \"" + std::string(40, '1') + "...\""},
         {"a.nff", view_and_light, ' ', "line 9: must be a line shorter than 1048576 bytes"},
-        {"a", "", '\0', "must be a scene in JSON or NFF, got a binary file"},
+        {"a", "", '\0', "must be a scene or atoms in a text format, got a binary file"},
         {"a", "", ' ', "line 1: must be a line shorter than 1048576 bytes"},
         {"a.json", R"({"objects": [], "camera": )", '1',
          "must be a value of at most 1024 bytes, got " + std::string(40, '1') + "..."},

@@ -1,0 +1,125 @@
+#include "core/scene/framing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace raylane::core {
+
+namespace {
+
+/// The picture by what is seen in it.
+constexpr double margin = 1.05;
+/// The eye's distance from the nearest, by the size of all.
+constexpr double closest = 0x1p-6;
+
+/// Of the picture's upper edge.
+double slope_of(const Framing& framing) {
+    return std::tan(static_cast<double>(framing.field_of_view) * std::numbers::pi / 360.0);
+}
+
+} // namespace
+
+Frame::Frame(const Framing& framing, double aspect) : framing_(framing), aspect_(aspect) {
+    const Vec3d direction = convert<double>(framing.direction);
+    back_ = -1.0 / length(direction) * direction;
+    const Vec3d across = cross(convert<double>(framing.up), back_);
+    right_ = 1.0 / length(across) * across;
+    up_ = cross(back_, right_);
+    if (framing.projection == Projection::orthographic) {
+        cosine_[0] = cosine_[1] = 1.0;
+        return;
+    }
+    const double upward = slope_of(framing) / margin;
+    const double slopes[2] = {upward * aspect, upward};
+    for (int axis = 0; axis < 2; ++axis) {
+        cosine_[axis] = 1.0 / std::sqrt(1.0 + slopes[axis] * slopes[axis]);
+        sine_[axis] = slopes[axis] * cosine_[axis];
+    }
+}
+
+void Frame::include(const Vec3d& center, double radius) {
+    empty_ = false;
+    const double depth = dot(center, back_);
+    const double places[2] = {dot(center, right_), dot(center, up_)};
+    for (int axis = 0; axis < 2; ++axis) {
+        const double across = places[axis] * cosine_[axis], back = depth * sine_[axis] + radius;
+        reach_[axis].positive = std::max(reach_[axis].positive, back + across);
+        reach_[axis].negative = std::max(reach_[axis].negative, back - across);
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+        extent_[axis].positive = std::max(extent_[axis].positive, places[axis] + radius);
+        extent_[axis].negative = std::max(extent_[axis].negative, radius - places[axis]);
+    }
+    along_.positive = std::max(along_.positive, depth + radius);
+    along_.negative = std::max(along_.negative, radius - depth);
+}
+
+void Frame::include(const Bounds& bounds) {
+    if (!is_finite(bounds) || bounds.lower.x > bounds.upper.x) return;
+    for (int corner = 0; corner < 8; ++corner) {
+        Vec3f point;
+        for (int axis = 0; axis < 3; ++axis)
+            point[axis] = (corner >> axis & 1) != 0 ? bounds.upper[axis] : bounds.lower[axis];
+        include(convert<double>(point), 0.0);
+    }
+}
+
+Camera Frame::camera() const {
+    Camera camera{.projection = framing_.projection,
+                  .up = convert<float>(up_),
+                  .field_of_view = framing_.field_of_view};
+    if (empty_) {
+        camera.from = convert<float>(5.0 * back_);
+        return camera;
+    }
+    // Where the planes at both sides of the picture touch what is between them, the eye is on both.
+    const auto zoom = static_cast<double>(framing_.zoom);
+    double places[2], depth = along_.positive;
+    const double thickness = along_.positive + along_.negative;
+    double away = std::abs(along_.positive);
+    for (int axis = 0; axis < 2; ++axis) {
+        places[axis] = 0.5 * (reach_[axis].positive - reach_[axis].negative) / cosine_[axis];
+        away += std::abs(places[axis]);
+    }
+    // A point has none; and floats have to tell the eye from what it looks at.
+    const double least = away > 0.0 ? 0x1p-16 * away : 1.0;
+    const double size = std::max({thickness, width(), least});
+    if (framing_.projection == Projection::orthographic) {
+        double height = 0.0;
+        for (int axis = 0; axis < 2; ++axis) {
+            const double extent = reach_[axis].positive + reach_[axis].negative;
+            height = std::max(height, axis == 0 ? extent / aspect_ : extent);
+        }
+        camera.height = static_cast<float>(margin * std::max(height, least) / zoom);
+        depth += size; // anywhere before all
+    } else {
+        double eye = -std::numeric_limits<double>::infinity();
+        for (int axis = 0; axis < 2; ++axis)
+            eye =
+                std::max(eye, 0.5 * (reach_[axis].positive + reach_[axis].negative) / sine_[axis]);
+        // What is flat, and seen from its side, still has a place before it.
+        depth = std::max(eye, depth + closest * size);
+        const double slope = slope_of(framing_);
+        camera.field_of_view =
+            static_cast<float>(2.0 * std::atan(slope / zoom) * 180.0 / std::numbers::pi);
+    }
+    const Vec3d in_plane = places[0] * right_ + places[1] * up_;
+    const double middle = 0.5 * (along_.positive - along_.negative);
+    camera.from = convert<float>(in_plane + depth * back_);
+    camera.at = convert<float>(in_plane + middle * back_);
+    if (camera.at == camera.from) camera.at = convert<float>(in_plane + (depth - size) * back_);
+    return camera;
+}
+
+double Frame::width() const {
+    const auto of = [](const Reach& extent) { return extent.positive + extent.negative; };
+    return empty_ ? 0.0 : std::max(of(extent_[0]), of(extent_[1]));
+}
+
+std::pair<double, double> Frame::depths(const Camera& camera) const {
+    const double eye = dot(convert<double>(camera.from), back_);
+    return {eye - along_.positive, eye + along_.negative};
+}
+
+} // namespace raylane::core

@@ -1,0 +1,174 @@
+#include "scenes/format.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/number.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace raylane::scenes {
+
+namespace {
+
+constexpr std::pair<std::string_view, Format> endings[] = {
+    {".json", Format::json},
+    {".nff", Format::nff},
+    {".pdb", Format::pdb},
+    {".ent", Format::pdb},
+    {".cif", Format::cif},
+    {".mmcif", Format::cif},
+    {".xyz", Format::xyz},
+    {".extxyz", Format::xyz},
+    {".gro", Format::gro},
+    {".dump", Format::lammps_dump},
+    {".lammpstrj", Format::lammps_dump},
+    {".data", Format::lammps_data},
+    {".lmp", Format::lammps_data},
+};
+
+constexpr std::string_view blanks = " \t\r\v\f";
+
+std::string_view trimmed(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+std::string_view first_word(std::string_view line) {
+    line = trimmed(line);
+    return line.substr(0, line.find_first_of(blanks));
+}
+
+/// The first lines of a file, as far as they are there; the last may be cut short.
+std::vector<std::string_view> lines_of(std::string_view head, std::size_t most) {
+    std::vector<std::string_view> lines;
+    while (!head.empty() && lines.size() < most) {
+        const std::size_t end = std::min(head.find('\n'), head.size());
+        lines.push_back(head.substr(0, end));
+        head.remove_prefix(std::min(end + 1, head.size()));
+    }
+    return lines;
+}
+
+/// JSON begins with '{' or a comment, and no line of NFF does with either.
+bool looks_like_json(std::string_view head) {
+    const std::size_t first = head.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && (head[first] == '{' || head[first] == '/');
+}
+
+bool is_binary(std::string_view head) {
+    return std::any_of(head.begin(), head.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return (byte < ' ' && (byte < '\t' || byte > '\r')) || byte == 0x7F;
+    });
+}
+
+/// True if the first entity is one of NFF: a view, on lines of its own, or another with a number.
+/// Wavefront's OBJ begins with some of the same letters.
+bool looks_like_nff(std::string_view head) {
+    static constexpr std::string_view blanks_and_ends = " \t\r\n\v\f";
+    const auto next_word = [&] {
+        head.remove_prefix(std::min(head.find_first_not_of(blanks_and_ends), head.size()));
+        const std::string_view word = head.substr(0, head.find_first_of(blanks_and_ends));
+        head.remove_prefix(word.size());
+        return word;
+    };
+    std::string_view word = next_word();
+    while (word.starts_with('#')) {
+        head.remove_prefix(std::min(head.find('\n'), head.size()));
+        word = next_word();
+    }
+    if (word.empty()) return true; // remarks alone, so far
+    if (word == "v") return next_word() == "from";
+    static constexpr std::array<std::string_view, 7> others = {"b", "c", "f", "l", "p", "pp", "s"};
+    return std::find(others.begin(), others.end(), word) != others.end() && is_number(next_word());
+}
+
+bool looks_like_pdb(const std::vector<std::string_view>& lines) {
+    static constexpr std::array<std::string_view, 13> records = {
+        "HEADER", "TITLE ", "COMPND", "SOURCE", "KEYWDS", "EXPDTA", "AUTHOR",
+        "REMARK", "CRYST1", "MODEL ", "ATOM  ", "HETATM", "OBSLTE"};
+    return !lines.empty() && std::any_of(records.begin(), records.end(), [&](std::string_view of) {
+        return lines[0].starts_with(of);
+    });
+}
+
+/// A block after remarks.
+bool looks_like_cif(const std::vector<std::string_view>& lines) {
+    for (const std::string_view line : lines) {
+        const std::string_view word = first_word(line);
+        if (!word.empty() && word[0] != '#') return word.starts_with("data_");
+    }
+    return false;
+}
+
+bool is_count(std::string_view line) {
+    const std::string_view text = trimmed(line);
+    return !text.empty() && to_int(text).value_or(-1) >= 0;
+}
+
+/// A number of atoms, a remark, and an element with three numbers.
+bool looks_like_xyz(const std::vector<std::string_view>& lines) {
+    if (lines.empty() || !is_count(lines[0])) return false;
+    if (lines.size() < 3) return to_int(trimmed(lines[0])) == 0;
+    return !first_word(lines[2]).empty() &&
+           trimmed(lines[2]).find_first_of(blanks) != std::string_view::npos;
+}
+
+/// A remark, a number of atoms, and fields in columns.
+bool looks_like_gro(const std::vector<std::string_view>& lines) {
+    return lines.size() > 2 && is_count(lines[1]) && lines[2].size() >= 44 &&
+           is_number(first_word(lines[2].substr(0, 5))) && lines[2].find('.') >= 24;
+}
+
+/// "10 atoms" near its start.
+bool looks_like_lammps_data(const std::vector<std::string_view>& lines) {
+    return std::any_of(lines.begin(), lines.end(), [](std::string_view line) {
+        line = trimmed(line.substr(0, line.find('#')));
+        const std::size_t blank = line.find_first_of(blanks);
+        return blank != std::string_view::npos && is_count(line.substr(0, blank)) &&
+               trimmed(line.substr(blank)) == "atoms";
+    });
+}
+
+} // namespace
+
+Format format_of(InputFile& file) {
+    std::filesystem::path name = file.name();
+    const auto ending_of = [](const std::filesystem::path& path) {
+        std::string ending = path.extension().string();
+        for (char& c : ending)
+            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        return ending;
+    };
+    std::string ending = ending_of(name);
+    if (ending == ".gz") ending = ending_of(name.stem());
+    for (const auto& [known, format] : endings)
+        if (ending == known) return format;
+
+    std::string_view head = file.head();
+    if (is_binary(head))
+        throw BadInput(file.name(), "",
+                       "must be a scene or atoms in a text format, got a binary file");
+    static constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
+    if (looks_like_json(head)) return Format::json;
+    const std::vector<std::string_view> lines = lines_of(head, 40);
+    if (lines[0].starts_with("ITEM: ")) return Format::lammps_dump;
+    if (looks_like_pdb(lines)) return Format::pdb;
+    if (looks_like_cif(lines)) return Format::cif;
+    if (looks_like_xyz(lines)) return Format::xyz;
+    if (looks_like_gro(lines)) return Format::gro;
+    if (looks_like_nff(head)) return Format::nff;
+    if (looks_like_lammps_data(lines)) return Format::lammps_data;
+    throw BadInput(
+        file.name(), "",
+        "must be a scene in JSON (.json) or NFF (.nff), or atoms in PDB (.pdb), mmCIF or "
+        "CIF (.cif), XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), "
+        "and what it holds is none of these");
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/scene/framing.hpp"
+#include "core/scene/scene.hpp"
+#include "scenes/structure/structure.hpp"
+
+#include <array>
+#include <string>
+
+namespace raylane::scenes {
+
+enum class Style {
+    automatic, ///< spheres of more than 500 atoms, else balls
+    balls,     ///< and sticks
+    sticks,    ///< thin ones, of double and triple bonds two and three
+    licorice,  ///< thick ones, one for each bond
+    spheres,   ///< van der Waals' radii, or those of the file
+    points,    ///< small balls of one size
+};
+
+/// How a structure is drawn.
+struct Drawing {
+    Style style = Style::automatic;
+    std::string color = "element";         ///< or "chain", "residue", or the name of a property
+    std::string select = "all";            ///< as select_atoms has it
+    std::array<int, 3> repeat = {1, 1, 1}; ///< cells side by side along the edges
+    bool show_cell = false;                ///< its edges
+    bool ellipsoids = false;               ///< of displacement, which hold half of the probability
+    core::Framing framing;
+    int width = 1200, height = 900; ///< pixels of the picture
+    float depth_cue = 0.3F; ///< how much of the background the farthest atoms have, in [0, 1)
+};
+
+/// Fills a builder with the atoms, a camera that sees them all, lights around them, and settings
+/// for a picture that one looks at. `file` is what messages call it. Throws BadInput for what there
+/// is not: nothing selected, no such property.
+void draw(const Structure& structure, const Drawing& drawing, const std::string& file,
+          core::SceneBuilder& builder);
+
+} // namespace raylane::scenes

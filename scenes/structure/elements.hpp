@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace raylane::scenes {
+
+/// Atomic number; 0 is an unknown element.
+using Element = std::uint8_t;
+inline constexpr Element element_count = 119;
+
+struct ElementData {
+    std::string_view symbol;
+    /// In angstrom, of single bonds: Cordero et al., Dalton Trans. 2832 (2008); 0: not known.
+    float covalent_radius;
+    /// In angstrom, van der Waals': Bondi, J. Phys. Chem. 68, 441 (1964), and Mantina et al., J.
+    /// Phys. Chem. A 113, 5806 (2009); what these have not, Alvarez, Dalton Trans. 42, 8617 (2013);
+    /// 0: not known.
+    float van_der_waals_radius;
+    float mass; ///< in daltons; of what is never stable, that of the longest-lived isotope
+    /// sRGB: Jmol's, "Jmol colors", which are CPK's (Corey, Pauling, Koltun) where that has one.
+    std::uint32_t color;
+};
+
+const ElementData& data_of(Element element);
+
+/// By symbol, whatever its case; 0 if there is none. "D" and "T" are hydrogen.
+Element element_of(std::string_view symbol);
+
+/// The same of a label that begins with a symbol, as "Fe2+", "C12" or "OW": of the two letters that
+/// it begins with if they are one (the second in lower case, or both if `any_case`), else of the
+/// first.
+Element element_of_label(std::string_view label, bool any_case = false);
+
+/// Of the element whose atoms weigh that, within half a dalton; 0 if there is none.
+Element element_of_mass(double mass);
+
+} // namespace raylane::scenes

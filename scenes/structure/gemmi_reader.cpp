@@ -1,0 +1,204 @@
+#include "scenes/errors.hpp"
+#include "scenes/structure/kind_table.hpp"
+#include "scenes/structure/lines.hpp"
+#include "scenes/structure/readers.hpp"
+
+#ifdef RAYLANE_WITH_GEMMI
+
+#include "scenes/structure/gemmi_files.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// "file:line:column(byte): message" and the like: the message alone, with its line.
+[[noreturn]] void fail(const std::string& name, std::string text) {
+    TextPosition position;
+    if (text.starts_with(name + ":")) {
+        text.erase(0, name.size() + 1);
+        const std::size_t end = text.find(": ");
+        if (end != std::string::npos) {
+            const int read =
+                std::sscanf(text.c_str(), "%zu:%zu", &position.line, &position.column); // NOLINT
+            if (read < 1) position = {};
+            text.erase(0, end + 2);
+        }
+    }
+    throw BadInput(
+        {{.file = name, .position = position, .place = {}, .message = printable(text, 200)}});
+}
+
+using Orders = std::map<std::pair<int, int>, int>; ///< of bonds, by serial numbers, ascending
+
+/// Models, one after the other.
+class ModelReader : public FrameReader {
+  public:
+    ModelReader(std::vector<gemmi_files::Model> models, Orders bonds)
+        : models_(std::move(models)), bonds_(std::move(bonds)) {}
+
+    bool next(Structure& frame) override {
+        if (number_ == models_.size()) return false;
+        const gemmi_files::Model& model = models_[number_++];
+        frame = {};
+        frame.title = model.title;
+        if (model.has_cell)
+            for (std::size_t k = 0; k < 3; ++k)
+                frame.cell.edges[k] = {model.edges[k][0], model.edges[k][1], model.edges[k][2]};
+        frame.properties = {{"b_factor", {}}, {"occupancy", {}}};
+        KindTable kinds(frame.of_kind);
+        std::unordered_map<int, AtomIndex> atom_of;
+        for (const gemmi_files::Chain& chain : model.chains) {
+            if (!model.is_small) frame.chains.push_back(chain.name);
+            for (const gemmi_files::Residue& residue : chain.residues)
+                add(residue, model.is_small, frame, kinds, atom_of);
+        }
+        if (model.is_small) frame.properties.erase(frame.properties.begin());
+        for (const auto& [serials, order] : bonds_) {
+            const auto a = atom_of.find(serials.first), b = atom_of.find(serials.second);
+            if (a == atom_of.end() || b == atom_of.end()) continue;
+            frame.bonds.push_back({std::min(a->second, b->second), std::max(a->second, b->second),
+                                   static_cast<std::uint8_t>(std::clamp(order, 1, 3))});
+        }
+        return true;
+    }
+
+  private:
+    static void add(const gemmi_files::Residue& residue, bool is_small, Structure& frame,
+                    KindTable& kinds, std::unordered_map<int, AtomIndex>& atom_of) {
+        const auto index = static_cast<std::uint32_t>(frame.of_residue.size());
+        if (!is_small)
+            frame.of_residue.push_back(
+                {.name = residue.name,
+                 .number = residue.number,
+                 .insertion = residue.insertion,
+                 .chain = static_cast<std::uint32_t>(frame.chains.size() - 1),
+                 .is_hetero = residue.is_hetero});
+        // Of places that exclude each other, those of the first.
+        char conformer = '\0';
+        for (const gemmi_files::Atom& atom : residue.atoms) {
+            if (conformer == '\0') conformer = atom.conformer;
+            if (atom.conformer != '\0' && atom.conformer != conformer) continue;
+            const auto at = static_cast<AtomIndex>(frame.size());
+            const Element element = atom.element > 0 && atom.element < element_count
+                                        ? static_cast<Element>(atom.element)
+                                        : Element{0};
+            frame.positions.push_back(
+                core::convert<float>(core::Vec3d(atom.at[0], atom.at[1], atom.at[2])));
+            frame.kinds.push_back(static_cast<std::uint16_t>(kinds.index_of(
+                data_of(element).symbol, [&](std::string_view) { return element; })));
+            frame.properties[0].values.push_back(atom.b_factor);
+            frame.properties[1].values.push_back(atom.occupancy);
+            if (is_small) continue;
+            frame.names.push_back(atom.name);
+            frame.residues.push_back(index);
+            if (atom.has_u) {
+                const auto& u = atom.u;
+                frame.anisotropies.push_back({at, {u[0], u[1], u[2], u[3], u[4], u[5]}});
+            }
+            atom_of.emplace(atom.serial, at);
+        }
+    }
+
+    std::vector<gemmi_files::Model> models_;
+    Orders bonds_;
+    std::size_t number_ = 0;
+};
+
+/// Refuses what gemmi takes without a word: coordinates that are none. Takes charges away,
+/// which it is strict about and nobody asks for; and reads CONECT, which it leaves out.
+std::string checked(const InputFile& file, std::string_view text, Orders& bonds) {
+    constexpr std::size_t charge = 78;
+    InputFile again(file.name(), text);
+    std::string result;
+    result.reserve(text.size());
+    std::map<std::pair<int, int>, int> directed;
+    for (Lines lines(again); lines.next();) {
+        std::string_view line = lines.text();
+        if (line.starts_with("ATOM") || line.starts_with("HETATM")) {
+            for (std::size_t at = 30; at < 54; at += 8) {
+                const std::string_view field =
+                    trimmed(line.size() > at ? line.substr(at, 8) : std::string_view());
+                if (!number_in(field))
+                    lines.fail("a coordinate must be a number, got \"" + printable(field) + "\"",
+                               at + 1);
+            }
+            line = line.substr(0, charge);
+        } else if (line.starts_with("CONECT")) {
+            const auto serial = [&](std::size_t at) {
+                return line.size() > at
+                           ? static_cast<int>(number_in(trimmed(line.substr(at, 5))).value_or(0.0))
+                           : 0;
+            };
+            const int from = serial(6);
+            for (std::size_t at = 11; at < 31; at += 5)
+                if (const int to = serial(at); to != 0 && to != from) ++directed[{from, to}];
+        }
+        result.append(line).append("\n");
+    }
+    // Each bond is there from both of its ends, a double one twice from each.
+    for (const auto& [serials, times] : directed) {
+        int& order = bonds[std::minmax(serials.first, serials.second)];
+        order = std::max(order, times);
+    }
+    return result;
+}
+
+} // namespace
+
+std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
+    Orders bonds;
+    const std::string text = checked(file, file.read_all(), bonds);
+    try {
+        std::vector<gemmi_files::Model> models = gemmi_files::read_pdb(text, file.name());
+        if (models.empty())
+            throw BadInput(file.name(), "", "must have ATOM or HETATM records, got none");
+        return std::make_unique<ModelReader>(std::move(models), std::move(bonds));
+    } catch (const gemmi_files::Refused& refused) {
+        fail(file.name(), refused.what());
+    }
+}
+
+std::unique_ptr<FrameReader> open_cif(InputFile& file) {
+    const std::string text = file.read_all();
+    try {
+        std::vector<gemmi_files::Model> models = gemmi_files::read_cif(text, file.name());
+        if (models.empty())
+            throw BadInput(file.name(), "", "must have a table _atom_site, got none");
+        return std::make_unique<ModelReader>(std::move(models), Orders());
+    } catch (const gemmi_files::Refused& refused) {
+        fail(file.name(), refused.what());
+    }
+}
+
+} // namespace raylane::scenes
+
+#else
+
+namespace raylane::scenes {
+
+namespace {
+
+[[noreturn]] void fail(const InputFile& file, const char* format) {
+    throw BadInput(file.name(), "",
+                   std::string("this raylane was built without gemmi, which reads ") + format);
+}
+
+} // namespace
+
+std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
+    fail(file, "PDB");
+}
+std::unique_ptr<FrameReader> open_cif(InputFile& file) {
+    fail(file, "mmCIF and CIF");
+}
+
+} // namespace raylane::scenes
+
+#endif

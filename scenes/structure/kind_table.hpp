@@ -1,0 +1,39 @@
+#pragma once
+
+#include "scenes/structure/structure.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// The kinds of a structure, by label.
+class KindTable {
+  public:
+    explicit KindTable(std::vector<AtomKind>& kinds) : kinds_(kinds) { kinds_.clear(); }
+
+    /// The index of a label's kind, which is new if there has been none of it. One above the last
+    /// if there are too many.
+    template <class ElementOf>
+    std::size_t index_of(std::string_view label, const ElementOf& element_of) {
+        if (last_ < kinds_.size() && kinds_[last_].label == label) return last_;
+        const auto found = index_.find(label);
+        if (found != index_.end()) return last_ = found->second;
+        if (kinds_.size() == Structure::most_kinds) return kinds_.size();
+        last_ = kinds_.size();
+        kinds_.push_back({.label = std::string(label), .element = element_of(label)});
+        index_.emplace(std::string(label), last_);
+        return last_;
+    }
+
+  private:
+    std::vector<AtomKind>& kinds_;
+    std::map<std::string, std::size_t, std::less<>> index_;
+    std::size_t last_ = 0;
+};
+
+} // namespace raylane::scenes

@@ -1,0 +1,250 @@
+#include "scenes/errors.hpp"
+#include "scenes/structure/kind_table.hpp"
+#include "scenes/structure/lines.hpp"
+#include "scenes/structure/readers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace raylane::scenes {
+
+namespace {
+
+constexpr std::string_view item = "ITEM: ";
+
+class DumpReader : public FrameReader {
+  public:
+    explicit DumpReader(InputFile& file) : file_(file), lines_(file) {}
+
+    bool next(Structure& frame) override {
+        frame = {};
+        std::size_t count = 0;
+        bool has_count = false;
+        while (next_item()) {
+            const std::string_view what = trimmed(lines_.text().substr(item.size()));
+            if (what == "TIMESTEP") {
+                next_line("the time step");
+                frame.title = "timestep " + std::string(trimmed(lines_.text()));
+            } else if (what == "NUMBER OF ATOMS") {
+                next_line("the number of atoms");
+                Words words(lines_);
+                count = static_cast<std::size_t>(words.whole(
+                    "the number of atoms", 0, static_cast<long long>(Structure::most_atoms)));
+                has_count = true;
+            } else if (what.starts_with("BOX BOUNDS")) {
+                read_box(frame.cell, what.substr(10));
+            } else if (what.starts_with("ATOMS")) {
+                if (!has_count) lines_.fail("must come after ITEM: NUMBER OF ATOMS");
+                read_atoms(frame, what.substr(5), count);
+                ++frames_;
+                return true;
+            } else if (!lines_.next()) { // units, time: one line each
+                break;
+            }
+        }
+        if (frames_ == 0) lines_.fail("must have ITEM: ATOMS, and the file ends");
+        return false;
+    }
+
+  private:
+    bool next_item() {
+        do
+            if (!lines_.next()) return false;
+        while (trimmed(lines_.text()).empty());
+        if (!lines_.text().starts_with(item))
+            lines_.fail(R"(must begin with "ITEM: ", got ")" + printable(lines_.text()) + "\"");
+        return true;
+    }
+
+    void next_line(const char* what) {
+        if (!lines_.next()) lines_.fail(std::string("must be ") + what + ", and the file ends");
+    }
+
+    /// The bounds of what encloses a box that leans: of the box itself where it does not.
+    void read_box(Cell& cell, std::string_view flags) {
+        double lower[3], upper[3], lean[3] = {}; // xy, xz, yz
+        const bool is_tilted = flags.find("xy") != std::string_view::npos;
+        if (flags.find("abc") != std::string_view::npos) return read_general_box(cell);
+        for (int axis = 0; axis < 3; ++axis) {
+            next_line("the bounds of the box");
+            Words words(lines_);
+            lower[axis] = words.number("a lower bound");
+            upper[axis] = words.number("an upper bound");
+            if (is_tilted) lean[axis] = words.number("a tilt");
+        }
+        const auto [least_x, most_x] = std::minmax({0.0, lean[0], lean[1], lean[0] + lean[1]});
+        lower[0] -= least_x;
+        upper[0] -= most_x;
+        const auto [least_y, most_y] = std::minmax({0.0, lean[2]});
+        lower[1] -= least_y;
+        upper[1] -= most_y;
+        cell.origin = {lower[0], lower[1], lower[2]};
+        cell.edges = {core::Vec3d(upper[0] - lower[0], 0.0, 0.0),
+                      core::Vec3d(lean[0], upper[1] - lower[1], 0.0),
+                      core::Vec3d(lean[1], lean[2], upper[2] - lower[2])};
+        read_periodic(cell, flags);
+    }
+
+    /// Three edges, and at the end of their lines the origin.
+    void read_general_box(Cell& cell) {
+        for (std::size_t edge = 0; edge < 3; ++edge) {
+            next_line("an edge of the box");
+            Words words(lines_);
+            for (int axis = 0; axis < 3; ++axis)
+                cell.edges[edge][axis] = words.number("a component of an edge");
+            cell.origin[static_cast<int>(edge)] = words.number("a coordinate of the origin");
+        }
+    }
+
+    /// "pp": both sides of an axis.
+    static void read_periodic(Cell& cell, std::string_view flags) {
+        std::size_t axis = 0;
+        while (axis < 3) {
+            flags = trimmed(flags);
+            if (flags.empty()) return;
+            const std::size_t end = std::min(flags.find(' '), flags.size());
+            const std::string_view word = flags.substr(0, end);
+            if (word.size() == 2 && word != "xy" && word != "xz" && word != "yz")
+                cell.periodic[axis++] = word == "pp";
+            flags.remove_prefix(end);
+        }
+    }
+
+    enum class Is { x, y, z, element, type, radius, property, other };
+    struct Column {
+        Is is;
+        std::size_t property; ///< index
+    };
+
+    void read_columns(Structure& frame, std::string_view names) {
+        columns_.clear();
+        scaled_ = {};
+        bool seen[3] = {};
+        has_element_ = has_radius_ = false;
+        for (;;) {
+            names = trimmed(names);
+            if (names.empty()) break;
+            const std::size_t end = std::min(names.find(' '), names.size());
+            const std::string_view name = names.substr(0, end);
+            names.remove_prefix(end);
+            const std::size_t axis = name[0] >= 'x' && name[0] <= 'z'
+                                         ? static_cast<std::size_t>(name[0] - 'x')
+                                         : std::size_t{3};
+            const std::string_view rest = name.substr(1);
+            const bool is_scaled = rest == "s" || rest == "su";
+            if (axis < 3 && (rest.empty() || rest == "u" || is_scaled) && !seen[axis]) {
+                seen[axis] = true;
+                scaled_[axis] = is_scaled;
+                columns_.push_back({static_cast<Is>(axis), 0});
+            } else if (name == "element") {
+                has_element_ = true;
+                columns_.push_back({Is::element, 0});
+            } else if (name == "type") {
+                columns_.push_back({Is::type, 0});
+            } else if (name == "radius") {
+                has_radius_ = true;
+                columns_.push_back({Is::radius, 0});
+            } else if (name == "id" || name == "ix" || name == "iy" || name == "iz" || axis < 3) {
+                columns_.push_back({Is::other, 0});
+            } else {
+                columns_.push_back({Is::property, frame.properties.size()});
+                frame.properties.push_back({std::string(name), {}});
+            }
+        }
+        if (!seen[0] || !seen[1] || !seen[2])
+            lines_.fail("must have x, y and z (or xs, xu, xsu), got \"" +
+                        printable(lines_.text(), 200) + "\"");
+        if ((scaled_[0] || scaled_[1] || scaled_[2]) && !frame.cell.any())
+            lines_.fail(
+                "must come after ITEM: BOX BOUNDS, as its coordinates are parts of the box");
+    }
+
+    void read_atoms(Structure& frame, std::string_view names, std::size_t count) {
+        read_columns(frame, names);
+        constexpr std::size_t least_bytes = 6; // "0 0 0\n"
+        const std::size_t room = file_.size() != 0
+                                     ? static_cast<std::size_t>(file_.size()) / least_bytes
+                                     : std::size_t{1} << 20;
+        frame.positions.reserve(std::min(count, room));
+        frame.kinds.reserve(std::min(count, room));
+        for (AtomProperty& property : frame.properties)
+            property.values.reserve(std::min(count, room));
+        KindTable kinds(frame.of_kind);
+        for (std::size_t atom = 0; atom < count; ++atom) {
+            if (!lines_.next())
+                lines_.fail("must be atom " + std::to_string(atom + 1) + " of " +
+                            std::to_string(count) + ", and the file ends");
+            read_atom(frame, kinds);
+        }
+    }
+
+    void read_atom(Structure& frame, KindTable& kinds) {
+        Words words(lines_);
+        double at[3] = {};
+        std::string_view label = "1";
+        float radius = 0.0F;
+        for (const Column& column : columns_) {
+            switch (column.is) {
+            case Is::x:
+            case Is::y:
+            case Is::z:
+                at[static_cast<int>(column.is)] =
+                    static_cast<double>(words.coordinate("a coordinate"));
+                break;
+            case Is::element:
+                label = words.get("an element");
+                break;
+            case Is::type:
+                if (has_element_)
+                    words.get("a type");
+                else
+                    label = words.get("a type");
+                break;
+            case Is::radius:
+                radius = words.coordinate("a radius");
+                break;
+            case Is::property:
+                frame.properties[column.property].values.push_back(value_of(words.get("a value")));
+                break;
+            case Is::other:
+                words.get("a value");
+            }
+        }
+        core::Vec3d position(at[0], at[1], at[2]);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (scaled_[axis]) {
+                position = frame.cell.origin + at[0] * frame.cell.edges[0] +
+                           at[1] * frame.cell.edges[1] + at[2] * frame.cell.edges[2];
+                break;
+            }
+        const std::size_t kind = kinds.index_of(label, [&](std::string_view name) {
+            return has_element_ ? element_of_label(name, true) : Element{0};
+        });
+        if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 types");
+        if (has_radius_) frame.radii.push_back(radius);
+        frame.positions.push_back(core::convert<float>(position));
+        frame.kinds.push_back(static_cast<std::uint16_t>(kind));
+    }
+
+    /// Of a word, as a molecule's name may be one, not a number.
+    static float value_of(std::string_view word) {
+        return static_cast<float>(number_in(word).value_or(std::nan("")));
+    }
+
+    InputFile& file_;
+    Lines lines_;
+    std::vector<Column> columns_;
+    std::array<bool, 3> scaled_{};
+    bool has_element_ = false, has_radius_ = false;
+    std::size_t frames_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<FrameReader> open_lammps_dump(InputFile& file) {
+    return std::make_unique<DumpReader>(file);
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,246 @@
+#include "scenes/errors.hpp"
+#include "scenes/structure/readers.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace raylane::scenes;
+using raylane::core::Vec3d;
+using raylane::core::Vec3f;
+
+namespace {
+
+using Open = std::unique_ptr<FrameReader> (*)(InputFile&);
+
+std::vector<Structure> frames(Open open, const std::string& text) {
+    InputFile file("a", text);
+    const std::unique_ptr<FrameReader> reader = open(file);
+    std::vector<Structure> all;
+    for (Structure frame; reader->next(frame);)
+        all.push_back(frame);
+    return all;
+}
+
+std::string complaint(Open open, const std::string& text) {
+    return raylane::tests::message_of<BadInput>([&] { frames(open, text); });
+}
+
+std::string elements_of(const Structure& structure) {
+    std::string text;
+    for (AtomIndex i = 0; i < structure.size(); ++i)
+        text.append(data_of(structure.element(i)).symbol).append(" ");
+    return text;
+}
+
+bool has_gemmi() {
+    InputFile file("a", "x");
+    return raylane::tests::message_of<BadInput>([&] { open_pdb(file); }).find("without gemmi") ==
+           std::string::npos;
+}
+
+std::string pdb_atom(const char* record, int serial, const char* name, const char* residue,
+                     char chain, int number, double x, double y, double z, const char* element) {
+    char text[96];
+    std::snprintf(text, sizeof text, "%-6s%5d %-4s %3s %c%4d    %8.3f%8.3f%8.3f%6.2f%6.2f%12s\n",
+                  record, serial, name, residue, chain, number, x, y, z, 1.0, 20.0, element);
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("XYZ is read frame by frame") {
+    const std::vector<Structure> all = frames(open_xyz, "2\nwater, part of it\nO 0.1 0 -1.5e0\n"
+                                                        "h  +1 2.D0 3  extra\n\n"
+                                                        "1\n\nFe2+ 4 5 6");
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].title == "water, part of it");
+    CHECK(elements_of(all[0]) == "O H ");
+    CHECK(all[0].positions == std::vector{Vec3f(0.1F, 0, -1.5F), Vec3f(1, 2, 3)});
+    CHECK_FALSE(all[0].cell.any());
+    CHECK(elements_of(all[1]) == "Fe ");
+}
+
+TEST_CASE("extended XYZ has columns and a cell") {
+    const std::vector<Structure> all =
+        frames(open_xyz, "2\nLattice=\"4 0 0 1 5 0 0 0 6\" Origin=\"1 2 3\" pbc='T F T' title "
+                         "Properties=id:I:1:pos:R:3:species:S:1:forces:R:3:radius:R:1 energy=-3\n"
+                         "7 0 0 0 Na 3 4 0 1.5\n8 1 1 1 Cl 0 0 2 0.5\n");
+    REQUIRE(all.size() == 1);
+    const Structure& frame = all[0];
+    CHECK(elements_of(frame) == "Na Cl ");
+    CHECK(frame.radii == std::vector{1.5F, 0.5F});
+    CHECK(frame.cell.edges[1] == Vec3d(1, 5, 0));
+    CHECK(frame.cell.origin == Vec3d(1, 2, 3));
+    CHECK(frame.cell.periodic == std::array{true, false, true});
+    REQUIRE(frame.properties.size() == 2);
+    CHECK(frame.properties[0].name == "id");
+    CHECK(frame.properties[0].values == std::vector{7.0F, 8.0F});
+    CHECK(frame.properties[1].values == std::vector{5.0F, 2.0F}); // lengths
+}
+
+TEST_CASE("what is no XYZ is told with its line") {
+    CHECK(complaint(open_xyz, "x\n") ==
+          "a:1:1: the number of atoms must be a whole number from 0 to 2147483647, got \"x\"");
+    CHECK(complaint(open_xyz, "3\n\nC 0 0 0\nC 0 0 1\n") ==
+          "a:5: must be atom 3 of 3, and the file ends");
+    CHECK(complaint(open_xyz, "1\n\nC 0 zero 0\n") ==
+          "a:3:5: a coordinate must be a number, got \"zero\"");
+    CHECK(complaint(open_xyz, "1\n\nC 0 0\n") ==
+          "a:3:6: must have a coordinate here, and the line ends");
+    CHECK(
+        complaint(open_xyz, "1\nLattice=\"1 2\"\nC 0 0 0\n").starts_with("a:2: Lattice must have"));
+    CHECK(
+        complaint(open_xyz, "1\nProperties=pos:R\nC 0 0 0\n").starts_with("a:2: Properties must"));
+    CHECK(complaint(open_xyz, "1\n\nC 0 0 2e30\n") ==
+          "a:3:7: a coordinate must be from -1e30 to 1e30");
+    CHECK(complaint(open_xyz, "1\n\nC nan 0 0\n").find("must be a number") != std::string::npos);
+    CHECK(complaint(open_xyz, "") == "a:1: must be the number of atoms, and the file ends");
+}
+
+TEST_CASE("GRO is read in columns of any width") {
+    const std::string text = "water t= 0.0\n    4\n"
+                             "    1SOL     OW    1   0.126   1.624   1.679  0.1 0.2 0.3\n"
+                             "    1SOL    HW1    2   0.190   1.661   1.747\n"
+                             "    2LYS     CA    3   1.275   0.053   0.622\n"
+                             "    3CA      CA    4  -1.000   0.000   0.000\n"
+                             "   1.82060   1.82060   1.82060\n"
+                             "next\n    1\n"
+                             "    1ALA     CB    1   0.12345   1.62345   1.67945\n"
+                             " 1 2 3 0 0 0.5 0 0.25 0.125\n\n";
+    const std::vector<Structure> all = frames(open_gro, text);
+    REQUIRE(all.size() == 2);
+    CHECK(elements_of(all[0]) == "O H C Ca ");
+    CHECK(all[0].positions[0] == Vec3f(1.26F, 16.24F, 16.79F));
+    CHECK(all[0].positions[3].x == -10.0F);
+    CHECK(all[0].names[1] == "HW1");
+    CHECK(all[0].of_residue.size() == 3);
+    CHECK(all[0].of_residue[all[0].residues[2]].name == "LYS");
+    CHECK(all[0].cell.edges[0].x == Approx(18.206));
+    CHECK(all[1].positions[0] == Vec3f(1.2345F, 16.2345F, 16.7945F));
+    CHECK(all[1].cell.edges[1] == Vec3d(5, 20, 0));
+    CHECK(all[1].cell.edges[2] == Vec3d(2.5, 1.25, 30));
+    CHECK(complaint(open_gro, "a\n1\n    1SOL     OW    1   0.126   1.x24   1.679\n1 1 1\n") ==
+          "a:3:29: a coordinate must be a number, got \"   1.x24\"");
+    CHECK(complaint(open_gro, "a\n1\n    1SOL     OW    1\n1 1 1\n")
+              .starts_with("a:3: must be an atom"));
+    CHECK(complaint(open_gro, "a\n0\n1 1\n") == "a:3: must be the box, of 3 or 9 numbers, got 2");
+}
+
+TEST_CASE("LAMMPS' dumps have columns in any order, and scaled coordinates") {
+    const std::string head = "ITEM: TIMESTEP\n100\nITEM: NUMBER OF ATOMS\n2\n";
+    const std::vector<Structure> all =
+        frames(open_lammps_dump, head +
+                                     "ITEM: BOX BOUNDS pp ff pp\n0 10\n-5 5\n0 2e1\n"
+                                     "ITEM: ATOMS z type id y x vx\n3 2 1 2 1 0.5\n6 1 2 5 4 -1\n" +
+                                     head +
+                                     "ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 12 2\n0 10 0\n0 10 0\n"
+                                     "ITEM: ATOMS id element xs ys zs radius\n"
+                                     "1 Si 0.5 0.5 0.5 1\n2 O 0 1 0 2\n");
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].positions == std::vector{Vec3f(1, 2, 3), Vec3f(4, 5, 6)});
+    CHECK(all[0].of_kind[all[0].kinds[0]].label == "2");
+    CHECK(all[0].cell.periodic == std::array{true, false, true});
+    CHECK(all[0].cell.origin == Vec3d(0, -5, 0));
+    REQUIRE(all[0].properties.size() == 1);
+    CHECK(all[0].properties[0].values == std::vector{0.5F, -1.0F});
+    // The bounds are those of what encloses a box of edges (10, 0, 0), (2, 10, 0), (0, 0, 10).
+    CHECK(elements_of(all[1]) == "Si O ");
+    CHECK(all[1].cell.edges[0] == Vec3d(10, 0, 0));
+    CHECK(all[1].positions == std::vector{Vec3f(6, 5, 5), Vec3f(2, 10, 0)});
+    CHECK(all[1].radii == std::vector{1.0F, 2.0F});
+    CHECK(complaint(open_lammps_dump, head + "ITEM: ATOMS id x y\n") ==
+          "a:5: must have x, y and z (or xs, xu, xsu), got \"ITEM: ATOMS id x y\"");
+    CHECK(complaint(open_lammps_dump, head + "ITEM: ATOMS x y z\n1 2 3\n") ==
+          "a:7: must be atom 2 of 2, and the file ends");
+    CHECK(complaint(open_lammps_dump, "ITEM: TIMESTEP\n1\n") ==
+          "a:3: must have ITEM: ATOMS, and the file ends");
+    CHECK(complaint(open_lammps_dump, "3\n").starts_with("a:1: must begin with \"ITEM: \""));
+}
+
+TEST_CASE("LAMMPS' data has sections, and bonds by numbers of atoms") {
+    const std::string text = "a remark\n\n3 atoms\n2 bonds\n2 atom types\n\n"
+                             "0 10 xlo xhi\n0 11 ylo yhi\n0 12 zlo zhi\n1 0 0 xy xz yz\n\n"
+                             "Masses\n\n1 15.9994 # O\n2 1.008\n\n"
+                             "Atoms # full\n\n10 1 1 -0.8 1 2 3 0 0 0\n30 1 2 0.4 4 5 6\n"
+                             "20 1 2 0.4 7 8 9\n\nVelocities\n\n10 0 0 0\n\n"
+                             "Bonds\n\n1 1 10 20\n2 1 30 10\n";
+    const std::vector<Structure> all = frames(open_lammps_data, text);
+    REQUIRE(all.size() == 1);
+    CHECK(elements_of(all[0]) == "O H H ");
+    CHECK(all[0].positions[1] == Vec3f(4, 5, 6));
+    CHECK(all[0].cell.edges[1] == Vec3d(1, 11, 0));
+    REQUIRE(all[0].bonds.size() == 2);
+    CHECK(all[0].bonds[0].b == 2);
+    CHECK(all[0].bonds[1].b == 1);
+    CHECK(all[0].properties[0].values == std::vector{-0.8F, 0.4F, 0.4F});
+    const auto with = [&](const std::string& what, const std::string& instead) {
+        std::string changed = text;
+        changed.replace(changed.find(what), what.size(), instead);
+        return changed;
+    };
+    CHECK(frames(open_lammps_data, with("Atoms # full", "Atoms"))[0].positions[1] ==
+          Vec3f(4, 5, 6));
+    // Masses of no element: reduced units.
+    CHECK(elements_of(frames(open_lammps_data, with("15.9994", "0.3"))[0]) == "X X X ");
+    CHECK(complaint(open_lammps_data, with("3 atoms", "4 atoms")) ==
+          "a:32: must have 4 atoms, got 3");
+    CHECK(complaint(open_lammps_data, with("# full", "# fill")).find("did you mean \"full\"?") !=
+          std::string::npos);
+    CHECK(complaint(open_lammps_data, with("1 1 10 20", "1 1 10 21")) ==
+          "a:29:8: must be the number of an atom, and there is no 21");
+}
+
+TEST_CASE("PDB has residues, bonds and models") {
+    if (!has_gemmi()) return;
+    const std::string text = "TITLE     SMALL\n"
+                             "CRYST1   10.000   20.000   30.000  90.00  90.00  90.00 P 1\n"
+                             "MODEL        1\n" +
+                             pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N") +
+                             pdb_atom("ATOM", 2, " CA", "ALA", 'A', 5, 2, 2, 3, "C") +
+                             pdb_atom("HETATM", 3, "ZN", " ZN", 'B', 9, -1.5, 0, 0, "ZN") +
+                             "ENDMDL\nMODEL        2\n" +
+                             pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 4, 2, 3, "N") +
+                             "ENDMDL\nCONECT    1    2    2\nCONECT    2    1    1\nEND\n";
+    const std::vector<Structure> all = frames(open_pdb, text);
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].title == "SMALL");
+    CHECK(elements_of(all[0]) == "N C Zn ");
+    CHECK(all[0].positions[2] == Vec3f(-1.5F, 0, 0));
+    CHECK(all[0].names[1] == "CA");
+    CHECK(all[0].chains == std::vector<std::string>{"A", "B"});
+    CHECK(all[0].of_residue[1].is_hetero);
+    CHECK(all[0].cell.edges[2].z == 30.0);
+    REQUIRE(all[0].bonds.size() == 1);
+    CHECK(all[0].bonds[0].order == 2);
+    CHECK(all[1].positions == std::vector{Vec3f(4, 2, 3)});
+    CHECK(complaint(open_pdb, pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N") +
+                                  "ATOM      2  CA  ALA A   5       1.0.0   2.000   3.000\n") ==
+          "a:2:31: a coordinate must be a number, got \"1.0.0\"");
+    CHECK(complaint(open_pdb, "REMARK\n") == "a: must have ATOM or HETATM records, got none");
+}
+
+TEST_CASE("places of an atom that exclude each other are one") {
+    if (!has_gemmi()) return;
+    std::string first = pdb_atom("ATOM", 1, " CB", "SER", 'A', 5, 1, 2, 3, "C"), second = first;
+    first[16] = 'A';
+    second[16] = 'B';
+    CHECK(frames(open_pdb, first + second)[0].size() == 1);
+}
+
+TEST_CASE("CIF of a crystal is all that is in its cell") {
+    if (!has_gemmi()) return;
+    const std::string text =
+        "data_salt\n_cell_length_a 5.64\n_cell_length_b 5.64\n_cell_length_c 5.64\n"
+        "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n"
+        "_symmetry_space_group_name_H-M 'F m -3 m'\n"
+        "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
+        "Na1 0 0 0\nCl1 0.5 0.5 0.5\n";
+    const Structure frame = frames(open_cif, text).at(0);
+    CHECK(elements_of(frame) == "Na Na Na Na Cl Cl Cl Cl ");
+    CHECK(frame.cell.edges[0].x == Approx(5.64));
+    CHECK(complaint(open_cif, "data_a\nloop_\n_x\n_y\n1\n").starts_with("a:"));
+    CHECK(complaint(open_cif, "data_a\n_x 1\n") == "a: must have a table _atom_site, got none");
+}

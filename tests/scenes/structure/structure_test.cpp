@@ -1,0 +1,287 @@
+#include "scenes/errors.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/structure/bonds.hpp"
+#include "scenes/structure/selection.hpp"
+#include "tests/catch.hpp"
+#include "tests/random.hpp"
+#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <zlib.h>
+
+using namespace raylane::scenes;
+using raylane::core::Vec3f;
+using raylane::ray_sets::Random;
+
+namespace {
+
+Structure of_atoms(const std::vector<std::pair<const char*, Vec3f>>& atoms) {
+    Structure structure;
+    for (const auto& [symbol, at] : atoms) {
+        structure.of_kind.push_back({symbol, element_of(symbol)});
+        structure.kinds.push_back(static_cast<std::uint16_t>(structure.of_kind.size() - 1));
+        structure.positions.push_back(at);
+    }
+    return structure;
+}
+
+/// Two residues of chain A, water in chain B.
+Structure peptide() {
+    Structure structure = of_atoms({{"N", {0, 0, 0}},
+                                    {"C", {1.4F, 0, 0}},
+                                    {"H", {0, 1, 0}},
+                                    {"C", {10, 0, 0}},
+                                    {"O", {12, 0, 0}}});
+    structure.names = {"N", "CA", "H", "CB", "O"};
+    structure.chains = {"A", "b"};
+    structure.of_residue = {
+        {"ALA", -1, ' ', 0, false}, {"GLY", 20, ' ', 0, false}, {"HOH", 301, ' ', 1, true}};
+    structure.residues = {0, 0, 0, 1, 2};
+    structure.properties = {{"b_factor", {10, 20, 30, 40, 50}}};
+    return structure;
+}
+
+std::string selected(const Structure& structure, const std::string& expression) {
+    std::string result;
+    for (const char is_selected : select_atoms(structure, "--select", expression))
+        result.push_back(is_selected != 0 ? '1' : '0');
+    return result;
+}
+
+std::string complaint(const Structure& structure, const std::string& expression) {
+    return raylane::tests::message_of<BadInput>([&] { selected(structure, expression); });
+}
+
+std::string xyz_of(int count) {
+    Random random(3);
+    std::string text = std::to_string(count) + "\n\n";
+    for (int i = 0; i < count; ++i)
+        text += "C " + std::to_string(random.uniform(-9, 9)) + " " +
+                std::to_string(random.uniform(-9, 9)) + " " +
+                std::to_string(random.uniform(-9, 9)) + "\n";
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("elements are told by symbols, labels and masses") {
+    CHECK(element_of("Fe") == 26);
+    CHECK(element_of("CL") == 17);
+    CHECK(element_of("D") == 1);
+    CHECK(element_of("Q") == 0);
+    CHECK(element_of("") == 0);
+    CHECK(element_of_label("Fe2+") == 26);
+    CHECK(element_of_label("CA") == 6);
+    CHECK(element_of_label("CA", true) == 20);
+    CHECK(element_of_label("1HB") == 1);
+    CHECK(element_of_mass(15.9994) == 8);
+    CHECK(element_of_mass(0.3) == 0);
+    for (Element z = 1; z < element_count; ++z) {
+        CHECK(element_of(data_of(z).symbol) == z);
+        CHECK(data_of(z).mass >= data_of(static_cast<Element>(z > 1 ? z - 1 : 1)).mass - 3.0F);
+    }
+}
+
+TEST_CASE("bonds are those of all pairs that are near enough") {
+    Random random(20261125);
+    for (const double size : {3.0, 20.0, 4000.0}) {
+        std::vector<std::pair<const char*, Vec3f>> atoms;
+        const char* const symbols[] = {"C", "H", "O", "Fe", "Cu", "Xx"};
+        for (int i = 0; i < 400; ++i)
+            atoms.emplace_back(
+                symbols[random.integer(0, 5)],
+                raylane::core::convert<float>(random.cube(size) *
+                                              raylane::core::Vec3d(1, 1, i % 3 == 0 ? 0 : 1)));
+        // As near as can be, and in one place.
+        atoms.emplace_back("O", Vec3f(0, 0, 0));
+        atoms.emplace_back("H", Vec3f(0.96F, 0, 0));
+        atoms.emplace_back("O", Vec3f(0, 0, 0));
+        const Structure structure = of_atoms(atoms);
+        std::vector<std::pair<AtomIndex, AtomIndex>> expected, found;
+        for (AtomIndex a = 0; a < structure.size(); ++a)
+            for (AtomIndex b = a + 1; b < structure.size(); ++b) {
+                const float of_a = data_of(structure.element(a)).covalent_radius;
+                const float of_b = data_of(structure.element(b)).covalent_radius;
+                const Vec3f apart = structure.positions[a] - structure.positions[b];
+                const float distance =
+                    std::sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z);
+                const auto is_metal = [&](AtomIndex i) { return structure.element(i) > 20; };
+                if (of_a == 0 || of_b == 0 || (is_metal(a) && is_metal(b))) continue;
+                if (distance >= 0.4F && distance <= of_a + of_b + 0.4F) expected.emplace_back(a, b);
+            }
+        for (const Bond& bond : find_bonds(structure))
+            found.emplace_back(bond.a, bond.b);
+        CHECK(found == expected);
+        CHECK_FALSE(found.empty());
+    }
+}
+
+TEST_CASE("bonds that a file has keep their orders") {
+    Structure structure = of_atoms({{"C", {0, 0, 0}}, {"O", {1.2F, 0, 0}}, {"C", {9, 0, 0}}});
+    structure.bonds = {{0, 2, 1}, {0, 1, 2}};
+    std::vector<Bond> bonds = find_bonds(structure);
+    REQUIRE(bonds.size() == 2);
+    CHECK(bonds[0].order == 2);
+    CHECK(bonds[1].b == 2);
+    structure.bonds = {};
+    structure.has_all_bonds = true;
+    CHECK(find_bonds(structure).empty());
+}
+
+TEST_CASE("atoms are selected by words") {
+    const Structure all = peptide();
+    CHECK(selected(all, "all") == "11111");
+    CHECK(selected(all, "none") == "00000");
+    CHECK(selected(all, "protein") == "11110");
+    CHECK(selected(all, "water") == "00001");
+    CHECK(selected(all, "hetero") == "00001");
+    CHECK(selected(all, "HYDROGEN") == "00100");
+    CHECK(selected(all, "backbone") == "11000");
+    CHECK(selected(all, "chain A") == "11110");
+    CHECK(selected(all, "chain a B") == "00000"); // chains may differ in case alone
+    CHECK(selected(all, "chain A b") == "11111");
+    CHECK(selected(all, "residue ala 300-302") == "11101");
+    CHECK(selected(all, "residue -1") == "11100");
+    CHECK(selected(all, "residue -5--1,20") == "11110");
+    CHECK(selected(all, "element c N") == "11010");
+    CHECK(selected(all, "name cb o") == "00011");
+    CHECK(selected(all, "type C") == "01010");
+    CHECK(selected(all, "index 2-3 5") == "01101");
+    CHECK(selected(all, "b_factor >= 30") == "00111");
+    CHECK(selected(all, "b_factor=20") == "01000");
+    CHECK(selected(all, "not element C and chain A") == "10100");
+    CHECK(selected(all, "not (element C and chain A)") == "10101");
+    CHECK(selected(all, "element N or element C and residue 20") == "10010");
+    CHECK(selected(all, "within 1.2 of element N") == "10100");
+    CHECK(selected(all, "within 2 of water and not water") == "00010");
+    CHECK(selected(all, "within 0 of name N") == "10000");
+    CHECK(selected(all, "within 5 of none") == "00000");
+}
+
+TEST_CASE("what selects no atoms in any words is told with its column") {
+    const Structure all = peptide();
+    CHECK(complaint(all, "") == "--select: column 1: must be what to select, got nothing");
+    CHECK(complaint(all, "chane A").find("did you mean \"chain\"?") != std::string::npos);
+    CHECK(complaint(all, "element C and") ==
+          "--select: column 14: must be what to select, got nothing");
+    CHECK(complaint(all, "(all") == "--select: column 5: must be \")\", got \"\"");
+    CHECK(complaint(all, "all all") ==
+          "--select: column 5: must be \"and\", \"or\" or the end, got \"all\"");
+    CHECK(complaint(all, "within near of all").find("must be a distance, got \"near\"") !=
+          std::string::npos);
+    CHECK(complaint(all, "b_factor 3").find("must have <, <=, >, >= or = behind it") !=
+          std::string::npos);
+    CHECK(complaint(all, "element Q").find("must be an element, got \"Q\"") != std::string::npos);
+    CHECK(complaint(all, std::string(1000, '(')).find("deeper than 100") != std::string::npos);
+}
+
+TEST_CASE("within finds what all distances do") {
+    Random random(7);
+    std::vector<std::pair<const char*, Vec3f>> atoms;
+    for (int i = 0; i < 500; ++i)
+        atoms.emplace_back(
+            i % 50 == 0 ? "O" : "C",
+            raylane::core::convert<float>(random.cube(9) * raylane::core::Vec3d(1, 1, 5)));
+    const Structure structure = of_atoms(atoms);
+    for (const float reach : {0.5F, 3.0F, 20.0F, 500.0F}) {
+        std::string expected;
+        for (const Vec3f& at : structure.positions)
+            expected.push_back(std::any_of(atoms.begin(), atoms.end(),
+                                           [&](const auto& atom) {
+                                               const Vec3f apart = at - atom.second;
+                                               return atom.first[0] == 'O' &&
+                                                      raylane::core::dot(apart, apart) <=
+                                                          reach * reach;
+                                           })
+                                   ? '1'
+                                   : '0');
+        CHECK(selected(structure, "within " + std::to_string(reach) + " of element O") == expected);
+    }
+}
+
+TEST_CASE("a file of atoms is a scene with a camera that sees them all") {
+    LoadOptions options;
+    options.drawing.width = 320;
+    options.drawing.height = 200;
+    const auto projection =
+        GENERATE(raylane::core::Projection::perspective, raylane::core::Projection::orthographic);
+    options.drawing.framing.projection = projection;
+    options.drawing.framing.direction = {-1, -0.5F, 0.3F};
+    const raylane::core::Scene scene = parse_scene("a.xyz", xyz_of(30), options);
+    CHECK(scene.settings().width == 320);
+    CHECK(scene.camera().projection == projection);
+    CHECK(scene.lights().size() == 2);
+    CHECK(scene.background().x == 1.0F);
+    CHECK(std::get<raylane::core::Table<raylane::core::Sphere>>(scene.shapes()).size() == 30);
+}
+
+TEST_CASE("styles have the shapes that they are named after") {
+    const std::string acetylene = "4\n\nH 0 0 0\nC 1.06 0 0\nC 2.26 0 0\nH 3.32 0 0\n";
+    const auto counts = [&](Style style) {
+        LoadOptions options;
+        options.drawing.style = style;
+        const raylane::core::Scene scene = parse_scene("a.xyz", acetylene, options);
+        return std::pair(
+            std::get<raylane::core::Table<raylane::core::Sphere>>(scene.shapes()).size(),
+            std::get<raylane::core::Table<raylane::core::CappedCylinder>>(scene.shapes()).size());
+    };
+    CHECK(counts(Style::spheres) == std::pair<std::size_t, std::size_t>(4, 0));
+    CHECK(counts(Style::points) == std::pair<std::size_t, std::size_t>(4, 0));
+    CHECK(counts(Style::automatic) == std::pair<std::size_t, std::size_t>(4, 5));
+    CHECK(counts(Style::sticks) == std::pair<std::size_t, std::size_t>(4, 5)); // C-C of one colour
+    CHECK(counts(Style::licorice) == std::pair<std::size_t, std::size_t>(4, 5));
+}
+
+TEST_CASE("what cannot be drawn is said in a line") {
+    const auto error = [](const std::string& name, const std::string& text, const auto& change) {
+        LoadOptions options;
+        change(options);
+        return raylane::tests::message_of<BadInput>([&] { parse_scene(name, text, options); });
+    };
+    const std::string one = "1\n\nC 0 0 0\n";
+    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.select = "element N"; }) ==
+          "--select: \"element N\" selects none of 1 atoms");
+    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "chain"; }) ==
+          "--color: must not be chain here: a.xyz has no residues");
+    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "elment"; }) ==
+          "--color: must be element, chain or residue, got \"elment\", did you mean \"element\"?");
+    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.show_cell = true; }) ==
+          "--cell: must have a cell to show, and a.xyz has none");
+    CHECK(error("a.xyz", one, [](LoadOptions& o) {
+              o.drawing.repeat = {1, 2, 1};
+          }) == "--repeat: must have a cell to repeat, and a.xyz has none");
+    CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = true; }) ==
+          "--ellipsoids: a.xyz has no anisotropic displacements");
+    CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) == "a.xyz: has no atoms");
+    CHECK(error("a.json", "{}", [](LoadOptions& o) { o.option_for_atoms = "--style"; }) ==
+          "--style: goes with a file of atoms, and a.json is a scene");
+}
+
+TEST_CASE("one atom, and atoms in one place, are seen") {
+    for (const char* text : {"1\n\nC 5 5 5\n", "2\n\nC 1e4 0 0\nN 1e4 0 0\n", "1\n\nXx 0 0 0\n"})
+        for (const auto projection :
+             {raylane::core::Projection::perspective, raylane::core::Projection::orthographic}) {
+            LoadOptions options;
+            options.drawing.framing.projection = projection;
+            CHECK_NOTHROW(parse_scene("a.xyz", text, options));
+        }
+}
+
+TEST_CASE("files that gzip has compressed read as what they were") {
+    const std::string text = xyz_of(20'000);
+    const raylane::tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "a.xyz.gz";
+    // In two pieces, as those have them that compress in blocks.
+    for (const auto& part : {text.substr(0, 100'000), text.substr(100'000)}) {
+        gzFile file = ::gzopen(path.c_str(), "ab");
+        REQUIRE(::gzwrite(file, part.data(), static_cast<unsigned>(part.size())) > 0);
+        ::gzclose(file);
+    }
+    CHECK(load_scene(path).shape_count() == 20'000);
+    std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1000);
+    CHECK(raylane::tests::message_of<BadInput>([&] { load_scene(path); }) ==
+          path.string() + ": must be whole: what is compressed ends too early");
+}
