@@ -14,6 +14,10 @@ namespace raylane::scenes {
 /// Is told how many bytes have been read so far, and how many there are or 0.
 using OnRead = std::function<void(std::uint64_t bytes, std::uint64_t of)>;
 
+/// Is told, in a line that begins with the file and often the place, of what a file says and the
+/// scene does not have.
+using OnRemark = std::function<void(const std::string& remark)>;
+
 /// A file, or anything else that can be read from start to end. What gzip has compressed reads as
 /// what that was.
 class InputFile {

@@ -13,7 +13,8 @@ namespace raylane::scenes {
 struct LoadOptions {
     core::Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
     OnRead on_read = {};
-    Drawing drawing = {}; ///< of files of atoms
+    OnRemark on_remark = {}; ///< of scenes of other programs
+    Drawing drawing = {};    ///< of files of atoms
     /// What a scene is refused with: an option that says how atoms are drawn; empty: none is given.
     std::string option_for_atoms = {};
 };

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -29,7 +30,8 @@ class Loader : public simd::ParallelWorkers {
             bytes_ = bytes;
             all_bytes_ = of;
         };
-        return load_scene(path, {this, note, drawing, option_for_atoms});
+        const auto keep = [this](const std::string& remark) { remarks_.push_back(remark); };
+        return load_scene(path, {this, note, keep, drawing, option_for_atoms});
     }
 
     void added(std::size_t count) override { added_ = count; }
@@ -37,6 +39,9 @@ class Loader : public simd::ParallelWorkers {
         to_place_ = all;
         placed_ += count;
     }
+
+    /// Of the file, once it has been read.
+    const std::vector<std::string>& remarks() const { return remarks_; }
 
     std::string text() const {
         const auto share = [](auto done, auto all) {
@@ -54,6 +59,7 @@ class Loader : public simd::ParallelWorkers {
   private:
     std::atomic<std::uint64_t> bytes_ = 0, all_bytes_ = 0;
     std::atomic<std::size_t> added_ = 0, placed_ = 0, to_place_ = 0;
+    std::vector<std::string> remarks_;
 };
 
 } // namespace
@@ -61,8 +67,13 @@ class Loader : public simd::ParallelWorkers {
 core::Scene load_with_progress(const std::filesystem::path& path, const Drawing& drawing,
                                const std::string& option_for_atoms, int threads) {
     Loader loader(threads);
-    const ProgressLine line([&] { return loader.text(); });
-    return loader.load(path, drawing, option_for_atoms);
+    core::Scene scene = [&] {
+        const ProgressLine line([&] { return loader.text(); });
+        return loader.load(path, drawing, option_for_atoms);
+    }();
+    for (const std::string& remark : loader.remarks())
+        std::fprintf(stderr, "%s\n", remark.c_str());
+    return scene;
 }
 
 } // namespace raylane::scenes
