@@ -32,6 +32,7 @@ void draw(benchmark::State& state, const core::Scene& scene, const simd::RenderO
     state.counters["primary"] = per_picture(counters.primary);
     state.counters["reflected"] = per_picture(counters.reflected);
     state.counters["refracted"] = per_picture(counters.refracted);
+    state.counters["passed"] = per_picture(counters.passed);
     state.counters["shadow"] = per_picture(counters.shadow);
 }
 

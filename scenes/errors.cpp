@@ -131,7 +131,7 @@ struct Synonym {
 };
 constexpr std::array synonyms = {
     Synonym{"albedo", "color"},
-    Synonym{"alpha", "transmission"},
+    Synonym{"alpha", "opacity"},
     Synonym{"angle", "field_of_view"},
     Synonym{"bounces", "max_depth"},
     Synonym{"depth", "max_depth"},
@@ -149,7 +149,6 @@ constexpr std::array synonyms = {
     Synonym{"look_at", "at"},
     Synonym{"lookat", "at"},
     Synonym{"max_bounces", "max_depth"},
-    Synonym{"opacity", "transmission"},
     Synonym{"origin", "from"},
     Synonym{"origin", "center"},
     Synonym{"position", "from"},
@@ -167,6 +166,7 @@ constexpr std::array synonyms = {
     Synonym{"spp", "grid"},
     Synonym{"spp", "sampling"},
     Synonym{"target", "at"},
+    Synonym{"transparency", "opacity"},
     Synonym{"transparency", "transmission"},
     Synonym{"width", "size"},
 };

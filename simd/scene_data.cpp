@@ -38,6 +38,7 @@ std::size_t core_cache_bytes() {
 
 MaterialView view_of(const core::Material& material) {
     MaterialView view{};
+    if (material.opacity == 0.0F) return view;
     view.ambient = static_cast<double>(material.ambient);
     view.diffuse = static_cast<double>(material.diffuse);
     view.specular = static_cast<double>(material.specular);
@@ -45,6 +46,7 @@ MaterialView view_of(const core::Material& material) {
     view.reflectivity = static_cast<double>(material.reflectivity);
     view.transmission = static_cast<double>(material.transmission);
     view.index = static_cast<double>(material.index);
+    view.opacity = static_cast<double>(material.opacity);
     view.reflection = material.reflection;
     view.transmits = material.transmits();
     view.reflects = material.reflects();
@@ -153,6 +155,7 @@ void SceneData::view_surroundings() {
                            static_cast<double>(material.absorption[1]),
                            static_cast<double>(material.absorption[2])}});
     }
+    materials_.emplace_back(); // of opacity 0
     for (const core::Light& light : scene_.lights())
         if (core::is_soft(light.kind))
             soft_lights_.push_back(core::prepared(light));
@@ -260,7 +263,7 @@ bool SceneData::is_apart(core::Solids::Index solid) const {
 
 void SceneData::find_plain_lanes(Transmissive transmissive) {
     const auto is_plain = [transmissive](const core::Material& material) {
-        return (transmissive == Transmissive::blocks || !material.transmits()) &&
+        return (transmissive == Transmissive::blocks || !material.lets_light_pass()) &&
                material.visible == core::Visible::both;
     };
     const std::vector<core::Material>& materials = scene_.materials();

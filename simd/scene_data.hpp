@@ -26,6 +26,7 @@ class SceneData {
 
     const core::Scene& scene() const { return scene_; }
     const SceneView& view() const { return view_; }
+    /// Those of the scene, and one more of which nothing is seen but what is behind it.
     const std::vector<MaterialView>& materials() const { return materials_; }
     /// Those without a size.
     const std::vector<LightView>& lights() const { return lights_; }

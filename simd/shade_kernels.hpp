@@ -12,7 +12,7 @@ namespace raylane::simd {
 /// core::Material, with its numbers in double.
 struct MaterialView {
     double ambient, diffuse, specular, exponent;
-    double reflectivity, transmission, index;
+    double reflectivity, transmission, index, opacity;
     core::Reflection reflection;
     bool transmits, reflects;
 
@@ -44,6 +44,7 @@ struct HitPaths {
     const double* direction[3];
     const double* throughput[3];
     const double* t;         ///< distance that they have gone
+    const double* travelled; ///< on the same line, before the origin; null: nothing
     const double* way;       ///< from the origin to the hit point: t, unless that is where it is
     const double* normal[3]; ///< unit, outward
     const double* shading_normal[3];
@@ -68,6 +69,7 @@ struct Surfaces {
     double* throughput[3];  ///< behind the segment's fog or absorption
     double* own[3];         ///< the material's colour here
     double* radiance[3];    ///< light seen, times throughput, without lights and further rays
+    double* behind[3];      ///< throughput of what is behind see-through surfaces; else not set
 };
 
 /// Positions `begin` to `end` of a sorted wave have one material.

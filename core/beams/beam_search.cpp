@@ -192,7 +192,7 @@ BeamSearch::Light BeamSearch::arrives(const Beam& beam, const Departure& from, d
         if (met.what == Met::missed || (met.what == Met::whole && met.crossing.t.lower() >= t_most))
             continue;
         const bool blocks = met.what == Met::whole && met.crossing.t.upper() < t_most;
-        if (blocks && !scene_.material_of(candidate.id).transmits()) return Light::blocked;
+        if (blocks && !scene_.material_of(candidate.id).lets_light_pass()) return Light::blocked;
         candidates[kept++] = candidate;
         light = Light::doubt;
     }

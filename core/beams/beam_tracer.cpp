@@ -250,8 +250,9 @@ bool BeamTracer::is_smooth(const Surface& surface, double weight, double size) c
 /// and lets through.
 double BeamTracer::unknown_behind(const Surface& surface, double weight, double size, int depth) {
     const Material& material = surface.material;
-    if (!material.reflects() && !material.transmits()) return 0.0;
-    if (depth >= settings_.max_depth) return 0.0;
+    double unknown = weight * (1.0 - static_cast<double>(material.opacity));
+    if (!material.reflects() && !material.transmits()) return unknown;
+    if (depth >= settings_.max_depth) return unknown;
 
     auto share = static_cast<double>(material.reflectivity);
     if (material.reflection != Reflection::constant) {
@@ -263,7 +264,6 @@ double BeamTracer::unknown_behind(const Surface& surface, double weight, double 
             refract(middle_of(surface.direction), middle_of(surface.flat_normal), before, behind),
             before, behind);
     }
-    double unknown = 0.0;
     if (material.transmits()) {
         const double transmitted = (1.0 - share) * static_cast<double>(material.transmission);
         unknown += weight * transmitted;

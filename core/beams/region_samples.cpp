@@ -158,7 +158,7 @@ bool RegionSamples::looks_even(const PixelSquare& square, double& t_likely) cons
     double step_most = contrast;
     if (first.shape != no_shape) {
         const Material& material = scene_.material_of(first.shape);
-        if (material.reflects() || material.transmits()) step_most = 0.03;
+        if (material.reflects() || material.lets_light_pass()) step_most = 0.03;
     }
     for (int y = square.y; y < y1; ++y)
         for (int x = square.x; x < x1; ++x) {

@@ -81,7 +81,8 @@ Vec3<Real> let_through_medium(const Material& material, Real distance) {
 
 /// The share of light that a surface lets through on a straight line, at the cosine `cos` of its
 /// angle to the normal. As the line is not bent, its angle is taken for the one on the rarer side:
-/// a light is never shut out by total reflection in a body that it has to enter first.
+/// a light is never shut out by total reflection in a body that it has to enter first. What a
+/// see-through one does not cover passes.
 template <class Real>
 Real let_straight_through(const Material& material, Real cos, Real n1, Real n2) {
     const Real rarer = std::min(n1, n2), denser = std::max(n1, n2);
@@ -89,8 +90,10 @@ Real let_straight_through(const Material& material, Real cos, Real n1, Real n2) 
     const Real sin_squared = sine * sine * (Real(1) - cos * cos);
     const Refraction<Real> refraction{
         false, cos, std::sqrt(std::max(Real(0), Real(1) - sin_squared)), {}};
-    return (Real(1) - reflectance(material, refraction, rarer, denser)) *
-           Real(material.transmission);
+    const Real share =
+        (Real(1) - reflectance(material, refraction, rarer, denser)) * Real(material.transmission);
+    if (!material.is_see_through()) return share;
+    return mul_add(Real(material.opacity), share, Real(1) - Real(material.opacity));
 }
 
 } // namespace raylane::core

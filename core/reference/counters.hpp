@@ -9,17 +9,19 @@ struct Counters {
     std::uint64_t primary = 0;   ///< rays from the camera
     std::uint64_t reflected = 0; ///< rays
     std::uint64_t refracted = 0; ///< rays
+    std::uint64_t passed = 0;    ///< rays that go on behind see-through surfaces
     std::uint64_t shadow = 0;    ///< rays
     std::uint64_t nodes = 0;     ///< wide nodes visited
     std::uint64_t shapes = 0;    ///< rays tested against one shape
     std::uint64_t widened = 0;   ///< of these, tests that had to be repeated in more than double
 
-    std::uint64_t rays() const { return primary + reflected + refracted + shadow; }
+    std::uint64_t rays() const { return primary + reflected + refracted + passed + shadow; }
 
     Counters& operator+=(const Counters& other) {
         primary += other.primary;
         reflected += other.reflected;
         refracted += other.refracted;
+        passed += other.passed;
         shadow += other.shadow;
         nodes += other.nodes;
         shapes += other.shapes;

@@ -114,15 +114,25 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     const Encounter<Real> encounter = searcher_.nearest(
         path.ray, path.origins, [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
-    if (path.depth == 0 && path.crossings == 0 && hit.any()) first_hit_ = hit;
+    if (path.depth == 0 && path.passed == 0 && path.crossings == 0 && hit.any()) first_hit_ = hit;
     if (!hit.any()) return path.throughput * color_at_infinity(path);
 
     const Surface surface = surface_at(path, encounter);
     const MaterialIndex medium = medium_before(hit, path.media);
-    if (medium != no_medium) return shade(path, surface, absorbed(medium, hit.t) * path.throughput);
-    const Real fog = fog_fraction(scene_.fog(), hit.t, surface.point.z);
-    const Vector of_fog = fog * convert<Real>(scene_.fog().color) * path.throughput;
-    return of_fog + shade(path, surface, (Real(1) - fog) * path.throughput);
+    Vector before = path.throughput;
+    if (medium != no_medium) before = absorbed(medium, hit.t) * before;
+    if (surface.material.is_see_through()) {
+        // Each surface on a straight line is as far in the fog as if it were the only one.
+        const Real opacity =
+            path.passed < settings_.max_see_through ? Real(surface.material.opacity) : Real(0);
+        pass(path, surface, (Real(1) - opacity) * before);
+        if (opacity == Real(0)) return Vector(0);
+        before = opacity * before;
+    }
+    if (medium != no_medium) return shade(path, surface, before);
+    const Real fog = fog_fraction(scene_.fog(), path.travelled + hit.t, surface.point.z);
+    const Vector of_fog = fog * convert<Real>(scene_.fog().color) * before;
+    return of_fog + shade(path, surface, (Real(1) - fog) * before);
 }
 
 template <class Real>
@@ -238,7 +248,7 @@ Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& su
         const SoftLight& light = soft_lights_[number];
         const bool is_sky = light.kind == LightKind::sky;
         const SoftLightSampler<double> sampler(light);
-        const std::uint64_t key = light_key(sample_, path.depth, number, lights);
+        const std::uint64_t key = light_key(sample_, path.depth + path.passed, number, lights);
         for (std::uint32_t k = 0; k < count; ++k) {
             const SamplePoint at =
                 shuffled_point(key, static_cast<std::uint32_t>(sample_.number) * count + k);
@@ -281,7 +291,9 @@ void ReferenceTracer<Real>::reflect(const Path& path, const Surface& surface,
                         surface.origins(/*through=*/false, direction),
                         path.media,
                         throughput,
-                        path.depth + 1});
+                        path.depth + 1,
+                        /*crossings=*/0,
+                        path.passed});
 }
 
 template <class Real>
@@ -298,7 +310,25 @@ void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
          media_behind(path, surface),
          throughput,
          path.depth + (is_free ? 0 : 1),
-         surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size())});
+         surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size()),
+         path.passed});
+}
+
+/// What is straight behind a see-through surface.
+template <class Real>
+void ReferenceTracer<Real>::pass(const Path& path, const Surface& surface,
+                                 const Vector& throughput) {
+    if (!is_worth(throughput)) return;
+    ++searcher_.counters.passed;
+    pending_.push_back(
+        {{surface.point, path.ray.direction},
+         surface.origins(/*through=*/true, path.ray.direction),
+         media_behind(path, surface),
+         throughput,
+         path.depth,
+         surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size()),
+         path.passed + 1,
+         path.travelled + surface.hit.t});
 }
 
 template <class Real>
@@ -330,7 +360,8 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
     return share * absorbed(media_.top(media), distance - reached);
 }
 
-/// The transmissive surfaces on a shadow ray, in their order; false if there is an opaque one.
+/// The surfaces on a shadow ray that let light pass, in their order; false if there is an opaque
+/// one.
 template <class Real>
 bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray,
                                            const OriginSurfaces<Real>& origins, Real distance) {
@@ -338,7 +369,7 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray,
     crossings_.clear();
     searcher_.each(ray, origins, distance, [&](const Hit<Real>& hit) {
         if (!is_visible(hit)) return true;
-        is_unblocked = scene_.material_of(hit.shape).transmits();
+        is_unblocked = scene_.material_of(hit.shape).lets_light_pass();
         if (is_unblocked) crossings_.push_back(hit);
         return is_unblocked;
     });
@@ -353,11 +384,12 @@ template <class Real>
 Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
                                         const OriginSurfaces<Real>& origins, Media media,
                                         Media media_behind) {
+    const Material& material = scene_.material_of(hit.shape);
+    if (!material.transmits()) return Real(1) - Real(material.opacity);
     const Vector normal = searcher_.surface_at(ray, origins, hit).normal;
     const Real cos = std::abs(dot(ray.direction, normal));
     const auto [before, behind] = indices_at(hit, media, media_behind);
-    return let_straight_through(scene_.material_of(hit.shape), std::min(cos, Real(1)), before,
-                                behind);
+    return let_straight_through(material, std::min(cos, Real(1)), before, behind);
 }
 
 template <class Real>
@@ -386,8 +418,10 @@ ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, Media media, Media media
 /// Media behind so many surfaces of the hit's material.
 template <class Real>
 Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media, int count) {
+    const MaterialIndex medium = scene_.medium_index_of(hit.shape);
+    if (!scene_.bounds_medium(scene_.material_index_of(hit.shape), medium)) return media;
     for (; count > 0; --count)
-        media = media_.crossed(media, scene_.medium_index_of(hit.shape), hit.enters());
+        media = media_.crossed(media, medium, hit.enters());
     return media;
 }
 

@@ -44,10 +44,12 @@ class ReferenceTracer {
     struct Path {
         Ray<Real> ray;
         OriginSurfaces<Real> origins;
-        Media media;       ///< media that it is inside of
-        Vector throughput; ///< share of its colour that reaches the pixel
-        int depth;         ///< reflections and refractions so far
-        int crossings = 0; ///< of surfaces where it starts that it may cross for nothing
+        Media media;        ///< media that it is inside of
+        Vector throughput;  ///< share of its colour that reaches the pixel
+        int depth;          ///< reflections and refractions so far
+        int crossings = 0;  ///< of surfaces where it starts that it may cross for nothing
+        int passed = 0;     ///< see-through surfaces that it has gone straight through
+        Real travelled = 0; ///< on the straight line that its ray is on, before its start
     };
 
     /// Light that a path, with all that follows from it, brings to the pixel: linear RGB.
@@ -102,6 +104,7 @@ class ReferenceTracer {
     void reflect(const Path& path, const Surface& surface, const Vector& throughput);
     void transmit(const Path& path, const Surface& surface, const Vector& throughput,
                   const Vector& direction);
+    void pass(const Path& path, const Surface& surface, const Vector& throughput);
     bool find_crossings(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real distance);
 
     bool is_worth(const Vector& throughput) const;

@@ -4,7 +4,7 @@
 
 namespace raylane::core {
 
-std::array<std::pair<std::string_view, bool>, 18> Features::named() const {
+std::array<std::pair<std::string_view, bool>, 19> Features::named() const {
     return {{{"hierarchy", bounded_shapes},
              {"planes", planes},
              {"solids of others", solids},
@@ -19,6 +19,7 @@ std::array<std::pair<std::string_view, bool>, 18> Features::named() const {
              {"Fresnel weights", fresnel},
              {"refracted rays", refraction},
              {"absorption", absorption},
+             {"see-through surfaces", see_through},
              {"fog", fog},
              {"spectrum", spectrum},
              {"one-sided surfaces", one_sided},
@@ -49,6 +50,7 @@ Features features_of(const Scene& scene, const Settings& settings) {
         features.fresnel |= material.reflection != Reflection::constant;
         features.refraction |= material.transmits();
         features.absorption |= material.transmits() && material.absorption != Vec3f(0.0F);
+        features.see_through |= material.is_see_through();
         features.one_sided |= material.visible != Visible::both;
     }
     features.soft_light =

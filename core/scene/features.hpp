@@ -24,13 +24,14 @@ struct Features {
     bool fresnel = false;        ///< a reflected fraction that depends on the angle
     bool refraction = false;     ///< transmissive materials, so refracted rays and tinted shadows
     bool absorption = false;     ///< inside of these
+    bool see_through = false;    ///< opacities below 1, so rays that go straight on
     bool fog = false;
     bool spectrum = false;      ///< a picture for each of some wavelengths
     bool one_sided = false;     ///< surfaces that are visible from one side alone
     bool supersampling = false; ///< more than one sample per pixel
 
     /// Each with its name, in words.
-    std::array<std::pair<std::string_view, bool>, 18> named() const;
+    std::array<std::pair<std::string_view, bool>, 19> named() const;
 };
 
 /// Shapes decide which materials are in use. `settings` may differ from the scene's own.

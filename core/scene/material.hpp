@@ -39,6 +39,7 @@ enum class Visible : std::uint8_t { both, outside, inside };
 /// shadow lets through, C the pattern's colour and R the reflected fraction:
 ///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
 ///   + R (colour reflected) + (1 - R) transmission (colour transmitted)
+/// and of all this `opacity`, with 1 - opacity of the colour straight behind the surface.
 struct Material {
     Pattern pattern;
     float ambient = 0.1F;   ///< >= 0
@@ -52,9 +53,15 @@ struct Material {
     Sellmeier glass{}; ///< if any: `index` is its n_d, or where a scene has wavelengths, for each
     Vec3f absorption{
         0.0F}; ///< per unit of length inside, >= 0 (Beer-Lambert: exp(-absorption * length))
+    /// [0, 1]: the share of what is seen that the surface is, as paint on a pane is. Unlike what is
+    /// transmitted, what is behind is neither refracted, nor absorbed, nor less for reflections.
+    float opacity = 1.0F;
     Visible visible = Visible::both;
 
     bool transmits() const { return transmission > 0.0F; }
+    bool is_see_through() const { return opacity < 1.0F; }
+    /// True if light may pass it, whichever way.
+    bool lets_light_pass() const { return transmits() || is_see_through(); }
     bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
     /// True if a ray that enters there, or leaves, sees it.
     bool is_seen(bool entering) const {

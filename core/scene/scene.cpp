@@ -40,8 +40,7 @@ void Scene::find_transmissive() {
     if (std::none_of(materials_.begin(), materials_.end(), transmits)) return;
     for_each_table(shapes_, [&](const auto& table) {
         for_each_shape(table, [&]<class Shape>(const Shape& shape, ShapeId id) {
-            if (!materials_[medium_index_of(id)].transmits() && !material_of(id).transmits())
-                return;
+            if (!bounds_medium(material_of_[id], medium_index_of(id))) return;
             transmissive_.any = true;
             if (solids_.has(id)) {
                 const Bounds& bounds = solids_.bounds(solids_.root_of(solids_.part_of(id)));

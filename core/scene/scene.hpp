@@ -46,6 +46,10 @@ class Scene {
     MaterialIndex medium_index_of(ShapeId id) const {
         return solids_.has(id) ? solids_.medium_of(id) : material_of_[id];
     }
+    /// True of surfaces behind which another medium begins, if light passes them at all.
+    bool bounds_medium(MaterialIndex material, MaterialIndex medium) const {
+        return materials_[material].transmits() || materials_[medium].transmits();
+    }
     const TransmissiveShapes& transmissive() const { return transmissive_; }
     const std::vector<Light>& lights() const { return lights_; }
     const Fog& fog() const { return fog_; }

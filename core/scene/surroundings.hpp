@@ -87,11 +87,15 @@ struct Settings {
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
     int max_depth = 8;         ///< reflections and refractions on one path; 0: primary rays alone
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
+    /// See-through surfaces that a path shows, one behind the other, at least 1; further ones are
+    /// as if they were not there.
+    int max_see_through = see_through_limit;
 
     static constexpr int max_size = 65535;                ///< pixels a side
     static constexpr std::int64_t max_pixels = 1LL << 28; ///< 3 GiB of film
     static constexpr int max_grid = 256;
     static constexpr int depth_limit = 1000;
+    static constexpr int see_through_limit = 1'000'000;
     static constexpr int max_light_samples = 4096;
 };
 

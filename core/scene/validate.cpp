@@ -42,6 +42,7 @@ void validate(const Material& material) {
     require_enumerator("reflection", material.reflection, Reflection::dielectric);
     require_fraction("reflectivity", material.reflectivity);
     require_fraction("transmission", material.transmission);
+    require_fraction("opacity", material.opacity);
     require_positive("index", material.index);
     if (material.glass.any() && !is_index(index_at(material.glass, line_d)))
         throw InvalidValue("glass", "must have an index of refraction for 587.56 nm");
@@ -136,6 +137,7 @@ void validate(const Settings& settings) {
     require_count("light_samples", settings.light_samples, 1, Settings::max_light_samples);
     require_enumerator("transfer", settings.transfer, Transfer::linear);
     require_count("max_depth", settings.max_depth, 0, Settings::depth_limit);
+    require_count("max_see_through", settings.max_see_through, 1, Settings::see_through_limit);
     require_fraction("min_weight", settings.min_weight);
 }
 

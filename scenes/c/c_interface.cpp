@@ -114,6 +114,7 @@ Material from_c(const raylane_material& m) {
     material.index = m.index;
     material.absorption = from_c(m.absorption);
     material.visible = enum_from<Visible>(m.visible);
+    material.opacity = m.opacity;
     return material;
 }
 
@@ -152,6 +153,7 @@ Settings from_c(const raylane_settings& s) {
     settings.samples = enum_from<SamplePattern>(s.samples);
     settings.transfer = enum_from<Transfer>(s.transfer);
     settings.max_depth = s.max_depth;
+    settings.max_see_through = s.max_see_through;
     settings.min_weight = s.min_weight;
     settings.quality = s.quality;
     settings.filter = enum_from<PixelFilter>(s.filter);
@@ -160,8 +162,9 @@ Settings from_c(const raylane_settings& s) {
 }
 
 raylane_settings to_c(const Settings& s) {
-    return {s.width,     s.height,     s.grid,    number_of(s.samples), number_of(s.transfer),
-            s.max_depth, s.min_weight, s.quality, number_of(s.filter),  s.light_samples};
+    return {s.width,          s.height,     s.grid,    number_of(s.samples), number_of(s.transfer),
+            s.max_depth,      s.min_weight, s.quality, number_of(s.filter),  s.light_samples,
+            s.max_see_through};
 }
 
 raylane_progress to_c(const Progress& progress) {
@@ -280,7 +283,8 @@ raylane_material raylane_default_material(void) {
             m.transmission,
             m.index,
             to_c(m.absorption),
-            number_of(m.visible)};
+            number_of(m.visible),
+            m.opacity};
 }
 
 raylane_light raylane_default_light(void) {

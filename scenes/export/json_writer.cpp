@@ -89,6 +89,7 @@ void write_material(TextFile& file, const core::Material& material) {
         object.text("reflection",
                     material.reflection == core::Reflection::schlick ? "schlick" : "dielectric");
     object.number("transmission", material.transmission);
+    if (material.is_see_through()) object.number("opacity", material.opacity);
     if (material.glass.any()) {
         TextFile& glass = object.key("glass");
         const char* before = "{\"B\": [";
@@ -213,6 +214,8 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         Object limits(file);
         limits.number("max_depth", settings.max_depth);
         limits.number("min_weight", settings.min_weight);
+        if (settings.max_see_through != core::Settings::see_through_limit)
+            limits.number("max_see_through", settings.max_see_through);
     }
     root.key("camera");
     {

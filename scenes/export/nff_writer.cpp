@@ -84,6 +84,7 @@ class NffWriter {
         if (m.visible == core::Visible::outside)
             differences_.insert("surfaces seen from outside only");
         if (m.specular != m.reflectivity) differences_.insert("highlights of their own");
+        if (m.is_see_through()) differences_.insert("opacity");
         differences_.insert("ambient light of their own");
         file_ << "f ";
         file_.list(m.pattern.colors[0], " ")

@@ -16,7 +16,7 @@ class PovWriter {
 
     void write() {
         file_ << "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level "
-              << scene_.settings().max_depth + 1 << " adc_bailout " << scene_.settings().min_weight
+              << trace_level() << " adc_bailout " << scene_.settings().min_weight
               << " }\nbackground { color rgb ";
         vector(scene_.background()) << " }\n";
         if (!scene_.wavelengths().empty())
@@ -167,29 +167,49 @@ class PovWriter {
             vector("translate", pattern.from);
             break;
         }
-        if (material.transmits()) file_ << " transmit " << material.transmission;
+        if (shows_behind(material) > 0.0F) file_ << " transmit " << shows_behind(material);
         file_ << " }";
+    }
+
+    /// What is seen through is a level as well; there are no more than 256.
+    int trace_level() const {
+        const std::vector<core::Material>& materials = scene_.materials();
+        const bool most = std::any_of(materials.begin(), materials.end(),
+                                      [](const auto& m) { return m.is_see_through(); });
+        return most ? 256 : scene_.settings().max_depth + 1;
+    }
+
+    /// The share of what is behind that a pigment transmits.
+    static float shows_behind(const core::Material& material) {
+        return material.transmits() ? material.transmission : 1.0F - material.opacity;
     }
 
     void write_material(std::size_t index, const core::Material& material) {
         file_ << "#declare m" << std::to_string(index) << " = material { texture { ";
         write_pigment(material);
-        // They are weighed there by what the pigment does not transmit.
-        const float opacity = 1.0F - material.transmission;
+        // They are weighed there by what the pigment does not transmit, highlights and reflections
+        // are not.
+        const float opacity = 1.0F - shows_behind(material);
+        const float covered = material.transmits() ? 1.0F : material.opacity;
         const bool lit = material.ambient > 0.0F || material.diffuse > 0.0F;
-        const float weight = opacity > 0.0F ? 1.0F / opacity : 0.0F;
-        if (lit && opacity <= 0.0F)
+        const float weight = opacity > 0.0F ? covered / opacity : 0.0F;
+        if (lit && opacity <= 0.0F && material.transmits())
             differences_.insert("ambient and diffuse light of what transmits all");
         file_ << " finish { ambient " << weight * material.ambient << " diffuse "
               << weight * material.diffuse;
         if (material.specular > 0.0F)
-            file_ << " specular " << material.specular << " roughness "
+            file_ << " specular " << covered * material.specular << " roughness "
                   << 1.0F / std::max(material.exponent, 1.0F);
         if (material.reflection != core::Reflection::constant)
             file_ << " reflection { 0, 1 fresnel on } conserve_energy";
         else if (material.reflectivity > 0.0F)
-            file_ << " reflection { " << material.reflectivity << " }";
-        file_ << " } } interior { ior " << material.index << " } }\n";
+            file_ << " reflection { " << covered * material.reflectivity << " }";
+        const bool bends = material.transmits() || !material.is_see_through();
+        file_ << " } } interior { ior " << (bends ? material.index : 1.0F) << " } }\n";
+        if (material.transmits() && material.is_see_through())
+            differences_.insert("opacity of what transmits");
+        if (material.reflection != core::Reflection::constant && !bends)
+            differences_.insert("Fresnel reflection of what is see-through");
         if (material.visible != core::Visible::both) differences_.insert("one-sided surfaces");
         if (material.transmits() && material.absorption != Vec3f(0.0F))
             differences_.insert("absorption");

@@ -88,7 +88,7 @@ core::Sellmeier read_glass(const JsonValue& value) {
 core::Material read_material(const JsonValue& value) {
     value.allow_only({"color", "pattern", "ambient", "diffuse", "specular", "exponent",
                       "reflectivity", "reflection", "transmission", "index", "glass", "absorption",
-                      "visible"});
+                      "opacity", "visible"});
     value.exclude("color", "pattern");
     value.exclude("reflectivity", "reflection");
     value.exclude("index", "glass");
@@ -97,13 +97,10 @@ core::Material read_material(const JsonValue& value) {
     if (const auto color = value.find("color")) material.pattern.colors[0] = color->color();
     if (const auto pattern = value.find("pattern")) material.pattern = read_pattern(*pattern);
     const std::initializer_list<std::pair<std::string_view, float*>> numbers = {
-        {"ambient", &material.ambient},
-        {"diffuse", &material.diffuse},
-        {"specular", &material.specular},
-        {"exponent", &material.exponent},
-        {"reflectivity", &material.reflectivity},
-        {"transmission", &material.transmission},
-        {"index", &material.index}};
+        {"ambient", &material.ambient},           {"diffuse", &material.diffuse},
+        {"specular", &material.specular},         {"exponent", &material.exponent},
+        {"reflectivity", &material.reflectivity}, {"transmission", &material.transmission},
+        {"opacity", &material.opacity},           {"index", &material.index}};
     for (const auto& [key, number] : numbers)
         if (const auto found = value.find(key)) *number = found->number();
     if (const auto reflection = value.find("reflection"))

@@ -33,9 +33,10 @@ void read_sampling(const JsonValue& value, core::Settings& settings) {
 }
 
 void read_limits(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"max_depth", "min_weight"});
+    value.allow_only({"max_depth", "min_weight", "max_see_through"});
     if (const auto depth = value.find("max_depth")) settings.max_depth = depth->integer();
     if (const auto weight = value.find("min_weight")) settings.min_weight = weight->number();
+    if (const auto most = value.find("max_see_through")) settings.max_see_through = most->integer();
 }
 
 core::Camera read_camera(const JsonValue& value) {

@@ -57,6 +57,7 @@ void copy(const From& from, To& to) {
     copy(from.reflection, to.reflection);
     copy(from.reflectivity, to.reflectivity);
     copy(from.transmission, to.transmission);
+    copy(from.opacity, to.opacity);
     copy(from.index, to.index);
     to.glass.B = from.glass.B;
     to.glass.C = from.glass.C;
@@ -114,6 +115,7 @@ void copy(const From& from, To& to) {
     copy(from.transfer, to.transfer);
     copy(from.max_depth, to.max_depth);
     copy(from.min_weight, to.min_weight);
+    copy(from.max_see_through, to.max_see_through);
 }
 
 template <class To, class From>

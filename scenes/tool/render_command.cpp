@@ -189,6 +189,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
              {{"primary", counters.primary},
               {"reflected", counters.reflected},
               {"refracted", counters.refracted},
+              {"passed", counters.passed},
               {"shadow", counters.shadow},
               {"total", counters.rays()}}},
             {"rays_per_second", count / times.render},

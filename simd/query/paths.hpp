@@ -41,6 +41,10 @@ struct Paths {
     std::uint32_t* origin_slot;
     std::uint32_t* origin_bits;
     core::Media* media; ///< media that it is inside of; null where nothing transmits
+    /// See-through surfaces gone straight through, and the way on its line before the ray's start.
+    /// Null where nothing is see-through, or there is no fog.
+    std::uint32_t* passed = nullptr;
+    double* travelled = nullptr;
     /// Directions meant, of any length, and their lengths, where `direction` stands for these:
     /// brought to length 1 and so rounded. Null: directions are exact.
     double* meant_direction[3];
@@ -66,6 +70,11 @@ struct Paths {
         start = for_others ? arena.take<double>(capacity) : nullptr;
     }
 
+    void take_passed_from(Arena& arena, std::size_t capacity, bool with_fog) {
+        passed = arena.take<std::uint32_t>(capacity);
+        if (with_fog) travelled = arena.take<double>(capacity);
+    }
+
     bool stand_for_others() const { return meant_length != nullptr; }
     /// Length of the direction meant.
     double length_of(std::size_t lane) const {
@@ -78,6 +87,15 @@ struct Paths {
 
     void set_media(std::size_t lane, core::Media values) const {
         if (media != nullptr) media[lane] = values;
+    }
+
+    std::uint32_t passed_at(std::size_t lane) const {
+        return passed != nullptr ? passed[lane] : 0U;
+    }
+
+    void set_passed(std::size_t lane, std::uint32_t surfaces, double way) const {
+        if (passed != nullptr) passed[lane] = surfaces;
+        if (travelled != nullptr) travelled[lane] = way;
     }
 
     void move_to(std::size_t lane, const core::Vec3d& point) const {
@@ -122,6 +140,8 @@ struct Paths {
             throughput[channel][to] = other.throughput[channel][from];
         sample[to] = other.sample[from];
         if (media != nullptr) media[to] = other.media[from];
+        if (passed != nullptr) passed[to] = other.passed[from];
+        if (travelled != nullptr) travelled[to] = other.travelled[from];
     }
 
     /// The ray alone, and what it leaves.

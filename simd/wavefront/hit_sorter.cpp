@@ -14,11 +14,17 @@ void HitSorter::take_from(Arena& arena, std::size_t capacity) {
 }
 
 void HitSorter::sort(const std::uint32_t* slots, std::size_t count,
-                     std::span<const std::uint32_t> at_contacts) {
-    const auto materials = static_cast<std::uint32_t>(scene_.materials().size());
+                     std::span<const std::uint32_t> at_contacts, const std::uint32_t* passed,
+                     std::uint32_t most) {
+    const std::vector<MaterialView>& views = scene_.materials();
+    const auto materials = static_cast<std::uint32_t>(views.size());
     const std::uint32_t missed = materials, left_out = materials + 1;
     for (std::size_t lane = 0; lane < count; ++lane)
         keys_[lane] = slots[lane] == no_slot ? missed : scene_.occupant_of(slots[lane]).material;
+    if (passed != nullptr)
+        for (std::size_t lane = 0; lane < count; ++lane)
+            if (keys_[lane] != missed && passed[lane] >= most && views[keys_[lane]].opacity < 1.0)
+                keys_[lane] = materials - 1;
     for (const std::uint32_t lane : at_contacts)
         keys_[lane] = left_out;
 
@@ -37,7 +43,7 @@ void HitSorter::sort(const std::uint32_t* slots, std::size_t count,
     while (hit_count_ < count && keys_[order_[hit_count_]] < materials) {
         const std::size_t begin = hit_count_;
         hit_count_ = end_of(begin);
-        runs_.push_back({&scene_.materials()[keys_[order_[begin]]], begin, hit_count_});
+        runs_.push_back({&views[keys_[order_[begin]]], begin, hit_count_});
     }
     missed_count_ = hit_count_ < count && keys_[order_[hit_count_]] == missed
                         ? end_of(hit_count_) - hit_count_

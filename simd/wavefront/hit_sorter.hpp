@@ -17,13 +17,14 @@ class HitSorter {
     void take_from(Arena& arena, std::size_t capacity);
 
     /// The lanes that have hit these slots (no_slot: nothing), but those at contacts, which
-    /// come last.
+    /// come last. `passed`, if there are any: how many see-through surfaces each has passed; after
+    /// `most` no more of them are seen.
     void sort(const std::uint32_t* slots, std::size_t count,
-              std::span<const std::uint32_t> at_contacts);
+              std::span<const std::uint32_t> at_contacts, const std::uint32_t* passed,
+              std::uint32_t most);
 
     /// The lane at each position.
     const std::uint32_t* order() const { return order_; }
-    core::MaterialIndex material_of(std::uint32_t lane) const { return keys_[lane]; }
     /// Positions of one material, one run after the other, up to hit_count().
     const std::vector<Run>& runs() const { return runs_; }
     std::size_t hit_count() const { return hit_count_; }
@@ -37,7 +38,7 @@ class HitSorter {
     void sort_by_digit(std::size_t count, int shift, std::size_t values);
 
     const SceneData& scene_;
-    std::uint32_t* keys_ = nullptr; // by lane: the material, or one of two that follow it
+    std::uint32_t* keys_ = nullptr; // by lane: the material, or one of two that follow
     std::uint32_t* order_ = nullptr;
     std::uint32_t* scratch_ = nullptr;
     std::size_t hit_count_ = 0;

@@ -174,22 +174,27 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
     }
     const SceneData::Occupant shape = scene_.occupant_of(slot);
     const core::Material& material = scene_.scene().materials()[shape.material];
-    if (!material.transmits()) {
+    if (!material.lets_light_pass()) {
         state_[number] = blocked;
         return false;
     }
     const bool entering = shape.is_entered(found.hit[lane]);
     const core::MaterialIndex before = stacks.before(
         media, shape.medium, scene_.scene().materials()[shape.medium].transmits(), entering);
-    const core::Media media_behind = stacks.crossed(media, shape.medium, entering);
-    const double behind = scene_.medium(stacks.top(media_behind)).index;
+    const core::Media media_behind = scene_.scene().bounds_medium(shape.material, shape.medium)
+                                         ? stacks.crossed(media, shape.medium, entering)
+                                         : media;
 
     const double t = found.t[lane];
-    double cos = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-        cos += walk_.direction[axis][lane] * found.normal[axis][lane];
-    const double share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
-                                                    scene_.medium(before).index, behind);
+    double share = 1.0 - static_cast<double>(material.opacity);
+    if (material.transmits()) {
+        double cos = 0.0;
+        for (int axis = 0; axis < 3; ++axis)
+            cos += walk_.direction[axis][lane] * found.normal[axis][lane];
+        share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
+                                           scene_.medium(before).index,
+                                           scene_.medium(stacks.top(media_behind)).index);
+    }
     absorb(before, t, lane);
     for (int channel = 0; channel < 3; ++channel)
         walk_.throughput[channel][lane] *= share;

@@ -66,6 +66,9 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_coherence_(camera_rays_.has_lens() ? neighbours : coherence_of(camera_)),
       with_media_(scene.scene().transmissive().any),
+      see_through_(
+          std::any_of(scene.materials().begin(), scene.materials().end() - 1,
+                      [](const MaterialView& material) { return material.opacity < 1.0; })),
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), without_quality(settings), core::Search::hierarchy,
@@ -77,6 +80,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     light_keys_.resize(scene.soft_lights().empty() ? 0 : wave_rays);
     first_points_.resize(light_keys_.size());
     pending_.reserve(64);
+    if (see_through_) position_of_.resize(wave_rays);
     if (camera_rays_.regular())
         for (int number = 0; number < settings.grid * settings.grid; ++number)
             cells_.push_back(camera_rays_.in_pixel(0, 0, number));
@@ -91,8 +95,15 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
 }
 
 void Wavefront::take_from(Arena& arena) {
-    paths_.take_from(arena, 2 * wave_rays, with_media_);
-    next_.take_from(arena, 2 * wave_rays, with_media_);
+    // Each ray may leave a reflected and a transmitted one, and one that goes straight on.
+    const std::size_t most_spawned = wave_rays * (see_through_ ? 3 : 2);
+    const auto take_paths = [&](Paths& paths, std::size_t capacity) {
+        paths.take_from(arena, capacity, with_media_);
+        if (see_through_)
+            paths.take_passed_from(arena, capacity, scene_.fog().kind != core::FogKind::none);
+    };
+    take_paths(paths_, most_spawned);
+    take_paths(next_, most_spawned);
     finder_.take_from(arena, wave_rays);
     way_ = arena.take<double>(wave_rays);
     across_ = arena.take<double>(chunk_samples);
@@ -107,6 +118,7 @@ void Wavefront::take_from(Arena& arena) {
          {&surfaces_.point, &surfaces_.flat_normal, &surfaces_.normal, &surfaces_.direction,
           &surfaces_.throughput, &surfaces_.own, &surfaces_.radiance})
         arena.take(*columns, wave_rays);
+    if (see_through_) arena.take(surfaces_.behind, wave_rays);
     if (with_media_) {
         media_.index_before = arena.take<double>(wave_rays);
         media_.index_behind = arena.take<double>(wave_rays);
@@ -119,7 +131,7 @@ void Wavefront::take_from(Arena& arena) {
         light_u_ = arena.take<double>(wave_rays);
         light_v_ = arena.take<double>(wave_rays);
     }
-    deferred_.take_from(arena, deferred_rays, with_media_); // last: rarely touched
+    take_paths(deferred_, deferred_waves * most_spawned); // last: rarely touched
 }
 
 EngineCounters Wavefront::counters() const {
@@ -253,6 +265,9 @@ void Wavefront::start(std::size_t count) {
         std::fill_n(channel, count, 1.0);
     std::iota(paths_.sample, paths_.sample + count, 0U);
     paths_.start_nowhere(0, count);
+    if (see_through_)
+        for (std::size_t lane = 0; lane < count; ++lane)
+            paths_.set_passed(lane, 0, 0.0);
     if (with_media_ && (camera_.orthographic || camera_rays_.has_lens()))
         start_in_media();
     else if (with_media_)
@@ -283,29 +298,29 @@ void Wavefront::add(std::uint32_t sample, double r, double g, double b) {
 
 void Wavefront::trace() {
     int depth = 0;
+    coherent_ = true;
+    next_coherence_ = camera_coherence_;
     for (;;) {
         next_.count = 0;
-        if (paths_.count != 0) trace_wave(depth);
+        if (paths_.count != 0) trace_wave(depth, std::exchange(next_coherence_, neighbours));
         std::swap(paths_, next_);
         ++depth;
         if (paths_.count > wave_rays) split_next(depth);
         if (paths_.count == 0) {
             if (pending_.empty()) return;
             take_deferred(depth);
+            coherent_ = false;
+            next_coherence_ = neighbours;
         }
     }
 }
 
-void Wavefront::trace_wave(int depth) {
-    coherent_ = depth == 0;
-    finder_.nearest(paths_,
-                    depth == 0   ? &camera_coherence_
-                    : depth == 1 ? &second_coherence_
-                                 : &neighbours,
-                    counters_);
+void Wavefront::trace_wave(int depth, const Coherence& coherence) {
+    finder_.nearest(paths_, &coherence, counters_);
     for (const std::uint32_t lane : finder_.at_contacts())
         follow(lane, depth); // several surfaces meet there
-    sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts());
+    sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts(), paths_.passed,
+                 static_cast<std::uint32_t>(settings_.max_see_through));
     if (to_quality_ && depth == 0) note_first_hits();
     see_background();
     shade(depth);
@@ -328,7 +343,9 @@ void Wavefront::follow(std::size_t lane, int depth) {
     reference_.set_sample(names_[paths_.sample[lane]]);
     const core::Vec3d light =
         reference_.light_along({ray_of(paths_, lane), origin_surfaces_of(scene_, paths_, lane),
-                                paths_.media_at(lane), throughput, depth});
+                                paths_.media_at(lane), throughput, depth_of(lane, depth),
+                                /*crossings=*/0, static_cast<int>(paths_.passed_at(lane)),
+                                paths_.travelled != nullptr ? paths_.travelled[lane] : 0.0});
     add(paths_.sample[lane], light.x, light.y, light.z);
 }
 
@@ -391,6 +408,7 @@ void Wavefront::shade(int depth) {
         hit_paths.shading_normal[axis] = hits.shading_normal[axis];
     }
     hit_paths.t = hits.t;
+    hit_paths.travelled = paths_.travelled;
     hit_paths.way = hits.t;
     if (!finder_.points().empty()) {
         std::copy_n(hits.t, paths_.count, way_);
@@ -410,7 +428,7 @@ void Wavefront::shade(int depth) {
     looked_ = false;
     add_lights();
     add_soft_lights(depth);
-    if (depth < settings_.max_depth) spawn(depth);
+    if (depth < settings_.max_depth || see_through_) spawn(depth);
 }
 
 /// Before the first rays of a wave to any light.
@@ -470,94 +488,6 @@ void Wavefront::add_what_arrives() {
         if (shadows_.arrives(k))
             add(paths_.sample[sorted_.order()[static_cast<std::size_t>(rays.parent[k])]],
                 rays.weight[0][k], rays.weight[1][k], rays.weight[2][k]);
-}
-
-void Wavefront::spawn(int depth) {
-    SpawnedRays reflected{};
-    for (int axis = 0; axis < 3; ++axis) {
-        reflected.origin[axis] = next_.origin[axis];
-        reflected.direction[axis] = next_.direction[axis];
-        reflected.weight[axis] = next_.throughput[axis];
-    }
-    reflected.parent = shadows_.rays().parent; // not needed any more
-    transmitted_.count = 0;
-    for (const Run& run : sorted_.runs())
-        if (run.material->reflects || run.material->transmits)
-            shade_.spawn(run, static_cast<double>(settings_.min_weight),
-                         with_media_ ? &media_ : nullptr, surfaces_, reflected, transmitted_);
-    counters_.reflected += reflected.count;
-    counters_.refracted += transmitted_.count;
-    if (depth == 0)
-        second_coherence_ = transmitted_.count == 0 && !camera_rays_.has_lens()
-                                ? coherence_off_mirror(camera_, scene_, surfaces_, sorted_.order(),
-                                                       finder_.hits().slot, reflected)
-                                : neighbours;
-    add_to_next(reflected, /*through=*/false);
-    if (transmitted_.count == 0) return;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::copy_n(transmitted_.origin[axis], transmitted_.count,
-                    next_.origin[axis] + next_.count);
-        std::copy_n(transmitted_.direction[axis], transmitted_.count,
-                    next_.direction[axis] + next_.count);
-        std::copy_n(transmitted_.weight[axis], transmitted_.count,
-                    next_.throughput[axis] + next_.count);
-    }
-    add_to_next(transmitted_, /*through=*/true);
-}
-
-/// The columns that the kernels do not write.
-void Wavefront::add_to_next(const SpawnedRays& spawned, bool through) {
-    const Hits& hits = finder_.hits();
-    for (std::size_t k = 0; k < spawned.count; ++k) {
-        const std::uint32_t lane = sorted_.order()[static_cast<std::size_t>(spawned.parent[k])];
-        const std::size_t to = next_.count++;
-        const std::uint32_t slot = hits.slot[lane], hit = hits.hit[lane];
-        const SceneData::Occupant shape = scene_.occupant_of(slot);
-        next_.sample[to] = paths_.sample[lane];
-        next_.start_on(to, slot, shape, hit, through);
-        if (!with_media_) continue;
-        const core::Media media = paths_.media_at(lane);
-        next_.set_media(
-            to, through ? reference_.media().crossed(media, shape.medium, shape.is_entered(hit))
-                        : media);
-    }
-}
-
-/// Leaves the first half of the samples, and the others for later, until they fit. What one sample
-/// alone makes too many of, the reference follows.
-void Wavefront::split_next(int depth) {
-    while (paths_.count > wave_rays) {
-        const auto [least, most] = std::minmax_element(paths_.sample, paths_.sample + paths_.count);
-        const std::uint32_t first = *least, last = *most;
-        if (first == last) {
-            for (std::size_t lane = 0; lane < paths_.count; ++lane)
-                follow(lane, depth);
-            paths_.count = 0;
-            return;
-        }
-        const std::uint32_t middle = first + (last - first) / 2;
-        std::size_t kept = 0;
-        const std::size_t begin = deferred_.count;
-        for (std::size_t lane = 0; lane < paths_.count; ++lane)
-            if (paths_.sample[lane] <= middle)
-                paths_.copy(paths_, lane, kept++);
-            else
-                deferred_.copy(paths_, lane, deferred_.count++);
-        pending_.push_back({begin, deferred_.count - begin, depth});
-        counters_.deferred += deferred_.count - begin;
-        paths_.count = kept;
-    }
-}
-
-void Wavefront::take_deferred(int& depth) {
-    const Deferred last = pending_.back();
-    pending_.pop_back();
-    for (std::size_t i = 0; i < last.count; ++i)
-        paths_.copy(deferred_, last.begin + i, i);
-    paths_.count = last.count;
-    deferred_.count = last.begin;
-    depth = last.depth;
-    if (paths_.count > wave_rays) split_next(depth);
 }
 
 } // namespace raylane::simd

@@ -38,7 +38,7 @@ class Wavefront {
     /// many take as long.
     static constexpr std::size_t chunk_samples = 1024;
     static constexpr std::size_t wave_rays = chunk_samples;
-    static constexpr std::size_t deferred_rays = wave_rays * 12 * 2;
+    static constexpr std::size_t deferred_waves = 12;
 
     /// Consecutive samples of a pixel.
     struct Samples {
@@ -66,7 +66,7 @@ class Wavefront {
     void note_first_hits();
     void start_in_media();
     void trace();
-    void trace_wave(int depth);
+    void trace_wave(int depth, const Coherence& coherence);
     void follow(std::size_t lane, int depth);
     void see_background();
     void shade(int depth);
@@ -76,7 +76,11 @@ class Wavefront {
     void add_soft_lights(int depth);
     void add_what_arrives();
     void spawn(int depth);
-    void add_to_next(const SpawnedRays& spawned, bool through);
+    std::size_t add_to_next(const SpawnedRays& spawned, bool through, int depth);
+    std::size_t pass_on();
+    int depth_of(std::size_t lane, int wave) const {
+        return wave - static_cast<int>(paths_.passed_at(lane));
+    }
     void split_next(int depth);
     void take_deferred(int& depth);
     void add(std::uint32_t sample, double r, double g, double b);
@@ -88,8 +92,9 @@ class Wavefront {
     core::CameraRays<double> camera_rays_;
     CameraView camera_{};
     Coherence camera_coherence_{};
-    Coherence second_coherence_ = neighbours; ///< of what the camera's rays leave for depth 1
+    Coherence next_coherence_ = neighbours; ///< of what a wave has spawned
     bool with_media_;
+    bool see_through_; ///< some surfaces are
     ShadeKernels shade_;
     core::ReferenceTracer<double> reference_;
     LookThrough finder_;
@@ -118,8 +123,9 @@ class Wavefront {
     std::vector<double> first_t_;
     // A wave, sorted.
     HitSorter sorted_;
-    bool coherent_ = false; // it was hit by rays from the camera
-    bool looked_ = false;   // ShadowTracer::look_at
+    bool coherent_ = false;                  // it was hit by rays on lines from the camera
+    std::vector<std::uint32_t> position_of_; // by lane, if some surfaces are see-through
+    bool looked_ = false;                    // ShadowTracer::look_at
     Surfaces surfaces_{};
     double* light_u_ = nullptr; // by position, if there are lights with a size
     double* light_v_ = nullptr;

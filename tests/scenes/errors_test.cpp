@@ -23,9 +23,9 @@ TEST_CASE("an unknown word brings the nearest known one") {
     CHECK(suggestion("spp", {"image", "sampling"}) == ", did you mean \"sampling\"?");
     CHECK(suggestion("ior", {"color", "index"}) == ", did you mean \"index\"?");
     CHECK(suggestion("look_at", {"from", "at"}) == ", did you mean \"at\"?");
-    CHECK(suggestion("opacity", {"exponent", "transmission"}) ==
+    CHECK(suggestion("transparency", {"exponent", "transmission"}) ==
           ", did you mean \"transmission\"?");
-    CHECK(suggestion("opacity", {"center"}).empty());
+    CHECK(suggestion("transparency", {"center"}).empty());
 }
 
 TEST_CASE("alternatives read as in a sentence") {

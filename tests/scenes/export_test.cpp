@@ -91,7 +91,7 @@ TEST_CASE("every value of a scene goes into JSON") {
         "image": {"width": 30, "height": 20, "transfer": "linear"},
         "sampling": {"grid": 3, "pattern": "stratified", "quality": 41, "filter": "blackman-harris",
                      "light_samples": 3},
-        "limits": {"max_depth": 3, "min_weight": 0.03},
+        "limits": {"max_depth": 3, "min_weight": 0.03, "max_see_through": 7},
         "background": [0.1, 0.2, 0.3],
         "fog": {"type": "exponential", "density": 0.05, "color": [1, 0, 0.5]},
         "lights": [{"type": "directional", "direction": [1, -2, 0.1], "color": [2, 1, 1]},
@@ -110,7 +110,7 @@ TEST_CASE("every value of a scene goes into JSON") {
             "g": {"pattern": {"type": "gradient", "colors": [[1, 0, 0], [0, 1, 0]],
                               "from": [0, 1, 0], "to": [1, 1, 1]}, "reflection": "schlick"},
             "w": {"ambient": 0.3, "diffuse": 0.4, "specular": 0.5, "exponent": 7,
-                  "reflection": "dielectric", "transmission": 0.9, "index": 1.7,
+                  "reflection": "dielectric", "transmission": 0.9, "index": 1.7, "opacity": 0.6,
                   "absorption": [0.1, 0.2, 0.3]}},
         "objects": [
             {"type": "triangle", "material": "s", "a": [0, 0, 0], "b": [1, 0, 0], "c": [0, 1, 0],
@@ -132,14 +132,27 @@ TEST_CASE("every value of a scene goes into JSON") {
     const std::filesystem::path twice = directory.path() / "twice.json";
     export_scene(twice, again);
     CHECK(text_of(twice) == text_of(copy));
-    for (const char* part :
-         {R"("transfer": "linear")", R"("pattern": "stratified")", R"("height": 3.3)",
-          R"("lens_radius": 0.25)", R"("focus_distance": 7.5)", R"("light_samples": 3)",
-          R"("reach": 8.5)", R"("radius": 0.75)", R"("radius": 1.25)",
-          R"("ground": [0.1, 0.2, 0.3])", R"("edge_v": [0, 2.5, 0])", R"("axes": "yz")",
-          R"("visible": "inside")", R"("visible": "outside")", R"("reflection": "schlick")",
-          R"("reflection": "dielectric")", R"("density": 0.05)", R"("absorption": [0.1, 0.2, 0.3])",
-          R"("direction": [1, -2, 0.1])"}) {
+    for (const char* part : {R"("transfer": "linear")",
+                             R"("pattern": "stratified")",
+                             R"("height": 3.3)",
+                             R"("lens_radius": 0.25)",
+                             R"("focus_distance": 7.5)",
+                             R"("light_samples": 3)",
+                             R"("reach": 8.5)",
+                             R"("radius": 0.75)",
+                             R"("radius": 1.25)",
+                             R"("ground": [0.1, 0.2, 0.3])",
+                             R"("edge_v": [0, 2.5, 0])",
+                             R"("axes": "yz")",
+                             R"("visible": "inside")",
+                             R"("visible": "outside")",
+                             R"("reflection": "schlick")",
+                             R"("reflection": "dielectric")",
+                             R"("density": 0.05)",
+                             R"("absorption": [0.1, 0.2, 0.3])",
+                             R"("opacity": 0.6)",
+                             R"("max_see_through": 7)",
+                             R"("direction": [1, -2, 0.1])"}) {
         CAPTURE(part);
         CHECK(text_of(copy).find(part) != std::string::npos);
     }
@@ -237,6 +250,19 @@ TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
     CHECK(told(glass, ball).empty());
     glass.transmission = 0.0F;
     CHECK(told(glass, bowl).empty());
+
+    // What weighs a pigment there weighs no highlight.
+    core::Material film;
+    film.specular = 0.5F;
+    film.opacity = 0.25F;
+    CHECK(told(film, bowl).empty());
+    for (const char* part :
+         {"transmit 0.75", "diffuse 0.8 specular 0.125", "ior 1 ", "max_trace_level 256"}) {
+        CAPTURE(part);
+        CHECK(text_of(path).find(part) != std::string::npos);
+    }
+    film.transmission = 0.5F;
+    CHECK(has(told(film, ball), "opacity of what transmits"));
 }
 
 TEST_CASE("an ending that is no format's is refused") {

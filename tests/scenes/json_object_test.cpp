@@ -96,7 +96,7 @@ TEST_CASE("materials have defaults, and every key of theirs counts") {
 
     const core::Material all =
         material_of(R"({"color": [0.1, 0.2, 0.3], "ambient": 0.2, "diffuse": 0.3, "specular": 0.4,
-        "exponent": 50, "reflectivity": 0.6, "transmission": 0.7, "index": 1.33, "absorption": [1, 2, 3.5], "visible": "inside"})");
+        "exponent": 50, "reflectivity": 0.6, "transmission": 0.7, "index": 1.33, "absorption": [1, 2, 3.5], "opacity": 0.8, "visible": "inside"})");
     CHECK(all.pattern.colors[0] == Color(0.1F, 0.2F, 0.3F));
     CHECK(all.ambient == 0.2F);
     CHECK(all.diffuse == 0.3F);
@@ -107,6 +107,7 @@ TEST_CASE("materials have defaults, and every key of theirs counts") {
     CHECK(all.transmission == 0.7F);
     CHECK(all.index == 1.33F);
     CHECK(all.absorption == Vec3f(1, 2, 3.5F));
+    CHECK(all.opacity == 0.8F);
     CHECK(all.visible == core::Visible::inside);
 
     CHECK(material_of(R"({"reflection": "schlick"})").reflection == core::Reflection::schlick);

@@ -1,6 +1,7 @@
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
+#include "tests/sanitized.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -184,8 +185,8 @@ namespace {
 Scene cut_crowd(int way, int place) {
     const Vec3f places[] = {{5, 4, 7}, {0.7F, 0.9F, 1.1F}, {-0.7F, -0.8F, -0.75F}};
     SceneBuilder builder;
-    builder.settings.width = 80;
-    builder.settings.height = 60;
+    builder.settings.width = tests::sanitized ? 32 : 80;
+    builder.settings.height = tests::sanitized ? 24 : 60;
     builder.camera.from = places[place];
     builder.camera.at = {0, 0, 0};
     builder.background = {0.6F, 0.7F, 0.9F};

@@ -49,6 +49,7 @@ struct Sellmeier {
 /// shadow lets through, C the pattern's colour and R the reflected fraction:
 ///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
 ///   + R (colour reflected) + (1 - R) transmission (colour transmitted)
+/// and of all this `opacity`, with 1 - opacity of the colour straight behind the surface.
 struct Material {
     Pattern pattern{};
     float ambient = 0.1F;   ///< >= 0
@@ -63,6 +64,9 @@ struct Material {
     /// Per unit of length inside, >= 0 (Beer and Lambert: exp(-absorption * length)).
     Vec3 absorption{};
     Visible visible = Visible::both;
+    /// [0, 1]: the share of what is seen that the surface is, as paint on a pane is. Unlike what is
+    /// transmitted, what is behind is neither refracted, nor absorbed, nor less for reflections.
+    float opacity = 1.0F;
 };
 
 /// The number of a material in its scene: 0, 1, 2, ... in the order in which they were added.

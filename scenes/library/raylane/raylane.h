@@ -118,6 +118,7 @@ typedef struct raylane_material {
     float reflectivity, transmission, index;
     raylane_vec3 absorption;
     uint8_t visible;
+    float opacity;
 } raylane_material;
 
 typedef struct raylane_light {
@@ -147,6 +148,7 @@ typedef struct raylane_settings {
     float min_weight, quality;
     uint8_t filter;
     int light_samples;
+    int max_see_through;
 } raylane_settings;
 
 /** The values that C++ starts with. */

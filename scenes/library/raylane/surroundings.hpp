@@ -98,6 +98,9 @@ struct Settings {
     Transfer transfer = Transfer::srgb; ///< for write_image
     int max_depth = 8;                  ///< reflections and refractions on one path, 0 to 1000
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
+    /// Surfaces of opacities below 1 that a path shows, one behind the other, 1 to 1000000; further
+    /// ones are as if they were not there.
+    int max_see_through = 1'000'000;
 };
 
 } // namespace raylane

@@ -78,10 +78,15 @@ struct Shading {
             V throughput = gather(paths.throughput);
             if constexpr (with_media)
                 throughput = product(throughput, let_through(load(media->absorption, i), t));
+            if (material.opacity < 1.0) {
+                store(scaled(F(1.0 - material.opacity), throughput), surfaces.behind, i);
+                throughput = scaled(F(material.opacity), throughput);
+            }
             const V own = Patterns<Arch>::color_at(material, point);
             V radiance = scaled(F(material.ambient), own);
             if constexpr (with_fog) {
-                F fogged = fog_fraction(fog, t, point.z);
+                const F distance = paths.travelled != nullptr ? gather(paths.travelled) + t : t;
+                F fogged = fog_fraction(fog, distance, point.z);
                 if constexpr (with_media)
                     fogged = select(load(media->inside + i) > F(0.0), F(0.0), fogged);
                 const V before = throughput;

@@ -156,6 +156,8 @@ TEST_CASE("C has the defaults of C++") {
     CHECK(raylane_default_camera().focus_distance == Camera{}.focus_distance);
     CHECK(raylane_default_settings().light_samples == Settings{}.light_samples);
     CHECK(raylane_default_settings().max_depth == Settings{}.max_depth);
+    CHECK(raylane_default_settings().max_see_through == Settings{}.max_see_through);
+    CHECK(raylane_default_material().opacity == Material{}.opacity);
 }
 
 TEST_CASE("what goes wrong in C has a code and a line of text") {

@@ -106,7 +106,8 @@ TEST_CASE("everything else comes back as it was given") {
                                                   .transmission = 0.22F,
                                                   .index = 23,
                                                   .absorption = {24, 25, 26},
-                                                  .visible = Visible::inside});
+                                                  .visible = Visible::inside,
+                                                  .opacity = 0.27F});
     builder.add(Sphere{{0, 0, 0}, 1}, m);
     const Scene scene = builder.build();
 
@@ -164,6 +165,7 @@ TEST_CASE("everything else comes back as it was given") {
     CHECK(material.index == 23);
     CHECK(material.absorption == Vec3{24, 25, 26});
     CHECK(material.visible == Visible::inside);
+    CHECK(material.opacity == 0.27F);
 }
 
 TEST_CASE("what is not set is as in a file") {
