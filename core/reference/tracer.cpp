@@ -304,14 +304,9 @@ void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
     if ((path.depth >= settings_.max_depth && !is_free) || !is_worth(throughput)) return;
 
     ++searcher_.counters.refracted;
-    pending_.push_back(
-        {{surface.point, normalized(direction)},
-         surface.origins(/*through=*/true, direction),
-         media_behind(path, surface),
-         throughput,
-         path.depth + (is_free ? 0 : 1),
-         surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size()),
-         path.passed});
+    Path next = through(path, surface, throughput, normalized(direction));
+    next.depth += is_free ? 0 : 1;
+    pending_.push_back(std::move(next));
 }
 
 /// What is straight behind a see-through surface.
@@ -319,16 +314,26 @@ template <class Real>
 void ReferenceTracer<Real>::pass(const Path& path, const Surface& surface,
                                  const Vector& throughput) {
     if (!is_worth(throughput)) return;
+
     ++searcher_.counters.passed;
-    pending_.push_back(
-        {{surface.point, path.ray.direction},
-         surface.origins(/*through=*/true, path.ray.direction),
-         media_behind(path, surface),
-         throughput,
-         path.depth,
-         surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size()),
-         path.passed + 1,
-         path.travelled + surface.hit.t});
+    Path next = through(path, surface, throughput, path.ray.direction);
+    ++next.passed;
+    next.travelled = path.travelled + surface.hit.t;
+    pending_.push_back(std::move(next));
+}
+
+/// A path from a surface on through it, in a direction of length 1; as deep as before.
+template <class Real>
+typename ReferenceTracer<Real>::Path
+ReferenceTracer<Real>::through(const Path& path, const Surface& surface, const Vector& throughput,
+                               const Vector& direction) {
+    return {{surface.point, direction},
+            surface.origins(/*through=*/true, direction),
+            media_behind(path, surface),
+            throughput,
+            path.depth,
+            surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size()),
+            path.passed};
 }
 
 template <class Real>
@@ -384,12 +389,11 @@ template <class Real>
 Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
                                         const OriginSurfaces<Real>& origins, Media media,
                                         Media media_behind) {
-    const Material& material = scene_.material_of(hit.shape);
-    if (!material.transmits()) return Real(1) - Real(material.opacity);
     const Vector normal = searcher_.surface_at(ray, origins, hit).normal;
     const Real cos = std::abs(dot(ray.direction, normal));
     const auto [before, behind] = indices_at(hit, media, media_behind);
-    return let_straight_through(material, std::min(cos, Real(1)), before, behind);
+    return let_straight_through(scene_.material_of(hit.shape), std::min(cos, Real(1)), before,
+                                behind);
 }
 
 template <class Real>

@@ -105,6 +105,8 @@ class ReferenceTracer {
     void transmit(const Path& path, const Surface& surface, const Vector& throughput,
                   const Vector& direction);
     void pass(const Path& path, const Surface& surface, const Vector& throughput);
+    Path through(const Path& path, const Surface& surface, const Vector& throughput,
+                 const Vector& direction);
     bool find_crossings(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real distance);
 
     bool is_worth(const Vector& throughput) const;

@@ -93,6 +93,10 @@ struct Paths {
         return passed != nullptr ? passed[lane] : 0U;
     }
 
+    double travelled_at(std::size_t lane) const {
+        return travelled != nullptr ? travelled[lane] : 0.0;
+    }
+
     void set_passed(std::size_t lane, std::uint32_t surfaces, double way) const {
         if (passed != nullptr) passed[lane] = surfaces;
         if (travelled != nullptr) travelled[lane] = way;

@@ -186,15 +186,12 @@ bool ShadowTracer::step(std::size_t lane, double& distance) {
                                          : media;
 
     const double t = found.t[lane];
-    double share = 1.0 - static_cast<double>(material.opacity);
-    if (material.transmits()) {
-        double cos = 0.0;
-        for (int axis = 0; axis < 3; ++axis)
-            cos += walk_.direction[axis][lane] * found.normal[axis][lane];
-        share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
-                                           scene_.medium(before).index,
-                                           scene_.medium(stacks.top(media_behind)).index);
-    }
+    double cos = 0.0;
+    for (int axis = 0; axis < 3; ++axis)
+        cos += walk_.direction[axis][lane] * found.normal[axis][lane];
+    const double share = core::let_straight_through(material, std::min(std::abs(cos), 1.0),
+                                                    scene_.medium(before).index,
+                                                    scene_.medium(stacks.top(media_behind)).index);
     absorb(before, t, lane);
     for (int channel = 0; channel < 3; ++channel)
         walk_.throughput[channel][lane] *= share;

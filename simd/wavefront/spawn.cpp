@@ -37,12 +37,12 @@ void Wavefront::spawn(int depth) {
     counters_.refracted += refracted;
     counters_.passed += passed;
 
-    const bool from_camera = std::exchange(coherent_, coherent_ && mirrored + refracted == 0);
+    coherent_ = coherent_ && mirrored + refracted == 0;
     if (camera_rays_.has_lens() || refracted != 0) return;
     if (coherent_) {
         next_coherence_ = camera_coherence_;
         next_coherence_.beyond = !camera_.orthographic;
-    } else if (depth == 0 && from_camera && passed == 0) {
+    } else if (depth == 0 && passed == 0) {
         next_coherence_ = coherence_off_mirror(camera_, scene_, surfaces_, sorted_.order(),
                                                finder_.hits().slot, reflected);
     }
@@ -51,7 +51,6 @@ void Wavefront::spawn(int depth) {
 /// The columns that the kernels do not write, of rays that are there from next_.count on, but for
 /// those that are too deep. Returns how many.
 std::size_t Wavefront::add_to_next(const SpawnedRays& spawned, bool through, int depth) {
-    const Hits& hits = finder_.hits();
     const std::size_t before = next_.count;
     for (std::size_t k = 0; k < spawned.count; ++k) {
         const std::uint32_t lane = sorted_.order()[static_cast<std::size_t>(spawned.parent[k])];
@@ -63,16 +62,8 @@ std::size_t Wavefront::add_to_next(const SpawnedRays& spawned, bool through, int
                 next_.direction[axis][to] = next_.direction[axis][from];
                 next_.throughput[axis][to] = next_.throughput[axis][from];
             }
-        const std::uint32_t slot = hits.slot[lane], hit = hits.hit[lane];
-        const SceneData::Occupant shape = scene_.occupant_of(slot);
-        next_.sample[to] = paths_.sample[lane];
-        next_.start_on(to, slot, shape, hit, through);
+        start_next(to, lane, through);
         next_.set_passed(to, paths_.passed_at(lane), 0.0);
-        if (!with_media_) continue;
-        const core::Media media = paths_.media_at(lane);
-        next_.set_media(
-            to, through ? reference_.media().crossed(media, shape.medium, shape.is_entered(hit))
-                        : media);
     }
     return next_.count - before;
 }
@@ -86,7 +77,6 @@ std::size_t Wavefront::pass_on() {
         if (run.material->opacity < 1.0)
             for (std::size_t i = run.begin; i < run.end; ++i)
                 position_of_[sorted_.order()[i]] = static_cast<std::uint32_t>(i);
-    const Hits& hits = finder_.hits();
     const auto least = static_cast<double>(settings_.min_weight);
     const std::size_t before = next_.count;
     for (std::size_t lane = 0; lane < paths_.count; ++lane) {
@@ -102,20 +92,25 @@ std::size_t Wavefront::pass_on() {
             next_.direction[axis][to] = surfaces_.direction[axis][position];
             next_.throughput[axis][to] = surfaces_.behind[axis][position];
         }
-        const std::uint32_t slot = hits.slot[lane], hit = hits.hit[lane];
-        const SceneData::Occupant shape = scene_.occupant_of(slot);
-        next_.sample[to] = paths_.sample[lane];
-        next_.start_on(to, slot, shape, hit, /*through=*/true);
+        start_next(to, lane, /*through=*/true);
         next_.set_passed(to, paths_.passed_at(lane) + 1,
-                         paths_.travelled != nullptr ? paths_.travelled[lane] + hits.t[lane] : 0.0);
-        if (!with_media_) continue;
-        const core::Media media = paths_.media_at(lane);
-        next_.set_media(to,
-                        scene_.scene().bounds_medium(shape.material, shape.medium)
-                            ? reference_.media().crossed(media, shape.medium, shape.is_entered(hit))
-                            : media);
+                         paths_.travelled_at(lane) + finder_.hits().t[lane]);
     }
     return next_.count - before;
+}
+
+/// A ray of the next wave starts on what a lane has hit.
+void Wavefront::start_next(std::size_t to, std::size_t lane, bool through) {
+    const std::uint32_t slot = finder_.hits().slot[lane], hit = finder_.hits().hit[lane];
+    const SceneData::Occupant shape = scene_.occupant_of(slot);
+    next_.sample[to] = paths_.sample[lane];
+    next_.start_on(to, slot, shape, hit, through);
+    if (!with_media_) return;
+    const core::Media media = paths_.media_at(lane);
+    const bool crosses = through && scene_.scene().bounds_medium(shape.material, shape.medium);
+    next_.set_media(to, crosses
+                            ? reference_.media().crossed(media, shape.medium, shape.is_entered(hit))
+                            : media);
 }
 
 /// Leaves the first half of the samples, and the others for later, until they fit. What one sample

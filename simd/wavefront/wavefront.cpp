@@ -66,9 +66,8 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_coherence_(camera_rays_.has_lens() ? neighbours : coherence_of(camera_)),
       with_media_(scene.scene().transmissive().any),
-      see_through_(
-          std::any_of(scene.materials().begin(), scene.materials().end() - 1,
-                      [](const MaterialView& material) { return material.opacity < 1.0; })),
+      see_through_(std::any_of(scene.scene().materials().begin(), scene.scene().materials().end(),
+                               [](const core::Material& m) { return m.is_see_through(); })),
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
       reference_(scene.scene(), without_quality(settings), core::Search::hierarchy,
@@ -341,11 +340,10 @@ void Wavefront::follow(std::size_t lane, int depth) {
     const core::Vec3d throughput(paths_.throughput[0][lane], paths_.throughput[1][lane],
                                  paths_.throughput[2][lane]);
     reference_.set_sample(names_[paths_.sample[lane]]);
-    const core::Vec3d light =
-        reference_.light_along({ray_of(paths_, lane), origin_surfaces_of(scene_, paths_, lane),
-                                paths_.media_at(lane), throughput, depth_of(lane, depth),
-                                /*crossings=*/0, static_cast<int>(paths_.passed_at(lane)),
-                                paths_.travelled != nullptr ? paths_.travelled[lane] : 0.0});
+    const core::Vec3d light = reference_.light_along(
+        {ray_of(paths_, lane), origin_surfaces_of(scene_, paths_, lane), paths_.media_at(lane),
+         throughput, depth_of(lane, depth),
+         /*crossings=*/0, static_cast<int>(paths_.passed_at(lane)), paths_.travelled_at(lane)});
     add(paths_.sample[lane], light.x, light.y, light.z);
 }
 

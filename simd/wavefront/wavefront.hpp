@@ -78,6 +78,7 @@ class Wavefront {
     void spawn(int depth);
     std::size_t add_to_next(const SpawnedRays& spawned, bool through, int depth);
     std::size_t pass_on();
+    void start_next(std::size_t to, std::size_t lane, bool through);
     int depth_of(std::size_t lane, int wave) const {
         return wave - static_cast<int>(paths_.passed_at(lane));
     }

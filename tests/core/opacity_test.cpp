@@ -1,8 +1,10 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 /// What opacity below 1 shows: surfaces blend, in the order of the ray, with what is straight
 /// behind them.
@@ -135,6 +137,112 @@ TEST_CASE("a see-through surface shades as much as there is of it") {
     const Scene scene = builder.finish(sun);
     CHECK(gray_along(scene, {9, 0, 9}, {-9, 0, -9}) == Approx(0.75 * 0.75));
     CHECK(gray_along(scene, {9, 0, 9}, {-4, 0, -9}) == Approx(1.0));
+}
+
+namespace {
+
+constexpr double envelope = 0.375; // opacity
+
+struct Ball {
+    Vec3d center;
+    double radius;
+    bool is_core;
+};
+/// A union of see-through balls, and two opaque ones in it.
+const std::vector<Ball> balls = {{{-0.8, 0, 0}, 1.2, false},
+                                 {{0.8, 0, 0}, 1.2, false},
+                                 {{0, 0.9, 0.3}, 1, false},
+                                 {{-0.8, 0, 0}, 0.4, true},
+                                 {{0.8, 0, 0}, 0.4, true}};
+
+struct Wall {
+    double t;
+    const Ball* ball;
+};
+
+/// Where a line from a point meets the cores, or the union's outer walls, in order.
+std::vector<Wall> walls_along(const Vec3d& from, const Vec3d& direction) {
+    struct Passage {
+        double in, out;
+        const Ball* ball;
+    };
+    std::vector<Passage> passages;
+    for (const Ball& ball : balls) {
+        const Vec3d offset = from - ball.center;
+        const double half = dot(offset, direction);
+        const double squared = half * half - dot(offset, offset) + ball.radius * ball.radius;
+        if (squared > 0.0)
+            passages.push_back({-half - std::sqrt(squared), -half + std::sqrt(squared), &ball});
+    }
+    std::vector<Wall> walls;
+    for (const Passage& passage : passages)
+        for (const double t : {passage.in, passage.out}) {
+            const bool is_inner =
+                !passage.ball->is_core &&
+                std::any_of(passages.begin(), passages.end(), [&](const Passage& other) {
+                    return other.ball != passage.ball && !other.ball->is_core && other.in < t &&
+                           t < other.out;
+                });
+            if (t > 1e-9 && !is_inner) walls.push_back({t, passage.ball});
+        }
+    std::sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) { return a.t < b.t; });
+    return walls;
+}
+
+/// White in the light from a direction.
+double expected_along(const Vec3d& from, const Vec3d& direction, const Vec3d& to_light) {
+    double color = 0.0, throughput = 1.0;
+    for (const Wall& wall : walls_along(from, direction)) {
+        const Vec3d point = from + wall.t * direction;
+        Vec3d normal = (point - wall.ball->center) / wall.ball->radius;
+        if (dot(normal, direction) > 0.0) normal = -normal;
+        double light = std::max(dot(normal, to_light), 0.0);
+        for (const Wall& between : walls_along(point, to_light))
+            light *= between.ball->is_core ? 0.0 : 1.0 - envelope;
+        const double opacity = wall.ball->is_core ? 1.0 : envelope;
+        color += throughput * opacity * light;
+        throughput *= 1.0 - opacity;
+    }
+    return color;
+}
+
+} // namespace
+
+TEST_CASE("light into a see-through union passes its outer walls alone") {
+    Builder builder;
+    Material matte = black();
+    matte.pattern.colors[0] = Color(1.0F);
+    matte.diffuse = 1.0F;
+    const MaterialIndex core = builder.add_material(matte);
+    matte.opacity = static_cast<float>(envelope);
+    Solid all{Made::by_union};
+    for (const Ball& of : balls) {
+        Solid part;
+        part.shape = SphereOf<double>{of.center, of.radius};
+        if (of.is_core)
+            builder.add(SphereOf<double>{of.center, of.radius}, core);
+        else
+            all.parts.push_back(part);
+    }
+    builder.add_solid(all, builder.add_material(matte));
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.direction = {-4, -6, -5};
+    const Scene scene = builder.finish(sun);
+    const Vec3d to_light = normalized(Vec3d(4, 6, 5));
+    int lit = 0;
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 60; ++x) {
+            const Vec3d from((x + 0.5) / 15 - 2, (y + 0.5) / 15 - 2, 9);
+            const double seen = gray_along(scene, from, {0, 0, -1});
+            const double expected = expected_along(from, {0, 0, -1}, to_light);
+            lit += expected > 0.0 ? 1 : 0;
+            if (std::abs(seen - expected) > 1e-6) {
+                CAPTURE(x, y);
+                CHECK(seen == expected);
+            }
+        }
+    CHECK(lit > 1000);
 }
 
 TEST_CASE("opacities are fractions, and of one surface at least is seen") {

@@ -1,24 +1,16 @@
-#include "simd/isa.hpp"
-#include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
+#include "tests/simd/picture.hpp"
 
 #include <cmath>
 #include <random>
 
 /// Surfaces of opacities below 1: both engines, and all instruction sets, have one picture of them.
 using namespace raylane;
+using raylane::tests::picture;
 using namespace little_scene;
 
 namespace {
-
-std::vector<Color> picture(const Scene& scene, simd::Engine engine,
-                           simd::Isa isa = simd::best_isa()) {
-    simd::RenderOptions options;
-    options.engine = engine;
-    options.isa = isa;
-    return simd::render(scene, scene.settings(), options).film.pixels();
-}
 
 /// Balls of all opacities, some of which mirror or transmit, before a floor, in fog.
 Scene cloud(Projection projection, bool in_fog, int most) {

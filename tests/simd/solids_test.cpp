@@ -1,13 +1,14 @@
-#include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/simd/picture.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 /// Pictures of solids that are made of others: both engines, and all instruction sets, have one.
 using namespace raylane;
+using raylane::tests::picture;
 using namespace raylane::core;
 
 namespace {
@@ -85,14 +86,6 @@ Scene blocks(std::vector<double> wavelengths = {}) {
                                    of_shape(PlaneOf<double>{{0, 0, 1.2}, {0.1, 0, -1}}, red)}),
         clay);
     return std::move(builder).build();
-}
-
-std::vector<Color> picture(const Scene& scene, simd::Engine engine,
-                           simd::Isa isa = simd::best_isa()) {
-    simd::RenderOptions options;
-    options.engine = engine;
-    options.isa = isa;
-    return simd::render(scene, scene.settings(), options).film.pixels();
 }
 
 } // namespace

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "simd/isa.hpp"
+#include "simd/render.hpp"
+
+#include <vector>
+
+namespace raylane::tests {
+
+/// The picture of a scene by its own settings, row by row.
+inline std::vector<core::Color> picture(const core::Scene& scene, simd::Engine engine,
+                                        simd::Isa isa = simd::best_isa()) {
+    simd::RenderOptions options;
+    options.engine = engine;
+    options.isa = isa;
+    return simd::render(scene, scene.settings(), options).film.pixels();
+}
+
+} // namespace raylane::tests
