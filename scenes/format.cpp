@@ -15,19 +15,13 @@ namespace raylane::scenes {
 namespace {
 
 constexpr std::pair<std::string_view, Format> endings[] = {
-    {".json", Format::json},
-    {".nff", Format::nff},
-    {".pdb", Format::pdb},
-    {".ent", Format::pdb},
-    {".cif", Format::cif},
-    {".mmcif", Format::cif},
-    {".xyz", Format::xyz},
-    {".extxyz", Format::xyz},
-    {".gro", Format::gro},
-    {".dump", Format::lammps_dump},
-    {".lammpstrj", Format::lammps_dump},
-    {".data", Format::lammps_data},
-    {".lmp", Format::lammps_data},
+    {".json", Format::json},        {".nff", Format::nff},
+    {".pov", Format::pov},          {".pdb", Format::pdb},
+    {".ent", Format::pdb},          {".cif", Format::cif},
+    {".mmcif", Format::cif},        {".xyz", Format::xyz},
+    {".extxyz", Format::xyz},       {".gro", Format::gro},
+    {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
+    {".data", Format::lammps_data}, {".lmp", Format::lammps_data},
 };
 
 constexpr std::string_view blanks = " \t\r\v\f";
@@ -53,10 +47,34 @@ std::vector<std::string_view> lines_of(std::string_view head, std::size_t most) 
     return lines;
 }
 
-/// JSON begins with '{' or a comment, and no line of NFF does with either.
+/// What comes first behind blanks and comments.
+std::string_view without_comments(std::string_view head) {
+    for (;;) {
+        head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
+        const bool is_block = head.starts_with("/*");
+        if (!is_block && !head.starts_with("//")) return head;
+        const std::size_t end = is_block ? head.find("*/", 2) : head.find('\n');
+        head.remove_prefix(end == std::string_view::npos ? head.size() : end + (is_block ? 2 : 1));
+    }
+}
+
+/// JSON begins with '{', and no line of NFF does.
 bool looks_like_json(std::string_view head) {
-    const std::size_t first = head.find_first_not_of(" \t\r\n");
-    return first != std::string_view::npos && (head[first] == '{' || head[first] == '/');
+    return without_comments(head).starts_with('{');
+}
+
+/// One of POV-Ray's directives, or a statement.
+bool looks_like_pov(std::string_view head) {
+    static constexpr std::array<std::string_view, 13> words = {
+        "#version", "#include",        "#declare",   "#local",       "#macro", "#default", "#if",
+        "camera",   "global_settings", "background", "light_source", "sphere", "union"};
+    head = without_comments(head);
+    return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+        if (!head.starts_with(word)) return false;
+        const std::string_view rest = head.substr(word.size());
+        const std::string_view next = trimmed(rest.substr(0, rest.find_first_of("{\n")));
+        return word[0] == '#' || (next.empty() && rest.find('{') != std::string_view::npos);
+    });
 }
 
 bool is_binary(std::string_view head) {
@@ -156,6 +174,7 @@ Format format_of(InputFile& file) {
     static constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
     if (looks_like_json(head)) return Format::json;
+    if (looks_like_pov(head)) return Format::pov;
     const std::vector<std::string_view> lines = lines_of(head, 40);
     if (lines[0].starts_with("ITEM: ")) return Format::lammps_dump;
     if (looks_like_pdb(lines)) return Format::pdb;
@@ -164,11 +183,11 @@ Format format_of(InputFile& file) {
     if (looks_like_gro(lines)) return Format::gro;
     if (looks_like_nff(head)) return Format::nff;
     if (looks_like_lammps_data(lines)) return Format::lammps_data;
-    throw BadInput(
-        file.name(), "",
-        "must be a scene in JSON (.json) or NFF (.nff), or atoms in PDB (.pdb), mmCIF or "
-        "CIF (.cif), XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), "
-        "and what it holds is none of these");
+    throw BadInput(file.name(), "",
+                   "must be a scene in JSON (.json), NFF (.nff) or POV-Ray's language (.pov), or "
+                   "atoms in PDB (.pdb), mmCIF or "
+                   "CIF (.cif), XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), "
+                   "and what it holds is none of these");
 }
 
 } // namespace raylane::scenes

@@ -4,6 +4,7 @@
 #include "scenes/format.hpp"
 #include "scenes/json/reader.hpp"
 #include "scenes/nff/reader.hpp"
+#include "scenes/pov/reader.hpp"
 #include "scenes/structure/structure_file.hpp"
 
 namespace raylane::scenes {
@@ -19,6 +20,7 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
         throw BadInput(options.option_for_atoms, "",
                        "goes with a file of atoms, and " + printable(file.name(), 4096) +
                            " is a scene");
+    if (format == Format::pov) return read_pov(file, options.workers, options.on_remark);
     return format == Format::json ? read_json(file, options.workers)
                                   : read_nff(file, options.workers);
 }

@@ -23,6 +23,7 @@ std::unique_ptr<FrameReader> reader_of(InputFile& file, Format format) {
         return open_lammps_data(file);
     case Format::json:
     case Format::nff:
+    case Format::pov:
         break;
     }
     throw BadInput(file.name(), "", "is no file of atoms");

@@ -41,7 +41,8 @@ TEST_CASE("a file of another kind is told from a scene with a mistake") {
         return raylane::tests::message_of<BadInput>([&] { parse_scene("a" + ending, text); });
     };
     const std::string neither =
-        ": must be a scene in JSON (.json) or NFF (.nff), or atoms in PDB (.pdb), mmCIF or CIF "
+        ": must be a scene in JSON (.json), NFF (.nff) or POV-Ray's language (.pov), or atoms in "
+        "PDB (.pdb), mmCIF or CIF "
         "(.cif), XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), and what it "
         "holds "
         "is none of these";

@@ -81,7 +81,8 @@ TEST_CASE("what is no file that holds a scene is told in one line") {
         {"JSON of nothing", "a.json", " // nothing\n", "must be a scene, got an empty file"},
         {"NFF of nothing", "a.nff", "# nothing\n", "must have a v entity, got none"},
         {"no scene at all", "a", "Dear Sir,\n",
-         "must be a scene in JSON (.json) or NFF (.nff), or atoms in PDB (.pdb), mmCIF or CIF "
+         "must be a scene in JSON (.json), NFF (.nff) or POV-Ray's language (.pov), or atoms in "
+         "PDB (.pdb), mmCIF or CIF "
          "(.cif), "
          "XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), and what it holds is "
          "none "

@@ -1,0 +1,257 @@
+#include "scenes/pov/assembly.hpp"
+
+#include "core/shapes/invalid_value.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace raylane::scenes::pov {
+
+namespace {
+
+using core::Ends, core::Made, core::Solid, core::Vec3d;
+
+Look look_of(const Object& object, const Look& inherited, const Shared<Motion>& above) {
+    Look look = inherited;
+    if (object.texture != nullptr) {
+        look.texture = object.texture;
+        look.above = above;
+    }
+    if (object.interior != nullptr) look.interior = object.interior;
+    return look;
+}
+
+const core::PlaneOf<double>* plane_of(const core::PartShape& shape) {
+    return std::get_if<core::PlaneOf<double>>(&shape);
+}
+
+/// What is inside out has no description of its own, but for planes.
+bool is_inside_out(const Object& object) {
+    return object.inverse &&
+           (object.kind != ObjectKind::shape || plane_of(object.shape) == nullptr);
+}
+
+/// What is between an open cylinder's ends, without faces there.
+Solid between_ends(const core::PartShape& shape, const Vec3d& base, const Vec3d& axis) {
+    Solid solid{Made::by_clip};
+    solid.parts.resize(3);
+    solid.parts[0].shape = shape;
+    solid.parts[1].shape = core::PlaneOf<double>{base, -axis};
+    solid.parts[2].shape = core::PlaneOf<double>{base + axis, axis};
+    return solid;
+}
+
+/// As POV-Ray has it: an open cylinder ends at its ends, where it is a part of another, too.
+Solid part_of(const Object& object) {
+    return std::visit(
+        [&]<class Shape>(const Shape& shape) -> Solid {
+            Solid solid;
+            solid.shape = shape;
+            constexpr core::Kind kind = core::kind_of<Shape>;
+            if constexpr (kind == core::Kind::open_cylinder || kind == core::Kind::open_cone) {
+                return between_ends(shape, shape.base, shape.axis);
+            } else if constexpr (kind == core::Kind::plane) {
+                if (object.inverse) solid.shape = core::PlaneOf<double>{shape.point, -shape.normal};
+                return solid;
+            } else if constexpr (core::has_inside<core::InFloat<Shape>>) {
+                return solid;
+            } else {
+                fail(object.place, "must have an inside to be a part of another object, or to be "
+                                   "clipped, and a " +
+                                       std::string(core::name_of(kind)) + " has none");
+            }
+        },
+        object.shape);
+}
+
+template <class Shape>
+void turn_z(Shape& shape) {
+    if constexpr (requires { shape.center; }) shape.center.z = -shape.center.z;
+    if constexpr (requires { shape.base; }) {
+        shape.base.z = -shape.base.z;
+        shape.axis.z = -shape.axis.z;
+    }
+}
+
+} // namespace
+
+void Assembly::set_mirrored() {
+    Motion motion{core::Transform::scaling({1.0, 1.0, -1.0})};
+    motion.rows[2][2] = -1.0;
+    motion.translation.reset();
+    mirror_ = std::make_shared<const Motion>(std::move(motion));
+}
+
+Solid Assembly::moved(const Object& object, const Solid& solid,
+                      const Shared<Motion>& motion) const {
+    if (motion == nullptr) return solid;
+    if (motion == mirror_ && solid.made == Made::of_shape) { // as many are
+        Solid result = solid;
+        const bool is_simple = std::visit(
+            []<class Shape>(Shape& shape) {
+                constexpr core::Kind kind = core::kind_of<Shape>;
+                constexpr bool simple =
+                    kind == core::Kind::sphere || kind == core::Kind::open_cylinder ||
+                    kind == core::Kind::capped_cylinder || kind == core::Kind::open_cone ||
+                    kind == core::Kind::capped_cone;
+                if constexpr (simple) turn_z(shape);
+                return simple;
+            },
+            result.shape);
+        if (is_simple) return result;
+    }
+    try {
+        return motion->exact(solid);
+    } catch (const core::InvalidValue& invalid) {
+        fail(object.place, invalid.what());
+    }
+}
+
+void Assembly::put(const Object& object, const Solid& solid, core::MaterialIndex material) {
+    try {
+        if (solid.made != Made::of_shape)
+            builder_.add_solid(solid, material);
+        else
+            std::visit([&](const auto& shape) { builder_.add(shape, material); }, solid.shape);
+    } catch (const core::InvalidValue& invalid) {
+        fail(object.place, invalid.what());
+    }
+}
+
+void Assembly::add_mesh(const Object& object, const Look& look, const Shared<Motion>& motion) {
+    core::MaterialIndex own = core::no_material;
+    std::vector<core::MaterialIndex> materials_of(object.mesh->textures.size(), core::no_material);
+    for (const MeshTriangle& triangle : object.mesh->triangles) {
+        core::MaterialIndex& material =
+            triangle.texture < 0 ? own : materials_of[static_cast<std::size_t>(triangle.texture)];
+        if (material == core::no_material) {
+            Look its = look;
+            if (triangle.texture >= 0) {
+                its.texture = object.mesh->textures[static_cast<std::size_t>(triangle.texture)];
+                its.above = motion;
+            }
+            material = materials.index_of(its, object.place);
+        }
+        Solid solid;
+        solid.shape = triangle.shape;
+        put(object, moved(object, solid, motion), material);
+    }
+}
+
+void Assembly::add_shape(const Object& object, const core::PartShape& shape, const Look& look,
+                         const Shared<Motion>& motion) {
+    if (std::holds_alternative<core::QuadricOf<double>>(shape))
+        fail(object.place, "must be clipped by a box: a quadric by itself has no end");
+    Solid solid;
+    solid.shape = shape;
+    solid = moved(object, solid, motion);
+    const auto* plane = solid.made == Made::of_shape ? plane_of(solid.shape) : nullptr;
+    put(object, solid, materials.index_of(look, object.place, plane));
+}
+
+/// One that ends at a box of its own is a shape.
+bool Assembly::add_quadric(const Object& object, const Look& look, const Shared<Motion>& motion,
+                           const Clips& clips) {
+    const auto* form = std::get_if<core::QuadricOf<double>>(&object.shape);
+    if (form == nullptr || clips.size() != 1 || clips[0].above != motion ||
+        (motion != nullptr && !motion->translation))
+        return false;
+    const Object& by = *clips[0].by;
+    const auto* box = std::get_if<core::BoxOf<double>>(&by.shape);
+    if (box == nullptr || by.kind != ObjectKind::shape || by.motion != nullptr || by.inverse ||
+        !by.clips.empty())
+        return false;
+    core::QuadricOf<double> quadric = *form;
+    if (motion != nullptr) quadric.center = *motion->translation;
+    quadric.lower = box->corner;
+    quadric.upper = box->corner + box->edge_u + box->edge_v + box->edge_w;
+    Solid solid;
+    solid.shape = quadric;
+    put(object, solid, materials.index_of(look, object.place));
+    return true;
+}
+
+void Assembly::add(const Object& object, const Look& inherited, const Shared<Motion>& above,
+                   Clips clips) {
+    if (object.is_hidden || object.count == 0) return;
+    const Look look = look_of(object, inherited, above);
+    const Shared<Motion> motion = both(object.motion, above);
+    for (const Shared<Object>& clip : object.clips)
+        clips.push_back({clip, motion});
+    switch (object.kind) {
+    case ObjectKind::all_in_one:
+        for (const Shared<Object>& part : object.parts)
+            add(*part, look, motion, clips);
+        return;
+    case ObjectKind::mesh:
+        if (!clips.empty()) fail(object.place, "must not be clipped, as a mesh has no inside here");
+        add_mesh(object, look, motion);
+        return;
+    case ObjectKind::shape:
+        if (clips.empty()) return add_shape(object, object.shape, look, motion);
+        if (add_quadric(object, look, motion, clips)) return;
+        break;
+    case ObjectKind::merge:
+    case ObjectKind::intersection:
+    case ObjectKind::difference:
+        break;
+    }
+    Solid solid = clipped(made_of(object, look, motion), clips);
+    solid.material = materials.index_of(look, object.place);
+    put(object, solid, core::no_material);
+}
+
+/// What an object is made of, without its clips.
+Solid Assembly::made_of(const Object& object, const Look& look, const Shared<Motion>& motion) {
+    if (object.kind == ObjectKind::shape) return moved(object, part_of(object), motion);
+    if (object.kind == ObjectKind::mesh)
+        fail(object.place,
+             "must have an inside to be a part of another object, and a mesh has none");
+    Solid all{Made::by_union}, less{Made::by_difference};
+    if (object.kind == ObjectKind::intersection || object.kind == ObjectKind::difference)
+        all.made = Made::by_intersection;
+    bool is_first = true;
+    for (const Shared<Object>& part : object.parts) {
+        if (part->count == 0) continue;
+        const bool is_taken = object.kind == ObjectKind::difference && !is_first;
+        const bool is_kept = is_taken == is_inside_out(*part);
+        if (!is_kept && all.made == Made::by_union)
+            fail(part->place,
+                 "must not be inverse in a union: of all that is outside there is no end");
+        (is_kept ? all : less).parts.push_back(described(*part, look, motion, false));
+        is_first = false;
+    }
+    if (all.parts.empty())
+        fail(object.place, "must have an object that is not inverse, nor taken away");
+    if (less.parts.empty()) return all;
+    less.parts.insert(less.parts.begin(),
+                      all.parts.size() == 1 ? std::move(all.parts[0]) : std::move(all));
+    return less;
+}
+
+Solid Assembly::described(const Object& object, const Look& inherited, const Shared<Motion>& above,
+                          bool is_clip) {
+    const Look look = look_of(object, inherited, above);
+    const Shared<Motion> motion = both(object.motion, above);
+    Clips clips;
+    for (const Shared<Object>& clip : object.clips)
+        clips.push_back({clip, motion});
+    Solid solid = clipped(made_of(object, look, motion), clips);
+    if (!is_clip && (object.texture != nullptr || object.interior != nullptr))
+        solid.material = materials.index_of(look, object.place);
+    return solid;
+}
+
+Solid Assembly::clipped(Solid solid, const Clips& clips) {
+    if (clips.empty()) return solid;
+    Solid result{Made::by_clip};
+    result.parts.push_back(std::move(solid));
+    for (const Clip& clip : clips) {
+        if (is_inside_out(*clip.by))
+            fail(clip.by->place, "must not be inverse where it clips, unless it is a plane");
+        result.parts.push_back(described(*clip.by, {}, clip.above, true));
+    }
+    return result;
+}
+
+} // namespace raylane::scenes::pov

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "scenes/pov/materials.hpp"
+
+#include <vector>
+
+namespace raylane::scenes::pov {
+
+/// Adds objects to a scene: what is in them, moved, with the materials that it has.
+class Assembly {
+  public:
+    Assembly(core::SceneBuilder& builder, Tokens& tokens)
+        : materials(builder, tokens), builder_(builder) {}
+
+    Materials materials;
+
+    /// z against z, of all that is added from then on.
+    void set_mirrored();
+    void add(const Object& object) { add(object, {}, mirror_, {}); }
+
+  private:
+    struct Clip {
+        Shared<Object> by;
+        Shared<Motion> above;
+    };
+    using Clips = std::vector<Clip>;
+
+    void add(const Object& object, const Look& inherited, const Shared<Motion>& above, Clips clips);
+    void add_mesh(const Object& object, const Look& look, const Shared<Motion>& motion);
+    void add_shape(const Object& object, const core::PartShape& shape, const Look& look,
+                   const Shared<Motion>& motion);
+    bool add_quadric(const Object& object, const Look& look, const Shared<Motion>& motion,
+                     const Clips& clips);
+    core::Solid moved(const Object& object, const core::Solid& solid,
+                      const Shared<Motion>& motion) const;
+    core::Solid described(const Object& object, const Look& inherited, const Shared<Motion>& above,
+                          bool is_clip);
+    core::Solid made_of(const Object& object, const Look& look, const Shared<Motion>& motion);
+    core::Solid clipped(core::Solid solid, const Clips& clips);
+    void put(const Object& object, const core::Solid& solid, core::MaterialIndex material);
+
+    core::SceneBuilder& builder_;
+    Shared<Motion> mirror_{};
+};
+
+} // namespace raylane::scenes::pov

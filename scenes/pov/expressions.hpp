@@ -1,0 +1,29 @@
+#pragma once
+
+#include "scenes/pov/tokens.hpp"
+
+#include <string>
+
+/// Numbers, vectors, colours and strings.
+namespace raylane::scenes::pov {
+
+/// Without comparisons, as they stand everywhere but in parentheses.
+Tuple read_tuple(Tokens& tokens);
+/// With comparisons, & and |, and ? :.
+Tuple read_relation(Tokens& tokens);
+double read_number(Tokens& tokens);
+core::Vec3d read_vector(Tokens& tokens);
+/// Five components, behind "color" or without it.
+Tuple read_color(Tokens& tokens);
+/// True of a word that begins a colour.
+bool begins_color(const Token& token);
+/// True if a number, vector or colour comes next.
+bool at_tuple(Tokens& tokens);
+std::string read_string(Tokens& tokens);
+
+/// "[1][2]"
+std::vector<std::size_t> read_indices(Tokens& tokens);
+/// An element of the array of that name.
+Value& element_of(Tokens& tokens, const Token& name, const std::vector<std::size_t>& indices);
+
+} // namespace raylane::scenes::pov

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "scenes/pov/tokens.hpp"
+
+/// What objects look like.
+namespace raylane::scenes::pov {
+
+/// All of these begin at the brace.
+Pigment read_pigment(Tokens& tokens, Pigment pigment);
+Finish read_finish(Tokens& tokens, Finish finish);
+Shared<Texture> read_texture(Tokens& tokens);
+Interior read_interior(Tokens& tokens);
+Material read_material(Tokens& tokens);
+/// "#default { ... }"
+void read_default(Tokens& tokens);
+
+/// What comes next if it moves things: "translate <1, 2, 3>", ...; null if not.
+Shared<Motion> read_motion(Tokens& tokens);
+/// "{ ... }", or a name.
+Shared<Motion> read_transform(Tokens& tokens);
+
+} // namespace raylane::scenes::pov

@@ -1,0 +1,203 @@
+#include "scenes/pov/functions.hpp"
+
+#include "core/numbers/elementary.hpp"
+#include "scenes/pov/expressions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace raylane::scenes::pov {
+
+namespace {
+
+using core::Vec3d;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+struct Constant {
+    std::string_view name;
+    Tuple value;
+};
+
+/// Of the picture, whose size a scene does not have: as POV-Ray's own examples have it.
+constexpr double usual_width = 640.0, usual_height = 480.0;
+
+const Constant constants[] = {
+    {"x", {{1.0, 0.0, 0.0}, 3}},
+    {"y", {{0.0, 1.0, 0.0}, 3}},
+    {"z", {{0.0, 0.0, 1.0}, 3}},
+    {"u", {{1.0, 0.0}, 2}},
+    {"v", {{0.0, 1.0}, 2}},
+    {"t", {{0.0, 0.0, 0.0, 1.0}, 4}},
+    {"pi", {{std::numbers::pi}, 1}},
+    {"true", {{1.0}, 1}},
+    {"on", {{1.0}, 1}},
+    {"yes", {{1.0}, 1}},
+    {"false", {{0.0}, 1}},
+    {"off", {{0.0}, 1}},
+    {"no", {{0.0}, 1}},
+    {"clock", {{0.0}, 1}},
+    {"clock_delta", {{1.0}, 1}},
+    {"clock_on", {{0.0}, 1}},
+    {"frame_number", {{1.0}, 1}},
+    {"initial_frame", {{1.0}, 1}},
+    {"final_frame", {{1.0}, 1}},
+    {"image_width", {{usual_width}, 1}},
+    {"image_height", {{usual_height}, 1}},
+};
+
+using OfOne = double (*)(double);
+using OfTwo = double (*)(double, double);
+
+double sine(double a) {
+    return core::sin(a);
+}
+double cosine(double a) {
+    return core::cos(a);
+}
+double tangent(double a) {
+    return core::sin(a) / core::cos(a);
+}
+
+struct FunctionOfOne {
+    std::string_view name;
+    OfOne call;
+};
+const FunctionOfOne functions_of_one[] = {
+    {"abs", [](double a) { return std::abs(a); }},
+    {"acos", [](double a) { return std::acos(a); }},
+    {"asin", [](double a) { return std::asin(a); }},
+    {"atan", [](double a) { return std::atan(a); }},
+    {"ceil", [](double a) { return std::ceil(a); }},
+    {"cos", cosine},
+    {"degrees", [](double a) { return a / degree; }},
+    {"exp", [](double a) { return std::exp(a); }},
+    {"floor", [](double a) { return std::floor(a); }},
+    {"int", [](double a) { return std::trunc(a); }},
+    {"ln", [](double a) { return std::log(a); }},
+    {"log", [](double a) { return std::log10(a); }},
+    {"radians", [](double a) { return a * degree; }},
+    {"sin", sine},
+    {"sqr", [](double a) { return a * a; }},
+    {"sqrt", [](double a) { return std::sqrt(a); }},
+    {"tan", tangent},
+};
+
+struct FunctionOfTwo {
+    std::string_view name;
+    OfTwo call;
+};
+const FunctionOfTwo functions_of_two[] = {
+    {"atan2", [](double a, double b) { return std::atan2(a, b); }},
+    {"div", [](double a, double b) { return std::trunc(a / b); }},
+    {"max", [](double a, double b) { return std::max(a, b); }},
+    {"min", [](double a, double b) { return std::min(a, b); }},
+    {"mod", [](double a, double b) { return std::fmod(a, b); }},
+    {"pow", [](double a, double b) { return std::pow(a, b); }},
+};
+
+constexpr std::string_view of_vectors[] = {"vlength", "vnormalize",   "vdot",    "vcross",
+                                           "vrotate", "vaxis_rotate", "defined", "dimension_size",
+                                           "version", "strlen"};
+
+template <class Table>
+auto* entry(Table& table, std::string_view name) {
+    const auto found = std::find_if(std::begin(table), std::end(table),
+                                    [&](const auto& entry) { return entry.name == name; });
+    return found == std::end(table) ? nullptr : found;
+}
+
+/// Rodrigues' formula.
+Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
+    if (axis == Vec3d(0.0)) return v;
+    const Vec3d k = core::normalized(axis);
+    const double c = core::cos(degrees * degree), s = core::sin(degrees * degree);
+    return c * v + s * core::cross(k, v) + ((1.0 - c) * core::dot(k, v)) * k;
+}
+
+Tuple of_names(Tokens& tokens, const Token& name) {
+    tokens.expect("(");
+    const Token of = tokens.next();
+    const Value* value = tokens.find(of.text);
+    double result = value != nullptr ? 1.0 : 0.0;
+    if (name.is("dimension_size")) {
+        const auto* array = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
+        if (array == nullptr) fail(of.place, "must be the name of an array, got " + of.quoted());
+        tokens.expect(",");
+        const double which = read_number(tokens);
+        const auto& sizes = (*array)->sizes;
+        if (!(which >= 1.0 && which <= static_cast<double>(sizes.size())))
+            fail(of.place, "must have a dimension of that number, got " + of.quoted());
+        result = static_cast<double>(sizes[static_cast<std::size_t>(which) - 1]);
+    }
+    tokens.expect(")");
+    return Tuple::of(result);
+}
+
+Tuple of_vectors_named(Tokens& tokens, const Token& name) {
+    if (name.is("version")) return Tuple::of(tokens.version);
+    if (name.is("defined") || name.is("dimension_size")) return of_names(tokens, name);
+    tokens.expect("(");
+    Tuple result;
+    if (name.is("strlen")) {
+        result = Tuple::of(static_cast<double>(read_string(tokens).size()));
+    } else {
+        const Vec3d a = read_vector(tokens);
+        const bool of_one = name.is("vlength") || name.is("vnormalize");
+        Vec3d b(0.0);
+        if (!of_one) {
+            tokens.accept(",");
+            b = read_vector(tokens);
+        }
+        const double size = core::length(a);
+        if (name.is("vlength")) result = Tuple::of(size);
+        if (name.is("vnormalize")) result = Tuple::of(size > 0.0 ? a / size : a);
+        if (name.is("vdot")) result = Tuple::of(core::dot(a, b));
+        if (name.is("vcross")) result = Tuple::of(core::cross(a, b));
+        if (name.is("vrotate")) {
+            Vec3d v = turned(a, {1.0, 0.0, 0.0}, b.x);
+            v = turned(v, {0.0, 1.0, 0.0}, b.y);
+            result = Tuple::of(turned(v, {0.0, 0.0, 1.0}, b.z));
+        }
+        if (name.is("vaxis_rotate")) {
+            tokens.accept(",");
+            result = Tuple::of(turned(a, b, read_number(tokens)));
+        }
+    }
+    tokens.expect(")");
+    return result;
+}
+
+} // namespace
+
+bool is_function(std::string_view name) {
+    return entry(constants, name) != nullptr || entry(functions_of_one, name) != nullptr ||
+           entry(functions_of_two, name) != nullptr ||
+           std::find(std::begin(of_vectors), std::end(of_vectors), name) != std::end(of_vectors);
+}
+
+std::optional<Tuple> read_function(Tokens& tokens, const Token& name) {
+    if (const Constant* constant = entry(constants, name.text)) return constant->value;
+    if (const FunctionOfOne* function = entry(functions_of_one, name.text)) {
+        tokens.expect("(");
+        const double a = read_relation(tokens).at[0];
+        tokens.expect(")");
+        return Tuple::of(function->call(a));
+    }
+    if (const FunctionOfTwo* function = entry(functions_of_two, name.text)) {
+        tokens.expect("(");
+        double result = read_relation(tokens).at[0];
+        do {
+            tokens.expect(",");
+            result = function->call(result, read_relation(tokens).at[0]);
+        } while (tokens.at(","));
+        tokens.expect(")");
+        return Tuple::of(result);
+    }
+    if (std::find(std::begin(of_vectors), std::end(of_vectors), name.text) == std::end(of_vectors))
+        return std::nullopt;
+    return of_vectors_named(tokens, name);
+}
+
+} // namespace raylane::scenes::pov

@@ -1,0 +1,210 @@
+#include "scenes/pov/materials.hpp"
+
+#include "core/shapes/invalid_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace raylane::scenes::pov {
+
+namespace {
+
+using core::Vec3d;
+
+/// Of what goes straight through, and no glass bends: what of it is the surface's own.
+void set_opacity(core::Material& /*material*/, float /*opacity*/, Tokens& tokens,
+                 const Place& place) {
+    tokens.remark(place, "has what is partly transparent, which is drawn opaque");
+}
+
+core::Color color_of(const Tuple& tuple) {
+    core::Color color;
+    for (int channel = 0; channel < 3; ++channel)
+        color[channel] =
+            static_cast<float>(std::max(tuple.at[static_cast<std::size_t>(channel)], 0.0));
+    return color;
+}
+
+Vec3d column(const Motion& motion, int axis) {
+    return {motion.rows[0][axis], motion.rows[1][axis], motion.rows[2][axis]};
+}
+
+/// A checker whose cells are cubes, where nothing turns them.
+bool set_checker(const Pigment& pigment, const Motion& motion, const core::PlaneOf<double>* plane,
+                 core::Pattern& pattern) {
+    constexpr double too_long = 1e5; // to be meant as a cell
+    pattern.kind = core::PatternKind::checker;
+    pattern.axes = 0;
+    double size = 0.0, parity = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d across = column(motion, axis);
+        const double edge = across[axis], offset = motion.rows[axis][3];
+        across[axis] = 0.0;
+        if (across != Vec3d(0.0) || edge == 0.0) return false;
+        const bool is_constant = plane != nullptr && plane->normal[(axis + 1) % 3] == 0.0 &&
+                                 plane->normal[(axis + 2) % 3] == 0.0;
+        if (is_constant || std::abs(edge) >= too_long) {
+            // POV-Ray has what is on a border in the cell above it.
+            constexpr double border = 1e-10;
+            const double place = is_constant ? plane->point[axis] : 0.0;
+            parity += std::floor((place - offset) / edge + border);
+            continue;
+        }
+        if (size == 0.0) size = std::abs(edge);
+        const double cells = offset / size;
+        if (std::abs(edge) != size || cells != std::floor(cells)) return false;
+        pattern.axes = static_cast<std::uint8_t>(pattern.axes | 1 << axis);
+        parity += cells + (edge < 0.0 ? 1.0 : 0.0);
+    }
+    if (pattern.axes == 0) return false;
+    pattern.size = static_cast<float>(size);
+    pattern.colors = {color_of(pigment.color), color_of(pigment.other)};
+    if (std::fmod(parity, 2.0) != 0.0) std::swap(pattern.colors[0], pattern.colors[1]);
+    return true;
+}
+
+/// Runs from where the origin has come to, by what the inverse of the map makes of its direction.
+bool set_gradient(const Pigment& pigment, const Motion& motion, core::Pattern& pattern) {
+    if (pigment.direction == Vec3d(0.0)) return false;
+    const Vec3d x = column(motion, 0), y = column(motion, 1), z = column(motion, 2);
+    const Vec3d unit = core::normalized(pigment.direction);
+    const double det = core::dot(x, core::cross(y, z));
+    if (det == 0.0) return false;
+    const Vec3d slope =
+        (unit.x * core::cross(y, z) + unit.y * core::cross(z, x) + unit.z * core::cross(x, y)) /
+        det;
+    const Vec3d run = slope / core::dot(slope, slope), from = column(motion, 3);
+    pattern.colors = {color_of(pigment.color), color_of(pigment.other)};
+    if (!pigment.in_steps) {
+        pattern.kind = core::PatternKind::gradient;
+        pattern.from = core::convert<float>(from);
+        pattern.to = core::convert<float>(Vec3d(from + run));
+        return pattern.from != pattern.to;
+    }
+    pattern.kind = core::PatternKind::stripes;
+    pattern.direction = core::convert<float>(slope);
+    pattern.size = static_cast<float>(0.5 * core::length(run));
+    const double halves = 2.0 * core::dot(slope, from), whole = std::round(halves);
+    if (std::abs(halves - whole) > 1e-6) return false;
+    if (std::fmod(whole, 2.0) != 0.0) std::swap(pattern.colors[0], pattern.colors[1]);
+    return true;
+}
+
+std::array<float, 24> key_of(const core::Material& m) {
+    const core::Pattern& p = m.pattern;
+    return {static_cast<float>(p.kind),
+            p.colors[0].x,
+            p.colors[0].y,
+            p.colors[0].z,
+            p.colors[1].x,
+            p.colors[1].y,
+            p.colors[1].z,
+            p.size,
+            static_cast<float>(p.axes),
+            p.kind == core::PatternKind::stripes ? p.direction.x : p.from.x,
+            p.kind == core::PatternKind::stripes ? p.direction.y : p.from.y,
+            p.kind == core::PatternKind::stripes ? p.direction.z : p.from.z,
+            p.to.x,
+            p.to.y,
+            p.to.z,
+            m.ambient,
+            m.diffuse,
+            m.specular,
+            m.exponent,
+            static_cast<float>(m.reflection),
+            m.reflectivity,
+            m.transmission,
+            m.index};
+}
+
+/// The stronger of both highlights. Phong's by the reflected ray is about Blinn's, by the halfway
+/// vector, with four times its exponent.
+void set_highlight(const Finish& finish, core::Material& material, Tokens& tokens,
+                   const Place& place) {
+    if (finish.specular > 0.0 && finish.phong > 0.0)
+        tokens.remark(place, "has two highlights in one finish, of which the stronger is drawn");
+    const bool is_phong = finish.phong > std::max(finish.specular, 0.0);
+    material.specular =
+        static_cast<float>(is_phong ? finish.phong : std::max(finish.specular, 0.0));
+    material.exponent = material.specular == 0.0F ? 32.0F
+                        : is_phong ? static_cast<float>(4.0 * std::max(finish.phong_size, 0.0))
+                                   : static_cast<float>(1.0 / finish.roughness);
+}
+
+} // namespace
+
+core::Material Materials::material_of(const Look& look, const Place& place,
+                                      const core::PlaneOf<double>* plane) {
+    const Texture& texture = look.texture != nullptr ? *look.texture : tokens_.default_texture;
+    const Pigment& pigment = texture.pigment;
+    const Finish& finish = texture.finish;
+    core::Material material;
+    material.pattern.colors[0] = color_of(pigment.color);
+    if (pigment.kind != PigmentKind::color) {
+        const Shared<Motion> motion = both(pigment.motion, look.above);
+        const Motion& all = motion != nullptr ? *motion : Motion{};
+        core::Pattern pattern;
+        const bool is_set = pigment.kind == PigmentKind::checker
+                                ? set_checker(pigment, all, plane, pattern)
+                                : set_gradient(pigment, all, pattern);
+        if (is_set) {
+            material.pattern = pattern;
+        } else {
+            material.pattern.colors[0] = 0.5F * (color_of(pigment.color) + color_of(pigment.other));
+            tokens_.remark(place, "has a pattern that is turned or moved, drawn as one colour");
+        }
+    }
+    const auto& color = pigment.color.at;
+    const double largest = std::clamp(std::max({color[0], color[1], color[2]}), 0.0, 1.0);
+    if (color[3] != 0.0)
+        tokens_.remark(place,
+                       "has colours that filter light, which lets it through uncoloured here");
+    const double through = std::clamp(color[4] + color[3] * largest, 0.0, 1.0);
+    // So much of a ray in the direction that most are seen from as cos^brilliance in the mean.
+    const double diffuse = std::max(finish.diffuse, 0.0) * (4.0 / (3.0 + finish.brilliance));
+    material.ambient =
+        static_cast<float>(std::max(finish.ambient * ambient_light + finish.emission, 0.0));
+    material.diffuse = static_cast<float>(diffuse);
+    set_highlight(finish, material, tokens_, place);
+    const bool has_index = look.interior != nullptr && look.interior->has_index;
+    if (has_index) material.index = static_cast<float>(look.interior->index);
+    if (through > 0.0) {
+        if (has_index) {
+            // What is seen of it is weighed by that there.
+            material.transmission = static_cast<float>(through);
+            material.ambient =
+                static_cast<float>(static_cast<double>(material.ambient) * (1.0 - through));
+            material.diffuse = static_cast<float>(diffuse * (1.0 - through));
+        } else {
+            set_opacity(material, static_cast<float>(1.0 - through), tokens_, place);
+        }
+    }
+    if (finish.fresnel)
+        material.reflection = core::Reflection::dielectric;
+    else
+        material.reflectivity = static_cast<float>(std::clamp(finish.reflection, 0.0, 1.0));
+    return material;
+}
+
+core::MaterialIndex Materials::index_of(const Look& look, const Place& place,
+                                        const core::PlaneOf<double>* plane) {
+    if (last_index_ != core::no_material && plane == nullptr && look.texture == last_.texture &&
+        look.texture != nullptr && look.interior == last_.interior && look.above == last_.above)
+        return last_index_;
+    const core::Material material = material_of(look, place, plane);
+    const auto [found, is_new] = known_.try_emplace(key_of(material), core::no_material);
+    if (is_new) {
+        try {
+            found->second = builder_.add_material(material);
+        } catch (const core::InvalidValue& invalid) {
+            fail(place, "has a material that cannot be: " + std::string(invalid.what()));
+        }
+    }
+    if (plane == nullptr) {
+        last_ = look;
+        last_index_ = found->second;
+    }
+    return found->second;
+}
+
+} // namespace raylane::scenes::pov

@@ -1,0 +1,136 @@
+#include "core/shapes/invalid_value.hpp"
+#include "scenes/pov/expressions.hpp"
+#include "scenes/pov/finishes.hpp"
+
+namespace raylane::scenes::pov {
+
+namespace {
+
+using core::Vec3d;
+
+Motion linear(const core::Transform& exact, const Vec3d& x, const Vec3d& y, const Vec3d& z) {
+    Motion motion{exact};
+    motion.translation.reset();
+    for (int axis = 0; axis < 3; ++axis) {
+        motion.rows[axis][0] = x[axis];
+        motion.rows[axis][1] = y[axis];
+        motion.rows[axis][2] = z[axis];
+    }
+    return motion;
+}
+
+Motion translation(const Vec3d& by) {
+    Motion motion{core::Transform::translation(by)};
+    motion.translation = by;
+    for (int axis = 0; axis < 3; ++axis)
+        motion.rows[axis][3] = by[axis];
+    return motion;
+}
+
+/// As a solid is turned: by what becomes of the axes.
+Motion rotation(const Vec3d& degrees) {
+    const core::Transform exact = core::Transform::rotation(degrees);
+    Vec3d axes[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        core::Solid of;
+        core::PlaneOf<double> plane{Vec3d(0.0), Vec3d(0.0)};
+        plane.normal[axis] = 1.0;
+        of.shape = plane;
+        axes[axis] = std::get<core::PlaneOf<double>>(exact(of).shape).normal;
+    }
+    return linear(exact, axes[0], axes[1], axes[2]);
+}
+
+Motion scaling(Vec3d by, Tokens& tokens, const Place& place) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (by[axis] == 0.0) {
+            tokens.remark(place, "scales by 0, which is taken as 1");
+            by[axis] = 1.0;
+        }
+    return linear(core::Transform::scaling(by), {by.x, 0.0, 0.0}, {0.0, by.y, 0.0},
+                  {0.0, 0.0, by.z});
+}
+
+/// "<...>" of twelve numbers: what becomes of the axes, and of the origin.
+Motion matrix(Tokens& tokens) {
+    const Place place = tokens.peek().place;
+    double rows[3][4];
+    tokens.expect("<");
+    for (int column = 0; column < 4; ++column)
+        for (auto& row : rows) {
+            row[column] = read_number(tokens);
+            tokens.accept(",");
+        }
+    tokens.expect(">");
+    try {
+        Motion motion{core::Transform::matrix(rows)};
+        motion.translation.reset();
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column)
+                motion.rows[row][column] = rows[row][column];
+        return motion;
+    } catch (const core::InvalidValue& invalid) {
+        fail(place, invalid.expectation);
+    }
+}
+
+} // namespace
+
+Vec3d Motion::direction(const Vec3d& v) const {
+    Vec3d result;
+    for (int axis = 0; axis < 3; ++axis)
+        result[axis] = rows[axis][0] * v.x + rows[axis][1] * v.y + rows[axis][2] * v.z;
+    return result;
+}
+
+Vec3d Motion::point(const Vec3d& p) const {
+    return direction(p) + Vec3d(rows[0][3], rows[1][3], rows[2][3]);
+}
+
+Shared<Motion> both(const Shared<Motion>& first, const Shared<Motion>& second) {
+    if (first == nullptr) return second;
+    if (second == nullptr) return first;
+    Motion motion{second->exact.after(first->exact)};
+    motion.translation.reset();
+    for (int axis = 0; axis < 4; ++axis) {
+        const Vec3d column(first->rows[0][axis], first->rows[1][axis], first->rows[2][axis]);
+        const Vec3d moved = axis < 3 ? second->direction(column) : second->point(column);
+        for (int row = 0; row < 3; ++row)
+            motion.rows[row][axis] = moved[row];
+    }
+    return std::make_shared<const Motion>(std::move(motion));
+}
+
+Shared<Motion> read_motion(Tokens& tokens) {
+    const Token word = tokens.peek();
+    const auto made = [](Motion motion) {
+        return std::make_shared<const Motion>(std::move(motion));
+    };
+    if (tokens.accept("translate")) return made(translation(read_vector(tokens)));
+    if (tokens.accept("rotate")) return made(rotation(read_vector(tokens)));
+    if (tokens.accept("scale")) return made(scaling(read_vector(tokens), tokens, word.place));
+    if (tokens.accept("matrix")) return made(matrix(tokens));
+    if (tokens.accept("transform")) return read_transform(tokens);
+    return nullptr;
+}
+
+Shared<Motion> read_transform(Tokens& tokens) {
+    const auto named = [&](const Token& word) -> Shared<Motion> {
+        const Value* value = tokens.find(word.text);
+        const auto* motion = value != nullptr ? value->get_if<Shared<Motion>>() : nullptr;
+        if (motion == nullptr) fail(word.place, "must be a transformation, got " + word.quoted());
+        return *motion;
+    };
+    if (!tokens.at("{")) return named(tokens.next());
+    tokens.expect("{");
+    auto motion = std::make_shared<const Motion>();
+    Shared<Motion> all = motion;
+    while (!tokens.accept("}")) {
+        Shared<Motion> next = read_motion(tokens);
+        if (next == nullptr) next = named(tokens.next());
+        all = all == motion ? next : both(all, next);
+    }
+    return all;
+}
+
+} // namespace raylane::scenes::pov

@@ -1,0 +1,203 @@
+#include "scenes/pov/reader.hpp"
+
+#include "core/shapes/invalid_value.hpp"
+#include "scenes/pov/assembly.hpp"
+#include "scenes/pov/expressions.hpp"
+#include "scenes/pov/finishes.hpp"
+#include "scenes/pov/objects.hpp"
+#include "scenes/pov/surroundings.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace raylane::scenes {
+
+namespace {
+
+using namespace pov;
+
+pov::Source source_of(InputFile& file) {
+    std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
+    if (folder.empty()) folder = ".";
+    return {file.name(), file.read_all(), folder};
+}
+
+/// A number that follows `option` in a remark at the beginning; 0 if there is none.
+int told(std::string_view text, std::string_view option) {
+    while (text.starts_with("//") || text.starts_with('\n') || text.starts_with('\r')) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        const std::size_t at = line.find(option);
+        if (at == std::string_view::npos) continue;
+        int number = 0;
+        const char* begin = line.data() + at + option.size();
+        std::from_chars(begin, line.data() + line.size(), number);
+        if (number > 0 && number <= core::Settings::max_size) return number;
+    }
+    return 0;
+}
+
+class Reader {
+  public:
+    Reader(InputFile& file, core::Workers* workers, const OnRemark& on_remark)
+        : tokens_(source_of(file), on_remark), assembly_(builder_, tokens_) {
+        builder_.workers = workers;
+        builder_.wants_light = false;
+    }
+
+    core::Scene read() {
+        const Place beginning = tokens_.peek().place;
+        while (tokens_.peek().kind != TokenKind::end)
+            read_statement();
+        if (!has_camera_) set_camera(Camera{}, beginning);
+        for (const LightSource& light : lights_) {
+            try {
+                builder_.add_light(light_of(light, mirrored_));
+            } catch (const core::InvalidValue& invalid) {
+                fail(light.place, invalid.what());
+            }
+        }
+        set_picture();
+        try {
+            return std::move(builder_).build();
+        } catch (const core::InvalidValue& invalid) {
+            fail(camera_place_, invalid.what());
+        }
+    }
+
+  private:
+    void read_statement() {
+        const Token word = tokens_.peek();
+        if (begins_object(tokens_, word)) return add(read_object(tokens_));
+        if (tokens_.accept(";")) return;
+        if (const Value* value = tokens_.find(word.text))
+            if (const auto* light = value->get_if<Shared<LightSource>>()) {
+                lights_.push_back(**light);
+                tokens_.next();
+                return;
+            }
+        if (tokens_.accept("camera")) {
+            const Camera camera = read_camera(tokens_);
+            set_camera(camera, word.place);
+        } else if (tokens_.accept("light_source")) {
+            lights_.push_back(read_light(tokens_));
+        } else if (tokens_.accept("background")) {
+            tokens_.expect("{");
+            background_ = read_color(tokens_);
+            tokens_.expect("}");
+            has_background_ = true;
+        } else if (tokens_.accept("fog")) {
+            builder_.fog = read_fog(tokens_);
+        } else if (tokens_.accept("global_settings")) {
+            const bool was_dark = settings_.ambient_light == 1.0;
+            read_global_settings(tokens_, settings_);
+            if (was_dark && settings_.ambient_light != 1.0 && builder_.shape_count() > 0)
+                tokens_.remark(word.place,
+                               "sets ambient_light behind objects that are drawn without");
+            assembly_.materials.ambient_light = settings_.ambient_light;
+        } else if (tokens_.accept("sky_sphere")) {
+            read_sky();
+            tokens_.remark(word.place, "has a sky_sphere, of which one colour is drawn");
+        } else if (word.is("rainbow") || word.is("media")) {
+            tokens_.next();
+            tokens_.skip_braces();
+            tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+        } else {
+            read_object(tokens_); // which says what it is not
+        }
+    }
+
+    void read_sky() {
+        tokens_.expect("{");
+        while (!tokens_.accept("}")) {
+            if (read_motion(tokens_) != nullptr) continue;
+            const Token word = tokens_.next();
+            if (word.is("pigment")) {
+                const Pigment pigment = read_pigment(tokens_, {});
+                if (!has_background_) background_ = pigment.color;
+            } else if (word.is("emission")) {
+                read_color(tokens_);
+            } else {
+                fail(word.place, "must be of a sky_sphere, got " + word.quoted());
+            }
+        }
+    }
+
+    /// Objects wait for the camera, which decides on which side things are.
+    void add(Shared<Object> object) {
+        added_ += object->count;
+        if (added_ > most_shapes)
+            fail(object->place,
+                 "must be one of at most " + std::to_string(most_shapes) + " shapes");
+        if (has_camera_)
+            assembly_.add(*object);
+        else
+            waiting_.push_back(std::move(object));
+    }
+
+    void set_camera(const Camera& camera, const Place& place) {
+        const View view = view_of(camera, tokens_, place);
+        if (has_camera_ && view.mirrored != mirrored_)
+            fail(place, "must see the world on the same side as the camera before it");
+        camera_place_ = place;
+        builder_.camera = view.camera;
+        aspect_ = view.aspect;
+        if (has_camera_) return;
+        has_camera_ = true;
+        mirrored_ = view.mirrored;
+        if (mirrored_) assembly_.set_mirrored();
+        for (const Shared<Object>& object : waiting_)
+            assembly_.add(*object);
+        waiting_.clear();
+    }
+
+    void set_picture() {
+        core::Settings& picture = builder_.settings;
+        for (int channel = 0; channel < 3; ++channel)
+            builder_.background[channel] = static_cast<float>(
+                std::max(background_.at[static_cast<std::size_t>(channel)], 0.0));
+        constexpr double usual = 640.0;
+        const int width = told(tokens_.main().text, "+W"), height = told(tokens_.main().text, "+H");
+        const double wide = width > 0    ? width
+                            : height > 0 ? height * aspect_
+                                         : std::min(usual, usual * aspect_);
+        const auto pixels = [](double size) {
+            return static_cast<int>(std::clamp(std::round(size), 1.0, 65535.0));
+        };
+        picture.width = pixels(wide);
+        picture.height = pixels(wide / aspect_);
+        picture.grid = 3;
+        picture.max_depth = settings_.max_trace_level - 1;
+        picture.min_weight = static_cast<float>(settings_.adc_bailout);
+        // Scenes of versions before 3.7 are of what a file holds, unless they say otherwise.
+        const bool is_old = tokens_.version < 3.7;
+        const double gamma = settings_.assumed_gamma.value_or(is_old ? 0.0 : 1.0);
+        constexpr double in_between = 1.6;
+        picture.transfer =
+            gamma > 0.0 && gamma < in_between ? core::Transfer::srgb : core::Transfer::linear;
+        if (gamma != 0.0 && gamma != 1.0 && std::abs(gamma - 2.2) > 0.01)
+            tokens_.remark(camera_place_,
+                           "assumes a gamma other than 1 and 2.2, of which the nearer is taken");
+    }
+
+    Tokens tokens_;
+    core::SceneBuilder builder_;
+    Assembly assembly_;
+    GlobalSettings settings_;
+    std::vector<Shared<Object>> waiting_;
+    std::vector<LightSource> lights_;
+    Tuple background_{{}, 5};
+    Place camera_place_{};
+    double aspect_ = 1.0;
+    std::size_t added_ = 0;
+    bool has_background_ = false, has_camera_ = false, mirrored_ = false;
+};
+
+} // namespace
+
+core::Scene read_pov(InputFile& file, core::Workers* workers, const OnRemark& on_remark) {
+    return Reader(file, workers, on_remark).read();
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,316 @@
+#include "scenes/pov/surroundings.hpp"
+
+#include "core/numbers/elementary.hpp"
+#include "scenes/pov/expressions.hpp"
+#include "scenes/pov/finishes.hpp"
+#include "scenes/pov/objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace raylane::scenes::pov {
+
+namespace {
+
+using core::Vec3d, core::Vec3f;
+
+constexpr double half_degree = std::numbers::pi / 360.0;
+
+Vec3d color_of(const Tuple& tuple) {
+    return {tuple.at[0], tuple.at[1], tuple.at[2]};
+}
+
+bool is_projection(const Token& word) {
+    static constexpr std::string_view others[] = {"fisheye",    "ultra_wide_angle", "omnimax",
+                                                  "panoramic",  "spherical",        "cylinder",
+                                                  "mesh_camera"};
+    return std::find(std::begin(others), std::end(others), word.text) != std::end(others);
+}
+
+/// The camera that a name stands for; null, and nothing is read, if it stands for none.
+const Camera* named_camera(Tokens& tokens) {
+    const Token& word = tokens.peek();
+    const Value* value = word.kind == TokenKind::word ? tokens.find(word.text) : nullptr;
+    const auto* camera = value != nullptr ? value->get_if<Shared<Camera>>() : nullptr;
+    if (camera == nullptr) return nullptr;
+    tokens.next();
+    return camera->get();
+}
+
+} // namespace
+
+Camera read_camera(Tokens& tokens) {
+    Camera camera;
+    tokens.expect("{");
+    while (!tokens.accept("}")) {
+        if (const Camera* known = named_camera(tokens)) {
+            camera = *known;
+            continue;
+        }
+        if (const auto motion = read_motion(tokens)) {
+            camera.motion = both(camera.motion, motion);
+            continue;
+        }
+        const Token word = tokens.next();
+        if (word.is("location")) {
+            camera.location = read_vector(tokens);
+        } else if (word.is("direction")) {
+            camera.direction = read_vector(tokens);
+        } else if (word.is("right") || word.is("up")) {
+            (word.is("up") ? camera.up : camera.right) = read_vector(tokens);
+            camera.has_size = true;
+        } else if (word.is("sky")) {
+            camera.sky = read_vector(tokens);
+        } else if (word.is("look_at")) {
+            camera.look_at = read_vector(tokens);
+        } else if (word.is("angle")) {
+            camera.angle = read_number(tokens);
+            if (!(*camera.angle > 0.0 && *camera.angle < 180.0))
+                fail(word.place, "must be an angle between 0 and 180 degrees");
+            if (tokens.accept(",")) read_number(tokens);
+        } else if (word.is("orthographic") || word.is("perspective")) {
+            camera.orthographic = word.is("orthographic");
+        } else if (is_projection(word)) {
+            if (word.is("cylinder")) read_number(tokens);
+            tokens.remark(word.place, "has a camera that is " + word.quoted() +
+                                          ", whose picture is drawn in perspective");
+        } else if (word.is("aperture") || word.is("blur_samples") || word.is("confidence") ||
+                   word.is("variance") || word.is("focal_point") || word.is("bokeh")) {
+            if (word.is("bokeh"))
+                tokens.skip_braces();
+            else
+                read_tuple(tokens);
+            tokens.accept(",");
+            if (at_tuple(tokens)) read_tuple(tokens);
+            tokens.remark(word.place, "has a camera that is not sharp everywhere, and is here");
+        } else if (word.is("normal")) {
+            tokens.skip_braces();
+            tokens.remark(word.place, "bends the camera's rays, which are straight here");
+        } else {
+            fail(word.place, "must be of a camera, got " + word.quoted());
+        }
+    }
+    return camera;
+}
+
+View view_of(const Camera& given, Tokens& tokens, const Place& place) {
+    Vec3d direction = given.direction, right = given.right, up = given.up;
+    double focus = core::length(direction);
+    const double width = core::length(right), height = core::length(up);
+    const bool is_left = core::dot(core::cross(direction, up), right) < 0.0;
+    Vec3d location = given.location;
+    View view;
+    if (given.look_at) {
+        direction = *given.look_at - location;
+        if (direction == Vec3d(0.0)) fail(place, "must look at a point other than its location");
+        const Vec3d aside = core::cross(given.sky, direction);
+        if (aside != Vec3d(0.0)) right = (is_left ? width : -width) * core::normalized(aside);
+        up = height * core::normalized(core::cross(direction, is_left ? right : -right));
+    }
+    if (!(width > 0.0 && height > 0.0 && core::length(direction) > 0.0))
+        fail(place, "must have a right, an up and a direction that have lengths");
+    if (given.angle)
+        focus = 0.5 * width /
+                (core::sin(*given.angle * half_degree) / core::cos(*given.angle * half_degree));
+    double size = 1.0; // of an orthographic picture, by what right and up say
+    if (given.look_at && (!given.has_size || given.angle)) size = core::length(direction) / focus;
+    Vec3d at = location + direction, sky = given.look_at ? given.sky : up;
+    // Floats have to tell these points from each other.
+    if (!given.look_at)
+        at = location + std::max(1.0, core::length(location)) * core::normalized(direction);
+    if (given.motion != nullptr) {
+        location = given.motion->point(location);
+        at = given.motion->point(at);
+        sky = given.motion->direction(sky);
+        right = given.motion->direction(right);
+        up = given.motion->direction(up);
+        direction = given.motion->direction(direction);
+    }
+    const auto is_across = [](const Vec3d& a, const Vec3d& b) {
+        return std::abs(core::dot(a, b)) <= 1e-6 * core::length(a) * core::length(b);
+    };
+    if (!is_across(direction, right) || !is_across(direction, up) || !is_across(right, up))
+        tokens.remark(place,
+                      "has a camera whose axes are not at right angles, which they are here");
+    view.mirrored = core::dot(core::cross(direction, up), right) < 0.0;
+    view.aspect = core::length(right) / core::length(up);
+    core::Camera& camera = view.camera;
+    camera.projection =
+        given.orthographic ? core::Projection::orthographic : core::Projection::perspective;
+    const auto seen = [&](Vec3d v) {
+        if (view.mirrored) v.z = -v.z;
+        return core::convert<float>(v);
+    };
+    camera.from = seen(location);
+    camera.at = seen(at);
+    camera.up = seen(sky);
+    camera.height = static_cast<float>(core::length(up) * size);
+    camera.field_of_view =
+        static_cast<float>(std::atan2(0.5 * core::length(up), focus) / half_degree);
+    return view;
+}
+
+LightSource read_light(Tokens& tokens) {
+    LightSource light;
+    tokens.expect("{");
+    light.place = tokens.peek().place;
+    if (const Value* value = tokens.find(tokens.peek().text);
+        value != nullptr && value->get_if<Shared<LightSource>>() != nullptr) {
+        light = **value->get_if<Shared<LightSource>>();
+        tokens.next();
+    } else {
+        light.position = read_vector(tokens);
+        tokens.accept(",");
+        if (at_tuple(tokens)) light.color = color_of(read_color(tokens));
+    }
+    Vec3d first(0.0);
+    double fade_distance = 0.0, fade_power = 0.0;
+    bool has_area = false, is_ball = false;
+    while (!tokens.accept("}")) {
+        if (const auto motion = read_motion(tokens)) {
+            light.position = motion->point(light.position);
+            light.point_at = motion->point(light.point_at);
+            continue;
+        }
+        if (at_tuple(tokens)) {
+            light.color = color_of(read_color(tokens));
+            continue;
+        }
+        const Token word = tokens.next();
+        const auto remark = [&](const std::string& what) { tokens.remark(word.place, what); };
+        if (word.is("parallel")) {
+            light.parallel = true;
+        } else if (word.is("point_at")) {
+            light.point_at = read_vector(tokens);
+        } else if (word.is("spotlight") || word.is("cylinder")) {
+            remark("has a light that is a " + std::string(word.text) +
+                   ", which shines everywhere here");
+        } else if (word.is("shadowless")) {
+            remark("has lights without shadows, which have them here");
+        } else if (word.is("area_light")) {
+            has_area = true;
+            first = read_vector(tokens);
+            for (int i = 0; i < 3; ++i) {
+                tokens.accept(",");
+                read_tuple(tokens);
+            }
+        } else if (word.is("circular")) {
+            is_ball = true;
+        } else if (word.is("fade_distance")) {
+            fade_distance = read_number(tokens);
+        } else if (word.is("fade_power")) {
+            fade_power = read_number(tokens);
+        } else if (word.is("radius") || word.is("falloff") || word.is("tightness") ||
+                   word.is("adaptive") || word.is("media_attenuation") ||
+                   word.is("media_interaction") || word.is("area_illumination")) {
+            if (at_tuple(tokens)) read_number(tokens);
+        } else if (word.is("looks_like") || word.is("projected_through")) {
+            tokens.skip_braces();
+            remark("has " + word.quoted() + " of a light, which is not drawn");
+        } else if (word.is("photons")) {
+            tokens.skip_braces();
+        } else if (!word.is("orient") && !word.is("jitter")) {
+            fail(word.place, "must be of a light, got " + word.quoted());
+        }
+    }
+    const double radius = 0.5 * core::length(first);
+    // It fades by 2 / (1 + (d / fade_distance)^2) there, and by (radius / d)^2 here.
+    if (is_ball && fade_power == 2.0 && fade_distance > 0.0 && radius >= 64.0 * fade_distance) {
+        light.radius = radius;
+        const double share = fade_distance / radius;
+        light.color = (2.0 * share * share) * light.color;
+        return light;
+    }
+    if (has_area)
+        tokens.remark(light.place, "has lights with a size, whose shadows have sharp edges here");
+    if (fade_distance > 0.0 && fade_power > 0.0)
+        tokens.remark(light.place, "has lights that fade, which do not here");
+    return light;
+}
+
+core::Light light_of(const LightSource& source, bool mirrored) {
+    const auto seen = [&](Vec3d v) {
+        if (mirrored) v.z = -v.z;
+        return core::convert<float>(v);
+    };
+    core::Light light;
+    light.position = seen(source.position);
+    light.color = core::convert<float>(source.color);
+    if (source.parallel) {
+        light.kind = core::LightKind::directional;
+        light.direction = seen(source.point_at - source.position);
+    } else if (source.radius > 0.0) {
+        light.kind = core::LightKind::sphere;
+        light.radius = static_cast<float>(source.radius);
+    }
+    return light;
+}
+
+core::Fog read_fog(Tokens& tokens) {
+    core::Fog fog;
+    double distance = 0.0;
+    tokens.expect("{");
+    while (!tokens.accept("}")) {
+        if (read_motion(tokens) != nullptr) continue;
+        if (at_tuple(tokens)) {
+            const Tuple color = read_color(tokens);
+            fog.color = core::convert<float>(color_of(color));
+            if (color.at[3] != 0.0 || color.at[4] != 0.0)
+                tokens.remark(tokens.peek().place,
+                              "has fog that lets light through, which is opaque far away here");
+            continue;
+        }
+        const Token word = tokens.next();
+        if (word.is("distance")) {
+            distance = read_number(tokens);
+        } else if (word.is("fog_type")) {
+            if (read_number(tokens) != 1.0)
+                tokens.remark(word.place, "has fog by height, which is everywhere here");
+        } else if (word.is("turbulence") || word.is("turb_depth") || word.is("omega") ||
+                   word.is("lambda") || word.is("octaves") || word.is("fog_offset") ||
+                   word.is("fog_alt") || word.is("up")) {
+            read_tuple(tokens);
+        } else {
+            fail(word.place, "must be of fog, got " + word.quoted());
+        }
+    }
+    if (distance > 0.0) {
+        fog.kind = core::FogKind::exponential;
+        fog.density = static_cast<float>(1.0 / distance);
+    }
+    return fog;
+}
+
+void read_global_settings(Tokens& tokens, GlobalSettings& settings) {
+    tokens.expect("{");
+    while (!tokens.accept("}")) {
+        const Token word = tokens.next();
+        if (word.is("assumed_gamma")) {
+            settings.assumed_gamma = tokens.accept("srgb") ? 0.0 : read_number(tokens);
+        } else if (word.is("max_trace_level")) {
+            settings.max_trace_level =
+                static_cast<int>(std::clamp(read_number(tokens), 1.0, 256.0));
+        } else if (word.is("adc_bailout")) {
+            settings.adc_bailout = std::clamp(read_number(tokens), 0.0, 1.0);
+        } else if (word.is("ambient_light")) {
+            const Vec3d color = color_of(read_color(tokens));
+            settings.ambient_light = (color.x + color.y + color.z) / 3.0;
+            if (color.x != color.y || color.y != color.z)
+                tokens.remark(word.place, "colours ambient light, which is drawn without colour");
+        } else if (word.is("radiosity") || word.is("photons") || word.is("subsurface")) {
+            tokens.skip_braces();
+            tokens.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+        } else if (word.is("charset")) {
+            tokens.next();
+        } else if (word.is("hf_gray_16") || word.is("irid_wavelength") ||
+                   word.is("number_of_waves") || word.is("noise_generator") ||
+                   word.is("max_intersections") || word.is("mm_per_unit")) {
+            if (at_tuple(tokens)) read_color(tokens);
+        } else {
+            fail(word.place, "must be of global_settings, got " + word.quoted());
+        }
+    }
+}
+
+} // namespace raylane::scenes::pov

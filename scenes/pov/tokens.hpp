@@ -1,0 +1,120 @@
+#pragma once
+
+#include "scenes/input_file.hpp"
+#include "scenes/pov/value.hpp"
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+namespace raylane::scenes::pov {
+
+/// Limits that no scene that is meant comes near to.
+inline constexpr int deepest = 128; ///< statements, expressions, macros in each other
+inline constexpr std::size_t most_shapes = std::size_t{1} << 24;
+inline constexpr std::size_t most_turns = 20'000'000;     ///< of all loops and macros
+inline constexpr std::size_t most_tokens = 1'000'000'000; ///< of all that is expanded
+inline constexpr std::size_t most_elements = std::size_t{1} << 20;
+inline constexpr std::size_t longest_string = std::size_t{1} << 16;
+
+/// Counts levels within each other for as long as it lives. Fails above `deepest`.
+class Level {
+  public:
+    Level(int& depth, const Place& place) : depth_(depth) {
+        if (depth_ >= deepest)
+            fail(place, "must not be nested more than " + std::to_string(deepest) + " deep");
+        ++depth_;
+    }
+    ~Level() { --depth_; }
+    Level(const Level&) = delete;
+    Level& operator=(const Level&) = delete;
+
+  private:
+    int& depth_;
+};
+
+/// The tokens of a scene with its directives carried out: files included, names declared, macros
+/// and loops expanded.
+class Tokens {
+  public:
+    Tokens(Source source, const OnRemark& on_remark);
+
+    /// The next token. A macro's name is not among them.
+    Token next();
+    const Token& peek();
+    /// The next token where no directive comes first: what an expression goes on with. A macro's
+    /// name, and the '#' of a directive other than #end, are as they are.
+    const Token& ahead();
+    bool at(std::string_view what) { return peek().is(what); }
+    /// True, and past it, if it comes next.
+    bool accept(std::string_view what);
+    void expect(std::string_view what);
+    /// Past what is between braces, and these.
+    void skip_braces();
+
+    /// Null for what is not declared.
+    const Value* find(std::string_view name) const;
+    void declare(std::string_view name, Value value, bool is_local);
+    /// In the scope of what is read.
+    void declare_here(std::string_view name, Value value);
+
+    /// Says once what is not drawn as POV-Ray does.
+    void remark(const Place& place, const std::string& what);
+
+    int depth = 0;         ///< of what is read
+    double version = 3.62; ///< of the language; POV-Ray 3.7 takes that for one without
+    Texture default_texture{};
+    const Source& main() const { return sources_.front(); }
+
+  private:
+    struct Condition {
+        enum class Kind : std::uint8_t { choice, while_loop, for_loop } kind;
+        Place place{};
+        std::optional<Scanner> again{}; ///< loops
+        std::string_view counter{};     ///< for
+        double last = 0.0, step = 0.0;  ///< for
+    };
+    enum class FrameKind : std::uint8_t { file, macro };
+    struct Frame {
+        Scanner scanner;
+        FrameKind kind;
+        Place place{};
+        std::vector<Condition> conditions{};
+        std::unordered_map<std::string_view, Value> names{};
+    };
+
+    Token raw();
+    Token raw_word(const char* what);
+    bool leave_frame(const Place& end);
+    void directive(const Place& hash);
+    void declaration(const Token& word);
+    void begin_macro();
+    void call(const Shared<Macro>& macro, const Place& place);
+    void include();
+    void open(const std::string& name, const Place& place);
+    void begin_if(bool holds, const Place& place);
+    void begin_while(const Place& place);
+    void begin_for(const Place& place);
+    void leave_loop(const Place& place);
+    void end(const Place& place);
+    Token skip_to(const Place& place, bool at_branches);
+    bool condition();
+    bool is_declared();
+    void count_turn(const Place& place);
+    void enter(Frame frame);
+
+    std::deque<Source> sources_;
+    std::vector<Frame> frames_;
+    std::optional<Token> peeked_;
+    const OnRemark& on_remark_;
+    std::set<std::string> remarks_;
+    std::map<std::string, const Source*> included_;
+    std::size_t turns_ = 0, tokens_ = 0;
+};
+
+/// What may stand behind "#declare NAME =", or as an argument of a macro.
+Value read_value(Tokens& tokens);
+
+} // namespace raylane::scenes::pov

@@ -1,0 +1,154 @@
+#pragma once
+
+#include "core/solids/transform.hpp"
+#include "scenes/pov/scanner.hpp"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// What names stand for in a scene description.
+namespace raylane::scenes::pov {
+
+template <class T>
+using Shared = std::shared_ptr<const T>;
+
+/// A number, a vector of up to five, or a colour: red, green, blue, filter, transmit.
+struct Tuple {
+    std::array<double, 5> at{};
+    int size = 1;
+
+    static Tuple of(double number) { return {{number}, 1}; }
+    static Tuple of(const core::Vec3d& v) { return {{v.x, v.y, v.z}, 3}; }
+    /// A number stands for all components.
+    core::Vec3d vector() const {
+        return size == 1 ? core::Vec3d(at[0]) : core::Vec3d(at[0], at[1], at[2]);
+    }
+};
+
+/// An affine map: exactly, for shapes, and in doubles for what is not a shape.
+struct Motion {
+    core::Transform exact{};
+    double rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+    /// Where nothing is turned nor scaled: by what it is moved.
+    std::optional<core::Vec3d> translation = core::Vec3d(0.0);
+
+    core::Vec3d direction(const core::Vec3d& v) const;
+    core::Vec3d point(const core::Vec3d& p) const;
+};
+/// First `first`, then `second`; null is at rest.
+Shared<Motion> both(const Shared<Motion>& first, const Shared<Motion>& second);
+
+enum class PigmentKind : std::uint8_t { color, checker, gradient };
+
+struct Pigment {
+    PigmentKind kind = PigmentKind::color;
+    Tuple color{{0, 0, 0, 0, 0}, 5}; ///< of patterns the first
+    Tuple other{{0, 0, 0, 0, 0}, 5}; ///< of patterns the second
+    core::Vec3d direction{0.0};      ///< gradient
+    bool in_steps = false;           ///< gradient: half of it each colour
+    Shared<Motion> motion{};
+};
+
+/// As in POV-Ray: what nobody has said is 0.1 of ambient light and 0.6 of diffuse light.
+struct Finish {
+    double ambient = 0.1, emission = 0.0, diffuse = 0.6, brilliance = 1.0;
+    double phong = 0.0, phong_size = 40.0, specular = 0.0, roughness = 0.05;
+    double reflection = 0.0;
+    bool fresnel = false;
+};
+
+struct Texture {
+    Pigment pigment;
+    Finish finish;
+};
+struct Interior {
+    double index = 1.0;
+    bool has_index = false;
+};
+struct Material {
+    Shared<Texture> texture{};
+    Shared<Interior> interior{};
+};
+
+/// A triangle of a mesh, and its texture in it; -1 is the mesh's own.
+struct MeshTriangle {
+    core::PartShape shape;
+    int texture = -1;
+};
+struct Mesh {
+    std::vector<MeshTriangle> triangles;
+    std::vector<Shared<Texture>> textures;
+};
+
+enum class ObjectKind : std::uint8_t {
+    shape,
+    mesh,
+    all_in_one, ///< union: its objects by themselves
+    merge,
+    intersection,
+    difference,
+};
+
+/// What statements of objects make.
+struct Object {
+    ObjectKind kind = ObjectKind::shape;
+    Place place{};
+    core::PartShape shape{};
+    Shared<Mesh> mesh{};
+    std::vector<Shared<Object>> parts{};
+    std::vector<Shared<Object>> clips{};
+    Shared<Texture> texture{};
+    Shared<Interior> interior{};
+    Shared<Motion> motion{};
+    bool inverse = false;
+    bool is_hidden = false; ///< that is left out
+    std::size_t count = 1;  ///< of shapes in it
+    int depth = 1;          ///< of objects in it
+};
+
+struct Camera {
+    core::Vec3d location{0.0}, direction{0.0, 0.0, 1.0}, right{4.0 / 3.0, 0.0, 0.0},
+        up{0.0, 1.0, 0.0}, sky{0.0, 1.0, 0.0};
+    std::optional<core::Vec3d> look_at{};
+    std::optional<double> angle{}; ///< degrees
+    bool orthographic = false;
+    bool has_size = false; ///< right or up
+    Shared<Motion> motion{};
+};
+
+struct LightSource {
+    Place place{};
+    core::Vec3d position{0.0}, point_at{0.0}, color{1.0};
+    bool parallel = false;
+    double radius = 0.0; ///< of a ball that shines: its color is then the radiance
+};
+
+struct Value;
+struct Array {
+    std::vector<std::size_t> sizes;
+    std::vector<Value> values;
+};
+struct Macro {
+    std::string_view name;
+    std::vector<std::string_view> parameters;
+    Scanner body;
+};
+
+struct Value {
+    std::variant<std::monostate, Tuple, std::string, std::shared_ptr<Array>, Shared<Macro>,
+                 Shared<Pigment>, Shared<Finish>, Shared<Texture>, Shared<Interior>,
+                 Shared<Material>, Shared<Object>, Shared<Motion>, Shared<Camera>,
+                 Shared<LightSource>>
+        of{};
+
+    template <class T>
+    const T* get_if() const {
+        return std::get_if<T>(&of);
+    }
+};
+
+} // namespace raylane::scenes::pov

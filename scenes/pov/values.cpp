@@ -1,0 +1,77 @@
+#include "scenes/pov/expressions.hpp"
+#include "scenes/pov/finishes.hpp"
+#include "scenes/pov/objects.hpp"
+#include "scenes/pov/surroundings.hpp"
+
+#include <utility>
+
+namespace raylane::scenes::pov {
+
+namespace {
+
+template <class T>
+Value shared(T value) {
+    return {std::make_shared<const T>(std::move(value))};
+}
+
+/// "array[2][3] { {1, 2, 3}, {4, 5, 6} }", which may be empty.
+void read_elements(Tokens& tokens, const std::vector<std::size_t>& sizes, std::size_t dimension,
+                   std::vector<Value>& values, std::size_t& at) {
+    tokens.expect("{");
+    for (std::size_t i = 0; i < sizes[dimension] && !tokens.at("}"); ++i) {
+        if (dimension + 1 < sizes.size())
+            read_elements(tokens, sizes, dimension + 1, values, at);
+        else
+            values[at++] = read_value(tokens);
+        tokens.accept(",");
+    }
+    tokens.expect("}");
+}
+
+Value read_array(Tokens& tokens, const Place& place) {
+    auto array = std::make_shared<Array>();
+    array->sizes = read_indices(tokens);
+    std::size_t count = array->sizes.empty() ? 0 : 1;
+    for (const std::size_t size : array->sizes)
+        if ((count *= size) > most_elements) break;
+    if (count == 0 || count > most_elements || array->sizes.size() > 4)
+        fail(place, "must be an array of 1 to " + std::to_string(most_elements) + " elements");
+    array->values.resize(count);
+    std::size_t at = 0;
+    if (tokens.ahead().is("{")) read_elements(tokens, array->sizes, 0, array->values, at);
+    return {std::move(array)};
+}
+
+} // namespace
+
+Value read_value(Tokens& tokens) {
+    const Token word = tokens.peek();
+    const Level level(tokens.depth, word.place);
+    if (at_tuple(tokens)) return {begins_color(word) ? read_color(tokens) : read_tuple(tokens)};
+    if (word.kind == TokenKind::string || word.is("concat") || word.is("str"))
+        return {read_string(tokens)};
+    if (tokens.accept("array")) return read_array(tokens, word.place);
+    if (tokens.accept("texture")) return {read_texture(tokens)};
+    if (tokens.accept("pigment"))
+        return shared(read_pigment(tokens, tokens.default_texture.pigment));
+    if (tokens.accept("finish")) return shared(read_finish(tokens, tokens.default_texture.finish));
+    if (tokens.accept("material")) return shared(read_material(tokens));
+    if (tokens.accept("interior")) return shared(read_interior(tokens));
+    if (tokens.accept("transform")) return {read_transform(tokens)};
+    if (tokens.accept("camera")) return shared(read_camera(tokens));
+    if (tokens.accept("light_source")) return shared(read_light(tokens));
+    if (begins_object(tokens, word)) return {read_object(tokens)};
+    if (word.kind == TokenKind::word)
+        if (const Value* value = tokens.find(word.text)) {
+            Value copy = *value;
+            tokens.next();
+            if (copy.get_if<std::shared_ptr<Array>>() == nullptr || !tokens.ahead().is("["))
+                return copy;
+            return element_of(tokens, word, read_indices(tokens));
+        }
+    if (word.kind == TokenKind::word && !word.is("function"))
+        return {read_object(tokens)}; // which says what is not read
+    fail(word.place, "must be a value that is read, got " + word.quoted());
+}
+
+} // namespace raylane::scenes::pov

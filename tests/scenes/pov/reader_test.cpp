@@ -1,0 +1,284 @@
+#include "core/scene/scene.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/export/writers.hpp"
+#include "scenes/number.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::scenes;
+
+namespace {
+
+struct Read {
+    core::Scene scene;
+    std::vector<std::string> remarks;
+
+    bool remarks_on(const std::string& what) const {
+        for (const std::string& remark : remarks)
+            if (remark.find(what) != std::string::npos) return true;
+        return false;
+    }
+};
+
+LoadOptions noting(std::vector<std::string>& remarks) {
+    LoadOptions options;
+    options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
+    return options;
+}
+
+/// Seen as raylane sees it: the coordinates of what is read are those that are written.
+const std::string camera = "camera { location <0, 0, 9> look_at 0 right -x up y }\n";
+
+Read read(const std::string& text, const std::string& before = camera) {
+    std::vector<std::string> remarks;
+    core::Scene scene = parse_scene("a.pov", before + text, noting(remarks));
+    return {std::move(scene), std::move(remarks)};
+}
+
+std::string complaint(const std::string& text) {
+    return tests::message_of<BadInput>([&] { parse_scene("a.pov", text); });
+}
+
+Read from_program(const std::string& name) {
+    const auto path = std::filesystem::path(RAYLANE_SOURCE_DIR) / "tests/scenes/pov" / name;
+    std::vector<std::string> remarks;
+    core::Scene scene = load_scene(path, noting(remarks));
+    return {std::move(scene), std::move(remarks)};
+}
+
+/// Kind and numbers of all shapes, in words.
+std::string shapes_of(const core::Scene& scene) {
+    std::string text;
+    for_each_by_id(scene, [&](const auto& shape, core::ShapeId) {
+        text += core::name_of(core::kind_of<std::decay_t<decltype(shape)>>);
+        for (const auto number : core::numbers_of(shape))
+            text += " " + to_text(static_cast<float>(number));
+        text += "\n";
+    });
+    return text;
+}
+
+const core::Material& material_of(const Read& of, core::ShapeId id = 0) {
+    return of.scene.material_of(id);
+}
+
+} // namespace
+
+TEST_CASE("shapes are read as they are written") {
+    CHECK(shapes_of(read("sphere { <1, 2, 3>, 0.5 }").scene) == "sphere 1 2 3 0.5\n");
+    CHECK(shapes_of(read("cylinder { <1, 2, 3> <1, 4, 3> .5 }").scene) ==
+          "capped cylinder 1 2 3 0 2 0 0.5\n");
+    CHECK(shapes_of(read("cylinder { 0, y, 1 open }").scene) == "open cylinder 0 0 0 0 1 0 1\n");
+    CHECK(shapes_of(read("cone { 0, 1, 2*y, 0.5 }").scene) == "capped cone 0 0 0 0 2 0 1 0.5\n");
+    CHECK(shapes_of(read("cone { 0, 1, 2*y, 0.5 open }").scene) == "open cone 0 0 0 0 2 0 1 0.5\n");
+    CHECK(shapes_of(read("box { <1, 1, 1>, <-1, 0, 3> }").scene) ==
+          "box -1 0 1 2 0 0 0 1 0 0 0 2\n");
+    CHECK(shapes_of(read("plane { y, -2 }").scene) == "plane 0 -2 0 0 1 0\n");
+    CHECK(shapes_of(read("plane { y, -2 inverse }").scene).starts_with("plane 0 -2 0 0 1 0"));
+    CHECK(shapes_of(read("disc { x, y, 2 }").scene) == "disc 1 0 0 0 1 0 2\n");
+    CHECK(shapes_of(read("triangle { 0, x, y }").scene) == "triangle 0 0 0 1 0 0 0 1 0\n");
+    CHECK(shapes_of(read("smooth_triangle { 0, z, x, z, y, z }").scene) ==
+          "smooth triangle 0 0 0 1 0 0 0 1 0 0 0 1 0 0 1 0 0 1\n");
+    CHECK(shapes_of(
+              read("mesh { triangle { 0, x, y } smooth_triangle { 0, z, x, z, y, z } }").scene) ==
+          "triangle 0 0 0 1 0 0 0 1 0\nsmooth triangle 0 0 0 1 0 0 0 1 0 0 0 1 0 0 1 0 0 1\n");
+    CHECK(shapes_of(read("mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 2, 1> } }")
+                        .scene) == "triangle 0 0 0 0 1 0 1 0 0\n");
+    CHECK(read("polygon { 5, 0, x, x+y, y, 0 }").scene.shape_count() == 2);
+    CHECK(
+        shapes_of(read("quadric { <1, 1, 0>, <0, 0, 0>, <0, 0, 0>, -1 clipped_by { box { -2, 2 } } "
+                       "translate <1, 0, 0> }")
+                      .scene) == "quadric 1 0 0 1 1 0 0 0 0 0 0 0 -1 -2 -2 -2 2 2 2\n");
+}
+
+TEST_CASE("what moves objects is applied in its order, exactly") {
+    CHECK(shapes_of(read("sphere { x, 1 translate y scale 2 }").scene) == "sphere 2 2 0 2\n");
+    CHECK(shapes_of(read("sphere { x, 1 scale 2 translate y }").scene) == "sphere 2 1 0 2\n");
+    CHECK(shapes_of(read("sphere { x, 1 rotate 90*z }").scene) == "sphere 0 1 0 1\n");
+    CHECK(shapes_of(read("sphere { 0, 1 scale <1, 2, 3> }").scene) ==
+          "ellipsoid 0 0 0 1 0 0 0 2 0 0 0 3\n");
+    CHECK(shapes_of(read("box { 0, 1 matrix <1, 2, 0, 0, 1, 0, 0, 0, 1, 5, 6, 7> }").scene) ==
+          "box 5 6 7 1 2 0 0 1 0 0 0 1\n");
+    CHECK(shapes_of(read("#declare T = transform { scale 2 translate x }\n"
+                         "union { sphere { 0, 1 } sphere { y, 1 transform T } translate z }")
+                        .scene) == "sphere 0 0 1 1\nsphere 1 2 1 2\n");
+}
+
+TEST_CASE("expressions, macros, conditions and loops are carried out") {
+    const auto radius = [](const std::string& expression) {
+        const std::string text = shapes_of(read("sphere { 0, " + expression + " }").scene);
+        return text.substr(13, text.size() - 14);
+    };
+    CHECK(radius("1 + 2*3 - 4/2") == "5");
+    CHECK(radius("-(-2)*+3") == "6");
+    CHECK(radius("vlength(<3, 4, 0>)") == "5");
+    CHECK(radius("vdot(<1, 2, 3>, <1, 1, 1>) + vcross(x, y).z + <7, 8, 9>.y") == "15");
+    CHECK(radius("sqrt(16) + pow(2, 3) + abs(-1) + min(4, 2, 3) + max(1, 5) + floor(2.5)") == "22");
+    CHECK(radius("sin(radians(90)) + cos(0) + degrees(pi)") == "182");
+    CHECK(radius("(2 > 1 ? 3 : 4) + (1 = 1 & !false)") == "4");
+    CHECK(radius("(rgb <0.25, 0.5, 1>).green + rgbt<0, 0, 0, 0.5>.transmit") == "1");
+    CHECK(radius("vaxis_rotate(x, z, 90).y") == "1");
+    const std::string text = R"(
+        // a comment, /* and */ one /* within /* another */ */
+        #macro ball(P, R) sphere { P, R } #end
+        #declare N = 0;
+        #while (N < 3) ball(N*x, 1) #declare N = N + 1; #end
+        #for (I, 10, 14, 2) #if (I = 12) ball(I*x, 2) #else ball(I*x, 3) #end #end
+        #ifdef (M) ball(0, 99) #else #ifndef (N) ball(0, 98) #end #end
+        #macro twice(A) 2*A #end
+        #declare A = array[2][2] {{1, 2}, {3, 4}};
+        ball(0, twice(A[1][0]) + 1)
+        #macro outer(P) #local N = 50; ball(P*N, 1) #end
+        outer(x)
+        ball(N*y, 1))";
+    CHECK(shapes_of(read(text).scene) == "sphere 0 0 0 1\nsphere 1 0 0 1\nsphere 2 0 0 1\n"
+                                         "sphere 10 0 0 3\nsphere 12 0 0 2\nsphere 14 0 0 3\n"
+                                         "sphere 0 0 0 7\nsphere 50 0 0 1\nsphere 0 3 0 1\n");
+}
+
+TEST_CASE("textures are found where they are given, and inherited where not") {
+    const Read one = read(R"(#include "colors.inc"
+        #default { finish { ambient 0.25 diffuse 0.5 } }
+        union {
+            sphere { 0, 1 }
+            sphere { x*3, 1 pigment { color Red } finish { specular 0.5 roughness 0.01 } }
+            texture { pigment { rgb <0, 1, 0> } finish { phong 0.75 phong_size 10 reflection 0.125 } }
+        }
+        sphere { y*3, 1 })");
+    CHECK(material_of(one).pattern.colors[0] == core::Color(0, 1, 0));
+    CHECK(material_of(one).specular == 0.75F);
+    CHECK(material_of(one).exponent == 40.0F);
+    CHECK(material_of(one).reflectivity == 0.125F);
+    CHECK(material_of(one).ambient == 0.25F);
+    CHECK(material_of(one, 1).pattern.colors[0] == core::Color(1, 0, 0));
+    CHECK(material_of(one, 1).specular == 0.5F);
+    CHECK(material_of(one, 1).exponent == 100.0F);
+    CHECK(material_of(one, 2).pattern.colors[0] == core::Color(0, 0, 0));
+    CHECK(material_of(one, 2).diffuse == 0.5F);
+
+    const Read glass =
+        read("sphere { 0, 1 pigment { rgbt <1, 1, 1, 0.75> } finish { ambient 0.5 diffuse 1 "
+             "reflection { 0, 1 fresnel on } } interior { ior 1.25 } }");
+    CHECK(material_of(glass).transmission == 0.75F);
+    CHECK(material_of(glass).index == 1.25F);
+    CHECK(material_of(glass).reflection == core::Reflection::dielectric);
+    CHECK(material_of(glass).ambient == 0.125F);
+
+    const Read floor = read("plane { y, -1 pigment { checker rgb 1, rgb 0 scale 2 } }");
+    CHECK(material_of(floor).pattern.kind == core::PatternKind::checker);
+    CHECK(material_of(floor).pattern.size == 2.0F);
+    CHECK(material_of(floor).pattern.axes == (1 | 4));
+    CHECK(material_of(floor).pattern.colors[0] == core::Color(0, 0, 0)); // the cells below 0
+}
+
+TEST_CASE("solids are made of others as there") {
+    const Read solid =
+        read("difference { box { -1, 1 } sphere { 0, 1.25 } cylinder { -2*z, 2*z, 0.5 } "
+             "pigment { rgb x } }");
+    CHECK(solid.scene.solids().any());
+    CHECK(solid.scene.shape_count() == 3);
+    CHECK_FALSE(read("union { sphere { 0, 1 } box { 0, 1 } }").scene.solids().any());
+    CHECK(read("merge { sphere { 0, 1 } box { 0, 1 } }").scene.solids().any());
+    CHECK(read("sphere { 0, 1 clipped_by { plane { x, 0 } } }").scene.solids().any());
+    CHECK(
+        read("intersection { sphere { 0, 1 } cylinder { -y, y, 0.5 open } }").scene.shape_count() ==
+        4);
+}
+
+TEST_CASE("the camera, lights, fog and settings are those of POV-Ray") {
+    const Read flat = read(R"(#version 3.7;
+        global_settings { assumed_gamma 1 max_trace_level 7 adc_bailout 0.25 }
+        camera { orthographic location <0, 0, 9> look_at <0, 0, 0> right -4*x up 3*y }
+        background { color rgb <0.25, 0.5, 1> }
+        fog { distance 4 color rgb 1 }
+        light_source { <1, 2, 3> color rgb <1, 0.5, 0.25> }
+        light_source { <0, 8, 0> rgb 1 parallel point_at <0, 0, 0> }
+        sphere { 0, 1 })",
+                           "// +W100\n");
+    CHECK(flat.scene.camera().projection == core::Projection::orthographic);
+    CHECK(flat.scene.camera().height == 3.0F);
+    CHECK(flat.scene.camera().from == core::Vec3f(0, 0, 9));
+    CHECK(flat.scene.settings().width == 100);
+    CHECK(flat.scene.settings().height == 75);
+    CHECK(flat.scene.settings().max_depth == 6);
+    CHECK(flat.scene.settings().transfer == core::Transfer::srgb);
+    CHECK(flat.scene.background() == core::Color(0.25F, 0.5F, 1.0F));
+    CHECK(flat.scene.fog().density == 0.25F);
+    REQUIRE(flat.scene.lights().size() == 2);
+    CHECK(flat.scene.lights()[1].direction == core::Vec3f(0, -8, 0));
+
+    // By default it sees the world in a mirror, which so is turned; and older scenes know no gamma.
+    const Read left = read("camera { location <0, 0, -9> look_at 0 angle 90 right 2*x up y } "
+                           "sphere { z, 1 }",
+                           "");
+    CHECK(shapes_of(left.scene) == "sphere 0 0 -1 1\n");
+    CHECK(left.scene.camera().from == core::Vec3f(0, 0, 9));
+    CHECK(left.scene.camera().field_of_view == Approx(53.1301F));
+    CHECK(left.scene.settings().transfer == core::Transfer::linear);
+    // What moves it comes last, wherever it is written.
+    const Read moved =
+        read("camera { translate x location <0, 0, 9> look_at 0 right -x up y }", "");
+    CHECK(moved.scene.camera().from == core::Vec3f(1, 0, 9));
+    CHECK(moved.scene.camera().at == core::Vec3f(1, 0, 0));
+}
+
+TEST_CASE("what is drawn otherwise is said, once") {
+    const Read one = read("sphere { 0, 1 no_shadow } sphere { 3*x, 1 no_shadow }\n"
+                          "light_source { <9, 9, 9> rgb 1 spotlight radius 3 }");
+    REQUIRE(one.remarks.size() == 2);
+    CHECK(one.remarks[0] == "a.pov:2:15: has objects without shadows, which have them here");
+    CHECK(one.remarks_on("a.pov:3:34: has a light that is a spotlight"));
+}
+
+TEST_CASE("a mistake costs one line, with its place") {
+    CHECK(complaint("sphere { 0, 1 }\n torus { 1, 2 }") ==
+          "a.pov:2:2: must be made of quadrics, and \"torus\" is not: it is not read");
+    CHECK(complaint("sphere { 0, }") == "a.pov:1:13: must be a number, got \"}\"");
+    CHECK(complaint("sphere { 0, R }") == "a.pov:1:13: must be a number, and \"R\" is not known");
+    CHECK(complaint("sphere { 0, -1 }") == "a.pov:1:1: radius: must be positive, got -1");
+    CHECK(complaint("sphere { 0, 1 frobnicate }") ==
+          "a.pov:1:15: must be of an object, got \"frobnicate\"");
+    CHECK(complaint("/* comment") == "a.pov:1:1: must have an end, got a comment without \"*/\"");
+    CHECK(complaint("#if (1)\nsphere { 0, 1 }") == "a.pov:1:1: must have an #end, and a.pov ends");
+    CHECK(complaint("#error \"too old\"") == "a.pov:1:1: is refused by the file itself: too old");
+    CHECK(complaint("#include \"none.inc\"")
+              .starts_with("a.pov:1:10: must be a file beside this one"));
+    CHECK(complaint("#declare A = 1/0;") == "a.pov:1:15: must not be divided by 0");
+    CHECK(complaint("quadric { x, y, z, 1 }").starts_with("a.pov:1:1: must be clipped by a box"));
+    CHECK(complaint("intersection { sphere { 0, 1 } triangle { 0, x, y } }")
+              .starts_with("a.pov:1:32: must have an inside"));
+}
+
+TEST_CASE("what goes on for ever ends") {
+    CHECK(complaint("#macro A() A() #end A()").find("deep") != std::string::npos);
+    CHECK(complaint("#while (1) #end").find("20 million times") != std::string::npos);
+    std::string doubled = "#declare A = sphere { 0, 1 }\n";
+    for (int i = 0; i < 40; ++i)
+        doubled += "#declare A = union { object { A } object { A } }\n";
+    CHECK(complaint(doubled + "object { A }").find("more than") != std::string::npos);
+    CHECK(complaint("sphere { 0, " + std::string(100000, '(')).find("deep") != std::string::npos);
+}
+
+TEST_CASE("scenes by other programs are read") {
+    CHECK(from_program("ase.pov").scene.shape_count() == 37);
+    CHECK(from_program("ase.pov").scene.settings().transfer == core::Transfer::srgb);
+    CHECK(from_program("pymol.pov").scene.shape_count() > 20);
+    const Read surface = from_program("pymol_surface.pov");
+    CHECK(surface.scene.shape_count() == 3);
+    CHECK(surface.remarks_on("triangles that change colour"));
+    const Read vmd = from_program("vmd.pov");
+    CHECK(vmd.scene.settings().width == 512);
+    CHECK(shapes_of(vmd.scene).starts_with(
+        "sphere 0 0 0 0.2645\nsphere 0.464 -0.2429 0.6897 0.2594\n"
+        "open cylinder 0 0 0 0.231984 -0.12144 0.344874 0.0512\n"));
+    const Read ovito = from_program("ovito.pov");
+    CHECK(ovito.scene.shape_count() == 4);
+    CHECK(ovito.scene.camera().height == 13.8917F);
+}
