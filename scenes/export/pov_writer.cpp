@@ -2,6 +2,7 @@
 #include "scenes/export/writers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace raylane::scenes {
 
@@ -15,9 +16,13 @@ class PovWriter {
         : file_(file), scene_(scene), differences_(differences) {}
 
     void write() {
-        file_ << "#version 3.7;\nglobal_settings { assumed_gamma 1 max_trace_level "
-              << trace_level() << " adc_bailout " << scene_.settings().min_weight
-              << " }\nbackground { color rgb ";
+        const core::Settings& settings = scene_.settings();
+        // Without a gamma, or by one of its own, there are other colours.
+        const bool is_srgb = settings.transfer == core::Transfer::srgb;
+        file_ << "// povray +W" << settings.width << " +H" << settings.height
+              << " +A0.3\n#version 3.7;\nglobal_settings { assumed_gamma "
+              << (is_srgb ? "1" : "srgb") << " max_trace_level " << trace_level() << " adc_bailout "
+              << settings.min_weight << " }\nbackground { color rgb ";
         vector(scene_.background()) << " }\n";
         if (!scene_.wavelengths().empty())
             differences_.insert("the spectrum: glass has one index there");
@@ -73,11 +78,14 @@ class PovWriter {
         const core::CameraRays<double> rays(camera, settings);
         const bool perspective = camera.projection == core::Projection::perspective;
         if (camera.lens_radius > 0.0F) differences_.insert("the camera's lens");
-        file_ << "camera { " << (perspective ? "perspective" : "orthographic");
+        // Of a direction of length 1, and to the left, as coordinates are right-handed here.
+        const double height = 2.0 * settings.height * core::length(rays.up());
+        const double width = 2.0 * settings.width * core::length(rays.right());
+        file_ << "camera { " << (perspective ? "perspective" : "orthographic") << " right <"
+              << -width << ", 0, 0> up <0, " << height << ", 0>";
+        vector("sky", camera.up);
         vector("location", camera.from);
-        vector("direction", rays.forward());
-        vector("right", Vec3d(2.0 * settings.width * rays.right()));
-        vector("up", Vec3d(2.0 * settings.height * rays.up())) << " }\n";
+        vector("look_at", camera.at) << " }\n";
     }
 
     void write_fog() {
@@ -99,9 +107,11 @@ class PovWriter {
             color(light.color) << " }\n";
             return;
         case core::LightKind::directional: {
-            constexpr double far = -1e6;
+            // By a power of two, so that it is no other direction.
+            const Vec3d direction = core::convert<double>(light.direction);
+            const double far = std::ldexp(1.0, 20 - std::ilogb(core::length(direction)));
             file_ << "light_source { ";
-            vector(Vec3d(far * core::normalized(core::convert<double>(light.direction)))) << " ";
+            vector(Vec3d(-far * direction)) << " ";
             color(light.color) << " parallel point_at <0, 0, 0> }\n";
             return;
         }
@@ -298,7 +308,8 @@ class PovWriter {
     void write_part(const core::QuadricOf<double>& s) { write_form(s, /*is_clipped=*/false); }
     void write_part(const auto& shape) { write_shape(shape); }
 
-    /// `transparent`: inner walls of unions would be seen there.
+    /// `transparent`: inner walls of unions would be seen there. So they would where it is cut
+    /// open.
     void write_solid(const core::Solid& solid, bool transparent) {
         switch (solid.made) {
         case core::Made::of_shape:
@@ -321,7 +332,7 @@ class PovWriter {
         for (std::size_t i = 0; i < solid.parts.size(); ++i) {
             if (clips && i != 0) file_ << " clipped_by {";
             file_ << " ";
-            write_solid(solid.parts[i], transparent);
+            write_solid(solid.parts[i], transparent || clips);
             if (clips && i != 0) file_ << " }";
         }
         if (solid.material != core::no_material)
