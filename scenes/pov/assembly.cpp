@@ -64,12 +64,13 @@ Solid part_of(const Object& object) {
         object.shape);
 }
 
+/// No zero of it is negative.
 template <class Shape>
 void turn_z(Shape& shape) {
-    if constexpr (requires { shape.center; }) shape.center.z = -shape.center.z;
+    if constexpr (requires { shape.center; }) shape.center.z = 0.0 - shape.center.z;
     if constexpr (requires { shape.base; }) {
-        shape.base.z = -shape.base.z;
-        shape.axis.z = -shape.axis.z;
+        shape.base.z = 0.0 - shape.base.z;
+        shape.axis.z = 0.0 - shape.axis.z;
     }
 }
 

@@ -60,7 +60,9 @@ core::PartShape read_plane(Tokens& tokens) {
     skip_comma(tokens);
     const double distance = read_number(tokens);
     const double size = core::length(normal);
-    return core::PlaneOf<double>{size > 0.0 ? distance / size * normal : normal, normal};
+    // No zero of it is negative.
+    const Vec3d point = size > 0.0 ? distance / size * normal + Vec3d(0.0) : normal;
+    return core::PlaneOf<double>{point, normal};
 }
 
 core::PartShape read_disc(Tokens& tokens) {

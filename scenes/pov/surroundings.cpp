@@ -139,15 +139,17 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
     camera.projection =
         given.orthographic ? core::Projection::orthographic : core::Projection::perspective;
     const auto seen = [&](Vec3d v) {
-        if (view.mirrored) v.z = -v.z;
+        if (view.mirrored) v.z = 0.0 - v.z;
         return core::convert<float>(v);
     };
     camera.from = seen(location);
     camera.at = seen(at);
     camera.up = seen(sky);
-    camera.height = static_cast<float>(core::length(up) * size);
-    camera.field_of_view =
-        static_cast<float>(std::atan2(0.5 * core::length(up), focus) / half_degree);
+    if (given.orthographic)
+        camera.height = static_cast<float>(core::length(up) * size);
+    else
+        camera.field_of_view =
+            static_cast<float>(std::atan2(0.5 * core::length(up), focus) / half_degree);
     return view;
 }
 
@@ -231,7 +233,7 @@ LightSource read_light(Tokens& tokens) {
 
 core::Light light_of(const LightSource& source, bool mirrored) {
     const auto seen = [&](Vec3d v) {
-        if (mirrored) v.z = -v.z;
+        if (mirrored) v.z = 0.0 - v.z;
         return core::convert<float>(v);
     };
     core::Light light;
