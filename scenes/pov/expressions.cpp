@@ -95,7 +95,7 @@ Tuple read_primary(Tokens& tokens) {
         if (const Value* value = tokens.find(token.text)) {
             if (value->get_if<std::shared_ptr<Array>>() != nullptr)
                 value = &named_element(tokens, token);
-            if (const Tuple* tuple = value->get_if<Tuple>()) return *tuple;
+            if (const auto* tuple = value->get_if<Tuple>()) return *tuple;
             fail(token.place,
                  "must be the name of a number, vector or colour, got " + token.quoted());
         }

@@ -40,7 +40,7 @@ void read_mesh_triangle(Tokens& tokens, Mesh& mesh, bool is_smooth) {
         triangle.shape = core::SmoothTriangleOf<double>{flat.a, flat.b, flat.c, v[1], v[3], v[5]};
     else
         triangle.shape = flat;
-    mesh.triangles.push_back(std::move(triangle));
+    mesh.triangles.push_back(triangle);
     if (mesh.triangles.size() > most_shapes) fail(place, "must have fewer triangles");
 }
 
@@ -181,7 +181,7 @@ class Mesh2Reader {
                 triangle.shape = core::SmoothTriangleOf<double>{flat.a,    flat.b,    flat.c,
                                                                 normal(0), normal(1), normal(2)};
         }
-        mesh_.triangles.push_back(std::move(triangle));
+        mesh_.triangles.push_back(triangle);
     }
 
     Tokens& tokens_;

@@ -39,6 +39,7 @@ bool Tokens::leave_frame(const Place& end) {
 }
 
 Token Tokens::next() {
+    if (peeked_ && is_expanded_) return *std::exchange(peeked_, std::nullopt);
     for (;;) {
         const Token token = peeked_ ? *std::exchange(peeked_, std::nullopt) : raw();
         if (token.is("#")) {
@@ -53,7 +54,9 @@ Token Tokens::next() {
 }
 
 const Token& Tokens::peek() {
+    if (peeked_ && is_expanded_) return *peeked_;
     const Token token = next();
+    is_expanded_ = true;
     return peeked_.emplace(token);
 }
 
@@ -68,6 +71,7 @@ const Token& Tokens::ahead() {
             }
         }
         peeked_ = token;
+        is_expanded_ = false;
     }
     return *peeked_;
 }

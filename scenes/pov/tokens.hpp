@@ -108,6 +108,7 @@ class Tokens {
     std::deque<Source> sources_;
     std::vector<Frame> frames_;
     std::optional<Token> peeked_;
+    bool is_expanded_ = false; ///< what was peeked at: no directive, and no macro's name
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::map<std::string, const Source*> included_;

@@ -256,6 +256,18 @@ TEST_CASE("a mistake costs one line, with its place") {
               .starts_with("a.pov:1:32: must have an inside"));
 }
 
+TEST_CASE("POV-Ray's language is known by its ending, and by how it begins") {
+    const auto shapes = [](const std::string& name, const std::string& text) {
+        return parse_scene(name, text).shape_count();
+    };
+    CHECK(shapes("a.POV", "sphere { 0, 1 }") == 1);
+    CHECK(shapes("a", "// by hand\n/* so */ #version 3.7;\nsphere { 0, 1 }") == 1);
+    CHECK(shapes("a", "camera\n{ look_at z } sphere { 0, 1 }") == 1);
+    CHECK(tests::message_of<BadInput>([&] {
+              shapes("a", "// JSON\n{ camera { }");
+          }).find("a:2:3: ") == 0);
+}
+
 TEST_CASE("what goes on for ever ends") {
     CHECK(complaint("#macro A() A() #end A()").find("deep") != std::string::npos);
     CHECK(complaint("#while (1) #end").find("20 million times") != std::string::npos);
