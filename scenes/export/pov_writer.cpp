@@ -215,7 +215,9 @@ class PovWriter {
         else if (material.reflectivity > 0.0F)
             file_ << " reflection { " << covered * material.reflectivity << " }";
         const bool bends = material.transmits() || !material.is_see_through();
-        file_ << " } } interior { ior " << (bends ? material.index : 1.0F) << " } }\n";
+        file_ << " } }";
+        if (bends) file_ << " interior { ior " << material.index << " }";
+        file_ << " }\n";
         if (material.transmits() && material.is_see_through())
             differences_.insert("opacity of what transmits");
         if (material.reflection != core::Reflection::constant && !bends)

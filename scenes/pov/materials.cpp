@@ -11,12 +11,6 @@ namespace {
 
 using core::Vec3d;
 
-/// Of what goes straight through, and no glass bends: what of it is the surface's own.
-void set_opacity(core::Material& /*material*/, float /*opacity*/, Tokens& tokens,
-                 const Place& place) {
-    tokens.remark(place, "has what is partly transparent, which is drawn opaque");
-}
-
 core::Color color_of(const Tuple& tuple) {
     core::Color color;
     for (int channel = 0; channel < 3; ++channel)
@@ -114,7 +108,8 @@ std::array<float, 24> key_of(const core::Material& m) {
             static_cast<float>(m.reflection),
             m.reflectivity,
             m.transmission,
-            m.index};
+            m.index,
+            m.opacity};
 }
 
 /// The stronger of both highlights. Phong's by the reflected ray is about Blinn's, by the halfway
@@ -166,23 +161,28 @@ core::Material Materials::material_of(const Look& look, const Place& place,
         static_cast<float>(std::max(finish.ambient * ambient_light + finish.emission, 0.0));
     material.diffuse = static_cast<float>(diffuse);
     set_highlight(finish, material, tokens_, place);
-    const bool has_index = look.interior != nullptr && look.interior->has_index;
-    if (has_index) material.index = static_cast<float>(look.interior->index);
+    const bool bends = look.interior != nullptr && look.interior->has_index;
+    if (bends) material.index = static_cast<float>(look.interior->index);
+    double reflection = std::clamp(finish.reflection, 0.0, 1.0);
     if (through > 0.0) {
-        if (has_index) {
+        if (bends) {
             // What is seen of it is weighed by that there.
             material.transmission = static_cast<float>(through);
             material.ambient =
                 static_cast<float>(static_cast<double>(material.ambient) * (1.0 - through));
             material.diffuse = static_cast<float>(diffuse * (1.0 - through));
         } else {
-            set_opacity(material, static_cast<float>(1.0 - through), tokens_, place);
+            // Highlights and reflections are of the whole surface there, and of its share here.
+            material.opacity = static_cast<float>(1.0 - through);
+            const double whole = through < 1.0 ? 1.0 / (1.0 - through) : 1.0;
+            material.specular *= static_cast<float>(whole);
+            reflection = std::min(reflection * whole, 1.0);
         }
     }
     if (finish.fresnel)
         material.reflection = core::Reflection::dielectric;
     else
-        material.reflectivity = static_cast<float>(std::clamp(finish.reflection, 0.0, 1.0));
+        material.reflectivity = static_cast<float>(reflection);
     return material;
 }
 

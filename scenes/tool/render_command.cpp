@@ -262,8 +262,8 @@ Command add_render_command(CLI::App& app) {
         add_option(*command, names, value, help, type);
     };
     add_positional(*command, "SCENE", arguments->scene,
-                   "A scene in JSON, NFF or POV-Ray's language, or atoms in PDB, mmCIF, CIF, XYZ, GRO or LAMMPS' "
-                   "formats, compressed by gzip or not; - is standard input");
+                   "A scene in JSON, NFF or POV-Ray's language, or atoms in PDB, mmCIF, CIF, XYZ, "
+                   "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
     add("-o,--output", arguments->output,
         "The picture: .png, .hdr or .pfm, or - for a PNG to standard output (default: the "
         "scene's name, .png)",

@@ -107,6 +107,7 @@ TEST_CASE("solids and materials come back from POV-Ray's language") {
     "materials": {"clay": {"specular": 0.5, "exponent": 64},
         "glass": {"transmission": 1, "ambient": 0, "diffuse": 0, "reflection": "dielectric", "index": 1.25},
         "tint": {"transmission": 0.75, "index": 1, "reflectivity": 0.125},
+        "pane": {"opacity": 0.25, "color": [0, 0.5, 1], "specular": 0.5, "reflectivity": 0.25},
         "red": {"color": [1, 0, 0], "reflectivity": 0.25},
         "floor": {"pattern": {"type": "checker", "colors": ["#ffffff", "#305070"], "size": 0.75}},
         "bands": {"pattern": {"type": "stripes", "colors": [[1, 0, 0], [0, 1, 0]], "width": 0.25,
@@ -115,6 +116,7 @@ TEST_CASE("solids and materials come back from POV-Ray's language") {
         {"type": "plane", "point": [0, -2, 0], "normal": [0, 1, 0], "material": "floor"},
         {"type": "sphere", "center": [1, -1, 2], "radius": 0.5, "material": "bands"},
         {"type": "sphere", "center": [-1, 1.5, 2], "radius": 0.5, "material": "tint"},
+        {"type": "sphere", "center": [1.5, 1.5, 2], "radius": 0.75, "material": "pane"},
         {"type": "difference", "material": "clay", "objects": [
             {"type": "intersection", "objects": [
                 {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]},
