@@ -1,5 +1,7 @@
 #include "simd/threads.hpp"
 
+#include "core/shapes/invalid_value.hpp"
+
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -11,12 +13,25 @@
 #endif
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
+#include <cstdlib>
+#include <string>
+#include <string_view>
 
 namespace raylane::simd {
 
 int default_threads() {
-    return tbb::info::default_concurrency();
+    const char* told = std::getenv("RAYLANE_THREADS");
+    const std::string_view text = told != nullptr ? told : "";
+    if (text.empty()) return tbb::info::default_concurrency();
+    int threads = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
+    if (error != std::errc() || end != text.data() + text.size() || threads < 1 ||
+        threads > max_threads)
+        throw core::InvalidValue("RAYLANE_THREADS",
+                                 "must be a whole number from 1 to " + std::to_string(max_threads));
+    return threads;
 }
 
 struct AllowedThreads::Control : tbb::global_control {
@@ -31,8 +46,9 @@ AllowedThreads::AllowedThreads(int threads)
 AllowedThreads::~AllowedThreads() = default;
 
 void on_threads(int threads, const std::function<void()>& body) {
-    const AllowedThreads allowed(threads);
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    const int count = threads > 0 ? threads : default_threads();
+    const AllowedThreads allowed(count);
+    tbb::task_arena arena(count);
     arena.execute(body);
 }
 

@@ -9,7 +9,8 @@ namespace raylane::simd {
 /// More than any machine has of use.
 inline constexpr int max_threads = 4096;
 
-/// Number of threads that the machine has for this process.
+/// Number of threads that the environment's RAYLANE_THREADS says, else what the machine has for
+/// this process. Throws InvalidValue for one that is no number of threads.
 int default_threads();
 
 /// While it lives, so many threads are allowed even where there are fewer processors: oneTBB would

@@ -10,11 +10,11 @@ struct ParallelWorkers::Arena {
     AllowedThreads allowed;
     tbb::task_arena arena;
 
-    explicit Arena(int threads)
-        : allowed(threads), arena(threads > 0 ? threads : tbb::task_arena::automatic) {}
+    explicit Arena(int threads) : allowed(threads), arena(threads) {}
 };
 
-ParallelWorkers::ParallelWorkers(int threads) : arena_(std::make_unique<Arena>(threads)) {}
+ParallelWorkers::ParallelWorkers(int threads)
+    : arena_(std::make_unique<Arena>(threads > 0 ? threads : default_threads())) {}
 ParallelWorkers::~ParallelWorkers() = default;
 
 void ParallelWorkers::both(const Task& one, const Task& other) {

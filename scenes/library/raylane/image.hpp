@@ -30,7 +30,7 @@ struct Image {
 
 struct RenderOptions {
     std::optional<Settings> settings{}; ///< in place of the scene's
-    int threads = 0;                    ///< at most, 1 to 4096; 0: all that the machine has
+    int threads = 0; ///< at most, 1 to 4096; 0: as RAYLANE_THREADS says, or all of the machine
     Precision precision = Precision::exact;
 };
 

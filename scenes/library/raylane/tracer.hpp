@@ -119,7 +119,7 @@ struct LengthRows {
 };
 
 struct TracerOptions {
-    int threads = 0; ///< at most, 1 to 4096; 0: all that the machine has
+    int threads = 0; ///< at most, 1 to 4096; 0: as RAYLANE_THREADS says, or all of the machine
     /// Precision of the answers. With others than exact, `occluded` may say otherwise than
     /// `intersect` where that is close, and ties may go either way.
     Precision precision = Precision::exact;
