@@ -2,13 +2,27 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 /// The commands of the raylane tool. Each adds itself to the command line; what is returned runs it
 /// and gives the exit code: 0 done, 1 a comparison that differs. Errors come as exceptions.
 namespace raylane::scenes {
+
+/// What the program ends with, and when.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> exit_codes = {
+    {{"0", "done"},
+     {"1", "a comparison that differs"},
+     {"2", "bad input or usage"},
+     {"3", "the system refused"}}};
+
+/// Variables of the environment that it asks for.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 1> environment = {
+    {{"RAYLANE_THREADS", "Threads where --threads does not say (default: all processors)"}}};
 
 struct Command {
     CLI::App* arguments;
@@ -30,5 +44,7 @@ Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_compare_command(CLI::App& app);
 Command add_convert_command(CLI::App& app);
+Command add_manual_command(CLI::App& app);
+Command add_completion_command(CLI::App& app);
 
 } // namespace raylane::scenes

@@ -14,6 +14,7 @@ namespace {
 struct ConvertArguments {
     Argument scene, output;
     DrawingArguments drawing;
+    VerbosityArguments verbosity;
 };
 
 int convert(const ConvertArguments& arguments) {
@@ -21,12 +22,13 @@ int convert(const ConvertArguments& arguments) {
     const std::string& output = file_argument("OUTPUT", *arguments.output);
     require_other_file("OUTPUT", output, "SCENE", scene);
     require_scene_ending(output);
+    const Verbosity verbosity = arguments.verbosity.verbosity();
     std::string differences;
-    const core::Scene loaded =
-        load_with_progress(scene, arguments.drawing.drawing(), arguments.drawing.first_given());
+    const core::Scene loaded = load_with_progress(scene, arguments.drawing.drawing(),
+                                                  arguments.drawing.first_given(), verbosity);
     for (const std::string& what : export_scene(output, loaded))
         differences.append(differences.empty() ? "" : ", ").append(what);
-    if (!differences.empty())
+    if (!differences.empty() && verbosity != Verbosity::quiet)
         std::fprintf(stderr, "%s: not as in the scene, for want of a word in the format: %s\n",
                      printable(output, 4096).c_str(), differences.c_str());
     return 0;
@@ -43,6 +45,7 @@ Command add_convert_command(CLI::App& app) {
         *command, "OUTPUT", arguments->output,
         "The file to write: .json, .nff, or .pov for POV-Ray 3.7; or - for JSON to standard "
         "output");
+    arguments->verbosity.add_to(*command);
     arguments->drawing.add_to(*command);
     command->footer("Example: raylane convert scenes/lattice.json lattice.pov");
     return {command, [arguments] { return convert(*arguments); }};

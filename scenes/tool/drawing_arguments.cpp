@@ -83,7 +83,7 @@ void DrawingArguments::add_to(CLI::App& command) {
     add("--style", style,
         "balls (and sticks), sticks, licorice, spheres (van der Waals' radii) or points (default: "
         "balls of up to 500 atoms, spheres of more)",
-        "NAME");
+        "balls|sticks|licorice|spheres|points");
     add("--color", color,
         "By element, chain, residue, or a number that the file has for each atom, such as b_factor "
         "(default: element)",

@@ -21,6 +21,7 @@ using Json = nlohmann::ordered_json;
 struct InfoArguments {
     Argument scene;
     DrawingArguments drawing;
+    VerbosityArguments verbosity;
     bool json = false;
 };
 
@@ -84,6 +85,7 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"quality", as_printed(settings.quality)},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
+            {"max_see_through", settings.max_see_through},
             {"transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear"},
             {"hierarchy_nodes", scene.hierarchy().nodes.size()},
             {"needed", names_where(features, true)},
@@ -157,7 +159,10 @@ void print(const Json& info) {
                         (info["quality"] == 0 ? number("samples_per_pixel") + " samples each, "
                                               : number("quality") + " dB, ") +
                         info["transfer"].get<std::string>() + " transfer");
-    line("limits", "depth " + number("max_depth") + ", weight " + number("min_weight"));
+    const bool has_limit = info["max_see_through"] < core::Settings::see_through_limit;
+    line("limits",
+         "depth " + number("max_depth") + ", weight " + number("min_weight") +
+             (has_limit ? ", " + number("max_see_through") + " surfaces seen through" : ""));
     line("needs", joined(info["needed"]));
     line("left out", joined(info["left_out"]));
     print_methods(info);
@@ -171,7 +176,8 @@ void print(const Json& info) {
 int info(const InfoArguments& arguments) {
     const std::string& scene = file_argument("SCENE", *arguments.scene);
     const Json info = info_of(scene, load_with_progress(scene, arguments.drawing.drawing(),
-                                                        arguments.drawing.first_given()));
+                                                        arguments.drawing.first_given(),
+                                                        arguments.verbosity.verbosity()));
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else
@@ -187,6 +193,7 @@ Command add_info_command(CLI::App& app) {
     auto arguments = std::make_shared<InfoArguments>();
     add_positional(*command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
     add_flag(*command, "--json", arguments->json, "Print it as JSON");
+    arguments->verbosity.add_to(*command);
     arguments->drawing.add_to(*command);
     command->footer("Example: raylane info scenes/birthday.json");
     return {command, [arguments] { return info(*arguments); }};

@@ -1,5 +1,6 @@
 #include "scenes/tool/loading.hpp"
 
+#include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/workers.hpp"
@@ -65,14 +66,21 @@ class Loader : public simd::ParallelWorkers {
 } // namespace
 
 core::Scene load_with_progress(const std::filesystem::path& path, const Drawing& drawing,
-                               const std::string& option_for_atoms, int threads) {
+                               const std::string& option_for_atoms, Verbosity verbosity,
+                               int threads) {
+    const auto start = std::chrono::steady_clock::now();
     Loader loader(threads);
     core::Scene scene = [&] {
-        const ProgressLine line([&] { return loader.text(); });
+        const ProgressLine line(verbosity, [&] { return loader.text(); });
         return loader.load(path, drawing, option_for_atoms);
     }();
+    if (verbosity == Verbosity::quiet) return scene;
     for (const std::string& remark : loader.remarks())
         std::fprintf(stderr, "%s\n", remark.c_str());
+    if (verbosity == Verbosity::verbose)
+        std::fprintf(stderr, "%s: %zu shapes, read and built in %s\n",
+                     printable(path.string(), 4096).c_str(), scene.shape_count(),
+                     duration_text(seconds_since(start)).c_str());
     return scene;
 }
 

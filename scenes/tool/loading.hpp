@@ -2,14 +2,16 @@
 
 #include "core/scene/scene.hpp"
 #include "scenes/tool/drawing_arguments.hpp"
+#include "scenes/tool/verbosity.hpp"
 
 #include <filesystem>
 
 namespace raylane::scenes {
 
-/// load_scene with `threads` threads (0: all that the machine has), and on a terminal with a line
-/// that shows how far it is. Remarks on the file go to standard error.
+/// load_scene with `threads` threads (0: default_threads()), and a line that shows how far it is.
+/// Remarks on the file go to standard error, unless it is to be quiet.
 core::Scene load_with_progress(const std::filesystem::path& path, const Drawing& drawing,
-                               const std::string& option_for_atoms, int threads = 0);
+                               const std::string& option_for_atoms, Verbosity verbosity,
+                               int threads = 0);
 
 } // namespace raylane::scenes

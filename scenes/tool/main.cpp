@@ -32,16 +32,23 @@ int complain(std::string_view message, ExitCode code) {
     }
 }
 
+std::string exit_codes_text() {
+    std::string text;
+    for (const auto& [code, meaning] : exit_codes)
+        text.append(text.empty() ? "Exit codes: " : ", ").append(code).append(" ").append(meaning);
+    return text + ".";
+}
+
 int run(int argc, const char* const* argv) {
     CLI::App app("raylane draws scenes of spheres, cylinders, cones, boxes and other quadrics.",
                  "raylane");
     app.set_version_flag("--version", "raylane " RAYLANE_VERSION, "Print the version and exit");
-    app.footer("Example: raylane render scenes/birthday.json -o birthday.png\n"
-               "Exit codes: 0 done, 1 a comparison that differs, 2 bad input or usage, 3 the "
-               "system refused.");
+    app.footer("Example: raylane render scenes/birthday.json -o birthday.png\n" +
+               exit_codes_text());
     app.require_subcommand(1);
-    const std::array<Command, 4> commands = {add_render_command(app), add_info_command(app),
-                                             add_compare_command(app), add_convert_command(app)};
+    const std::array<Command, 6> commands = {add_render_command(app),  add_info_command(app),
+                                             add_compare_command(app), add_convert_command(app),
+                                             add_manual_command(app),  add_completion_command(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& request) {

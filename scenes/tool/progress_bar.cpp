@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 #include <unistd.h>
 #include <utility>
 
 namespace raylane::scenes {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::string formatted(const char* format, auto... values) {
     char text[128];
@@ -23,6 +21,10 @@ std::string formatted(const char* format, auto... values) {
 }
 
 } // namespace
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 std::string with_prefix(double value) {
     if (value >= 1e9) return formatted("%.2f G", value / 1e9);
@@ -45,35 +47,47 @@ std::string bar_text(double done) {
     return formatted("[%s] %3d %%", bar.c_str(), static_cast<int>(done * 100.0));
 }
 
-ProgressLine::ProgressLine(std::function<std::string()> text) : text_(std::move(text)) {
-    if (::isatty(STDERR_FILENO) == 1)
-        thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+bool is_terminal() {
+    const char* kind = std::getenv("TERM");
+    return ::isatty(STDERR_FILENO) == 1 && (kind == nullptr || std::string_view(kind) != "dumb");
+}
+
+ProgressLine::ProgressLine(Verbosity verbosity, std::function<std::string()> text)
+    : text_(std::move(text)), is_drawn_anew_(is_terminal()) {
+    using std::chrono_literals::operator""ms;
+    if (verbosity == Verbosity::quiet) return;
+    const std::chrono::milliseconds pause = is_drawn_anew_                    ? 100ms
+                                            : verbosity == Verbosity::verbose ? 1'000ms
+                                                                              : 10'000ms;
+    thread_ = std::jthread([this, pause](const std::stop_token& stop) { run(stop, pause); });
 }
 
 ProgressLine::~ProgressLine() {
     if (!thread_.joinable()) return;
     thread_.request_stop();
     thread_.join();
-    if (drawn_) std::fputs("\r\x1B[K", stderr);
+    if (drawn_ && is_drawn_anew_) std::fputs("\r\x1B[K", stderr);
 }
 
-void ProgressLine::run(const std::stop_token& stop) {
-    constexpr std::chrono::milliseconds pause{100};
+void ProgressLine::run(const std::stop_token& stop, std::chrono::milliseconds pause) {
+    constexpr std::chrono::milliseconds longest = std::chrono::minutes(10);
     std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, stop, pause, [] { return false; }) && !stop.stop_requested())
+    while (!wake_.wait_for(lock, stop, pause, [] { return false; }) && !stop.stop_requested()) {
         draw();
+        if (!is_drawn_anew_) pause = std::min(2 * pause, longest);
+    }
 }
 
 void ProgressLine::draw() {
     const std::string text = text_();
     if (text.empty() || is_ending()) return;
     drawn_ = true;
-    std::fprintf(stderr, "\r%s\x1B[K", text.c_str());
+    std::fprintf(stderr, is_drawn_anew_ ? "\r%s\x1B[K" : "%s\n", text.c_str());
     std::fflush(stderr);
 }
 
-ProgressBar::ProgressBar(const simd::Progress& progress, std::int64_t pixels)
-    : progress_(progress), pixels_(pixels), line_([this] { return text(); }) {}
+ProgressBar::ProgressBar(Verbosity verbosity, const simd::Progress& progress, std::int64_t pixels)
+    : progress_(progress), pixels_(pixels), line_(verbosity, [this] { return text(); }) {}
 
 std::string ProgressBar::text() const {
     const double seconds = seconds_since(start_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenes/tool/verbosity.hpp"
 #include "simd/render.hpp"
 
 #include <chrono>
@@ -17,24 +18,31 @@ std::string with_prefix(double value);
 /// "12.3 s", "4 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);
 
+double seconds_since(std::chrono::steady_clock::time_point start);
+
 /// "[######..................]  25 %"
 std::string bar_text(double done);
 
+/// True if standard error is one that lines can be drawn anew on.
+bool is_terminal();
+
 /// One line on standard error that is drawn anew every so often, as long as this lives, and then
-/// wiped away. Shows nothing where standard error is no terminal.
+/// wiped away. Where there is no terminal it is a line each time, ever more rarely, from ten
+/// seconds on (verbose: from one). Quiet: none.
 class ProgressLine {
   public:
     /// `text` is called by a thread of its own; the line stays as it is where it returns nothing.
-    explicit ProgressLine(std::function<std::string()> text);
+    ProgressLine(Verbosity verbosity, std::function<std::string()> text);
     ~ProgressLine();
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
   private:
-    void run(const std::stop_token& stop);
+    void run(const std::stop_token& stop, std::chrono::milliseconds pause);
     void draw();
 
     std::function<std::string()> text_;
+    bool is_drawn_anew_ = false;
     bool drawn_ = false; // read once the thread has ended
     std::mutex mutex_;
     std::condition_variable_any wake_;
@@ -44,7 +52,7 @@ class ProgressLine {
 /// Progress of a rendering: percentage, rays per second, time left.
 class ProgressBar {
   public:
-    ProgressBar(const simd::Progress& progress, std::int64_t pixels);
+    ProgressBar(Verbosity verbosity, const simd::Progress& progress, std::int64_t pixels);
 
   private:
     std::string text() const;

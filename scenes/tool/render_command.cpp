@@ -15,7 +15,6 @@
 #include <cstdio>
 #include <memory>
 #include <thread>
-#include <unistd.h>
 
 namespace raylane::scenes {
 
@@ -26,6 +25,7 @@ struct RenderArguments {
         threads, transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
     DrawingArguments drawing;
+    VerbosityArguments verbosity;
 };
 
 class Stopwatch {
@@ -208,6 +208,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
 
 int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
+    const Verbosity verbosity = arguments.verbosity.verbosity();
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
     Drawing drawing = arguments.drawing.drawing();
@@ -218,8 +219,8 @@ int render(const RenderArguments& arguments) {
     if (files.stats) stats.emplace(*files.stats);
 
     Stopwatch stopwatch;
-    const core::Scene scene =
-        load_with_progress(files.scene, drawing, arguments.drawing.first_given(), options.threads);
+    const core::Scene scene = load_with_progress(
+        files.scene, drawing, arguments.drawing.first_given(), verbosity, options.threads);
     const core::Settings settings = overrides.applied_to(scene.settings());
     options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     output.reserve(settings.width, settings.height);
@@ -229,7 +230,7 @@ int render(const RenderArguments& arguments) {
     simd::Progress progress;
     options.progress = &progress;
     const simd::Rendering rendering = [&] {
-        const ProgressBar bar(progress, std::int64_t{settings.width} * settings.height);
+        const ProgressBar bar(verbosity, progress, std::int64_t{settings.width} * settings.height);
         return simd::render(scene, settings, options);
     }();
     times.render = stopwatch.lap();
@@ -243,7 +244,11 @@ int render(const RenderArguments& arguments) {
         stats->write(text);
         stats->commit();
     }
-    if (::isatty(STDERR_FILENO) == 1)
+    if (verbosity == Verbosity::verbose)
+        std::fprintf(stderr, "%s engine, %s, %s precision, %d threads\n", arguments.engine->c_str(),
+                     arguments.isa.value_or(isa_in_use(*arguments.engine)).c_str(),
+                     std::string(core::name_of(options.precision)).c_str(), options.threads);
+    if (verbosity == Verbosity::verbose || (verbosity == Verbosity::normal && is_terminal()))
         std::fprintf(
             stderr, "%s: %d x %d pixels, %.8g samples each, in %s, %srays/s\n",
             printable(files.output, 4096).c_str(), settings.width, settings.height,
@@ -278,7 +283,7 @@ Command add_render_command(CLI::App& app) {
     add("--filter", arguments->filter,
         "What of its surroundings a pixel shows: box (its own square), gaussian or "
         "blackman-harris, which reach 1.5 pixels far and are smoother (default: as the scene says)",
-        "NAME");
+        "box|gaussian|blackman-harris");
     add("--light-samples", arguments->light_samples,
         "Rays to each light with a size, from each point that a sample sees (default: as the scene "
         "says)",
@@ -290,11 +295,9 @@ Command add_render_command(CLI::App& app) {
     add("--threads", arguments->threads, "Threads (default: all processors)", "N");
     add("--engine", arguments->engine,
         "What traces: vector, or reference, which is slow and written to be read (default: vector)",
-        "NAME");
-    add("--isa", arguments->isa,
-        "The vector engine's instructions: portable, sse4.2, avx2 or avx512 (default: the best "
-        "there are)",
-        "NAME");
+        "vector|reference");
+    add("--isa", arguments->isa, "The vector engine's instructions (default: the best there are)",
+        "portable|sse4.2|avx2|avx512");
     add("--tile", arguments->tile,
         "Pixels on the side of the squares that threads work on, 8 to 64; changes no exact picture",
         "N");
@@ -303,11 +306,12 @@ Command add_render_command(CLI::App& app) {
         "float), exact (certified, as real numbers would have it), double (robust's "
         "formulas in double), or auto: the cheapest of these that cannot be told from exact by "
         "eye (default: exact)",
-        "NAME");
-    add("--transfer", arguments->transfer,
-        "From light to PNG: srgb or linear (default: as the scene says)", "CURVE");
+        "fast|robust|exact|double|auto");
+    add("--transfer", arguments->transfer, "From light to PNG (default: as the scene says)",
+        "srgb|linear");
     add("--stats", arguments->stats,
         "Write figures about the rendering as JSON; - is standard output", "FILE");
+    arguments->verbosity.add_to(*command);
     arguments->drawing.add_to(*command);
     command->footer("Example: raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");

@@ -8,12 +8,6 @@ using namespace raylane::tests;
 
 namespace {
 
-Setup on_terminal() {
-    Setup setup;
-    setup.terminal = true;
-    return setup;
-}
-
 /// Form of a text, which does not depend on the machine: N for each number and for each bar of #
 /// and dots, no more than one space at a time, and rays without their prefix.
 std::string form_of(const std::string& text) {

@@ -28,7 +28,7 @@ TEST_CASE("a command line that means nothing is told in one line") {
     const Workshop workshop;
     const std::string see = "; see raylane --help", see_render = "; see raylane render --help";
     const std::vector<std::pair<Arguments, std::string>> rows = {
-        {{}, "must be given a command: render, info, compare or convert" + see},
+        {{}, "must be given a command: render, info, compare, convert, manual or completion" + see},
         {{"rendr", "scene.json"}, R"(unknown argument "rendr", did you mean "render"?)" + see},
         {{"draw"}, R"(unknown argument "draw")" + see},
         {{""}, R"(unknown argument "")" + see},
@@ -42,7 +42,7 @@ TEST_CASE("a command line that means nothing is told in one line") {
         {{"render", "scene.json", "--sise=8x8"},
          R"(unknown argument "--sise=8x8", did you mean "--size"?)" + see_render},
         {{"render", "scene.json", "--json"}, R"(unknown argument "--json")" + see_render},
-        {{"render", "scene.json", "-q"}, R"(unknown argument "-q")" + see_render},
+        {{"render", "scene.json", "-y"}, R"(unknown argument "-y")" + see_render},
         {{"render", "scene.json", "b.json"}, R"(unknown argument "b.json")" + see_render},
         {{"render", "scene.json", "a\nb\x1B[31m\xFF"},
          R"(unknown argument "a\x0Ab\x1B[31m\xFF")" + see_render},

@@ -4,6 +4,7 @@
 #include "tests/scenes/tool/process.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <thread>
 
 namespace raylane::tests {
@@ -25,6 +26,14 @@ inline std::vector<std::string> joined(std::vector<std::string> a,
                                        const std::vector<std::string>& b) {
     a.insert(a.end(), b.begin(), b.end());
     return a;
+}
+
+/// Standard error is a terminal of that kind, as the environment's TERM says.
+inline Setup on_terminal(const char* kind = "xterm") {
+    Setup setup;
+    setup.terminal = true;
+    setup.in_child = [kind] { ::setenv("TERM", kind, 1); };
+    return setup;
 }
 
 /// A directory to run the tool in, with a scene and an empty directory for what comes out.

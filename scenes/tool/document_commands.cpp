@@ -1,0 +1,79 @@
+#include "scenes/atomic_file.hpp"
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/command.hpp"
+#include "scenes/tool/manual.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+namespace raylane::scenes {
+
+namespace {
+
+const CLI::App& command_named(const CLI::App& app, const std::string& name) {
+    std::vector<std::pair<std::string_view, const CLI::App*>> choices;
+    const std::vector<const CLI::App*> commands = commands_of(app);
+    for (const CLI::App* command : commands) // whose names outlive this
+        choices.emplace_back(command->get_name(), command);
+    return *choice_argument<const CLI::App*>("COMMAND", name, choices);
+}
+
+struct ManualArguments {
+    Argument command, folder;
+};
+
+void write_pages(const CLI::App& app, const std::filesystem::path& folder) {
+    std::vector<const CLI::App*> all = commands_of(app);
+    all.push_back(&app);
+    for (const CLI::App* command : all) {
+        const std::string name =
+            command == &app ? "raylane.1" : "raylane-" + command->get_name() + ".1";
+        AtomicFile file(folder / name);
+        file.write(manual_page(app, *command));
+        file.commit();
+    }
+}
+
+int print_manual(const CLI::App& app, const ManualArguments& arguments) {
+    if (arguments.folder) {
+        if (arguments.command) throw BadInput("--all", "", "goes without COMMAND");
+        write_pages(app, file_argument("--all", *arguments.folder));
+        return 0;
+    }
+    const CLI::App& of = arguments.command ? command_named(app, *arguments.command) : app;
+    std::fputs(manual_page(app, of).c_str(), stdout);
+    return 0;
+}
+
+} // namespace
+
+Command add_manual_command(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("manual", "Print the page of a command for man, or of the whole tool");
+    auto arguments = std::make_shared<ManualArguments>();
+    add_option(*command, "COMMAND", arguments->command, "A command (default: the whole tool)", "");
+    add_option(*command, "--all", arguments->folder,
+               "Write the pages of all commands into a folder, as raylane.1, raylane-render.1, ...",
+               "FOLDER");
+    command->footer("Example: raylane manual render | man -l -");
+    return {command, [&app, arguments] { return print_manual(app, *arguments); }};
+}
+
+Command add_completion_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "completion", "Print what a shell reads to complete commands, options and files");
+    auto shell = std::make_shared<Argument>();
+    add_option(*command, "SHELL", *shell, "The shell: bash, zsh or fish", "bash|zsh|fish")
+        ->required();
+    command->footer("Example: source <(raylane completion bash)");
+    return {command, [&app, shell] {
+                const auto which = choice_argument<Shell>(
+                    "SHELL", **shell,
+                    {{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}});
+                std::fputs(completion_script(app, which).c_str(), stdout);
+                return 0;
+            }};
+}
+
+} // namespace raylane::scenes

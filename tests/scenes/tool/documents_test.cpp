@@ -1,0 +1,108 @@
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <regex>
+#include <set>
+
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+std::string said(const Workshop& workshop, const std::vector<std::string>& arguments) {
+    const Outcome outcome = workshop.run(arguments);
+    CAPTURE(arguments, outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    return outcome.out;
+}
+
+/// First groups of all matches.
+std::set<std::string> all_of(const std::string& text, const std::string& pattern) {
+    const std::regex regex(pattern);
+    std::set<std::string> found;
+    for (auto match = std::sregex_iterator(text.begin(), text.end(), regex);
+         match != std::sregex_iterator(); ++match)
+        found.insert((*match)[1]);
+    return found;
+}
+
+std::set<std::string> commands_in_help(const Workshop& workshop) {
+    const std::string help = said(workshop, {"--help"});
+    return all_of(help.substr(help.find("Subcommands:")), "\n  ([a-z]+) ");
+}
+
+std::set<std::string> options_in_help(const Workshop& workshop, const std::string& command) {
+    return all_of(said(workshop, {command, "--help"}), "\n  (?:-[a-z],)?--([a-z-]+)");
+}
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("manual pages and completions have all that the help has") {
+    const Workshop workshop;
+    const std::set<std::string> commands = commands_in_help(workshop);
+    CHECK(commands.size() >= 6);
+    const std::string bash = said(workshop, {"completion", "bash"}),
+                      zsh = said(workshop, {"completion", "zsh"}),
+                      fish = said(workshop, {"completion", "fish"}),
+                      whole = said(workshop, {"manual"});
+    for (const std::string& command : commands) {
+        CAPTURE(command);
+        const std::string page = said(workshop, {"manual", command});
+        CHECK(page.starts_with(".TH RAYLANE\\-"));
+        CHECK(holds(whole, "raylane\\-" + command + " (1)"));
+        CHECK(holds(bash, "        " + command + ":-*) words=\"-h --help"));
+        CHECK(holds(zsh, "\n        " + command + ") _arguments"));
+        CHECK(holds(fish, "__fish_use_subcommand -f -a " + command + " "));
+        for (const std::string& option : options_in_help(workshop, command)) {
+            CAPTURE(option);
+            CHECK(holds(bash, "--" + option));
+            CHECK(holds(zsh, "--" + option));
+            CHECK(holds(fish, "__fish_seen_subcommand_from " + command + "'"));
+            CHECK(holds(fish, " -l " + option + " "));
+            CHECK(holds(page, "\\-\\-" + std::regex_replace(option, std::regex("-"), "\\-")));
+        }
+    }
+    CHECK(holds(bash, "render:--engine) words=\"vector reference\""));
+    CHECK(holds(zsh, ":choice:(vector reference)"));
+    CHECK(holds(fish, " -l engine -x -a 'vector reference'"));
+    CHECK(holds(bash, "completion:*) words=\"bash zsh fish\""));
+}
+
+TEST_CASE("no line of a manual page is a request that it should not be") {
+    const Workshop workshop;
+    const std::set<std::string> requests = {"TH", "SH", "SS", "TP", "BR", "EX", "EE"};
+    for (const std::string& command : commands_in_help(workshop)) {
+        const std::string page = said(workshop, {"manual", command});
+        for (const std::string& request : all_of(page, "(?:^|\n)[.']([^ \n]*)"))
+            CHECK(requests.contains(request));
+        for (const std::string& escape : all_of(page, "\\\\(.)"))
+            CHECK(std::string("-&efB").find(escape) != std::string::npos);
+    }
+}
+
+TEST_CASE("manual writes the pages of all commands into a folder") {
+    const Workshop workshop;
+    CHECK(said(workshop, {"manual", "--all", "out"}).empty());
+    for (const std::string& command : commands_in_help(workshop))
+        CHECK(std::filesystem::exists(workshop.output() / ("raylane-" + command + ".1")));
+    CHECK(std::filesystem::exists(workshop.output() / "raylane.1"));
+    CHECK(workshop.run({"manual", "render", "--all", "out"}).err ==
+          "raylane: --all: goes without COMMAND\n");
+}
+
+TEST_CASE("what is documented by no page, and shells that are none, are said") {
+    const Workshop workshop;
+    const Outcome page = workshop.run({"manual", "rendr"});
+    CHECK(page.code == 2);
+    CHECK(is_one_line(page.err));
+    CHECK(page.err.starts_with("raylane: COMMAND: must be render, info, "));
+    CHECK(holds(page.err, "did you mean"));
+    const Outcome shell = workshop.run({"completion", "csh"});
+    CHECK(shell.code == 2);
+    CHECK(shell.err.starts_with("raylane: SHELL: must be bash, zsh or fish, got "));
+}

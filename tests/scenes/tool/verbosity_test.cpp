@@ -1,0 +1,82 @@
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <csignal>
+
+using namespace raylane::tests;
+
+namespace {
+
+/// Of which something is said.
+const std::string with_remark = "camera { location <0, 0, -5> look_at 0 }\n"
+                                "light_source { <1, 2, -3> color rgb 1 shadowless }\n"
+                                "sphere { 0, 1 pigment { color rgb 1 } }\n";
+const std::string remark = "scene.pov:2:39: has lights without shadows, which have them here\n";
+
+Setup with_threads(const char* count) {
+    Setup setup;
+    setup.in_child = [count] { ::setenv("RAYLANE_THREADS", count, 1); };
+    return setup;
+}
+
+} // namespace
+
+TEST_CASE("quiet, nothing is said of what goes well") {
+    const Workshop workshop;
+    workshop.write("scene.pov", with_remark);
+    const std::vector<std::string> small = {"render",    "scene.pov", "-o",
+                                            "scene.png", "--size",    "16x12"};
+    CHECK(workshop.run(small).err == remark);
+    CHECK(workshop.run(joined(small, {"--quiet"})).err.empty());
+    CHECK(workshop.run(joined(small, {"-q"}), on_terminal()).err.empty());
+    CHECK(workshop.run({"convert", "scene.pov", "scene.json", "-q"}).err.empty());
+    CHECK(workshop.run({"info", "scene.pov", "-q"}).err.empty());
+    CHECK(workshop.run({"render", "none.pov", "-q"}).err == "raylane: none.pov: no such file\n");
+    CHECK(workshop.run(joined(small, {"-q", "-v"})).err ==
+          "raylane: --quiet: goes without --verbose\n");
+}
+
+TEST_CASE("verbose, it is said what was done, in a pipe, too") {
+    const Workshop workshop;
+    const std::string said =
+        workshop.render("picture.png", {"-v", "--threads", "1", "--isa", "portable"}).err;
+    CHECK(said.starts_with("scene.json: 1 shapes, read and built in "));
+    CHECK(said.find("\nvector engine, portable, exact precision, 1 threads\n") !=
+          std::string::npos);
+    CHECK(said.find("\npicture.png: 16 x 12 pixels, ") != std::string::npos);
+}
+
+TEST_CASE(
+    "in a pipe, progress is a line now and then, and so it is on a terminal without a cursor") {
+    const Workshop workshop;
+    for (const bool terminal : {false, true}) {
+        CAPTURE(terminal);
+        Setup setup = terminal ? on_terminal("dumb") : Setup{};
+        setup.directory = workshop.path();
+        Process process(joined({"render", "scene.json", "-o", "out/picture.png", "-v"}, hours),
+                        setup);
+        std::this_thread::sleep_for(std::chrono::milliseconds(3900));
+        process.send(SIGINT);
+        const std::string said = process.wait().err;
+        CHECK(said.find("] ") != std::string::npos);
+        CHECK(said.find('\x1B') == std::string::npos);
+        const auto lines = std::count(said.begin(), said.end(), '[');
+        CHECK(lines >= 1); // after one second, and two more
+        CHECK(lines <= 2);
+    }
+}
+
+TEST_CASE("threads are as many as the environment says, unless the command line does") {
+    const Workshop workshop;
+    const std::vector<std::string> render = {"render", "scene.json", "-o", "picture.png", "-v"};
+    CHECK(workshop.run(render, with_threads("3")).err.find(" 3 threads\n") != std::string::npos);
+    CHECK(workshop.run(joined(render, {"--threads", "2"}), with_threads("3"))
+              .err.find(" 2 threads\n") != std::string::npos);
+    for (const char* none : {"0", "-1", "two", "2 ", "4097", "99999999999999999999"}) {
+        CAPTURE(none);
+        const Outcome outcome = workshop.run(render, with_threads(none));
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err == "raylane: RAYLANE_THREADS: must be a whole number from 1 to 4096\n");
+    }
+    CHECK(workshop.run(render, with_threads("")).code == 0);
+}
