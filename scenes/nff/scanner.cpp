@@ -58,7 +58,7 @@ std::string_view NffScanner::word() {
         if (word.size() >= word_limit)
             fail(line_, "must have words shorter than " + std::to_string(word_limit) +
                             " bytes, got \"" + printable(word) + "\"");
-        if (position_ != end_ || !refill(begin)) return word;
+        if (position_ != end_ || !refill(begin)) return {begin, word.size()}; // it may have moved
     }
 }
 

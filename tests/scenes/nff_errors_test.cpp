@@ -28,6 +28,9 @@ TEST_CASE("each mistake in an NFF file has its line of error") {
         {std::string(300, 'x'),
          "line 1: must have words shorter than 256 bytes, got \"" + std::string(40, 'x') + "...\""},
         {v + "k 1 2 3\n", "line 9: must be one of v, b, l, f, s, c, p and pp, got \"k\""},
+        {"v near", // and no line feed: the word is the last
+         "line 1: v: must go on with each of from, at, up, angle, hither, resolution, got "
+         "\"near\""},
         // The view
         {"v\nfrom 0 0 8\nat 0 0 0\nup 0 1 0\nl 1 1 1\n",
          "line 5: v of line 1: must go on with each of angle, hither, resolution, got \"l\""},
