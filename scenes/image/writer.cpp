@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <exception>
+#include <string_view>
+#include <utility>
 #include <zlib.h>
 
 namespace {
@@ -80,57 +82,91 @@ float radiance_component(float value) {
 
 } // namespace
 
-OutputFile::OutputFile(const std::filesystem::path& path) : format_(format_of(path)), file_(path) {}
-
-OutputFile::Format OutputFile::format_of(const std::filesystem::path& path) {
-    if (path == "-") return Format::png;
+PictureFormat picture_format_of(const std::filesystem::path& path) {
+    if (path == "-") return PictureFormat::png;
     std::string ending = path.extension().string();
     for (char& c : ending)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if (ending == ".png") return Format::png;
-    if (ending == ".hdr") return Format::hdr;
-    if (ending == ".pfm") return Format::pfm;
+    static constexpr std::pair<std::string_view, PictureFormat> endings[] = {
+        {".png", PictureFormat::png}, {".hdr", PictureFormat::hdr}, {".pfm", PictureFormat::pfm},
+        {".tga", PictureFormat::tga}, {".bmp", PictureFormat::bmp}, {".ppm", PictureFormat::ppm}};
+    for (const auto& [known, format] : endings)
+        if (ending == known) return format;
     throw BadInput(path.string(), "",
-                   "must end in .png, .hdr or .pfm, got " +
+                   "must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got " +
                        (ending.empty() ? "no ending" : '"' + printable(ending) + '"'));
 }
 
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : OutputFile(path, picture_format_of(path)) {}
+
+OutputFile::OutputFile(const std::filesystem::path& path, PictureFormat format)
+    : format_(format), file_(path) {}
+
 void OutputFile::reserve(int width, int height) {
-    // The others are compressed: any room may do.
+    // Those that are compressed: any room may do.
     const std::int64_t components = std::int64_t{3} * width * height;
-    file_.reserve(format_ == Format::pfm ? components * static_cast<int>(sizeof(float)) : 1);
+    switch (format_) {
+    case PictureFormat::png:
+    case PictureFormat::hdr:
+        return file_.reserve(1);
+    case PictureFormat::pfm:
+        return file_.reserve(components * static_cast<int>(sizeof(float)));
+    case PictureFormat::tga:
+    case PictureFormat::bmp:
+    case PictureFormat::ppm:
+        return file_.reserve(components);
+    }
 }
 
 void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
     switch (format_) {
-    case Format::png:
-        write_png(film, transfer);
+    case PictureFormat::png:
+    case PictureFormat::tga:
+    case PictureFormat::bmp:
+    case PictureFormat::ppm:
+        write_codes(film, transfer);
         break;
-    case Format::hdr:
+    case PictureFormat::hdr:
         write_hdr(film);
         break;
-    case Format::pfm:
+    case PictureFormat::pfm:
         write_pfm(film);
         break;
     }
     file_.commit();
 }
 
-void OutputFile::write_png(const core::Film& film, core::Transfer transfer) {
+void OutputFile::write_codes(const core::Film& film, core::Transfer transfer) {
     std::vector<std::uint8_t> codes;
     codes.reserve(3 * film.pixels().size());
     const core::Encoder encode(transfer);
     for (const core::Color& pixel : film.pixels())
         for (int channel = 0; channel < 3; ++channel)
             codes.push_back(encode(pixel[channel]));
+    const int width = film.width(), height = film.height();
+    if (format_ == PictureFormat::ppm) {
+        file_.write("P6\n" + std::to_string(width) + " " + std::to_string(height) + "\n255\n");
+        file_.write({reinterpret_cast<const char*>(codes.data()), codes.size()});
+        return;
+    }
     // Its search for each row's best filter takes longer than the rest, and saves nothing to speak
-    // of.
+    // of. Not all that reads Targa reads what is compressed.
     constexpr int differences_along_rows = 1;
-    static const int forced = stbi_write_force_png_filter = differences_along_rows; // once
-    static_cast<void>(forced);
+    static const bool once = [] {
+        stbi_write_force_png_filter = differences_along_rows;
+        stbi_write_tga_with_rle = 0;
+        return true;
+    }();
+    static_cast<void>(once);
     Sink sink{file_, nullptr};
-    sink.finish(stbi_write_png_to_func(&Sink::write, &sink, film.width(), film.height(), 3,
-                                       codes.data(), 3 * film.width()));
+    if (format_ == PictureFormat::tga)
+        sink.finish(stbi_write_tga_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
+    else if (format_ == PictureFormat::bmp)
+        sink.finish(stbi_write_bmp_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
+    else
+        sink.finish(
+            stbi_write_png_to_func(&Sink::write, &sink, width, height, 3, codes.data(), 3 * width));
 }
 
 void OutputFile::write_hdr(const core::Film& film) {

@@ -270,8 +270,8 @@ Command add_render_command(CLI::App& app) {
                    "A scene in JSON, NFF or POV-Ray's language, or atoms in PDB, mmCIF, CIF, XYZ, "
                    "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
     add("-o,--output", arguments->output,
-        "The picture: .png, .hdr or .pfm, or - for a PNG to standard output (default: the "
-        "scene's name, .png)",
+        "The picture: .png, .hdr, .pfm, .tga, .bmp or .ppm, or - for a PNG to standard output "
+        "(default: the scene's name, .png)",
         "FILE");
     add("--size", arguments->size, "Pixels (default: as the scene says)", "WxH");
     add("--spp", arguments->samples,

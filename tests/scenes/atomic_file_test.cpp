@@ -71,9 +71,11 @@ TEST_CASE("a picture's format follows its file's ending") {
         return tests::message_in<scenes::BadInput>(
             directory.path(), [&] { const scenes::OutputFile file(directory.path() / name); });
     };
-    CHECK(error_of("a.jpg") == "a.jpg: must end in .png, .hdr or .pfm, got \".jpg\"");
-    CHECK(error_of("png") == "png: must end in .png, .hdr or .pfm, got no ending");
-    for (const char* name : {"a.png", "a.hdr", "a.pfm", "a.b.PFM"})
+    CHECK(error_of("a.jpg") ==
+          "a.jpg: must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got \".jpg\"");
+    CHECK(error_of("png") ==
+          "png: must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got no ending");
+    for (const char* name : {"a.png", "a.hdr", "a.pfm", "a.tga", "a.bmp", "a.ppm", "a.b.PFM"})
         CHECK(error_of(name) == "no error");
     CHECK(directory.file_count() == 0);
 }

@@ -74,10 +74,10 @@ RAYLANE_API Image render(const Scene& scene, const RenderOptions& options = {});
 RAYLANE_API std::optional<Image> render(const Scene& scene, const RenderOptions& options,
                                         const ProgressCallback& progress);
 
-/// Writes a picture; the file's ending tells the format: .png (8 bits through the transfer curve),
-/// .hdr (Radiance) or .pfm (the floats unchanged). The file appears whole or not at all. Throws
-/// InvalidValue for an image whose size is not that of its pixels, BadInput for another ending, and
-/// SystemRefused.
+/// Writes a picture; the file's ending tells the format: .png, .tga, .bmp, .ppm (8 bits through the
+/// transfer curve), .hdr (Radiance) or .pfm (the floats unchanged). The file appears whole or not
+/// at all. Throws InvalidValue for an image whose size is not that of its pixels, BadInput for
+/// another ending, and SystemRefused.
 RAYLANE_API void write_image(const std::filesystem::path& path, const Image& image,
                              Transfer transfer = Transfer::srgb);
 

@@ -204,7 +204,7 @@ TEST_CASE("pictures that cannot be written leave no file") {
     const std::string folder = directory.path().string();
     CHECK_THROWS_AS(write_image(folder + "/a.gif", image), BadInput);
     CHECK(message_of([&] { write_image(folder + "/a.gif", image); }) ==
-          folder + "/a.gif: must end in .png, .hdr or .pfm, got \".gif\"");
+          folder + "/a.gif: must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got \".gif\"");
     CHECK_THROWS_AS(write_image(folder + "/none/a.png", image), SystemRefused);
     Image lacking = image;
     lacking.rgb.pop_back();
