@@ -105,6 +105,18 @@ bool looks_like_nff(std::string_view head) {
     return std::find(others.begin(), others.end(), word) != others.end() && is_number(next_word());
 }
 
+/// BEGIN_SCENE, in any case, after remarks. Its ending, .dat, may be that of anything.
+bool looks_like_tachyon(const std::vector<std::string_view>& lines) {
+    static constexpr std::string_view begin = "BEGIN_SCENE";
+    for (const std::string_view line : lines) {
+        const std::string_view word = first_word(line);
+        if (!word.empty() && word[0] != '#')
+            return std::equal(word.begin(), word.end(), begin.begin(), begin.end(),
+                              [](char a, char b) { return a == b || (a & ~' ') == b; });
+    }
+    return false;
+}
+
 bool looks_like_pdb(const std::vector<std::string_view>& lines) {
     static constexpr std::array<std::string_view, 13> records = {
         "HEADER", "TITLE ", "COMPND", "SOURCE", "KEYWDS", "EXPDTA", "AUTHOR",
@@ -176,6 +188,7 @@ Format format_of(InputFile& file) {
     if (looks_like_json(head)) return Format::json;
     if (looks_like_pov(head)) return Format::pov;
     const std::vector<std::string_view> lines = lines_of(head, 40);
+    if (looks_like_tachyon(lines)) return Format::tachyon;
     if (lines[0].starts_with("ITEM: ")) return Format::lammps_dump;
     if (looks_like_pdb(lines)) return Format::pdb;
     if (looks_like_cif(lines)) return Format::cif;
@@ -183,11 +196,11 @@ Format format_of(InputFile& file) {
     if (looks_like_gro(lines)) return Format::gro;
     if (looks_like_nff(head)) return Format::nff;
     if (looks_like_lammps_data(lines)) return Format::lammps_data;
-    throw BadInput(file.name(), "",
-                   "must be a scene in JSON (.json), NFF (.nff) or POV-Ray's language (.pov), or "
-                   "atoms in PDB (.pdb), mmCIF or "
-                   "CIF (.cif), XYZ (.xyz), GRO (.gro), or LAMMPS' dump (.dump) or data (.data), "
-                   "and what it holds is none of these");
+    throw BadInput(
+        file.name(), "",
+        "must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov) or Tachyon's "
+        "format (.dat), or atoms in PDB (.pdb), mmCIF or CIF (.cif), XYZ (.xyz), GRO (.gro), or "
+        "LAMMPS' dump (.dump) or data (.data), and what it holds is none of these");
 }
 
 } // namespace raylane::scenes

@@ -6,6 +6,7 @@
 #include "scenes/nff/reader.hpp"
 #include "scenes/pov/reader.hpp"
 #include "scenes/structure/structure_file.hpp"
+#include "scenes/tachyon/reader.hpp"
 
 namespace raylane::scenes {
 
@@ -21,6 +22,8 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
                        "goes with a file of atoms, and " + printable(file.name(), 4096) +
                            " is a scene");
     if (format == Format::pov) return read_pov(file, options.workers, options.on_remark);
+    if (format == Format::tachyon)
+        return read_tachyon(file, options.workers, options.on_remark, options.tachyon);
     return format == Format::json ? read_json(file, options.workers)
                                   : read_nff(file, options.workers);
 }

@@ -3,6 +3,7 @@
 #include "core/scene/scene.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/structure/drawing.hpp"
+#include "scenes/tachyon/shading.hpp"
 
 #include <filesystem>
 #include <string>
@@ -17,6 +18,7 @@ struct LoadOptions {
     Drawing drawing = {};    ///< of files of atoms
     /// What a scene is refused with: an option that says how atoms are drawn; empty: none is given.
     std::string option_for_atoms = {};
+    TachyonShading tachyon = {}; ///< in place of what a scene of Tachyon's says
 };
 
 /// Reads a scene, or atoms, of which it makes one; scenes/format.hpp has the formats. Throws

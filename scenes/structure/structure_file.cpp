@@ -24,6 +24,7 @@ std::unique_ptr<FrameReader> reader_of(InputFile& file, Format format) {
     case Format::json:
     case Format::nff:
     case Format::pov:
+    case Format::tachyon:
         break;
     }
     throw BadInput(file.name(), "", "is no file of atoms");

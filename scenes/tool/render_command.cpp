@@ -266,9 +266,10 @@ Command add_render_command(CLI::App& app) {
     const auto add = [&](const char* names, Argument& value, const char* help, const char* type) {
         add_option(*command, names, value, help, type);
     };
-    add_positional(*command, "SCENE", arguments->scene,
-                   "A scene in JSON, NFF or POV-Ray's language, or atoms in PDB, mmCIF, CIF, XYZ, "
-                   "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
+    add_positional(
+        *command, "SCENE", arguments->scene,
+        "A scene in JSON, NFF, POV-Ray's language or Tachyon's, or atoms in PDB, mmCIF, CIF, XYZ, "
+        "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
     add("-o,--output", arguments->output,
         "The picture: .png, .hdr, .pfm, .tga, .bmp or .ppm, or - for a PNG to standard output "
         "(default: the scene's name, .png)",

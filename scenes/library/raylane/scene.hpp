@@ -123,9 +123,10 @@ class SceneBuilder {
     std::unique_ptr<core::SceneBuilder> builder_; // none as long as it is new
 };
 
-/// Reads a scene from a file, JSON (scenes/raylane-scene.schema.json describes it) or NFF. The
-/// format follows the file's ending (.json, .nff) or else its content. Throws BadInput for what is
-/// malformed, in JSON for up to ten mistakes at once, SystemRefused, and std::bad_alloc.
+/// Reads a scene from a file: JSON (scenes/raylane-scene.schema.json describes it), NFF or
+/// Tachyon's. The format follows its ending (.json, .nff) or else its content. Throws
+/// BadInput for what is malformed, in JSON for up to ten mistakes at once, SystemRefused, and
+/// std::bad_alloc.
 RAYLANE_API Scene load(const std::filesystem::path& path);
 
 /// The same for a scene in memory. `name` is what messages call it; the format follows its ending,

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/shapes/shapes.hpp"
+#include "scenes/tachyon/texture.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// What is behind VERTEXARRAY: corners, in lists of their own, and triangles that refer to them.
+class TachyonVertexArray {
+  public:
+    /// Is called for each triangle, with the texture in the colour of its corners if they have one.
+    /// Normals that are not given are 0.
+    using Use = std::function<void(const core::SmoothTriangle&, const TachyonTexture&)>;
+
+    TachyonVertexArray(TachyonWords& words, const std::function<TachyonTexture()>& read_texture)
+        : words_(words), read_texture_(read_texture) {}
+
+    void read(const Use& use);
+
+  private:
+    void read_vectors(std::string_view field, std::vector<core::Vec3f>& list, bool are_vectors);
+    void use_triangle(const Use& use, int a, int b, int c);
+    int corner();
+
+    TachyonWords& words_;
+    const std::function<TachyonTexture()>& read_texture_;
+    int count_ = 0;
+    std::vector<core::Vec3f> points_, normals_, colors_;
+    TachyonTexture texture_;
+};
+
+/// The mean of three colours, in steps of 1/255, so that there are not as many as triangles.
+core::Color mean_color(const core::Color& a, const core::Color& b, const core::Color& c);
+
+} // namespace raylane::scenes

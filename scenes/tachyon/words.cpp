@@ -1,0 +1,163 @@
+#include "scenes/tachyon/words.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/number.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
+namespace raylane::scenes {
+
+namespace {
+
+constexpr std::size_t most_files_in_each_other = 16;
+
+std::string in_quotes(std::string_view word) {
+    return word.empty() ? "the end of the file" : '"' + printable(word) + '"';
+}
+
+char capital(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+} // namespace
+
+bool is_keyword(std::string_view word, std::string_view keyword) {
+    return word.size() == keyword.size() &&
+           std::equal(word.begin(), word.end(), keyword.begin(),
+                      [](char a, char b) { return capital(a) == b; });
+}
+
+TachyonWords::TachyonWords(InputFile& file, const OnRemark& on_remark) : on_remark_(on_remark) {
+    sources_.push_back({nullptr, &file, std::make_unique<NffScanner>(file)});
+}
+
+bool TachyonWords::next_statement() {
+    const std::string_view word = take();
+    statement_ = word;
+    statement_line_ = line();
+    statement_depth_ = sources_.size();
+    return !word.empty();
+}
+
+std::string_view TachyonWords::peek() {
+    if (has_word_) return word_;
+    word_ = sources_.back().scanner->word();
+    while (word_.empty() && sources_.size() > 1) {
+        sources_.pop_back();
+        word_ = sources_.back().scanner->word();
+    }
+    has_word_ = true;
+    return word_;
+}
+
+std::string_view TachyonWords::take() {
+    const std::string_view word = peek();
+    has_word_ = false;
+    return word;
+}
+
+bool TachyonWords::accept(std::string_view keyword) {
+    if (!is_keyword(peek(), keyword)) return false;
+    has_word_ = false;
+    return true;
+}
+
+void TachyonWords::expect(std::string_view keyword) {
+    if (!accept(keyword)) refuse_next(keyword);
+}
+
+void TachyonWords::refuse_next(std::string_view must) {
+    const std::string got = in_quotes(peek());
+    refuse("", "must go on with " + std::string(must), got);
+}
+
+void TachyonWords::refuse_statement(std::string_view must) const {
+    sources_.back().scanner->fail(statement_line_,
+                                  std::string(must) + ", got " + in_quotes(statement_));
+}
+
+float TachyonWords::number(std::string_view field) {
+    const std::string_view word = take();
+    if (const std::optional<float> value = to_float(word)) return *value;
+    refuse(field,
+           is_number(word) ? "must be a number from -1e30 to 1e30" : "must be a finite number",
+           in_quotes(word));
+}
+
+int TachyonWords::whole_number(std::string_view field, int least, int most) {
+    const std::string_view word = take();
+    const std::optional<int> value = to_int(word);
+    if (value && least <= *value && *value <= most) return *value;
+    refuse(field,
+           "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+           in_quotes(word));
+}
+
+core::Vec3f TachyonWords::triple(std::string_view field) {
+    const float x = number(field);
+    const float y = number(field);
+    const float z = number(field);
+    return {x, y, z};
+}
+
+core::Vec3f TachyonWords::vector(std::string_view field) {
+    const core::Vec3f v = triple(field);
+    return {v.x, v.y, 0.0F - v.z}; // no -0
+}
+
+float TachyonWords::named_number(std::string_view keyword) {
+    expect(keyword);
+    return number(keyword);
+}
+
+core::Vec3f TachyonWords::named_triple(std::string_view keyword) {
+    expect(keyword);
+    return triple(keyword);
+}
+
+core::Vec3f TachyonWords::named_vector(std::string_view keyword) {
+    expect(keyword);
+    return vector(keyword);
+}
+
+void TachyonWords::include(const std::string& name) {
+    if (sources_.size() == most_files_in_each_other)
+        refuse("", "must not be deeper than 16 files in each other", in_quotes(name));
+    if (name.empty() || name == "-") refuse("", "must name a file", in_quotes(name));
+    const std::filesystem::path beside =
+        std::filesystem::path(sources_.back().file->name()).parent_path() / name;
+    auto file = std::make_unique<InputFile>(beside);
+    auto scanner = std::make_unique<NffScanner>(*file);
+    const InputFile* const opened = file.get();
+    sources_.push_back({std::move(file), opened, std::move(scanner)});
+}
+
+void TachyonWords::remark(const std::string& what) {
+    if (!on_remark_ || !remarks_.insert(what).second) return;
+    // What is known at the end is of no line.
+    const std::uint64_t place = is_keyword(statement_, "END_SCENE") ? 0 : line_of_statement();
+    on_remark_(text_of({sources_.back().file->name(), {place, 0}, "", what}));
+}
+
+void TachyonWords::refuse(std::string_view field, std::string_view must,
+                          std::string_view got) const {
+    std::string message = printable(statement_);
+    if (line() != line_of_statement()) message += " of line " + std::to_string(statement_line_);
+    if (!field.empty()) {
+        message.append(": ");
+        std::transform(field.begin(), field.end(), std::back_inserter(message), [](char c) {
+            return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        });
+    }
+    sources_.back().scanner->fail(line(),
+                                  message.append(": ").append(must).append(", got ").append(got));
+}
+
+void TachyonWords::refuse(const core::InvalidValue& invalid) const {
+    sources_.back().scanner->fail(line_of_statement(),
+                                  printable(statement_).append(": ").append(invalid.what()));
+}
+
+} // namespace raylane::scenes

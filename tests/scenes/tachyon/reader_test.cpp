@@ -1,0 +1,389 @@
+#include "scenes/errors.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/tachyon/reader.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::scenes;
+using core::Color, core::Vec3f;
+
+namespace {
+
+const std::string begin = "BEGIN_SCENE\nRESOLUTION 40 30\n";
+const std::string plain = " TEXTURE AMBIENT 0.1 DIFFUSE 0.8 SPECULAR 0 OPACITY 1 COLOR 1 0.5 0.25 "
+                          "TEXFUNC 0\n";
+const std::string ball = "SPHERE CENTER 1 2 3 RAD 0.5" + plain;
+
+struct Reading {
+    core::Scene scene;
+    std::vector<std::string> remarks;
+};
+
+Reading read(const std::string& body, const TachyonShading& over = {}) {
+    LoadOptions options;
+    std::vector<std::string> remarks;
+    options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
+    options.tachyon = over;
+    core::Scene scene = parse_scene("a.dat", begin + body + "\nEND_SCENE\n", options);
+    return {std::move(scene), remarks};
+}
+
+/// Of what says nothing on the side.
+core::Scene scene_of(const std::string& body) {
+    Reading reading = read(body);
+    CHECK(reading.remarks == std::vector<std::string>());
+    return std::move(reading.scene);
+}
+
+std::string complaint(const std::string& body) {
+    return tests::message_of<BadInput>([&] { read(body); });
+}
+
+std::string data(const std::string& name) {
+    return RAYLANE_SOURCE_DIR "/tests/scenes/tachyon/data/" + name;
+}
+
+std::string camera(const std::string& before, const std::string& zoom = "1") {
+    return "CAMERA " + before + " ZOOM " + zoom +
+           " ASPECTRATIO 1 ANTIALIASING 3 RAYDEPTH 5 CENTER 1 2 -6 VIEWDIR 0 0 2 UPDIR 0 1 0 ";
+}
+
+} // namespace
+
+TEST_CASE("a Tachyon camera looks into a scene whose z is turned round") {
+    const core::Scene scene = scene_of(camera("") + "END_CAMERA");
+    CHECK(scene.camera().from == Vec3f(1, 2, 6));
+    CHECK(core::normalized(scene.camera().at - scene.camera().from) == Vec3f(0, 0, -1));
+    CHECK(scene.camera().up == Vec3f(0, 1, 0));
+    CHECK(std::abs(scene.camera().field_of_view - 53.130102F) < 1e-5F);
+    CHECK(scene.settings().width == 40);
+    CHECK(scene.settings().height == 30);
+    CHECK(scene.settings().grid == 2);
+    CHECK(scene.settings().max_depth == 4);
+    CHECK(scene.settings().transfer == core::Transfer::linear);
+
+    const core::Scene flat = scene_of(camera("PROJECTION ORTHOGRAPHIC", "0.25") + "END_CAMERA");
+    CHECK(flat.camera().projection == core::Projection::orthographic);
+    CHECK(flat.camera().height == 4.0F);
+    const core::Scene frustum = scene_of(camera("") + "FRUSTUM -1 1 -1 1 END_CAMERA");
+    CHECK(std::abs(frustum.camera().field_of_view - 90.0F) < 1e-5F);
+    const core::Scene lens =
+        scene_of(camera("PROJECTION PERSPECTIVE_DOF FOCALLENGTH 4 APERTURE 0.5") + "END_CAMERA");
+    CHECK(lens.camera().lens_radius == 0.25F);
+    CHECK(lens.camera().focus_distance == 1.0F);
+    // Without one it is at the origin.
+    CHECK(scene_of("").camera().from == Vec3f(0.0F));
+}
+
+TEST_CASE("a Tachyon texture is a material, once") {
+    const std::string red = "TEXDEF red AMBIENT 0.1 DIFFUSE 0.5 SPECULAR 0.25 OPACITY 1 PHONG "
+                            "PLASTIC 0.75 PHONG_SIZE 40 COLOR 1 0 0 TEXFUNC 0\nTEXALIAS r red\n";
+    const core::Scene scene = scene_of(red +
+                                       "SPHERE CENTER 0 0 0 RAD 1 red SPHERE CENTER 3 0 0 "
+                                       "RAD 1 r " +
+                                       ball);
+    REQUIRE(scene.materials().size() == 2);
+    const core::Material& material = scene.material_of(0);
+    CHECK(material.pattern.colors[0] == Color(1, 0, 0));
+    CHECK(material.ambient == 0.1F);
+    CHECK(material.diffuse == 0.5F);
+    CHECK(material.reflectivity == 0.25F);
+    CHECK(material.specular == 0.75F);
+    CHECK(material.exponent == 40.0F);
+    CHECK(scene.material_index_of(1) == 0);
+    CHECK(scene.material_of(2).pattern.colors[0] == Color(1, 0.5F, 0.25F));
+    CHECK(scene.material_of(2).specular == 0.0F);
+
+    TachyonShading over;
+    over.highlight = TachyonShading::Highlight::none;
+    CHECK(read(red + "SPHERE CENTER 0 0 0 RAD 1 r", over).scene.material_of(0).specular == 0.0F);
+    over.quality = TachyonShading::Quality::flat;
+    CHECK(read(ball, over).scene.material_of(0).ambient == 1.0F);
+}
+
+TEST_CASE("a Tachyon surface is as see-through as its mode says") {
+    const auto material = [](const std::string& mode, const std::string& opacity) {
+        Reading reading = read("SHADER_MODE FULL " + mode +
+                               " END_SHADER_MODE SPHERE CENTER 0 0 0 RAD 1 TEXTURE AMBIENT 0.25 "
+                               "DIFFUSE 0.5 SPECULAR 0.25 OPACITY " +
+                               opacity + " PHONG PLASTIC 0.75 PHONG_SIZE 40 COLOR 1 0 0 TEXFUNC 0");
+        CHECK(reading.remarks == std::vector<std::string>());
+        return reading.scene.material_of(0);
+    };
+    const core::Material weighed = material("TRANS_VMD", "0.5");
+    CHECK(weighed.opacity == 0.5F);
+    CHECK(weighed.ambient == 0.25F);
+    // What is behind is added to 0.25: of 0.5 there is a half.
+    for (const char* const mode : {"", "TRANS_ORIG"}) {
+        const core::Material added = material(mode, "0.5");
+        CHECK(added.opacity == 0.5F);
+        CHECK(added.ambient == 0.5F);
+        CHECK(added.diffuse == 1.0F);
+        CHECK(added.specular == 1.5F);
+        CHECK(added.reflectivity == 0.5F);
+    }
+    const core::Material unseen = material("", "0");
+    CHECK(unseen.opacity < 0.001F);
+    CHECK(unseen.opacity * unseen.diffuse == 0.5F);
+    CHECK(material("TRANS_VMD", "0").opacity == 0.0F);
+    CHECK(material("", "1").opacity == 1.0F);
+    CHECK(material("", "2").opacity == 1.0F);
+    CHECK(material("TRANS_MAX_SURFACES 0", "0.5").opacity == 0.0F);
+
+    const auto most = [](const std::string& mode) {
+        return scene_of("SHADER_MODE FULL " + mode + " END_SHADER_MODE").settings().max_see_through;
+    };
+    CHECK(most("") == core::Settings::see_through_limit);
+    CHECK(most("TRANS_MAX_SURFACES 3") == 3);
+    CHECK(most("TRANS_MAX_SURFACES 2000000000") == core::Settings::see_through_limit);
+    CHECK(read("SHADER_MODE FULL TRANS_RASTER3D TRANS_VMD END_SHADER_MODE SPHERE CENTER 0 0 0 RAD "
+               "1 TEXTURE AMBIENT 0 DIFFUSE 0 SPECULAR 0 OPACITY 0.5")
+              .remarks ==
+          std::vector<std::string>{
+              "a.dat:3: TRANS_RASTER3D: what is transparent is not more opaque aslant"});
+    CHECK(read("SHADER_MODE FULL SHADOW_FILTER_OFF END_SHADER_MODE").remarks.size() == 1);
+    CHECK(read("SHADER_MODE FULL SHADOW_FILTER_ON END_SHADER_MODE").remarks.empty());
+}
+
+TEST_CASE("the objects of Tachyon are shapes") {
+    const auto count = [&](const std::string& body) { return scene_of(body).shape_count(); };
+    CHECK(count(ball) == 1);
+    CHECK(count("CYLINDER CENTER 0 0 0 AXIS 0 1 0 RAD 1" + plain) == 1);
+    CHECK(count("FCYLINDER BASE 0 0 0 APEX 0 1 0 RAD 1" + plain) == 1);
+    CHECK(count("Fcylinder Center 0 0 0 Axis 0 1 0 Rad 1" + plain) == 1);
+    CHECK(count("POLYCYLINDER POINTS 3 0 0 0 1 0 0 1 1 0 RAD 0.1" + plain) == 5);
+    CHECK(count("TRI V0 0 0 0 V1 1 0 0 V2 0 1 0" + plain) == 1);
+    CHECK(count("STRI V0 0 0 0 V1 1 0 0 V2 0 1 0 N0 0 0 1 N1 0 0 1 N2 0 0 1" + plain) == 1);
+    CHECK(count("PLANE CENTER 0 0 5 NORMAL 0 0 1" + plain) == 1);
+    CHECK(count("RING CENTER 0 0 5 NORMAL 0 0 1 INNER 0 OUTER 2" + plain) == 1);
+    CHECK(count("RING CENTER 0 0 5 NORMAL 0 0 1 INNER 1 OUTER 2" + plain) == 1);
+    CHECK(count("BOX MIN -1 -1 -1 MAX 1 1 1" + plain) == 1);
+    CHECK(count("VERTEXARRAY NUMVERTS 4 COORDS 0 0 0 1 0 0 0 1 0 1 1 0 NORMALS 0 0 1 0 0 1 0 0 1 "
+                "0 0 1 COLORS 1 0 0 1 0 0 1 0 0 1 0 0" +
+                plain + "TRISTRIP 4 0 1 2 3 TRIMESH 1 0 2 3 END_VERTEXARRAY") == 3);
+    const Reading colored = read("VCSTRI V0 0 0 0 V1 1 0 0 V2 0 1 0 N0 0 0 1 N1 0 0 1 N2 0 0 1 C0 "
+                                 "1 0 0 C1 0 1 0 C2 0 0 1 AMBIENT 1 DIFFUSE 0 SPECULAR 0 OPACITY "
+                                 "1");
+    CHECK(colored.scene.material_of(0).pattern.colors[0] == Color(1.0F / 3.0F));
+    CHECK(colored.remarks.size() == 1);
+}
+
+TEST_CASE("what has no extent in a Tachyon scene is left out, and that is said once") {
+    const Reading reading =
+        read("SPHERE CENTER 0 0 0 RAD 0" + plain + "TRI V0 0 0 0 V1 1 1 1 V2 2 2 2" + plain +
+             "FCYLINDER BASE 1 1 1 APEX 1 1 1 RAD 1" + plain + ball);
+    CHECK(reading.scene.shape_count() == 1);
+    CHECK(reading.remarks == std::vector<std::string>{"a.dat:3: what has no extent is left out"});
+}
+
+TEST_CASE("a Tachyon clip group cuts each of its objects") {
+    const core::Scene scene =
+        scene_of("START_CLIPGROUP NUMPLANES 2 1 0 0 0.5 0 0 2 6\n" + ball +
+                 "TRI V0 0 0 0 V1 1 0 0 V2 0 1 0" + plain + "TRI V0 2 0 0 V1 3 0 0 V2 2 1 0" +
+                 plain + "END_CLIPGROUP\n" + ball);
+    // A ball, half a triangle in two parts, nothing, a ball.
+    CHECK(scene.shape_count() == 4);
+    CHECK(scene.solids().any());
+}
+
+TEST_CASE("Tachyon's lights and its sky give light") {
+    const core::Scene scene =
+        scene_of("LIGHT CENTER 1 2 3 RAD 0 COLOR 0.5 0.25 1\nDIRECTIONAL_LIGHT DIRECTION 1 2 3 "
+                 "COLOR 1 1 1\nLIGHT CENTER 0 0 1 RAD 0 ATTENUATION CONSTANT 2 LINEAR 0 QUADRATIC "
+                 "0 COLOR 1 1 0.5\n");
+    REQUIRE(scene.lights().size() == 3);
+    CHECK(scene.lights()[0].position == Vec3f(1, 2, -3));
+    CHECK(scene.lights()[0].color == Color(0.5F, 0.25F, 1));
+    CHECK(scene.lights()[1].direction == Vec3f(1, 2, -3));
+    CHECK(scene.lights()[2].color == Color(0.5F, 0.5F, 0.25F));
+
+    const std::string light = "DIRECTIONAL_LIGHT DIRECTION 0 0 1 COLOR 1 1 1\n";
+    const std::string sky = " AMBIENT_OCCLUSION AMBIENT_COLOR 0.5 0.5 1 RESCALE_DIRECT 0.25 "
+                            "SAMPLES 16 END_SHADER_MODE\n";
+    const core::Scene full = scene_of("SHADER_MODE FULL" + sky + light);
+    REQUIRE(full.lights().size() == 2);
+    CHECK(full.lights()[0].color == Color(0.25F));
+    CHECK(full.lights()[1].kind == core::LightKind::sky);
+    CHECK(full.lights()[1].color == Color(0.5F, 0.5F, 1));
+    CHECK(full.lights()[1].ground == Color(0.5F, 0.5F, 1));
+    CHECK(full.settings().light_samples == 16);
+    const Reading medium = read("SHADER_MODE MEDIUM" + sky + light);
+    CHECK(medium.scene.lights().size() == 1);
+    CHECK(medium.remarks == std::vector<std::string>{"a.dat: SHADER_MODE MEDIUM: what is drawn "
+                                                     "has shadows, as FULL has"});
+    TachyonShading over;
+    over.sky = Color(0.75F);
+    over.direct = 0.5F;
+    const core::Scene overridden = read("SHADER_MODE FULL" + sky + light, over).scene;
+    CHECK(overridden.lights()[0].color == Color(0.5F));
+    CHECK(overridden.lights()[1].color == Color(0.75F));
+}
+
+TEST_CASE("Tachyon's background and fog are what they can be") {
+    CHECK(scene_of("BACKGROUND 0.1 0.2 0.3").background() == Color(0.1F, 0.2F, 0.3F));
+    const std::string gradient = "BACKGROUND_GRADIENT SKY_SPHERE UPDIR 0 1 0 TOPVAL 1 BOTTOMVAL "
+                                 "-1 TOPCOLOR 1 0 0 BOTTOMCOLOR 0 0 1";
+    CHECK(read(gradient).scene.background() == Color(0.5F, 0, 0.5F));
+    CHECK(read(gradient).remarks.size() == 1);
+    const core::Fog linear = scene_of("FOG LINEAR START 1 END 5 DENSITY 1 COLOR 0.5 0.5 0.5").fog();
+    CHECK(linear.kind == core::FogKind::linear);
+    CHECK(linear.start == 1.0F);
+    CHECK(linear.end == 5.0F);
+    const core::Fog exponential = scene_of("FOG EXP START 0 END 5 DENSITY 0.5 COLOR 1 1 1").fog();
+    CHECK(exponential.kind == core::FogKind::exponential);
+    CHECK(exponential.density == 0.5F);
+    CHECK(scene_of("FOG OFF").fog().kind == core::FogKind::none);
+    CHECK(scene_of("SHADER_MODE LOW END_SHADER_MODE FOG EXP DENSITY 1 COLOR 1 1 1").fog().kind ==
+          core::FogKind::none);
+    const std::string planar = "SHADER_MODE FULL FOG_VMD END_SHADER_MODE BACKGROUND 1 1 1 ";
+    CHECK(scene_of(planar + camera("PROJECTION ORTHOGRAPHIC") +
+                   "END_CAMERA FOG EXP DENSITY 0.5 COLOR 1 1 1")
+              .fog()
+              .kind == core::FogKind::exponential);
+    CHECK(read(planar + camera("") + "END_CAMERA FOG EXP DENSITY 0.5 COLOR 1 1 0").remarks ==
+          std::vector<std::string>{"a.dat: FOG_VMD: the background has the fog's colour",
+                                   "a.dat: FOG_VMD: fog is by distance, not by depth"});
+    const Reading squared =
+        read(planar + camera("") + "END_CAMERA FOG EXP2 START 0 END 9 DENSITY 0.5 COLOR 1 1 1");
+    CHECK(squared.scene.fog().kind == core::FogKind::linear_z);
+    CHECK(squared.remarks.size() == 1);
+    // It is within 0.04 of the curve where that is neither nothing nor all.
+    for (const float depth : {1.0F, 1.5F, 2.0F, 2.5F}) {
+        const core::Fog& fog = squared.scene.fog();
+        const float share = (6.0F - depth - fog.start) / (fog.end - fog.start);
+        CHECK(std::abs(share - (1.0F - std::exp(-0.25F * depth * depth))) < 0.04F);
+    }
+}
+
+TEST_CASE("what a Tachyon scene has and others do not is told once each") {
+    const std::string image = " TEXTURE AMBIENT 0.1 DIFFUSE 0.8 SPECULAR 0 OPACITY 1 PHONG METAL "
+                              "0.5 PHONG_SIZE 9 COLOR 1 1 1 TEXFUNC 9 a.ppm CENTER 0 0 0 ROTATE 0 "
+                              "0 0 SCALE 1 1 1 UAXIS 1 0 0 VAXIS 0 1 0\n";
+    const Reading reading =
+        read("SPHERE CENTER 0 0 0 RAD 1" + image + "SPHERE CENTER 3 0 0 RAD 1" + image +
+             "SPHERE CENTER 6 0 0 RAD 1 nothing\nSCAPE RES 3 3 SCALE 1 1 CENTER 0 0 0" + plain +
+             "IMAGEDEF ::x FORMAT RGB24 RESOLUTION 2 1 1 ENCODING HEX f00 00f\n");
+    CHECK(reading.scene.shape_count() == 3);
+    CHECK(reading.remarks ==
+          std::vector<std::string>{
+              "a.dat:3: highlights of metal have its brightness, but not its colour",
+              "a.dat:3: TEXFUNC: images and patterns are not drawn, but their COLOR",
+              "a.dat:5: the texture \"nothing\" is not defined",
+              "a.dat:6: SCAPE: landscapes are not drawn"});
+}
+
+TEST_CASE("a Tachyon scene is known by its first word") {
+    const std::string scene = "# by hand\n  Begin_Scene resolution 4 4 " + ball + "End_Scene";
+    CHECK(parse_scene("a.dat", scene).shape_count() == 1);
+    CHECK(parse_scene("standard input", scene).shape_count() == 1);
+    CHECK(tests::message_of<BadInput>([&] {
+              parse_scene("a", "begin_scenery");
+          }).find("Tachyon's format (.dat)") != std::string::npos);
+}
+
+TEST_CASE("a Tachyon scene includes files that are beside it") {
+    const tests::TemporaryDirectory directory;
+    directory.write("balls.dat", ball + ball + "SPHERE CENTER x");
+    const std::filesystem::path path =
+        directory.write("a.dat", begin + "INCLUDE balls.dat\nEND_SCENE");
+    CHECK(tests::message_in<BadInput>(directory.path(), [&] { load_scene(path); }) ==
+          "balls.dat:3: SPHERE: center: must be a finite number, got \"x\"");
+    directory.write("balls.dat", "INCLUDE balls.dat");
+    CHECK(tests::message_in<BadInput>(directory.path(), [&] { load_scene(path); }) ==
+          "balls.dat:1: INCLUDE: must not be deeper than 16 files in each other, got "
+          "\"balls.dat\"");
+    directory.write("balls.dat", ball);
+    CHECK(load_scene(path).shape_count() == 1);
+}
+
+TEST_CASE("each mistake in a Tachyon scene has its line of error") {
+    const std::vector<std::pair<std::string, std::string>> mistakes = {
+        {"SPHERE CENTER 1 2\n3 RAD big",
+         "a.dat:4: SPHERE of line 3: rad: must be a finite number, got \"big\""},
+        {"SPHERE RAD 1", "a.dat:3: SPHERE: must go on with CENTER, got \"RAD\""},
+        {"Sphere center 1e40 0 0",
+         "a.dat:3: Sphere: center: must be a number from -1e30 to 1e30, got \"1e40\""},
+        {"BALL", "a.dat:3: must be an object or another statement of Tachyon's, got \"BALL\""},
+        {ball + "INCLUDE -", "a.dat:4: INCLUDE: must name a file, got \"-\""},
+        {"PLANE CENTER 0 0 0 NORMAL 0 0 0" + plain,
+         "a.dat:3: PLANE: normal: must not be the zero vector, got [0, 0, 0]"},
+        {"TEXDEF t AMBIENT -1 DIFFUSE 0 SPECULAR 0 OPACITY 1\nSPHERE CENTER 0 0 0 RAD 1 t",
+         "a.dat:4: SPHERE: ambient: must not be negative, got -1"},
+        {"RESOLUTION 0 5", "a.dat:3: RESOLUTION: width: must be a whole number from 1 to 65535, "
+                           "got \"0\""},
+        {"CAMERA ZOOM 0 ASPECTRATIO 1", "a.dat:3: CAMERA: zoom: must be positive, got 0"},
+        {"VERTEXARRAY NUMVERTS 3 COORDS 0 0 0 1 0 0 0 1 0" + plain + "TRIMESH 1 0 1 3",
+         "a.dat:4: VERTEXARRAY of line 3: corner: must be a whole number from 0 to 2, got \"3\""},
+        {"VERTEXARRAY NUMVERTS 3 TRISTRIP 3 0 1 2",
+         "a.dat:3: VERTEXARRAY: must go on with COORDS of more than 0 corners before triangles, "
+         "got \"0\""},
+        {"SHADER_MODE HIGH",
+         "a.dat:3: SHADER_MODE: must go on with FULL, MEDIUM, LOW or LOWEST, got \"HIGH\""},
+        {"SHADER_MODE FULL AMBIENT_OCCLUSION AMBIENT_COLOR 1 1 1 RESCALE_DIRECT -1",
+         "a.dat:3: SHADER_MODE: rescale_direct: must not be negative, got -1"},
+        {"LIGHT CENTER 0 0 0 RAD 0 COLOR -1 0 0",
+         "a.dat:3: LIGHT: color/0: must not be negative, got -1"},
+        {"FOG CUBIC", "a.dat:3: FOG: must go on with LINEAR, EXP, EXP2 or OFF, got \"CUBIC\""},
+        {camera("") + "UPDIR", "a.dat:3: CAMERA: must go on with END_CAMERA, got \"UPDIR\""},
+        {"CAMERA ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH 1 CENTER 0 0 0 VIEWDIR 0 1 0 UPDIR "
+         "0 1 0 END_CAMERA",
+         "a.dat: up: must not be along the line of sight, got [0, 1, 0]"},
+        {"START_CLIPGROUP NUMPLANES 1 0 0 0 1",
+         "a.dat:3: START_CLIPGROUP: plane: must have a normal, got 0 0 0"},
+    };
+    for (const auto& [body, message] : mistakes) {
+        INFO(body);
+        CHECK(complaint(body) == message);
+    }
+    CHECK(tests::message_of<BadInput>([] {
+              InputFile file("a.dat", "v from");
+              read_tachyon(file);
+          }) == "a.dat:1: must be BEGIN_SCENE at the start of a scene, got \"v\"");
+    CHECK(tests::message_of<BadInput>([] { parse_scene("a.dat", begin + ball); }) ==
+          "a.dat: must end with END_SCENE, and is cut short");
+}
+
+TEST_CASE("a Tachyon scene that is cut short or damaged anywhere costs one line") {
+    for (const char* const name : {"vmd.dat", "named.dat"}) {
+        const std::string text = tests::content_of(data(name));
+        REQUIRE(!text.empty());
+        for (std::size_t size = 0; size < text.size() - 12; size += 7) {
+            const std::string message = tests::message_of<BadInput>(
+                [&] { parse_scene("a.dat", std::string_view(text).substr(0, size)); });
+            CHECK(message.starts_with("a.dat"));
+            CHECK(message.find('\n') == std::string::npos);
+        }
+        for (std::size_t at = 0; at < text.size(); at += 5) {
+            std::string damaged = text;
+            damaged[at] = "-9z.\x01"[at % 5];
+            const std::string message =
+                tests::message_of<BadInput>([&] { parse_scene("a.dat", damaged); });
+            CHECK(message.find('\n') == std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("Tachyon scenes as VMD and others write them are read") {
+    LoadOptions options;
+    std::vector<std::string> remarks;
+    options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
+    const core::Scene vmd = load_scene(data("vmd.dat"), options);
+    CHECK(vmd.shape_count() == 8);
+    CHECK(vmd.camera().from == Vec3f(0, 0, 2));
+    CHECK(vmd.camera().at == Vec3f(0.0F));
+    CHECK(std::abs(vmd.camera().height - 1.5F) < 1e-6F);
+    CHECK(vmd.lights().size() == 3);
+    CHECK(remarks ==
+          std::vector<std::string>{
+              data("vmd.dat") + ":78: a triangle has one colour, the mean of its corners'",
+              data("vmd.dat") + ": FOG: EXP2 is drawn as the linear fog that is nearest to it"});
+    const core::Scene named = load_scene(data("named.dat"));
+    CHECK(named.shape_count() == 5);
+    CHECK(named.materials().size() == 2);
+}
