@@ -46,5 +46,6 @@ Command add_compare_command(CLI::App& app);
 Command add_convert_command(CLI::App& app);
 Command add_manual_command(CLI::App& app);
 Command add_completion_command(CLI::App& app);
+Command add_tachyon_command(CLI::App& app);
 
 } // namespace raylane::scenes

@@ -133,6 +133,10 @@ std::string zsh_script(const CLI::App& app) {
     for (const CLI::App* command : commands_of(app)) {
         commands +=
             "        " + in_quotes(command->get_name() + ":" + command->get_description()) + "\n";
+        if (command->get_prefix_command()) { // whose options are its own
+            cases += "        " + command->get_name() + ") _files ;;\n";
+            continue;
+        }
         cases += "        " + command->get_name() + ") _arguments";
         for (const CLI::Option* option : options_of(*command))
             cases += " \\\n            " + zsh_spec(*option);

@@ -2,6 +2,7 @@
 #include "scenes/export/export.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/drawing_arguments.hpp"
 #include "scenes/tool/loading.hpp"
 
 #include <cstdio>
@@ -24,8 +25,11 @@ int convert(const ConvertArguments& arguments) {
     require_scene_ending(output);
     const Verbosity verbosity = arguments.verbosity.verbosity();
     std::string differences;
-    const core::Scene loaded = load_with_progress(scene, arguments.drawing.drawing(),
-                                                  arguments.drawing.first_given(), verbosity);
+    const core::Scene loaded =
+        load_with_progress(scene,
+                           {.drawing = arguments.drawing.drawing(),
+                            .option_for_atoms = arguments.drawing.first_given()},
+                           verbosity);
     for (const std::string& what : export_scene(output, loaded))
         differences.append(differences.empty() ? "" : ", ").append(what);
     if (!differences.empty() && verbosity != Verbosity::quiet)

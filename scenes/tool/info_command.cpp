@@ -4,6 +4,7 @@
 #include "scenes/number.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/drawing_arguments.hpp"
 #include "scenes/tool/loading.hpp"
 
 #include <nlohmann/json.hpp>
@@ -175,9 +176,11 @@ void print(const Json& info) {
 
 int info(const InfoArguments& arguments) {
     const std::string& scene = file_argument("SCENE", *arguments.scene);
-    const Json info = info_of(scene, load_with_progress(scene, arguments.drawing.drawing(),
-                                                        arguments.drawing.first_given(),
-                                                        arguments.verbosity.verbosity()));
+    const Json info =
+        info_of(scene, load_with_progress(scene,
+                                          {.drawing = arguments.drawing.drawing(),
+                                           .option_for_atoms = arguments.drawing.first_given()},
+                                          arguments.verbosity.verbosity()));
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else

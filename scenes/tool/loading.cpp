@@ -1,13 +1,13 @@
 #include "scenes/tool/loading.hpp"
 
 #include "scenes/errors.hpp"
-#include "scenes/scene_file.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/workers.hpp"
 
 #include <atomic>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace raylane::scenes {
@@ -25,14 +25,14 @@ class Loader : public simd::ParallelWorkers {
   public:
     using ParallelWorkers::ParallelWorkers;
 
-    core::Scene load(const std::filesystem::path& path, const Drawing& drawing,
-                     const std::string& option_for_atoms) {
-        const auto note = [this](std::uint64_t bytes, std::uint64_t of) {
+    core::Scene load(const std::filesystem::path& path, LoadOptions options) {
+        options.workers = this;
+        options.on_read = [this](std::uint64_t bytes, std::uint64_t of) {
             bytes_ = bytes;
             all_bytes_ = of;
         };
-        const auto keep = [this](const std::string& remark) { remarks_.push_back(remark); };
-        return load_scene(path, {this, note, keep, drawing, option_for_atoms});
+        options.on_remark = [this](const std::string& remark) { remarks_.push_back(remark); };
+        return load_scene(path, options);
     }
 
     void added(std::size_t count) override { added_ = count; }
@@ -65,14 +65,13 @@ class Loader : public simd::ParallelWorkers {
 
 } // namespace
 
-core::Scene load_with_progress(const std::filesystem::path& path, const Drawing& drawing,
-                               const std::string& option_for_atoms, Verbosity verbosity,
-                               int threads) {
+core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions options,
+                               Verbosity verbosity, int threads) {
     const auto start = std::chrono::steady_clock::now();
     Loader loader(threads);
     core::Scene scene = [&] {
         const ProgressLine line(verbosity, [&] { return loader.text(); });
-        return loader.load(path, drawing, option_for_atoms);
+        return loader.load(path, std::move(options));
     }();
     if (verbosity == Verbosity::quiet) return scene;
     for (const std::string& remark : loader.remarks())

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/scene.hpp"
-#include "scenes/tool/drawing_arguments.hpp"
+#include "scenes/scene_file.hpp"
 #include "scenes/tool/verbosity.hpp"
 
 #include <filesystem>
@@ -10,8 +10,7 @@ namespace raylane::scenes {
 
 /// load_scene with `threads` threads (0: default_threads()), and a line that shows how far it is.
 /// Remarks on the file go to standard error, unless it is to be quiet.
-core::Scene load_with_progress(const std::filesystem::path& path, const Drawing& drawing,
-                               const std::string& option_for_atoms, Verbosity verbosity,
-                               int threads = 0);
+core::Scene load_with_progress(const std::filesystem::path& path, LoadOptions options,
+                               Verbosity verbosity, int threads = 0);
 
 } // namespace raylane::scenes

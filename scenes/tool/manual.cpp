@@ -142,14 +142,17 @@ std::string manual_page(const CLI::App& app, const CLI::App& command) {
             page += ".TP\n" + italic(option->get_name()) + "\n" + plain(option->get_description()) +
                     "\n";
     }
-    add_options_to(page, command);
+    if (command.get_prefix_command()) // it has a help of its own
+        page += ".SH OPTIONS\n.EX\n" + plain(command.get_footer(), true) + ".EE\n";
+    else
+        add_options_to(page, command);
     page += ".SH ENVIRONMENT\n";
     for (const auto& [variable, meaning] : environment)
         page += ".TP\n" + bold(variable) + "\n" + plain(meaning) + "\n";
     page += ".SH EXIT STATUS\n";
     for (const auto& [code, meaning] : exit_codes)
         page += ".TP\n" + bold(code) + "\n" + plain(meaning) + "\n";
-    add_examples_to(page, command.get_footer());
+    if (!command.get_prefix_command()) add_examples_to(page, command.get_footer());
     page += ".SH SEE ALSO\n";
     std::string others = is_whole ? "" : ".BR raylane (1)";
     for (const CLI::App* each : commands_of(app))

@@ -4,6 +4,7 @@
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/drawing_arguments.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/render.hpp"
@@ -220,7 +221,8 @@ int render(const RenderArguments& arguments) {
 
     Stopwatch stopwatch;
     const core::Scene scene = load_with_progress(
-        files.scene, drawing, arguments.drawing.first_given(), verbosity, options.threads);
+        files.scene, {.drawing = drawing, .option_for_atoms = arguments.drawing.first_given()},
+        verbosity, options.threads);
     const core::Settings settings = overrides.applied_to(scene.settings());
     options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     output.reserve(settings.width, settings.height);

@@ -55,9 +55,13 @@ TEST_CASE("manual pages and completions have all that the help has") {
         const std::string page = said(workshop, {"manual", command});
         CHECK(page.starts_with(".TH RAYLANE\\-"));
         CHECK(holds(whole, "raylane\\-" + command + " (1)"));
-        CHECK(holds(bash, "        " + command + ":-*) words=\"-h --help"));
-        CHECK(holds(zsh, "\n        " + command + ") _arguments"));
+        CHECK(holds(zsh, "\n        " + command + ") _"));
         CHECK(holds(fish, "__fish_use_subcommand -f -a " + command + " "));
+        if (command == "tachyon") { // whose options are another program's
+            CHECK(holds(page, "\n  \\-aasamples N"));
+            continue;
+        }
+        CHECK(holds(bash, "        " + command + ":-*) words=\"-h --help"));
         for (const std::string& option : options_in_help(workshop, command)) {
             CAPTURE(option);
             CHECK(holds(bash, "--" + option));
