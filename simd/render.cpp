@@ -3,6 +3,8 @@
 #include "core/optics/spectrum.hpp"
 #include "core/reference/tracer.hpp"
 #include "core/scene/validate.hpp"
+#include "simd/layers/layers.hpp"
+#include "simd/layers/outlines.hpp"
 #include "simd/tiles.hpp"
 #include "simd/wavefront/wavefront.hpp"
 
@@ -19,29 +21,79 @@ namespace raylane::simd {
 
 namespace {
 
+core::Region whole_of(const core::Settings& settings) {
+    return {0, 0, settings.width, settings.height};
+}
+
+/// What is made of first hits, tile by tile, beside the colours and over them. To be used by one
+/// thread.
+class FirstHitPasses {
+  public:
+    FirstHitPasses(const SceneData& scene, const core::Settings& settings, const Kernels& kernels)
+        : tracer_(std::make_unique<FirstHits>(scene, settings, kernels)),
+          outlines_(*tracer_, settings.outline), draws_(settings.outline.any()) {}
+
+    static bool are_wanted(const core::Settings& settings, const RenderOptions& options) {
+        return options.layers || settings.outline.any();
+    }
+
+    void run(const core::Region& tile, const core::Region& crop, Rendering& rendering) {
+        if (draws_) outlines_.draw(tile, rendering.film);
+        const core::Region part = tile.within(crop);
+        if (rendering.layers.width != 0 && part.x0 < part.x1 && part.y0 < part.y1)
+            fill_layers(*tracer_, part, crop, rendering.layers);
+    }
+
+  private:
+    std::unique_ptr<FirstHits> tracer_;
+    Outlines outlines_;
+    bool draws_;
+};
+
+template <class Tracer>
+void note_samples(const Tracer& tracer, const core::Region& tile, const core::Region& crop,
+                  core::Layers& layers) {
+    const core::Region part = tile.within(crop);
+    for (int y = part.y0; y < part.y1; ++y)
+        for (int x = part.x0; x < part.x1; ++x)
+            layers.samples[layers.index(x - crop.x0, y - crop.y0)] = static_cast<std::uint32_t>(
+                tracer.samples_of(static_cast<std::size_t>(y - tile.y0) *
+                                      static_cast<unsigned>(tile.x1 - tile.x0) +
+                                  static_cast<unsigned>(x - tile.x0)));
+}
+
+/// `scene`: null if nothing is made of first hits.
 template <class Tracer>
 Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
-                    const core::Settings& settings, const RenderOptions& options) {
-    Rendering rendering{core::Film(settings.width, settings.height), {}};
+                    const core::Settings& settings, const RenderOptions& options,
+                    const SceneData* scene) {
+    const core::Region part = drawn_part(settings, options.crop);
+    const core::Region crop = options.crop.value_or(part);
+    Rendering rendering{core::Film(part), {}, {}};
+    if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
     tbb::enumerable_thread_specific<Tracer> tracers(make_tracer);
+    tbb::enumerable_thread_specific<FirstHitPasses> passes(
+        [&] { return FirstHitPasses(*scene, settings, kernels_of(options.isa)); });
     const auto is_stopped = [&] { return options.progress != nullptr && options.progress->stop; };
-    for_each_tile(
-        settings.width, settings.height, tile, options.threads, [&](const core::Region& region) {
-            if (is_stopped()) return;
-            Tracer& tracer = tracers.local();
-            const std::uint64_t rays_before = tracer.counters().rays();
-            tracer.render(region, rendering.film);
-            if (options.progress != nullptr) {
-                options.progress->rays += tracer.counters().rays() - rays_before;
-                options.progress->pixels += region.pixels();
-            }
-            // Isolated: what it waits for shall not make it draw another tile.
-            if (options.after_tile)
-                tbb::this_task_arena::isolate([&] { options.after_tile(region, rendering.film); });
-        });
+    for_each_tile(part, tile, options.threads, [&](const core::Region& region) {
+        if (is_stopped()) return;
+        Tracer& tracer = tracers.local();
+        const std::uint64_t rays_before = tracer.counters().rays();
+        tracer.render(region, rendering.film);
+        if (scene != nullptr) passes.local().run(region, crop, rendering);
+        if (options.layers) note_samples(tracer, region, crop, rendering.layers);
+        if (options.progress != nullptr) {
+            options.progress->rays += tracer.counters().rays() - rays_before;
+            options.progress->pixels += region.pixels();
+        }
+        // Isolated: what it waits for shall not make it draw another tile.
+        if (options.after_tile)
+            tbb::this_task_arena::isolate([&] { options.after_tile(region, rendering.film); });
+    });
     rendering.complete = !is_stopped();
     for (const Tracer& tracer : tracers)
         rendering.counters += tracer.counters();
+    if (options.crop) rendering.film = rendering.film.cropped(crop);
     return rendering;
 }
 
@@ -68,6 +120,13 @@ class SpectralTracer {
         auto all = tracers_.front().counters();
         for (std::size_t i = 1; i < tracers_.size(); ++i)
             all += tracers_[i].counters();
+        return all;
+    }
+
+    int samples_of(std::size_t pixel) const {
+        int all = 0;
+        for (const Tracer& tracer : tracers_)
+            all += tracer.samples_of(pixel);
         return all;
     }
 
@@ -100,6 +159,9 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                            const RenderOptions& options) {
     using Tracer = core::ReferenceTracer<Real>;
     const int tile = options.tile != 0 ? options.tile : 16;
+    std::optional<SceneData> data;
+    if (FirstHitPasses::are_wanted(settings, options)) data.emplace(scene);
+    const SceneData* const seen = data ? &*data : nullptr;
     if (!scene.wavelengths().empty()) {
         const Spectrum spectrum(scene);
         return render_by<SpectralTracer<Tracer>>(
@@ -110,16 +172,12 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                                          options.precision);
                 return SpectralTracer<Tracer>(std::move(tracers), spectrum.shares, settings);
             },
-            fitting(tile, settings), settings, options);
+            fitting(tile, settings), settings, options, seen);
     }
     return render_by<Tracer>(
         [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); },
-        fitting(tile, settings), settings, options);
+        fitting(tile, settings), settings, options, seen);
 }
-
-} // namespace
-
-namespace {
 
 int tile_of(const core::Settings& settings, const RenderOptions& options) {
     return options.tile != 0          ? std::clamp(options.tile, 1, Wavefront::max_region)
@@ -133,6 +191,7 @@ struct MovableWavefront {
 
     void render(const core::Region& region, core::Film& film) { wavefront->render(region, film); }
     EngineCounters counters() const { return wavefront->counters(); }
+    int samples_of(std::size_t pixel) const { return wavefront->samples_of(pixel); }
 };
 
 Rendering render_spectrum(const core::Scene& scene, const core::Settings& settings,
@@ -148,21 +207,44 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
                 tracers.push_back({std::make_unique<Wavefront>(of_one, settings, tracing)});
             return Tracer(std::move(tracers), spectrum.shares, settings);
         },
-        fitting(tile_of(settings, options), settings), settings, options);
+        fitting(tile_of(settings, options), settings), settings, options,
+        FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr);
 }
 
 } // namespace
+
+namespace {
+
+void require_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
+    const bool is_part = !crop || (crop->x0 < crop->x1 && crop->y0 < crop->y1 &&
+                                   crop->within(whole_of(settings)) == *crop);
+    if (!is_part) throw core::InvalidValue("crop", "must be a part of the picture");
+}
+
+} // namespace
+
+core::Region drawn_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
+    const core::Region whole = whole_of(settings);
+    if (!crop || settings.quality == 0.0F) return crop.value_or(whole);
+    constexpr int square = core::RegionSamples::square_size;
+    const auto up = [](int edge) { return (edge + square - 1) / square * square; };
+    return core::Region{crop->x0 / square * square, crop->y0 / square * square, up(crop->x1),
+                        up(crop->y1)}
+        .within(whole);
+}
 
 Rendering render_vector(const SceneData& scene, const core::Settings& settings,
                         const RenderOptions& options, const Tracing& tracing) {
     const int tile = tile_of(settings, options);
     return render_by<Wavefront>([&] { return Wavefront(scene, settings, tracing); },
-                                fitting(tile, settings), settings, options);
+                                fitting(tile, settings), settings, options,
+                                FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& asked) {
     core::validate(settings);
+    require_part(settings, asked.crop);
     RenderOptions options = asked;
     // Where a solid has its surface is decided exactly or not at all.
     if (scene.solids().any()) options.precision = core::Precision::exact;

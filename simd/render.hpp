@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/film.hpp"
-#include "core/scene/region.hpp"
+#include "core/scene/layers.hpp"
 #include "core/scene/scene.hpp"
 #include "core/shapes/precision.hpp"
 #include "simd/engine_counters.hpp"
@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace raylane::simd {
 
@@ -36,19 +37,29 @@ struct RenderOptions {
     int tile = 0;
     core::Precision precision = core::Precision::exact;
     int threads = 0; ///< 0: all that the machine has
+    /// The part of the picture to be drawn, not empty; it has the bits that it has in the whole.
+    std::optional<core::Region> crop;
+    bool layers = false; ///< wanted, too
     Progress* progress = nullptr;
     /// Called behind each tile by the thread that has drawn it, so by several at a time. The film
-    /// is not to be read but in that tile.
+    /// is not to be read but in that tile, and has pixels around a crop that is not made of whole
+    /// squares, if there is a quality.
     std::function<void(const core::Region&, const core::Film&)> after_tile;
 };
 
 struct Rendering {
-    core::Film film;
+    core::Film film; ///< of the crop, from (0, 0)
     EngineCounters counters;
+    core::Layers layers;  ///< of the crop; empty if they were not asked for
     bool complete = true; ///< false if it was stopped: tiles may be black
 };
 
-/// Renders a picture of settings.width * settings.height pixels. With
+/// The part of a picture that is drawn: the crop, or with a quality the whole squares that have it.
+core::Region drawn_part(const core::Settings& settings, const std::optional<core::Region>& crop);
+
+/// Renders a picture of settings.width * settings.height pixels, or a part of it, with its outline;
+/// layers and outline have what the camera sees first, exactly, whatever the precision and engine,
+/// and are no part of the counters. With
 /// core::Precision::exact it depends on scene, settings and engine alone. So it does with the
 /// others, as long as rounding moves no hit out of its shape's bounds, nor by more than 2^-10 of t
 /// before them: whether bounds keep a ray from such a hit depends on the instruction set and on the

@@ -25,6 +25,11 @@ class ReferenceTracer {
     /// With a quality, the region consists of whole squares (RegionSamples::square_size).
     void render(const Region& region, Film& film);
 
+    /// Samples that a pixel of the last region had; pixels are numbered row by row.
+    int samples_of(std::size_t pixel) const {
+        return to_quality_ ? to_quality_->taken(pixel) : settings_.grid * settings_.grid;
+    }
+
     /// The mean of a pixel's samples, added in their order, as many as `settings.grid` says. Linear
     /// RGB.
     Color pixel(int x, int y);

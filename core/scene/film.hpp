@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/material.hpp"
+#include "core/scene/region.hpp"
 
 #include <cstddef>
 #include <vector>
@@ -10,9 +11,11 @@ namespace raylane::core {
 /// A picture in linear float RGB; rows run from the top down, pixels from left to right.
 class Film {
   public:
-    Film(int width, int height)
-        : width_(width), height_(height),
-          pixels_(static_cast<std::size_t>(width) * height, Color(0.0F)) {}
+    Film(int width, int height) : Film(Region{0, 0, width, height}) {}
+    /// A part of a picture, whose pixels are named as in the whole.
+    explicit Film(const Region& part)
+        : x0_(part.x0), y0_(part.y0), width_(part.x1 - part.x0), height_(part.y1 - part.y0),
+          pixels_(static_cast<std::size_t>(width_) * height_, Color(0.0F)) {}
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -21,9 +24,22 @@ class Film {
     /// width * height colours, row by row.
     const std::vector<Color>& pixels() const { return pixels_; }
 
-  private:
-    std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * width_ + x; }
+    /// A part as a picture of its own, which begins at (0, 0).
+    Film cropped(const Region& part) const {
+        Film film(part.x1 - part.x0, part.y1 - part.y0);
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x)
+                film.at(x - part.x0, y - part.y0) = at(x, y);
+        return film;
+    }
 
+  private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
+    }
+
+    int x0_;
+    int y0_;
     int width_;
     int height_;
     std::vector<Color> pixels_;

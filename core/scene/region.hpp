@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace raylane::core {
 
 /// Pixels x0 <= x < x1, y0 <= y < y1 of a picture.
@@ -10,6 +12,13 @@ struct Region {
     int y1;
 
     int pixels() const { return (x1 - x0) * (y1 - y0); }
+    bool operator==(const Region&) const = default;
+
+    /// What both have, if they have anything in common.
+    Region within(const Region& other) const {
+        return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1),
+                std::min(y1, other.y1)};
+    }
 };
 
 } // namespace raylane::core

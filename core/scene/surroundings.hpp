@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/material.hpp"
+#include "core/scene/outline.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -90,6 +90,7 @@ struct Settings {
     /// See-through surfaces that a path shows, one behind the other, at least 1; further ones are
     /// as if they were not there.
     int max_see_through = see_through_limit;
+    Outline outline;
 
     static constexpr int max_size = 65535;                ///< pixels a side
     static constexpr std::int64_t max_pixels = 1LL << 28; ///< 3 GiB of film

@@ -6,13 +6,26 @@
 
 namespace raylane::core {
 
-std::uint8_t encode(float linear, Transfer transfer) {
-    if (!(linear > 0.0F)) return 0;
-    if (linear >= 1.0F) return 255;
+namespace {
+
+/// The code of a linear component, of which `white` is the largest.
+double code_of(float linear, Transfer transfer, double white) {
+    if (!(linear > 0.0F)) return 0.0;
+    if (linear >= 1.0F) return white;
     auto value = static_cast<double>(linear);
     if (transfer == Transfer::srgb)
         value = value <= 0.0031308 ? 12.92 * value : 1.055 * core::pow(value, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(255.0 * value + 0.5); // NOLINT: not negative
+    return white * value + 0.5;
+}
+
+} // namespace
+
+std::uint8_t encode(float linear, Transfer transfer) {
+    return static_cast<std::uint8_t>(code_of(linear, transfer, 255.0));
+}
+
+std::uint16_t encode_in_16_bits(float linear, Transfer transfer) {
+    return static_cast<std::uint16_t>(code_of(linear, transfer, 65535.0));
 }
 
 float decode_srgb(std::uint8_t code) {

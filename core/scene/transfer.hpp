@@ -12,6 +12,9 @@ namespace raylane::core {
 /// srgb: the curve of IEC 61966-2-1. Rounded to the nearest code.
 std::uint8_t encode(float linear, Transfer transfer);
 
+/// The same in 16 bits.
+std::uint16_t encode_in_16_bits(float linear, Transfer transfer);
+
 /// The linear component that an 8-bit code of the sRGB curve stands for.
 float decode_srgb(std::uint8_t code);
 

@@ -122,6 +122,14 @@ void validate(const Camera& camera) {
     require_not_negative("focus_distance", camera.focus_distance);
 }
 
+void validate(const Outline& outline) {
+    require(outline.width >= 0.0F && outline.width <= Outline::max_width, "width",
+            "must be between 0 and 32 pixels", outline.width);
+    require(outline.creases >= 0.0F && outline.creases <= 180.0F, "creases",
+            "must be between 0 and 180 degrees", outline.creases);
+    validate_color("color", outline.color);
+}
+
 void validate(const Settings& settings) {
     require_count("width", settings.width, 1, Settings::max_size);
     require_count("height", settings.height, 1, Settings::max_size);
@@ -139,6 +147,11 @@ void validate(const Settings& settings) {
     require_count("max_depth", settings.max_depth, 0, Settings::depth_limit);
     require_count("max_see_through", settings.max_see_through, 1, Settings::see_through_limit);
     require_fraction("min_weight", settings.min_weight);
+    try {
+        validate(settings.outline);
+    } catch (const InvalidValue& invalid) {
+        throw InvalidValue("outline/" + invalid.field, invalid.expectation);
+    }
 }
 
 } // namespace raylane::core

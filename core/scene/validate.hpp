@@ -10,6 +10,7 @@ void validate(const Material& material);
 void validate(const Light& light);
 void validate(const Fog& fog);
 void validate(const Camera& camera);
+void validate(const Outline& outline);
 void validate(const Settings& settings);
 
 /// A colour: components >= 0.

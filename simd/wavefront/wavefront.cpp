@@ -4,6 +4,7 @@
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
 #include "simd/query/as_core.hpp"
+#include "simd/wavefront/camera_view.hpp"
 #include "simd/wavefront/coherence.hpp"
 
 #include <algorithm>
@@ -38,21 +39,6 @@ constexpr auto pixel_order = [] {
                        static_cast<std::uint8_t>(even_bits(code >> 1))};
     return order;
 }();
-
-CameraView view_of(const core::CameraRays<double>& rays) {
-    CameraView view{};
-    for (int axis = 0; axis < 3; ++axis) {
-        view.from[axis] = rays.from()[axis];
-        view.forward[axis] = rays.forward()[axis];
-        view.right[axis] = rays.right()[axis];
-        view.up[axis] = rays.up()[axis];
-        view.lens_right[axis] = rays.lens_right()[axis];
-        view.lens_up[axis] = rays.lens_up()[axis];
-    }
-    view.focus = rays.focus();
-    view.orthographic = rays.orthographic();
-    return view;
-}
 
 core::Settings without_quality(core::Settings settings) {
     settings.quality = 0.0F;

@@ -25,6 +25,11 @@ class Wavefront {
     /// With a quality, the region consists of whole squares (core::RegionSamples::square_size).
     void render(const core::Region& region, core::Film& film);
 
+    /// Samples that a pixel of the last region had; pixels are numbered row by row.
+    int samples_of(std::size_t pixel) const {
+        return to_quality_ ? to_quality_->taken(pixel) : settings_.grid * settings_.grid;
+    }
+
     Wavefront(const Wavefront&) = delete; // parts of it refer to others
     Wavefront& operator=(const Wavefront&) = delete;
 

@@ -18,6 +18,19 @@ TEST_CASE("transfer to 8 bits clamps and rounds to the nearest code") {
     CHECK(encode(100.6F / 255.0F, Transfer::linear) == 101);
 }
 
+TEST_CASE("transfer to 16 bits does the same") {
+    for (const Transfer transfer : {Transfer::linear, Transfer::srgb}) {
+        CHECK(encode_in_16_bits(0.0F, transfer) == 0);
+        CHECK(encode_in_16_bits(-1.0F, transfer) == 0);
+        CHECK(encode_in_16_bits(std::numeric_limits<float>::quiet_NaN(), transfer) == 0);
+        CHECK(encode_in_16_bits(1.0F, transfer) == 65535);
+        CHECK(encode_in_16_bits(std::numeric_limits<float>::infinity(), transfer) == 65535);
+    }
+    CHECK(encode_in_16_bits(100.4F / 65535.0F, Transfer::linear) == 100);
+    CHECK(encode_in_16_bits(100.6F / 65535.0F, Transfer::linear) == 101);
+    CHECK(encode_in_16_bits(0.2158605F, Transfer::srgb) == 32896); // 128 of 255
+}
+
 TEST_CASE("the sRGB curve passes through its known points") {
     CHECK(encode(0.2158605F, Transfer::srgb) == 128); // half of the codes
     CHECK(encode(0.0031308F, Transfer::srgb) == 10);  // where the straight part ends: 0.04045

@@ -29,7 +29,7 @@ TEST_CASE("every pixel is in one tile") {
     for (const int width : {1, 15, 16, 17, 100})
         for (const int height : {1, 16, 33}) {
             std::vector<std::atomic<int>> visits(static_cast<std::size_t>(width) * height);
-            simd::for_each_tile(width, height, 16, 2, [&](const Region& region) {
+            simd::for_each_tile({0, 0, width, height}, 16, 2, [&](const Region& region) {
                 for (int y = region.y0; y < region.y1; ++y)
                     for (int x = region.x0; x < region.x1; ++x)
                         ++visits[static_cast<std::size_t>(y) * width + x];
@@ -40,7 +40,7 @@ TEST_CASE("every pixel is in one tile") {
 }
 
 TEST_CASE("what a tile throws comes out of the loop") {
-    CHECK_THROWS_AS(simd::for_each_tile(100, 100, 16, 2,
+    CHECK_THROWS_AS(simd::for_each_tile({0, 0, 100, 100}, 16, 2,
                                         [](const Region&) { throw std::runtime_error("tile"); }),
                     std::runtime_error);
 }

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "core/scene/film.hpp"
+#include "core/scene/outline.hpp"
+#include "simd/layers/first_hits.hpp"
+
+namespace raylane::simd {
+
+/// Draws the lines of an outline over a region of a picture. To be used by one thread.
+///
+/// Edges are looked for between neighbours among the points of a grid finer than the pixels. The
+/// share of a point's square that a line hides follows from its distance to the nearest edge, so
+/// lines are as smooth as the grid allows, and as wide as they are asked to be in any picture.
+class Outlines {
+  public:
+    Outlines(FirstHits& tracer, const core::Outline& outline);
+
+    void draw(const core::Region& region, core::Film& film);
+
+    /// Points on a pixel's side.
+    static constexpr int per_pixel = 4;
+
+  private:
+    bool find_edges();
+    void find_distances();
+    void find_distances_in(int row);
+    double hidden_at(int column, int row) const;
+    bool is_edge(const FirstHit& a, const FirstHit& b) const;
+    bool is_crease(const FirstHit& a, const FirstHit& b) const;
+
+    FirstHits& tracer_;
+    core::Outline outline_;
+    double most_bent_; // cosine of the angle
+    double radius_;    // of a line, in points
+    int reach_;        // points from a line's middle where none of it is any more
+
+    // The points around a region. An edge is in the middle between two of them: the rows of edges
+    // are the points' and those in between.
+    int columns_ = 0, rows_ = 0;
+    std::vector<FirstHit> hits_;
+    std::vector<std::uint8_t> edges_; // by row of edges and column of points: one here or behind
+    std::vector<int> aside_; // along the row to its nearest edge, in halves of the points' spacing
+};
+
+} // namespace raylane::simd

@@ -1,0 +1,165 @@
+#include "core/scene/camera_rays.hpp"
+#include "core/shapes/invalid_value.hpp"
+#include "simd/render.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/little_scene.hpp"
+
+#include <numeric>
+
+/// What pictures have beside their colours, and parts of pictures.
+using namespace raylane;
+using namespace little_scene;
+
+namespace {
+
+/// A ball seen from behind a cut solid and a sheet that is seen from one side only, on a floor;
+/// 41 x 33 pixels.
+Scene still_life(float quality = 0.0F) {
+    Builder builder;
+    builder.settings.width = 41;
+    builder.settings.height = 33;
+    builder.settings.grid = 2;
+    builder.settings.quality = quality;
+    builder.settings.max_depth = 2;
+    builder.background = {0.25F, 0.5F, 0.75F};
+    builder.camera.from = {1, 2, 8};
+    builder.camera.field_of_view = 30.0F;
+    builder.add_shape(Plane{{0, -1, 0}, {0, 1, 0}}, ruler({3, 0, 3}));
+    builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror(0.5F));
+    builder.add_shape(Sphere{{0, 0, 0}, 1}, mirror(0.5F)); // no material of its own to be dropped
+    Material sheet = luminous();
+    sheet.visible = Visible::inside;
+    builder.add_shape(Disc{{0, 0, 3}, {0, 0, 1}, 0.7F}, sheet);
+    builder.add_shape(Triangle{{1, -1, 1}, {2, -1, 1}, {1, 1, 0}}, luminous());
+    return builder.finish();
+}
+
+core::Layers layers_of(const Scene& scene, simd::RenderOptions options = {}) {
+    options.layers = true;
+    return simd::render(scene, scene.settings(), options).layers;
+}
+
+bool same(const core::Layers& a, const core::Layers& b) {
+    return a.width == b.width && a.height == b.height && a.depth == b.depth &&
+           a.normal == b.normal && a.shape == b.shape && a.material == b.material &&
+           a.samples == b.samples;
+}
+
+} // namespace
+
+TEST_CASE("layers have what the ray through a pixel's middle sees first") {
+    const Scene scene = still_life();
+    const core::Layers layers = layers_of(scene);
+    Settings settings = scene.settings();
+    settings.grid = 1;
+    const CameraRays<double> rays(scene.camera(), settings);
+    Searcher<double> searcher(scene, Search::hierarchy, Precision::exact);
+    std::vector<int> seen(scene.shape_count() + 1);
+    REQUIRE(layers.width == 41);
+    REQUIRE(layers.height == 33);
+    for (int y = 0; y < layers.height; ++y)
+        for (int x = 0; x < layers.width; ++x) {
+            const Ray<double> ray = rays.ray(x, y, 0);
+            const Hit<double> hit =
+                searcher
+                    .nearest(
+                        ray, {},
+                        [&](const Hit<double>& candidate) {
+                            return scene.material_of(candidate.shape).is_seen(candidate.enters());
+                        })
+                    .hit;
+            const std::size_t pixel = layers.index(x, y);
+            CHECK(layers.shape[pixel] == hit.shape);
+            CHECK(layers.depth[pixel] == static_cast<float>(hit.t));
+            CHECK(layers.samples[pixel] == 4);
+            ++seen[hit.any() ? hit.shape : scene.shape_count()];
+            if (!hit.any()) {
+                CHECK(layers.material[pixel] == no_material);
+                CHECK(layers.normal[pixel] == Vec3f(0.0F));
+                continue;
+            }
+            CHECK(layers.material[pixel] == scene.material_index_of(hit.shape));
+            const Vec3d normal = convert<double>(layers.normal[pixel]);
+            CHECK(std::abs(length(normal) - 1.0) < 1e-6);
+            CHECK(dot(normal, ray.direction) < 0.0);
+            Vec3d true_normal = searcher.surface_at(ray, {}, hit).normal;
+            if (!hit.entering) true_normal = -true_normal;
+            CHECK(length(Vec3d(normal - true_normal)) < 1e-6);
+        }
+    for (const std::size_t shape : {0U, 1U, 4U, 5U}) // the last: nothing
+        CHECK(seen[shape] != 0);
+    CHECK(seen[3] == 0); // seen from its back alone
+}
+
+TEST_CASE("layers have the same bits whatever traces them") {
+    const Scene scene = still_life();
+    const core::Layers layers = layers_of(scene);
+    simd::RenderOptions options;
+    options.threads = 5;
+    options.tile = 8;
+    CHECK(same(layers, layers_of(scene, options)));
+    options.precision = Precision::fast;
+    CHECK(same(layers, layers_of(scene, options)));
+    options.engine = simd::Engine::reference;
+    CHECK(same(layers, layers_of(scene, options)));
+    for (const simd::Isa isa : simd::all_isas)
+        if (simd::is_available(isa)) {
+            options = {};
+            options.isa = isa;
+            CHECK(same(layers, layers_of(scene, options)));
+        }
+    CHECK(simd::render(scene, scene.settings(), {}).layers.width == 0); // not asked for
+}
+
+TEST_CASE("layers count the samples that a quality takes") {
+    const Scene scene = still_life(40.0F);
+    simd::RenderOptions options;
+    options.layers = true;
+    const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
+    const auto& samples = rendering.layers.samples;
+    CHECK(*std::min_element(samples.begin(), samples.end()) == 1);
+    CHECK(*std::max_element(samples.begin(), samples.end()) > 4);
+    // Pixels that were not even started again, after a sample in the middle.
+    const std::uint64_t all = std::accumulate(samples.begin(), samples.end(), 0ULL);
+    CHECK(all <= rendering.counters.primary);
+    CHECK(all + samples.size() >= rendering.counters.primary);
+}
+
+TEST_CASE("a part of a picture has the bits that it has in the whole") {
+    for (const float quality : {0.0F, 40.0F})
+        for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
+            if (quality != 0.0F && engine == simd::Engine::reference) continue; // it takes long
+            const Scene scene = still_life(quality);
+            Settings settings = scene.settings();
+            settings.outline.width = 3.0F;
+            settings.outline.color = {1, 0, 0};
+            simd::RenderOptions options;
+            options.layers = true;
+            options.engine = engine;
+            const simd::Rendering whole = simd::render(scene, settings, options);
+            for (const Region& crop :
+                 {Region{0, 0, 41, 33}, {5, 3, 6, 4}, {17, 0, 41, 20}, {9, 15, 37, 33}}) {
+                options.crop = crop;
+                const simd::Rendering part = simd::render(scene, settings, options);
+                CHECK(part.film.pixels() == whole.film.cropped(crop).pixels());
+                REQUIRE(part.layers.depth.size() == static_cast<std::size_t>(crop.pixels()));
+                for (int y = crop.y0; y < crop.y1; ++y)
+                    for (int x = crop.x0; x < crop.x1; ++x) {
+                        const std::size_t here = part.layers.index(x - crop.x0, y - crop.y0);
+                        const std::size_t there = whole.layers.index(x, y);
+                        CHECK(part.layers.shape[here] == whole.layers.shape[there]);
+                        CHECK(part.layers.samples[here] == whole.layers.samples[there]);
+                    }
+            }
+        }
+}
+
+TEST_CASE("a part that is not in the picture is refused") {
+    const Scene scene = still_life();
+    for (const Region& crop :
+         {Region{0, 0, 42, 33}, {-1, 0, 3, 3}, {3, 3, 3, 5}, {40, 32, 41, 34}, {5, 5, 4, 6}}) {
+        simd::RenderOptions options;
+        options.crop = crop;
+        CHECK_THROWS_AS(simd::render(scene, scene.settings(), options), InvalidValue);
+    }
+}
