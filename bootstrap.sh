@@ -17,9 +17,10 @@ libxsimd-dev        SIMD registers
 libtbb-dev          threads
 nlohmann-json3-dev  reads JSON scenes
 libcli11-dev        reads the command line
-libstb-dev          writes pictures
-zlib1g-dev          compresses them
-libpng-dev          reads PNG
+libstb-dev          writes HDR
+zlib1g-dev          reads what gzip compressed
+libpng-dev          writes and reads PNG
+libopenexr-dev      writes and reads OpenEXR
 gemmi-dev           reads PDB and mmCIF,
 tao-pegtl-dev       which needs this
 libbenchmark-dev    measures speed

@@ -217,6 +217,13 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         if (settings.max_see_through != core::Settings::see_through_limit)
             limits.number("max_see_through", settings.max_see_through);
     }
+    if (const core::Outline& outline = settings.outline; outline.any()) {
+        root.key("outline");
+        Object object(file);
+        object.number("width", outline.width);
+        object.vector("color", outline.color);
+        object.number("creases", outline.creases);
+    }
     root.key("camera");
     {
         const core::Camera& camera = scene.camera();

@@ -26,6 +26,8 @@ class PovWriter {
         vector(scene_.background()) << " }\n";
         if (!scene_.wavelengths().empty())
             differences_.insert("the spectrum: glass has one index there");
+        if (scene_.settings().outline.any())
+            differences_.insert("the outline: there is none there");
         write_camera();
         write_fog();
         for (const core::Light& light : scene_.lights())

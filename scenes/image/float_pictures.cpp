@@ -99,7 +99,7 @@ std::string pfm_word(ByteSource& source) {
 } // namespace
 
 MalformedPicture damaged(const std::string& format) {
-    return MalformedPicture("must be a PNG, HDR or PFM picture, got a damaged " + format);
+    return MalformedPicture("must be a PNG, EXR, HDR or PFM picture, got a damaged " + format);
 }
 
 void check_size(std::int64_t width, std::int64_t height) {

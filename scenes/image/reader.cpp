@@ -1,6 +1,7 @@
 #include "scenes/image/reader.hpp"
 
 #include "scenes/errors.hpp"
+#include "scenes/image/exr.hpp"
 #include "scenes/image/float_pictures.hpp"
 #include "scenes/image/png_reader.hpp"
 
@@ -24,8 +25,12 @@ Image decoded(InputFile& file) {
     } else if (head.starts_with("PF") || head.starts_with("Pf")) {
         image.linear_float = true;
         read_pfm(source, image);
+    } else if (head.starts_with("\x76\x2F\x31\x01")) {
+        image.linear_float = true;
+        read_exr(source, image);
     } else {
-        throw BadInput(file.name(), "", "must be a PNG, HDR or PFM picture, got something else");
+        throw BadInput(file.name(), "",
+                       "must be a PNG, EXR, HDR or PFM picture, got something else");
     }
     return image;
 }

@@ -11,15 +11,15 @@ namespace raylane::scenes {
 struct Image {
     int width = 0;
     int height = 0;
-    /// True if the components are linear floats (HDR, PFM), not codes divided by the largest code
-    /// (PNG).
+    /// True if the components are linear floats (EXR, HDR, PFM), not codes divided by the largest
+    /// code (PNG).
     bool linear_float = false;
     Components rgb;   ///< width * height * 3, rows from the top down
     std::string name; ///< of its file, for messages
 };
 
-/// Reads a PNG, HDR or PFM picture; the content tells which. Grey becomes RGB, transparency is left
-/// out. Throws BadInput for anything else and for what is malformed or absurdly large, and
+/// Reads a PNG, EXR, HDR or PFM picture; the content tells which. Grey becomes RGB, transparency is
+/// left out. Throws BadInput for anything else and for what is malformed or absurdly large, and
 /// SystemRefused.
 Image read_image(const std::filesystem::path& path);
 

@@ -2,47 +2,22 @@
 
 #include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/image/png_writer.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>
-#include <cstdlib>
 #include <exception>
+#include <new>
+#include <string>
 #include <string_view>
 #include <utility>
-#include <zlib.h>
-
-namespace {
-
-/// Compressor that stb_image_write calls: the memory is to be freed, and null if there is none. Of
-/// what a PNG's filter leaves, zlib finds runs as good as all that it would find at its lowest
-/// level, in three quarters of the time.
-unsigned char* compress_for_stb(unsigned char* data, int size, int* compressed_size, int) {
-    constexpr int window_bits = 15, memory_level = 9;
-    z_stream stream{};
-    if (deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, window_bits, memory_level, Z_RLE) != Z_OK)
-        return nullptr;
-    const uLong room = deflateBound(&stream, static_cast<uLong>(size));
-    auto* compressed = static_cast<unsigned char*>(std::malloc(room));
-    stream.next_in = data;
-    stream.avail_in = static_cast<uInt>(size);
-    stream.next_out = compressed;
-    stream.avail_out = static_cast<uInt>(room);
-    const bool done = compressed != nullptr && deflate(&stream, Z_FINISH) == Z_STREAM_END;
-    *compressed_size = static_cast<int>(stream.total_out);
-    deflateEnd(&stream);
-    if (done) return compressed;
-    std::free(compressed);
-    return nullptr;
-}
-
-} // namespace
+#include <vector>
 
 // Its functions stay in this file: a program that links the library may have them as well.
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
-#define STBIW_ZLIB_COMPRESS compress_for_stb
 #include <stb_image_write.h>
 
 namespace raylane::scenes {
@@ -82,26 +57,32 @@ float radiance_component(float value) {
 
 } // namespace
 
-PictureFormat picture_format_of(const std::filesystem::path& path) {
+PictureFormat picture_format_of(const std::filesystem::path& path, bool with_exr) {
     if (path == "-") return PictureFormat::png;
     std::string ending = path.extension().string();
     for (char& c : ending)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     static constexpr std::pair<std::string_view, PictureFormat> endings[] = {
-        {".png", PictureFormat::png}, {".hdr", PictureFormat::hdr}, {".pfm", PictureFormat::pfm},
-        {".tga", PictureFormat::tga}, {".bmp", PictureFormat::bmp}, {".ppm", PictureFormat::ppm}};
-    for (const auto& [known, format] : endings)
-        if (ending == known) return format;
+        {".png", PictureFormat::png}, {".exr", PictureFormat::exr}, {".hdr", PictureFormat::hdr},
+        {".pfm", PictureFormat::pfm}, {".tga", PictureFormat::tga}, {".bmp", PictureFormat::bmp},
+        {".ppm", PictureFormat::ppm}};
+    std::vector<std::string> known;
+    for (const auto& [name, format] : endings) {
+        if (format == PictureFormat::exr && !with_exr) continue;
+        if (ending == name) return format;
+        known.emplace_back(name);
+    }
     throw BadInput(path.string(), "",
-                   "must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got " +
+                   "must end in " + alternatives(known) + ", got " +
                        (ending.empty() ? "no ending" : '"' + printable(ending) + '"'));
 }
 
-OutputFile::OutputFile(const std::filesystem::path& path)
-    : OutputFile(path, picture_format_of(path)) {}
+OutputFile::OutputFile(const std::filesystem::path& path, EncodeExr encode_exr)
+    : OutputFile(path, picture_format_of(path, encode_exr != nullptr), encode_exr) {}
 
-OutputFile::OutputFile(const std::filesystem::path& path, PictureFormat format)
-    : format_(format), file_(path) {}
+OutputFile::OutputFile(const std::filesystem::path& path, PictureFormat format,
+                       EncodeExr encode_exr)
+    : encode_exr_(encode_exr), format_(format), file_(path) {}
 
 void OutputFile::reserve(int width, int height) {
     // Those that are compressed: any room may do.
@@ -109,6 +90,7 @@ void OutputFile::reserve(int width, int height) {
     switch (format_) {
     case PictureFormat::png:
     case PictureFormat::hdr:
+    case PictureFormat::exr:
         return file_.reserve(1);
     case PictureFormat::pfm:
         return file_.reserve(components * static_cast<int>(sizeof(float)));
@@ -120,18 +102,30 @@ void OutputFile::reserve(int width, int height) {
 }
 
 void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
+    PictureOptions options;
+    options.transfer = transfer;
+    commit(film, options);
+}
+
+void OutputFile::commit(const core::Film& film, const PictureOptions& options,
+                        const core::Layers* layers) {
     switch (format_) {
     case PictureFormat::png:
+        write_png(file_, film, options);
+        break;
     case PictureFormat::tga:
     case PictureFormat::bmp:
     case PictureFormat::ppm:
-        write_codes(film, transfer);
+        write_codes(film, options.transfer);
         break;
     case PictureFormat::hdr:
         write_hdr(film);
         break;
     case PictureFormat::pfm:
         write_pfm(film);
+        break;
+    case PictureFormat::exr:
+        write_exr(film, layers, options);
         break;
     }
     file_.commit();
@@ -150,23 +144,22 @@ void OutputFile::write_codes(const core::Film& film, core::Transfer transfer) {
         file_.write({reinterpret_cast<const char*>(codes.data()), codes.size()});
         return;
     }
-    // Its search for each row's best filter takes longer than the rest, and saves nothing to speak
-    // of. Not all that reads Targa reads what is compressed.
-    constexpr int differences_along_rows = 1;
-    static const bool once = [] {
-        stbi_write_force_png_filter = differences_along_rows;
-        stbi_write_tga_with_rle = 0;
-        return true;
-    }();
-    static_cast<void>(once);
+    // Not all that reads Targa reads what is compressed.
+    static const int uncompressed = stbi_write_tga_with_rle = 0; // once
+    static_cast<void>(uncompressed);
     Sink sink{file_, nullptr};
-    if (format_ == PictureFormat::tga)
-        sink.finish(stbi_write_tga_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
-    else if (format_ == PictureFormat::bmp)
-        sink.finish(stbi_write_bmp_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
-    else
-        sink.finish(
-            stbi_write_png_to_func(&Sink::write, &sink, width, height, 3, codes.data(), 3 * width));
+    sink.finish(format_ == PictureFormat::tga
+                    ? stbi_write_tga_to_func(&Sink::write, &sink, width, height, 3, codes.data())
+                    : stbi_write_bmp_to_func(&Sink::write, &sink, width, height, 3, codes.data()));
+}
+
+void OutputFile::write_exr(const core::Film& film, const core::Layers* layers,
+                           const PictureOptions& options) {
+    try {
+        file_.write(encode_exr_(film, layers, options));
+    } catch (const std::bad_alloc&) {
+        throw SystemRefused(file_.name(), "write", ENOMEM);
+    }
 }
 
 void OutputFile::write_hdr(const core::Film& film) {

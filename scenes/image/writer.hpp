@@ -1,43 +1,56 @@
 #pragma once
 
 #include "core/scene/film.hpp"
-#include "core/scene/surroundings.hpp"
+#include "core/scene/layers.hpp"
 #include "scenes/atomic_file.hpp"
-
-#include <cstdint>
+#include "scenes/image/picture_options.hpp"
 
 namespace raylane::scenes {
 
-/// How a picture is written: PNG, Targa, BMP and PPM have 8 bits, through the transfer curve, and
-/// but for PNG they are not compressed; HDR is Radiance's, linear, with a shared exponent; PFM has
-/// linear floats, unchanged.
-enum class PictureFormat : std::uint8_t { png, hdr, pfm, tga, bmp, ppm };
+/// How a picture is written: PNG has 8 or 16 bits through the transfer curve; Targa, BMP and PPM 8,
+/// without compression; EXR is OpenEXR's, linear, in halves or floats; HDR Radiance's, linear, with
+/// a shared exponent; PFM has linear floats, unchanged.
+enum class PictureFormat : std::uint8_t { png, exr, hdr, pfm, tga, bmp, ppm };
 
-/// The format that a file's ending tells: .png, .hdr, .pfm, .tga, .bmp or .ppm. "-" is standard
-/// output, in PNG. Throws BadInput if the ending is none of these.
-PictureFormat picture_format_of(const std::filesystem::path& path);
+/// The format that a file's ending tells: .png, .exr, ... "-" is standard output, in PNG. Throws
+/// BadInput if the ending is none of these, or .exr and that is not to be.
+PictureFormat picture_format_of(const std::filesystem::path& path, bool with_exr);
+
+/// The bytes of a file in OpenEXR (scenes/image/exr.hpp), which the library does without. `layers`
+/// may be null.
+using EncodeExr = std::string (*)(const core::Film& film, const core::Layers* layers,
+                                  const PictureOptions& options);
 
 /// A picture's file.
 class OutputFile {
   public:
-    /// In the format that the ending tells, which is a BadInput if it is none. Throws SystemRefused
-    /// if the file cannot be written, as far as can be known without writing it.
-    explicit OutputFile(const std::filesystem::path& path);
-    OutputFile(const std::filesystem::path& path, PictureFormat format);
+    /// In the format that the ending tells, which is a BadInput if it is none, or .exr and there is
+    /// nothing to encode that. Throws SystemRefused if the file cannot be written, as far as can be
+    /// known without writing it.
+    explicit OutputFile(const std::filesystem::path& path, EncodeExr encode_exr = nullptr);
+    OutputFile(const std::filesystem::path& path, PictureFormat format,
+               EncodeExr encode_exr = nullptr);
+
+    PictureFormat format() const { return format_; }
 
     /// Claims what is known of the room that a picture of this size takes. Throws SystemRefused if
     /// there is none.
     void reserve(int width, int height);
 
-    /// Writes the picture; once. `transfer` concerns what has 8 bits. Throws SystemRefused, and
-    /// then there is no new file.
+    /// Writes the picture, and into .exr its layers, unless that is null; once. Throws
+    /// SystemRefused, and then there is no new file.
+    void commit(const core::Film& film, const PictureOptions& options,
+                const core::Layers* layers = nullptr);
     void commit(const core::Film& film, core::Transfer transfer);
 
   private:
+    void write_exr(const core::Film& film, const core::Layers* layers,
+                   const PictureOptions& options);
     void write_codes(const core::Film& film, core::Transfer transfer);
     void write_hdr(const core::Film& film);
     void write_pfm(const core::Film& film);
 
+    EncodeExr encode_exr_;
     PictureFormat format_; // before the file: a wrong ending leaves no trace
     AtomicFile file_;
 };

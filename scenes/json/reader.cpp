@@ -40,11 +40,12 @@ class SceneReader {
     /// Throws BadInput for `errors` and what is wrong with the scene as a whole.
     core::Scene finish(const Outline& outline, InputErrors& errors);
 
-    static constexpr std::array<RootKey, 12> keys = {{
+    static constexpr std::array<RootKey, 13> keys = {{
         {"$schema", Holds::one_item},
         {"image", Holds::one_item},
         {"sampling", Holds::one_item},
         {"limits", Holds::one_item},
+        {"outline", Holds::one_item},
         {"camera", Holds::one_item, true},
         {"background", Holds::one_item},
         {"fog", Holds::one_item},
@@ -66,6 +67,7 @@ class SceneReader {
     };
 
     void take_settings(const JsonValue& value, void (*read)(const JsonValue&, core::Settings&));
+    void take_outline(const JsonValue& value);
     void take_camera(const JsonValue& value);
     void take_background(const JsonValue& value);
     void take_fog(const JsonValue& value);
@@ -109,6 +111,8 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
         take_settings(value, read_sampling);
     else if (key.name == "limits")
         take_settings(value, read_limits);
+    else if (key.name == "outline")
+        take_outline(value);
     else if (key.name == "camera")
         take_camera(value);
     else if (key.name == "background")
@@ -134,6 +138,12 @@ void SceneReader::take_settings(const JsonValue& value,
     read(value, settings);
     checked(value, [&] { core::validate(settings); });
     builder_.settings = settings;
+}
+
+void SceneReader::take_outline(const JsonValue& value) {
+    const core::Outline outline = read_outline(value);
+    checked(value, [&] { core::validate(outline); });
+    builder_.settings.outline = outline;
 }
 
 void SceneReader::take_camera(const JsonValue& value) {

@@ -39,6 +39,15 @@ void read_limits(const JsonValue& value, core::Settings& settings) {
     if (const auto most = value.find("max_see_through")) settings.max_see_through = most->integer();
 }
 
+core::Outline read_outline(const JsonValue& value) {
+    value.allow_only({"width", "color", "creases"});
+    core::Outline outline;
+    outline.width = value.at("width").number();
+    if (const auto color = value.find("color")) outline.color = color->color();
+    if (const auto creases = value.find("creases")) outline.creases = creases->number();
+    return outline;
+}
+
 core::Camera read_camera(const JsonValue& value) {
     core::Camera camera;
     if (const auto type = value.find("type"))

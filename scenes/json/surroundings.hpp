@@ -10,6 +10,7 @@ namespace raylane::scenes {
 void read_image(const JsonValue& value, core::Settings& settings);
 void read_sampling(const JsonValue& value, core::Settings& settings);
 void read_limits(const JsonValue& value, core::Settings& settings);
+core::Outline read_outline(const JsonValue& value);
 core::Camera read_camera(const JsonValue& value);
 core::Fog read_fog(const JsonValue& value);
 core::Light read_light(const JsonValue& value);

@@ -103,6 +103,14 @@ void copy(const From& from, To& to) {
 }
 
 template <class From, class To>
+requires BothWays<Outline, core::Outline, From, To>
+void copy(const From& from, To& to) {
+    copy(from.width, to.width);
+    copy(from.color, to.color);
+    copy(from.creases, to.creases);
+}
+
+template <class From, class To>
 requires BothWays<Settings, core::Settings, From, To>
 void copy(const From& from, To& to) {
     copy(from.width, to.width);
@@ -116,6 +124,7 @@ void copy(const From& from, To& to) {
     copy(from.max_depth, to.max_depth);
     copy(from.min_weight, to.min_weight);
     copy(from.max_see_through, to.max_see_through);
+    copy(from.outline, to.outline);
 }
 
 template <class To, class From>

@@ -1,4 +1,5 @@
 #include "scenes/image/compare.hpp"
+#include "scenes/image/exr.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
@@ -57,7 +58,7 @@ int compare(const CompareArguments& arguments) {
         const std::string& name = file_argument("--diff", *arguments.difference);
         require_other_file("--diff", name, "A", name_of_a);
         require_other_file("--diff", name, "B", name_of_b);
-        output.emplace(name);
+        output.emplace(name, exr_of);
     }
     const Image a = read_image(name_of_a), b = read_image(name_of_b);
     const Comparison comparison = scenes::compare(a, b, tolerance);
@@ -75,7 +76,7 @@ Command add_compare_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "compare", "Say by how much two pictures differ; exit code 1 if they do");
     auto arguments = std::make_shared<CompareArguments>();
-    add_positional(*command, "A", arguments->a, "A picture: PNG, HDR or PFM");
+    add_positional(*command, "A", arguments->a, "A picture: PNG, EXR, HDR or PFM");
     add_positional(*command, "B", arguments->b, "Another");
     add_option(*command, "--tolerance", arguments->tolerance,
                "The largest difference of a component that does not count; 1 is white (default: 0)",

@@ -1,11 +1,12 @@
 #include "core/scene/method_choice.hpp"
 #include "scenes/atomic_file.hpp"
-#include "scenes/image/writer.hpp"
+#include "scenes/image/exr.hpp"
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/drawing_arguments.hpp"
 #include "scenes/tool/loading.hpp"
+#include "scenes/tool/picture_arguments.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "simd/render.hpp"
 #include "simd/tiles.hpp"
@@ -27,6 +28,7 @@ struct RenderArguments {
     Argument engine = "vector", isa, tile, precision = "exact";
     DrawingArguments drawing;
     VerbosityArguments verbosity;
+    PictureArguments picture;
 };
 
 class Stopwatch {
@@ -212,10 +214,12 @@ int render(const RenderArguments& arguments) {
     const Verbosity verbosity = arguments.verbosity.verbosity();
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
+    const PictureChoice picture(arguments.picture);
     Drawing drawing = arguments.drawing.drawing();
     if (overrides.size) std::tie(drawing.width, drawing.height) = *overrides.size;
     const Files files(arguments);
-    OutputFile output(files.output);
+    OutputFile output(files.output, exr_of);
+    picture.require_fit(output.format());
     std::optional<AtomicFile> stats;
     if (files.stats) stats.emplace(*files.stats);
 
@@ -223,21 +227,27 @@ int render(const RenderArguments& arguments) {
     const core::Scene scene = load_with_progress(
         files.scene, {.drawing = drawing, .option_for_atoms = arguments.drawing.first_given()},
         verbosity, options.threads);
-    const core::Settings settings = overrides.applied_to(scene.settings());
+    core::Settings settings = overrides.applied_to(scene.settings());
+    picture.apply_to(settings);
+    picture.apply_to(options, settings);
     options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
-    output.reserve(settings.width, settings.height);
+    const core::Region part =
+        options.crop.value_or(core::Region{0, 0, settings.width, settings.height});
+    output.reserve(part.x1 - part.x0, part.y1 - part.y0);
     Times times{};
     times.load = stopwatch.lap();
 
     simd::Progress progress;
     options.progress = &progress;
     const simd::Rendering rendering = [&] {
-        const ProgressBar bar(verbosity, progress, std::int64_t{settings.width} * settings.height);
+        const ProgressBar bar(verbosity, progress,
+                              simd::drawn_part(settings, options.crop).pixels());
         return simd::render(scene, settings, options);
     }();
     times.render = stopwatch.lap();
 
-    output.commit(rendering.film, settings.transfer);
+    output.commit(rendering.film, picture.options(files.scene, settings),
+                  picture.layers ? &rendering.layers : nullptr);
     times.write = stopwatch.lap();
 
     if (stats) {
@@ -273,7 +283,8 @@ Command add_render_command(CLI::App& app) {
         "A scene in JSON, NFF, POV-Ray's language or Tachyon's, or atoms in PDB, mmCIF, CIF, XYZ, "
         "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
     add("-o,--output", arguments->output,
-        "The picture: .png, .hdr, .pfm, .tga, .bmp or .ppm, or - for a PNG to standard output "
+        "The picture: .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, or - for a PNG to standard "
+        "output "
         "(default: the scene's name, .png)",
         "FILE");
     add("--size", arguments->size, "Pixels (default: as the scene says)", "WxH");
@@ -315,6 +326,7 @@ Command add_render_command(CLI::App& app) {
     add("--stats", arguments->stats,
         "Write figures about the rendering as JSON; - is standard output", "FILE");
     arguments->verbosity.add_to(*command);
+    arguments->picture.add_to(*command);
     arguments->drawing.add_to(*command);
     command->footer("Example: raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");

@@ -192,7 +192,7 @@ TachyonArguments TachyonOptions::read() {
 PictureFormat format_of(const TachyonArguments& arguments) {
     if (arguments.format) return *arguments.format;
     try {
-        return picture_format_of(arguments.output);
+        return picture_format_of(arguments.output, /*with_exr=*/false);
     } catch (const BadInput&) {
         return PictureFormat::tga;
     }

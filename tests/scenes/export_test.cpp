@@ -92,6 +92,7 @@ TEST_CASE("every value of a scene goes into JSON") {
         "sampling": {"grid": 3, "pattern": "stratified", "quality": 41, "filter": "blackman-harris",
                      "light_samples": 3},
         "limits": {"max_depth": 3, "min_weight": 0.03, "max_see_through": 7},
+        "outline": {"width": 1.5, "color": [0.1, 0.2, 0.3], "creases": 30},
         "background": [0.1, 0.2, 0.3],
         "fog": {"type": "exponential", "density": 0.05, "color": [1, 0, 0.5]},
         "lights": [{"type": "directional", "direction": [1, -2, 0.1], "color": [2, 1, 1]},

@@ -129,6 +129,47 @@ TEST_CASE("a PNG holds the transfer curve's codes") {
     CHECK(directory.file_count() == 1);
 }
 
+TEST_CASE("a PNG has 16 bits if it is to") {
+    const TemporaryDirectory directory;
+    const core::Film film = film_of(37, 21);
+    const auto path = directory.path() / "out.png";
+    scenes::PictureOptions options;
+    options.bits = 16;
+    scenes::OutputFile(path).commit(film, options);
+    std::vector<float> codes;
+    for (const core::Color& pixel : film.pixels())
+        for (int channel = 0; channel < 3; ++channel)
+            codes.push_back(
+                static_cast<float>(core::encode_in_16_bits(pixel[channel], Transfer::srgb)) /
+                65535.0F);
+    CHECK(same_bits(scenes::read_image(path).rgb, codes));
+}
+
+TEST_CASE("a PNG says what it is told to") {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "out.png";
+    const auto written = [&](const scenes::PictureOptions& options) {
+        scenes::OutputFile(path).commit(film_of(5, 3), options);
+        CHECK(scenes::read_image(path).width == 5);
+        return content_of(path);
+    };
+    const auto holds = [](const std::string& content, const std::string& some) {
+        return content.find(some) != std::string::npos;
+    };
+    const std::string plain = written({});
+    for (const char* type : {"pHYs", "tEXt", "iTXt", "tIME"})
+        CHECK(!holds(plain, type));
+    scenes::PictureOptions options;
+    options.dpi = 300.0F;
+    options.texts = {{"Software", "raylane"}, {"Title", "caf\xC3\xA9"}};
+    const std::string told = written(options);
+    CHECK(holds(told, chunk("pHYs", big_endian(11811) + big_endian(11811) + "\1")));
+    CHECK(holds(told, chunk("tEXt", bytes("Software\0raylane"))));
+    CHECK(holds(told, chunk("iTXt", bytes("Title\0\0\0\0\0caf\xC3\xA9"))));
+    CHECK(!holds(told, "tIME"));
+    CHECK(told == written(options));
+}
+
 TEST_CASE("a film's PNG is the same every time") {
     const TemporaryDirectory directory;
     write(directory.path() / "a.png", film_of(200, 100), Transfer::srgb);
@@ -214,9 +255,10 @@ TEST_CASE("what is no picture is bad input") {
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
     };
-    const std::string damaged = "a.png: must be a PNG, HDR or PFM picture, got a damaged ";
-    CHECK(error_of("") == "a.png: must be a PNG, HDR or PFM picture, got something else");
-    CHECK(error_of("GIF89a") == "a.png: must be a PNG, HDR or PFM picture, got something else");
+    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM picture, got a damaged ";
+    CHECK(error_of("") == "a.png: must be a PNG, EXR, HDR or PFM picture, got something else");
+    CHECK(error_of("GIF89a") ==
+          "a.png: must be a PNG, EXR, HDR or PFM picture, got something else");
     CHECK(error_of("\x89PNG\r\n\x1A\n") == damaged + "PNG");
     CHECK(error_of("PFM\n1 1\n-1\nabcdabcdabcd") == damaged + "PFM");
     CHECK(error_of("PF\n1 one\n-1\nabcdabcdabcd") == damaged + "PFM");
@@ -245,7 +287,7 @@ TEST_CASE("a PNG ends where its picture does") {
     const auto error_of = [&](const std::string& content) {
         return error_of_reading(directory.write("a.png", content));
     };
-    const std::string damaged = "a.png: must be a PNG, HDR or PFM picture, got a damaged PNG";
+    const std::string damaged = "a.png: must be a PNG, EXR, HDR or PFM picture, got a damaged PNG";
     const std::string pixel = bytes("\x00\x10\x20\x30"); // a filter and three codes
     CHECK(error_of(png_of(1, 1, 8, pixel)) == "no error");
     CHECK(error_of(png_of(1, 1, 8, pixel) + "x") == damaged);

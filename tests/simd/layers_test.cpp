@@ -112,7 +112,7 @@ TEST_CASE("layers have the same bits whatever traces them") {
 }
 
 TEST_CASE("layers count the samples that a quality takes") {
-    const Scene scene = still_life(40.0F);
+    const Scene scene = still_life(25.0F);
     simd::RenderOptions options;
     options.layers = true;
     const simd::Rendering rendering = simd::render(scene, scene.settings(), options);
@@ -126,7 +126,7 @@ TEST_CASE("layers count the samples that a quality takes") {
 }
 
 TEST_CASE("a part of a picture has the bits that it has in the whole") {
-    for (const float quality : {0.0F, 40.0F})
+    for (const float quality : {0.0F, 25.0F})
         for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference}) {
             if (quality != 0.0F && engine == simd::Engine::reference) continue; // it takes long
             const Scene scene = still_life(quality);

@@ -83,6 +83,16 @@ enum class PixelFilter : std::uint8_t {
     blackman_harris, ///< Harris' window of four terms, 3 pixels wide
 };
 
+/// Lines along the edges of what the camera sees first, over the picture.
+struct Outline {
+    float width = 0.0F; ///< pixels, at most 32; 0: none
+    Color color{};      ///< >= 0
+    /// Degrees, 0 to 180, that surfaces which meet are bent by at least where there is a line
+    /// between them; there is one between two materials, too. 180: there are none where surfaces
+    /// meet, only where one is seen before another.
+    float creases = 180.0F;
+};
+
 /// Settings that a scene has for its picture.
 struct Settings {
     int width = 512;  ///< pixels, 1 to 65535; the picture has at most 2^28
@@ -101,6 +111,7 @@ struct Settings {
     /// Surfaces of opacities below 1 that a path shows, one behind the other, 1 to 1000000; further
     /// ones are as if they were not there.
     int max_see_through = 1'000'000;
+    Outline outline;
 };
 
 } // namespace raylane

@@ -179,9 +179,9 @@ TEST_CASE("pictures that cannot be compared are told in one line") {
         {"c.pfm", "must have integer codes as a.png has, got linear floats"},
         {"none.png", "no such file"},
         {"out", "must be a file, got a directory"},
-        {"cut.png", "must be a PNG, HDR or PFM picture, got a damaged PNG"},
-        {"empty.png", "must be a PNG, HDR or PFM picture, got something else"},
-        {"scene.json", "must be a PNG, HDR or PFM picture, got something else"},
+        {"cut.png", "must be a PNG, EXR, HDR or PFM picture, got a damaged PNG"},
+        {"empty.png", "must be a PNG, EXR, HDR or PFM picture, got something else"},
+        {"scene.json", "must be a PNG, EXR, HDR or PFM picture, got something else"},
     };
     for (const auto& [file, message] : rows) {
         const Outcome outcome =

@@ -28,7 +28,9 @@ TEST_CASE("a command line that means nothing is told in one line") {
     const Workshop workshop;
     const std::string see = "; see raylane --help", see_render = "; see raylane render --help";
     const std::vector<std::pair<Arguments, std::string>> rows = {
-        {{}, "must be given a command: render, info, compare, convert, tachyon, manual or completion" + see},
+        {{},
+         "must be given a command: render, info, compare, convert, tachyon, manual or completion" +
+             see},
         {{"rendr", "scene.json"}, R"(unknown argument "rendr", did you mean "render"?)" + see},
         {{"draw"}, R"(unknown argument "draw")" + see},
         {{""}, R"(unknown argument "")" + see},
@@ -142,11 +144,11 @@ TEST_CASE("a file's name that is none is told in one line, before anything is re
         {{"compare", "none.png", "none.png", "--diff", ""},
          R"(--diff: must be the name of a file, got "")"},
         {{"render", "none.json", "-o", "out/picture.jpg"},
-         R"(out/picture.jpg: must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got ".jpg")"},
+         R"(out/picture.jpg: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got ".jpg")"},
         {{"render", "none.json", "-o", "out/picture"},
-         "out/picture: must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got no ending"},
+         "out/picture: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got no ending"},
         {{"compare", "none.png", "none.png", "--diff", "out/difference.gif"},
-         R"(out/difference.gif: must end in .png, .hdr, .pfm, .tga, .bmp or .ppm, got ".gif")"},
+         R"(out/difference.gif: must end in .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, got ".gif")"},
         // What would be overwritten.
         {{"render", "none.json", "-o", "out/a.png", "--stats", "./out/a.png"},
          R"(--stats: must be another file than --output, got "./out/a.png")"},

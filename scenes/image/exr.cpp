@@ -1,0 +1,235 @@
+#include "scenes/image/exr.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/image/float_pictures.hpp"
+
+#ifndef RAYLANE_WITH_OPENEXR
+
+namespace raylane::scenes {
+
+bool has_exr() {
+    return false;
+}
+
+std::string exr_of(const core::Film&, const core::Layers*, const PictureOptions&) {
+    throw BadInput("OpenEXR", "", "is not there: raylane was built without libopenexr-dev");
+}
+
+void read_exr(ByteSource&, Image&) {
+    throw MalformedPicture("must be a PNG, HDR or PFM picture, for raylane was built without "
+                           "libopenexr-dev, got an EXR");
+}
+
+} // namespace raylane::scenes
+
+#else
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <algorithm>
+#include <cstring>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// A file in memory: the library writes its table of rows last, into its beginning.
+class MemoryOut : public Imf::OStream {
+  public:
+    MemoryOut() : OStream("memory") {}
+
+    void write(const char* bytes, int count) override {
+        const std::size_t end = at_ + static_cast<std::size_t>(count);
+        if (bytes_.size() < end) bytes_.resize(end);
+        std::copy_n(bytes, count, bytes_.begin() + static_cast<std::ptrdiff_t>(at_));
+        at_ = end;
+    }
+    std::uint64_t tellp() override { return at_; }
+    void seekp(std::uint64_t at) override { at_ = at; }
+
+    std::string take() { return std::move(bytes_); }
+
+  private:
+    std::string bytes_;
+    std::size_t at_ = 0;
+};
+
+class MemoryIn : public Imf::IStream {
+  public:
+    explicit MemoryIn(std::string bytes) : IStream("memory"), bytes_(std::move(bytes)) {}
+
+    bool read(char* bytes, int count) override {
+        if (count < 0 || at_ > bytes_.size() || bytes_.size() - at_ < std::size_t(count))
+            throw MalformedPicture("");
+        std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), count, bytes);
+        at_ += static_cast<std::size_t>(count);
+        return at_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return at_; }
+    void seekg(std::uint64_t at) override { at_ = at; }
+
+  private:
+    std::string bytes_;
+    std::size_t at_ = 0;
+};
+
+/// The values of a channel, one after the other with others in between.
+template <class Value>
+Imf::Slice slice_of(Imf::PixelType type, const Value* values, std::size_t step, int width) {
+    char* const base = const_cast<char*>(reinterpret_cast<const char*>(values)); // NOLINT: is read
+    return {type, base, step, step * static_cast<unsigned>(width)};
+}
+
+/// Halves are rounded by the library, but what is beyond the largest is to be white, not infinite.
+std::vector<Imath::half> halves_of(const core::Film& film) {
+    constexpr float most = 65504.0F;
+    std::vector<Imath::half> halves;
+    halves.reserve(3 * film.pixels().size());
+    for (const core::Color& pixel : film.pixels())
+        for (int channel = 0; channel < 3; ++channel)
+            halves.emplace_back(std::clamp(pixel[channel], -most, most));
+    return halves;
+}
+
+struct Channels {
+    Imf::Header& header;
+    Imf::FrameBuffer buffer{};
+
+    template <class Value>
+    void add(const char* name, Imf::PixelType type, const Value* values,
+             std::size_t step = sizeof(Value)) {
+        header.channels().insert(name, Imf::Channel(type));
+        buffer.insert(name, slice_of(type, values, step,
+                                     header.dataWindow().max.x - header.dataWindow().min.x + 1));
+    }
+};
+
+void add_layers(const core::Layers& layers, Channels& channels) {
+    channels.add("Z", Imf::FLOAT, layers.depth.data());
+    const char* const axes[] = {"N.X", "N.Y", "N.Z"};
+    for (int axis = 0; axis < 3; ++axis)
+        channels.add(axes[axis], Imf::FLOAT, &layers.normal.front()[axis], sizeof(core::Vec3f));
+    channels.add("id.shape", Imf::UINT, layers.shape.data());
+    channels.add("id.material", Imf::UINT, layers.material.data());
+    channels.add("samples", Imf::UINT, layers.samples.data());
+}
+
+void add_attributes(const PictureOptions& options, Imf::Header& header) {
+    if (options.dpi) Imf::addXDensity(header, *options.dpi);
+    for (const auto& [name, content] : options.texts) {
+        std::string key = name == "Comment" ? "comments" : name; // as the format calls it
+        for (char& c : key)
+            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        header.insert(key, Imf::StringAttribute(content));
+    }
+}
+
+std::string all_of(ByteSource& source) {
+    std::string bytes;
+    char some[1 << 14];
+    for (std::size_t count = sizeof some; count == sizeof some;) {
+        count = source.read(some);
+        bytes.append(some, count);
+    }
+    return bytes;
+}
+
+std::vector<float> pixels_of(Imf::InputFile& file, int width, int height) {
+    const Imath::Box2i shown = file.header().displayWindow(), there = file.header().dataWindow();
+    const std::int64_t across = std::int64_t{there.max.x} - there.min.x + 1;
+    const std::int64_t down = std::int64_t{there.max.y} - there.min.y + 1;
+    check_size(across, down);
+    const auto columns = static_cast<std::size_t>(across), rows = static_cast<std::size_t>(down);
+    const bool is_grey = file.header().channels().findChannel("Y") != nullptr &&
+                         file.header().channels().findChannel("G") == nullptr;
+    std::vector<float> held(3 * columns * rows);
+    Imf::FrameBuffer buffer;
+    const char* const names[] = {"R", "G", "B"};
+    for (std::size_t channel = 0; channel < (is_grey ? 1 : 3); ++channel) {
+        const Imf::Slice slice = Imf::Slice::Make(Imf::FLOAT, held.data() + channel, there,
+                                                  3 * sizeof(float), 3 * columns * sizeof(float));
+        buffer.insert(is_grey ? "Y" : names[channel], slice);
+    }
+    file.setFrameBuffer(buffer);
+    file.readPixels(there.min.y, there.max.y);
+
+    std::vector<float> rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    auto component = rgb.begin();
+    for (int y = shown.min.y; y <= shown.max.y; ++y)
+        for (int x = shown.min.x; x <= shown.max.x; ++x, component += 3) {
+            if (x < there.min.x || x > there.max.x || y < there.min.y || y > there.max.y) continue;
+            const float* const from =
+                &held[3 * (static_cast<std::size_t>(y - there.min.y) * columns +
+                           static_cast<std::size_t>(x - there.min.x))];
+            for (int channel = 0; channel < 3; ++channel)
+                component[channel] = from[is_grey ? 0 : channel];
+        }
+    return rgb;
+}
+
+} // namespace
+
+bool has_exr() {
+    return true;
+}
+
+std::string exr_of(const core::Film& film, const core::Layers* layers,
+                   const PictureOptions& options) {
+    Imf::Header header(film.width(), film.height());
+    header.compression() = Imf::ZIP_COMPRESSION;
+    add_attributes(options, header);
+    Channels channels{header};
+    const char* const names[] = {"R", "G", "B"};
+    std::vector<Imath::half> halves;
+    if (options.bits != 32) halves = halves_of(film);
+    for (int channel = 0; channel < 3; ++channel)
+        if (options.bits == 32)
+            channels.add(names[channel], Imf::FLOAT, &film.pixels().front()[channel],
+                         sizeof(core::Color));
+        else
+            channels.add(names[channel], Imf::HALF, &halves[static_cast<std::size_t>(channel)],
+                         3 * sizeof(Imath::half));
+    if (layers != nullptr) add_layers(*layers, channels);
+
+    MemoryOut out;
+    {
+        constexpr int no_threads = 0;
+        Imf::OutputFile file(out, header, no_threads);
+        file.setFrameBuffer(channels.buffer);
+        file.writePixels(film.height());
+    } // which writes the rest
+    return out.take();
+}
+
+void read_exr(ByteSource& source, Image& image) {
+    MemoryIn in(all_of(source));
+    try {
+        constexpr int no_threads = 0, most = core::Settings::max_size;
+        Imf::Header::setMaxImageSize(most, most); // before it makes room for so many rows
+        Imf::InputFile file(in, no_threads);
+        const Imath::Box2i shown = file.header().displayWindow();
+        const std::int64_t width = std::int64_t{shown.max.x} - shown.min.x + 1;
+        const std::int64_t height = std::int64_t{shown.max.y} - shown.min.y + 1;
+        check_size(width, height);
+        image.width = static_cast<int>(width);
+        image.height = static_cast<int>(height);
+        image.rgb = Components(pixels_of(file, image.width, image.height));
+    } catch (const MalformedPicture& malformed) {
+        if (*malformed.what() != '\0') throw;
+        throw damaged("EXR");
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) { // of several kinds, those of Iex among them
+        throw damaged("EXR");
+    }
+}
+
+} // namespace raylane::scenes
+
+#endif

@@ -1,0 +1,163 @@
+#include "scenes/tool/picture_arguments.hpp"
+
+#include "core/scene/transfer.hpp"
+#include "scenes/image/exr.hpp"
+#include "scenes/library/raylane/version.h"
+#include "scenes/tool/arguments.hpp"
+
+#include <charconv>
+#include <filesystem>
+
+namespace raylane::scenes {
+
+namespace {
+
+constexpr const char* group = "Pictures";
+
+/// X,Y,WxH.
+core::Region crop_argument(const std::string& text) {
+    std::optional<int> numbers[4];
+    std::string_view rest = text;
+    for (int i = 0; i < 4; ++i) {
+        const std::size_t end = i < 3 ? rest.find(i == 2 ? 'x' : ',') : rest.size();
+        if (end == std::string_view::npos) break;
+        numbers[i] = to_int(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    const auto is_within = [](const std::optional<int>& number, int least) {
+        return number && *number >= least && *number <= core::Settings::max_size;
+    };
+    if (!is_within(numbers[0], 0) || !is_within(numbers[1], 0) || !is_within(numbers[2], 1) ||
+        !is_within(numbers[3], 1))
+        throw BadInput("--crop", "",
+                       "must be X,Y,WIDTHxHEIGHT in pixels from the upper left corner, such as "
+                       "100,50,320x240, got \"" +
+                           printable(text) + "\"");
+    return {*numbers[0], *numbers[1], *numbers[0] + *numbers[2], *numbers[1] + *numbers[3]};
+}
+
+core::Color color_argument(const std::string& option, const std::string& text) {
+    std::uint32_t code = 0;
+    const char* const end = text.data() + text.size();
+    if (text.size() != 7 || text[0] != '#' ||
+        std::from_chars(text.data() + 1, end, code, 16).ptr != end)
+        throw BadInput(option, "",
+                       "must be #rrggbb, such as #204060, got \"" + printable(text) + "\"");
+    const auto channel = [&](int shift) {
+        return core::decode_srgb(static_cast<std::uint8_t>(code >> shift & 0xFF));
+    };
+    return {channel(16), channel(8), channel(0)};
+}
+
+std::string text_of(const core::Region& crop) {
+    return std::to_string(crop.x0) + "," + std::to_string(crop.y0) + "," +
+           std::to_string(crop.x1 - crop.x0) + "x" + std::to_string(crop.y1 - crop.y0);
+}
+
+/// The settings as options of the tool.
+std::string text_of(const core::Settings& settings) {
+    static constexpr const char* filters[] = {"box", "gaussian", "blackman-harris"};
+    std::string text =
+        "--size " + std::to_string(settings.width) + "x" + std::to_string(settings.height);
+    text += settings.quality != 0.0F ? " --quality " + to_text(settings.quality)
+                                     : " --spp " + std::to_string(settings.grid * settings.grid);
+    text += " --filter " + std::string(filters[static_cast<int>(settings.filter)]);
+    text += " --light-samples " + std::to_string(settings.light_samples);
+    text += " --max-depth " + std::to_string(settings.max_depth);
+    text += " --min-weight " + to_text(settings.min_weight);
+    if (const core::Outline& outline = settings.outline; outline.any())
+        text += " --outline " + to_text(outline.width) + " --outline-creases " +
+                to_text(outline.creases);
+    return text;
+}
+
+} // namespace
+
+void PictureArguments::add_to(CLI::App& command) {
+    const auto add = [&](const char* name, Argument& value, const char* help, const char* type) {
+        add_option(command, name, value, help, type)->group(group);
+    };
+    add("--crop", crop,
+        "Draw this part of the picture alone: from X to the right and Y downwards, in pixels of "
+        "the "
+        "whole",
+        "X,Y,WxH");
+    add("--bits", bits,
+        "Of a component: 8 or 16 in PNG (default: 8), 16 (halves) or 32 (floats) in EXR (default: "
+        "16)",
+        "N");
+    add("--dpi", dpi, "Pixels per inch that PNG or EXR tells who prints it", "N");
+    add_flag(command, "--layers", layers,
+             "Into EXR, what each pixel's middle shows as well: Z (the distance along the ray), "
+             "N.X, N.Y, N.Z, id.shape, id.material, and the number of samples");
+    command.get_option("--layers")->group(group);
+    add("--outline", outline,
+        "Draw lines where one surface is seen before another, so many pixels wide; 0: none "
+        "(default: as the scene says)",
+        "WIDTH");
+    add("--outline-color", outline_color, "Of these lines (default: as the scene says, or #000000)",
+        "#RRGGBB");
+    add("--outline-creases", outline_creases,
+        "Draw them also between materials, and where surfaces that meet are bent by so many "
+        "degrees; 180: not there (default: as the scene says, or 180)",
+        "DEGREES");
+}
+
+PictureChoice::PictureChoice(const PictureArguments& arguments) : layers(arguments.layers) {
+    if (arguments.crop) crop = crop_argument(*arguments.crop);
+    if (arguments.bits)
+        bits = choice_argument<int>("--bits", *arguments.bits, {{"8", 8}, {"16", 16}, {"32", 32}});
+    if (arguments.dpi) dpi = number_argument("--dpi", *arguments.dpi, 1.0F, 10000.0F);
+    if (arguments.outline)
+        outline = number_argument("--outline", *arguments.outline, 0.0F, core::Outline::max_width);
+    if (arguments.outline_color)
+        outline_color = color_argument("--outline-color", *arguments.outline_color);
+    if (arguments.outline_creases)
+        outline_creases =
+            number_argument("--outline-creases", *arguments.outline_creases, 0.0F, 180.0F);
+}
+
+void PictureChoice::require_fit(PictureFormat format) const {
+    const bool is_png = format == PictureFormat::png, is_exr = format == PictureFormat::exr;
+    if (is_exr && !has_exr())
+        throw BadInput("--output", "",
+                       "must be .png, .hdr or .pfm, for raylane was built without libopenexr-dev");
+    if (layers && !is_exr) throw BadInput("--layers", "", "goes with an output that ends in .exr");
+    if (dpi && !is_png && !is_exr) throw BadInput("--dpi", "", "goes with PNG or EXR");
+    if (bits != 0 && !is_png && !is_exr) throw BadInput("--bits", "", "goes with PNG or EXR");
+    if (bits == 32 && is_png) throw BadInput("--bits", "", "must be 8 or 16 in PNG, got \"32\"");
+    if (bits == 8 && is_exr) throw BadInput("--bits", "", "must be 16 or 32 in EXR, got \"8\"");
+}
+
+void PictureChoice::apply_to(core::Settings& settings) const {
+    settings.outline.width = outline.value_or(settings.outline.width);
+    settings.outline.color = outline_color.value_or(settings.outline.color);
+    settings.outline.creases = outline_creases.value_or(settings.outline.creases);
+    if (settings.outline.any() || outline) return;
+    if (outline_color) throw BadInput("--outline-color", "", "goes with --outline");
+    if (outline_creases) throw BadInput("--outline-creases", "", "goes with --outline");
+}
+
+void PictureChoice::apply_to(simd::RenderOptions& options, const core::Settings& settings) const {
+    if (crop && (crop->x1 > settings.width || crop->y1 > settings.height))
+        throw BadInput("--crop", "",
+                       "must lie in the picture of " + std::to_string(settings.width) + " x " +
+                           std::to_string(settings.height) + " pixels, got \"" + text_of(*crop) +
+                           "\"");
+    options.crop = crop;
+    options.layers = layers;
+}
+
+PictureOptions PictureChoice::options(const std::string& scene,
+                                      const core::Settings& settings) const {
+    PictureOptions options{settings.transfer, bits, dpi, {}};
+    if (scene != "-")
+        options.texts.emplace_back(
+            "Title", printable(std::filesystem::path(scene).filename().string(), 4096));
+    options.texts.emplace_back("Software", "raylane " RAYLANE_VERSION);
+    options.texts.emplace_back("Comment",
+                               text_of(settings) + (crop ? " --crop " + text_of(*crop) : ""));
+    return options;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,134 @@
+#include "scenes/errors.hpp"
+#include "scenes/image/exr.hpp"
+#include "scenes/image/writer.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <limits>
+#include <random>
+
+using namespace raylane;
+using tests::TemporaryDirectory;
+
+namespace {
+
+core::Film little_film() {
+    core::Film film(3, 2);
+    film.at(0, 0) = {0.5F, 0.25F, 1e-3F};
+    film.at(1, 0) = {1e6F, -1e6F, 2.0F};
+    film.at(2, 1) = {0.1F, 0.2F, 0.3F};
+    return film;
+}
+
+} // namespace
+
+TEST_CASE("what cannot write OpenEXR says so") {
+    const TemporaryDirectory directory;
+    CHECK_THROWS_AS(scenes::OutputFile(directory.path() / "a.exr"), scenes::BadInput);
+    CHECK(directory.names().empty());
+}
+
+#ifdef RAYLANE_WITH_OPENEXR
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+TEST_CASE("an EXR holds the film's floats, or halves of them") {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "out.exr";
+    const core::Film film = little_film();
+    for (const int bits : {0, 16, 32}) {
+        scenes::PictureOptions options;
+        options.bits = bits;
+        scenes::OutputFile(path, scenes::exr_of).commit(film, options);
+        const scenes::Image image = scenes::read_image(path);
+        CHECK(image.linear_float);
+        REQUIRE(image.rgb.size() == 3 * film.pixels().size());
+        for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+            const float meant = film.pixels()[i / 3][static_cast<int>(i % 3)];
+            if (bits == 32)
+                CHECK(image.rgb[i] == meant);
+            else // what is beyond them is their largest
+                CHECK(std::abs(image.rgb[i] - std::clamp(meant, -65504.0F, 65504.0F)) <=
+                      0x1p-11F * std::abs(meant));
+        }
+    }
+    CHECK(directory.file_count() == 1);
+}
+
+TEST_CASE("an EXR has layers and what it is told") {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "out.exr";
+    core::Layers layers(3, 2);
+    layers.depth[4] = 2.5F;
+    layers.normal[4] = {0.0F, 0.6F, -0.8F};
+    layers.shape[4] = 16'777'217; // no float
+    layers.material[4] = 7;
+    layers.samples[4] = 16;
+    scenes::PictureOptions options;
+    options.dpi = 300.0F;
+    options.texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}};
+    scenes::OutputFile(path, scenes::exr_of).commit(little_film(), options, &layers);
+
+    Imf::InputFile file(path.c_str());
+    const Imf::Header& header = file.header();
+    CHECK(Imf::xDensity(header) == 300.0F);
+    CHECK(Imf::comments(header) == "--spp 16");
+    CHECK(header.typedAttribute<Imf::StringAttribute>("software").value() == "raylane");
+    int channels = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        ++channels;
+    CHECK(channels == 10);
+
+    std::vector<float> depth(6), normal(6);
+    std::vector<std::uint32_t> shape(6), material(6), samples(6);
+    Imf::FrameBuffer buffer;
+    const auto add = [&](const char* name, Imf::PixelType type, auto& values) {
+        REQUIRE(header.channels().findChannel(name) != nullptr);
+        CHECK(header.channels()[name].type == type);
+        buffer.insert(name, Imf::Slice(type, reinterpret_cast<char*>(values.data()), 4, 12));
+    };
+    add("Z", Imf::FLOAT, depth);
+    add("N.Z", Imf::FLOAT, normal);
+    add("id.shape", Imf::UINT, shape);
+    add("id.material", Imf::UINT, material);
+    add("samples", Imf::UINT, samples);
+    file.setFrameBuffer(buffer);
+    file.readPixels(0, 1);
+    CHECK(depth == layers.depth);
+    CHECK(depth[0] == std::numeric_limits<float>::infinity());
+    CHECK(normal[4] == -0.8F);
+    CHECK(shape == layers.shape);
+    CHECK(shape[0] == 4294967295U);
+    CHECK(material == layers.material);
+    CHECK(samples == layers.samples);
+}
+
+TEST_CASE("a damaged EXR is bad input") {
+    const TemporaryDirectory directory;
+    const core::Layers layers(3, 2);
+    const std::string whole = scenes::exr_of(little_film(), &layers, {});
+    const auto read = [&](const std::string& content) {
+        const auto path = directory.write("a.exr", content);
+        return tests::message_in<scenes::BadInput>(directory.path(),
+                                                   [&] { scenes::read_image(path); });
+    };
+    const std::string damaged = "a.exr: must be a PNG, EXR, HDR or PFM picture, got a damaged EXR";
+    CHECK(read(whole) == "no error");
+    for (std::size_t size = 4; size + 1 < whole.size(); size += 7)
+        CHECK(read(whole.substr(0, size)) == damaged);
+    std::mt19937 random(1);
+    for (int i = 0; i < 2000; ++i) {
+        std::string mutated = whole;
+        for (int k = 0; k < 1 + i % 3; ++k)
+            mutated[4 + random() % (mutated.size() - 4)] = static_cast<char>(random());
+        const std::string message = read(mutated); // and nothing else is thrown
+        CHECK((message == "no error" || message.starts_with("a.exr: must be a ")));
+    }
+}
+
+#endif

@@ -1,0 +1,121 @@
+#include "scenes/image/exr.hpp"
+#include "scenes/image/reader.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+/// What of a picture is drawn, and how its file has it.
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+using Options = std::vector<std::string>;
+
+std::string error_of(const Workshop& workshop, const std::string& name, const Options& options) {
+    const Outcome outcome = workshop.render(name, options);
+    CHECK(outcome.code == 2);
+    CHECK(is_one_line(outcome.err));
+    CHECK(!std::filesystem::exists(workshop.path() / name));
+    return outcome.err;
+}
+
+scenes::Image picture(const Workshop& workshop, const std::string& name, const Options& options) {
+    REQUIRE(workshop.render(name, options).code == 0);
+    return scenes::read_image(workshop.path() / name);
+}
+
+} // namespace
+
+TEST_CASE("a crop is that part of the picture") {
+    const Workshop workshop;
+    for (const Options& sampling : {Options{"--spp", "4"}, {"--quality", "40"}}) {
+        const Options options = joined(sampling, {"--size", "40x30", "--outline", "2"});
+        const scenes::Image whole = picture(workshop, "whole.pfm", options);
+        const scenes::Image part =
+            picture(workshop, "part.pfm", joined(options, {"--crop", "7,3,21x19"}));
+        REQUIRE(part.width == 21);
+        REQUIRE(part.height == 19);
+        for (int y = 0; y < 19; ++y)
+            for (int i = 0; i < 3 * 21; ++i)
+                CHECK(part.rgb[static_cast<std::size_t>(3 * 21 * y + i)] ==
+                      whole.rgb[static_cast<std::size_t>(3 * 40 * (y + 3) + 3 * 7 + i)]);
+    }
+}
+
+TEST_CASE("a picture says how it was made, and nothing of where and when") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png", {"--spp", "4", "--dpi", "300"}).code == 0);
+    REQUIRE(workshop.render("b.png", {"--spp", "4", "--dpi", "300", "--threads", "1"}).code == 0);
+    const std::string content = content_of(workshop.path() / "a.png");
+    CHECK(content == content_of(workshop.path() / "b.png"));
+    CHECK(content.find("scene.json") != std::string::npos);
+    CHECK(content.find("raylane " RAYLANE_VERSION) != std::string::npos);
+    CHECK(content.find("--size 16x12 --spp 4 ") != std::string::npos);
+    CHECK(content.find("pHYs") != std::string::npos);
+    CHECK(content.find(workshop.path().string()) == std::string::npos);
+}
+
+TEST_CASE("lines are drawn as the scene or the command line says") {
+    std::string outlined = ball;
+    outlined.insert(1, R"("outline": {"width": 2, "color": "#00ff00"}, )");
+    const Workshop plain, with_outline(outlined);
+    const auto bytes_of = [](const Workshop& workshop, const Options& options) {
+        REQUIRE(workshop.render("a.pfm", options).code == 0);
+        return content_of(workshop.path() / "a.pfm");
+    };
+    const Options asked = {"--outline", "2", "--outline-color", "#00ff00"};
+    CHECK(bytes_of(with_outline, {}) == bytes_of(plain, asked));
+    CHECK(bytes_of(with_outline, {}) != bytes_of(plain, {}));
+    CHECK(bytes_of(with_outline, {"--outline", "0"}) == bytes_of(plain, {}));
+}
+
+TEST_CASE("what a picture cannot have is told in a line") {
+    const Workshop workshop;
+    const std::string crop = "raylane: --crop: must be X,Y,WIDTHxHEIGHT in pixels from the upper "
+                             "left corner, such as 100,50,320x240, got \"";
+    for (const std::string text : {"", "1", "1,2", "1,2,3", "1,2,3x", "1,2,0x4", "-1,2,3x4",
+                                   "1,2,3x4x5", "1,2,3,4", "a,b,cxd", "1,2,99999999999x3"})
+        CHECK(error_of(workshop, "a.png", {"--crop", text}) == crop + text + "\"\n");
+    CHECK(error_of(workshop, "a.png", {"--crop", "10,0,7x3"}) ==
+          "raylane: --crop: must lie in the picture of 16 x 12 pixels, got \"10,0,7x3\"\n");
+    CHECK(error_of(workshop, "a.png", {"--layers"}) ==
+          "raylane: --layers: goes with an output that ends in .exr\n");
+    CHECK(error_of(workshop, "a.pfm", {"--dpi", "300"}) ==
+          "raylane: --dpi: goes with PNG or EXR\n");
+    CHECK(error_of(workshop, "a.hdr", {"--bits", "16"}) ==
+          "raylane: --bits: goes with PNG or EXR\n");
+    CHECK(error_of(workshop, "a.png", {"--bits", "32"}) ==
+          "raylane: --bits: must be 8 or 16 in PNG, got \"32\"\n");
+    CHECK(error_of(workshop, "a.png", {"--bits", "12"}) ==
+          "raylane: --bits: must be 8, 16 or 32, got \"12\", did you mean \"16\"?\n");
+    CHECK(error_of(workshop, "a.png", {"--dpi", "0"}) ==
+          "raylane: --dpi: must be a number from 1 to 10000, got \"0\"\n");
+    CHECK(error_of(workshop, "a.png", {"--outline", "33"}) ==
+          "raylane: --outline: must be a number from 0 to 32, got \"33\"\n");
+    CHECK(error_of(workshop, "a.png", {"--outline", "1", "--outline-color", "red"}) ==
+          "raylane: --outline-color: must be #rrggbb, such as #204060, got \"red\"\n");
+    CHECK(error_of(workshop, "a.png", {"--outline-color", "#ff0000"}) ==
+          "raylane: --outline-color: goes with --outline\n");
+}
+
+TEST_CASE("layers go into an EXR") {
+    const Workshop workshop;
+    if (!scenes::has_exr()) {
+        CHECK(error_of(workshop, "a.exr", {}) ==
+              "raylane: --output: must be .png, .hdr or .pfm, for raylane was built without "
+              "libopenexr-dev\n");
+        return;
+    }
+    CHECK(error_of(workshop, "a.exr", {"--bits", "8"}) ==
+          "raylane: --bits: must be 16 or 32 in EXR, got \"8\"\n");
+    const Options options = {"--layers", "--bits", "32"};
+    const scenes::Image image = picture(workshop, "a.exr", options);
+    const scenes::Image floats = picture(workshop, "a.pfm", {});
+    CHECK(image.rgb.floats() == floats.rgb.floats());
+    CHECK(workshop.run({"compare", "a.exr", "a.pfm"}).code == 0);
+    const std::string content = content_of(workshop.path() / "a.exr");
+    for (const char* name : {"id.material", "id.shape", "samples", "N.X"})
+        CHECK(content.find(name) != std::string::npos);
+    REQUIRE(workshop.render("b.exr", joined(options, {"--threads", "3", "--tile", "8"})).code == 0);
+    CHECK(content == content_of(workshop.path() / "b.exr"));
+}
