@@ -18,20 +18,20 @@ struct Ball {
 };
 
 /// How far balls reach towards the edges of the picture, 1 at an edge: in each direction.
-struct Outline {
+struct Extent {
     double right = -9.0, left = -9.0, above = -9.0, below = -9.0;
 
     double most() const { return std::max({right, left, above, below}); }
     static void include(double& side, double reach) { side = std::max(side, reach); }
 };
 
-Outline outline_of(const Camera& camera, double aspect, const std::vector<Ball>& balls) {
+Extent extent_of(const Camera& camera, double aspect, const std::vector<Ball>& balls) {
     const Vec3d from = convert<double>(camera.from);
     const Vec3d to = convert<double>(camera.at) - from;
     const Vec3d forward = 1.0 / length(to) * to;
     const Vec3d across = cross(forward, convert<double>(camera.up));
     const Vec3d right = 1.0 / length(across) * across, up = cross(right, forward);
-    Outline outline;
+    Extent extent;
     for (const Ball& ball : balls) {
         const Vec3d w = ball.center - from;
         const double depth = dot(w, forward);
@@ -47,12 +47,12 @@ Outline outline_of(const Camera& camera, double aspect, const std::vector<Ball>&
             camera.projection == Projection::orthographic
                 ? 0.5 * static_cast<double>(camera.height)
                 : std::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0);
-        outline.include(outline.right, reach(dot(w, right), aspect * half_height));
-        outline.include(outline.left, reach(-dot(w, right), aspect * half_height));
-        outline.include(outline.above, reach(dot(w, up), half_height));
-        outline.include(outline.below, reach(-dot(w, up), half_height));
+        extent.include(extent.right, reach(dot(w, right), aspect * half_height));
+        extent.include(extent.left, reach(-dot(w, right), aspect * half_height));
+        extent.include(extent.above, reach(dot(w, up), half_height));
+        extent.include(extent.below, reach(-dot(w, up), half_height));
     }
-    return outline;
+    return extent;
 }
 
 bool projection_is_limited(const Framing& framing, double near, double size) {
@@ -79,28 +79,27 @@ TEST_CASE("a camera that frames sees all of it, as large as that may be") {
                  size * random.uniform(0, 0.5)});
             frame.include(balls.back().center, balls.back().radius);
         }
-        const Outline outline = outline_of(frame.camera(), aspect, balls);
-        CAPTURE(round, outline.right, outline.left, outline.above, outline.below);
-        CHECK(outline.most() < 1.0 / 1.05 + 1e-4);
+        const Extent extent = extent_of(frame.camera(), aspect, balls);
+        CAPTURE(round, extent.right, extent.left, extent.above, extent.below);
+        CHECK(extent.most() < 1.0 / 1.05 + 1e-4);
         const auto [near, far] = frame.depths(frame.camera());
         CHECK(near > 0.0);
         CHECK(far > near);
         // A wide view may have to be from farther away, so that all is before the eye.
         if (projection_is_limited(framing, near, std::max(far - near, frame.width()))) continue;
         // With the margin, at both sides of one direction.
-        CHECK(outline.most() == Approx(1.0 / 1.05).epsilon(1e-4));
+        CHECK(extent.most() == Approx(1.0 / 1.05).epsilon(1e-4));
         const bool fills_width =
-            std::abs(outline.right - outline.left) < 1e-4 && outline.right > outline.most() - 1e-4;
+            std::abs(extent.right - extent.left) < 1e-4 && extent.right > extent.most() - 1e-4;
         const bool fills_height =
-            std::abs(outline.above - outline.below) < 1e-4 && outline.above > outline.most() - 1e-4;
+            std::abs(extent.above - extent.below) < 1e-4 && extent.above > extent.most() - 1e-4;
         CHECK((fills_width || fills_height));
 
         framing.zoom = 2.0F;
         Frame nearer(framing, aspect);
         for (const Ball& ball : balls)
             nearer.include(ball.center, ball.radius);
-        CHECK(outline_of(nearer.camera(), aspect, balls).most() ==
-              Approx(2.0 / 1.05).epsilon(1e-4));
+        CHECK(extent_of(nearer.camera(), aspect, balls).most() == Approx(2.0 / 1.05).epsilon(1e-4));
     }
 }
 

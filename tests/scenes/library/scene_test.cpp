@@ -83,7 +83,8 @@ TEST_CASE("everything else comes back as it was given") {
                         .light_samples = 3,
                         .transfer = Transfer::linear,
                         .max_depth = 5,
-                        .min_weight = 0.25F};
+                        .min_weight = 0.25F,
+                        .outline = {.width = 2, .color = {0, 0.5F, 1}, .creases = 30}};
     builder.add_light({.position = {1, 2, 3}, .color = {4, 5, 6}});
     builder.add_light({.kind = LightKind::directional, .direction = {7, 8, 9}});
     builder.add_light({.kind = LightKind::sky, .ground = {0.5F, 0.25F, 0}, .reach = 4});
@@ -132,6 +133,8 @@ TEST_CASE("everything else comes back as it was given") {
     CHECK(settings.light_samples == 3);
     CHECK(settings.transfer == Transfer::linear);
     CHECK((settings.max_depth == 5 && settings.min_weight == 0.25F));
+    CHECK((settings.outline.width == 2 && settings.outline.creases == 30));
+    CHECK((settings.outline.color.y == 0.5F && settings.outline.color.z == 1));
 
     const std::vector<Light> lights = scene.lights();
     REQUIRE(lights.size() == 4);
