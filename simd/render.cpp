@@ -69,7 +69,7 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
                     const SceneData* scene) {
     const core::Region part = drawn_part(settings, options.crop);
     const core::Region crop = options.crop.value_or(part);
-    Rendering rendering{core::Film(part), {}, {}};
+    Rendering rendering{core::Film(part, settings.alpha), {}, {}};
     if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
     tbb::enumerable_thread_specific<Tracer> tracers(make_tracer);
     tbb::enumerable_thread_specific<FirstHitPasses> passes(
@@ -97,13 +97,14 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
     return rendering;
 }
 
-/// Draws a picture for each of some wavelengths, and adds their shares up.
+/// Draws a picture for each of some wavelengths, and adds their shares up. An alpha is the mean.
 template <class Tracer>
 class SpectralTracer {
   public:
     SpectralTracer(std::vector<Tracer> tracers, const std::vector<core::Color>& shares,
                    const core::Settings& settings)
-        : tracers_(std::move(tracers)), shares_(shares), film_(settings.width, settings.height) {}
+        : tracers_(std::move(tracers)), shares_(shares),
+          film_(settings.width, settings.height, settings.alpha) {}
 
     void render(const core::Region& region, core::Film& film) {
         for (std::size_t i = 0; i < tracers_.size(); ++i) {
@@ -112,6 +113,10 @@ class SpectralTracer {
                 for (int x = region.x0; x < region.x1; ++x) {
                     const core::Color share = shares_[i] * film_.at(x, y);
                     film.at(x, y) = i == 0 ? share : film.at(x, y) + share;
+                    if (!film.has_alpha()) continue;
+                    float& alpha = film.alpha_at(x, y);
+                    alpha = i == 0 ? film_.alpha_at(x, y) : alpha + film_.alpha_at(x, y);
+                    if (i + 1 == tracers_.size()) alpha /= static_cast<float>(tracers_.size());
                 }
         }
     }
@@ -210,10 +215,6 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
         fitting(tile_of(settings, options), settings), settings, options,
         FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr);
 }
-
-} // namespace
-
-namespace {
 
 void require_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
     const bool is_part = !crop || (crop->x0 < crop->x1 && crop->y0 < crop->y1 &&

@@ -24,7 +24,7 @@ bool PixelSamples::is_within(double tolerance, Transfer transfer, bool is_blurre
     const double n = count_;
     const double root = std::sqrt(n);
     const double accuracy = 1.0 / std::sqrt(n * (is_blurred ? std::sqrt(root) : root));
-    for (int channel = 0; channel < 3; ++channel) {
+    for (std::size_t channel = 0; channel < channels; ++channel) {
         const double mean = seen_sum_[channel] / n;
         const double variance = std::max(0.0, seen_squares_[channel] / n - mean * mean);
         const double off = std::sqrt(variance * n / (n - 1.0)) * accuracy;

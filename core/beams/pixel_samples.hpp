@@ -14,6 +14,8 @@ struct Sample {
     Vec3d color;              ///< linear RGB
     ShapeId shape = no_shape; ///< that the camera's ray hits first
     double t = 0.0;           ///< where it does
+    /// The share of the background that is seen straight on and left out (Settings::alpha), or 0.
+    double transmittance = 0.0;
 };
 
 /// The samples of one pixel so far.
@@ -21,13 +23,18 @@ class PixelSamples {
   public:
     int count() const { return count_; }
     Color mean() const { return convert<float>(Vec3d(sum_ / static_cast<double>(count_))); }
+    float alpha() const {
+        return static_cast<float>(1.0 - seen_sum_[of_background] / static_cast<double>(count_));
+    }
 
     /// To be called in the order of the samples' numbers.
     void add(const Sample& sample) {
         ++count_;
         sum_ += sample.color;
-        for (int channel = 0; channel < 3; ++channel) {
-            const double seen = std::clamp(sample.color[channel], 0.0, 1.0);
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+            const double seen = channel == of_background
+                                    ? sample.transmittance
+                                    : std::clamp(sample.color[static_cast<int>(channel)], 0.0, 1.0);
             seen_sum_[channel] += seen;
             seen_squares_[channel] += seen * seen;
         }
@@ -57,12 +64,16 @@ class PixelSamples {
     static constexpr int most_shapes = 8;
 
   private:
+    /// What is left out of the background is seen as if that were white.
+    static constexpr std::size_t of_background = 3, channels = 4;
+
     int count_ = 0;
     int shapes_count_ = 0;
     double farthest_ = 0.0;
     std::array<ShapeId, most_shapes> shapes_{};
     Vec3d sum_{0.0};
-    Vec3d seen_sum_{0.0}, seen_squares_{0.0}; // of colours as the film has them, 1 at most
+    // Of colours as the film has them, 1 at most, and of the background.
+    std::array<double, channels> seen_sum_{}, seen_squares_{};
 };
 
 } // namespace raylane::core

@@ -31,12 +31,21 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Of neighbours' colours, as a part of white.
 constexpr double contrast = 0.1;
 
-Vec3d seen(const Vec3d& color) {
-    return {std::min(color.x, 1.0), std::min(color.y, 1.0), std::min(color.z, 1.0)};
+/// As the film shows it.
+Sample seen(Sample sample) {
+    for (int channel = 0; channel < 3; ++channel)
+        sample.color[channel] = std::min(sample.color[channel], 1.0);
+    return sample;
 }
 
 double largest(const Vec3d& v) {
     return std::max({v.x, v.y, v.z});
+}
+
+/// In a channel, or in what is seen of the background.
+double largest_step(const Sample& a, const Sample& b) {
+    return std::max(largest(absolute(a.color - b.color)),
+                    std::abs(a.transmittance - b.transmittance));
 }
 
 } // namespace
@@ -98,7 +107,7 @@ void RegionSamples::mark_edges() {
                 const Sample& here = states_[number].first;
                 const Sample& other = states_[number_of(other_x, other_y)].first;
                 return here.shape != other.shape ||
-                       largest(absolute(seen(here.color) - seen(other.color))) > contrast;
+                       largest_step(seen(here), seen(other)) > contrast;
             };
             const bool is_edge =
                 differs(x % square_size != 0, x - 1, y) ||
@@ -166,10 +175,9 @@ bool RegionSamples::looks_even(const PixelSquare& square, double& t_likely) cons
             if (sample.shape != first.shape) return false;
             t_likely = std::max(t_likely, sample.shape == no_shape ? infinity : sample.t);
             if (is_grainy_) continue;
-            const Vec3d& left = states_[number_of(std::max(x - 1, square.x), y)].first.color;
-            const Vec3d& above = states_[number_of(x, std::max(y - 1, square.y))].first.color;
-            if (largest(absolute(sample.color - left)) > step_most ||
-                largest(absolute(sample.color - above)) > step_most)
+            const Sample& left = states_[number_of(std::max(x - 1, square.x), y)].first;
+            const Sample& above = states_[number_of(x, std::max(y - 1, square.y))].first;
+            if (largest_step(sample, left) > step_most || largest_step(sample, above) > step_most)
                 return false;
         }
     t_likely *= likely_beyond;

@@ -43,6 +43,7 @@ class RegionSamples {
     /// False if no pixel wants any more.
     bool end_round();
     Color mean(std::size_t pixel) const { return states_[pixel].samples.mean(); }
+    float alpha(std::size_t pixel) const { return states_[pixel].samples.alpha(); }
 
   private:
     static constexpr int least_uneven = 4; ///< pixels on a side

@@ -79,6 +79,12 @@ Vec3<Real> let_through_medium(const Material& material, Real distance) {
     return share;
 }
 
+/// What shares of light by channel come to where there is one number for all, as of an alpha.
+template <class Real>
+Real mean_of_channels(const Vec3<Real>& share) {
+    return (share.x + share.y + share.z) / Real(3);
+}
+
 /// The share of light that a surface lets through on a straight line, at the cosine `cos` of its
 /// angle to the normal. As the line is not bent, its angle is taken for the one on the rarer side:
 /// a light is never shut out by total reflection in a body that it has to enter first. What a

@@ -39,8 +39,11 @@ template <class Real>
 void ReferenceTracer<Real>::render(const Region& region, Film& film) {
     if (settings_.quality == 0.0F) {
         for (int y = region.y0; y < region.y1; ++y)
-            for (int x = region.x0; x < region.x1; ++x)
+            for (int x = region.x0; x < region.x1; ++x) {
                 film.at(x, y) = pixel(x, y);
+                if (film.has_alpha())
+                    film.alpha_at(x, y) = static_cast<float>(Real(1) - transmittance_);
+            }
         return;
     }
     RegionSamples& samples = *to_quality_;
@@ -60,21 +63,28 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
                 const Vector color = trace(camera_rays_.ray(
                     sample_, camera_rays_.filtered({Real(place.x), Real(place.y)})));
                 samples.add(pixel, {convert<double>(color), first_hit_.shape,
-                                    static_cast<double>(first_hit_.t)});
+                                    static_cast<double>(first_hit_.t),
+                                    static_cast<double>(transmittance_)});
             }
         });
     } while (samples.end_round());
-    for_each_pixel([&](int x, int y, std::size_t pixel) { film.at(x, y) = samples.mean(pixel); });
+    for_each_pixel([&](int x, int y, std::size_t pixel) {
+        film.at(x, y) = samples.mean(pixel);
+        if (film.has_alpha()) film.alpha_at(x, y) = samples.alpha(pixel);
+    });
 }
 
 template <class Real>
 Color ReferenceTracer<Real>::pixel(int x, int y) {
     const int samples = settings_.grid * settings_.grid;
     Vector sum(0);
+    Real transmittance = 0;
     for (int sample = 0; sample < samples; ++sample) {
         sample_ = {x, y, sample};
         sum += trace(camera_rays_.ray(x, y, sample));
+        transmittance += transmittance_;
     }
+    transmittance_ = transmittance / Real(samples);
     return convert<float>(Vector(sum / Real(samples)));
 }
 
@@ -98,6 +108,7 @@ Media ReferenceTracer<Real>::media_around(const Vector& origin, bool may_be_in_a
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
     Vector light(0);
+    transmittance_ = 0;
     const std::size_t others = pending_.size();
     pending_.push_back(std::move(path));
     while (pending_.size() > others) {
@@ -115,7 +126,11 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
         path.ray, path.origins, [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
     if (path.depth == 0 && path.passed == 0 && path.crossings == 0 && hit.any()) first_hit_ = hit;
-    if (!hit.any()) return path.throughput * color_at_infinity(path);
+    if (!hit.any()) {
+        if (!settings_.alpha || !path.is_straight) return path.throughput * color_at_infinity(path);
+        transmittance_ = transmittance_to_infinity(path);
+        return Vector(0);
+    }
 
     const Surface surface = surface_at(path, encounter);
     const MaterialIndex medium = medium_before(hit, path.media);
@@ -142,6 +157,13 @@ Vec3<Real> ReferenceTracer<Real>::color_at_infinity(const Path& path) const {
         return absorbed(media_.top(path.media), infinity<Real>) * background;
     const Real fog = fog_fraction_at_infinity(scene_.fog(), path.ray.origin, path.ray.direction);
     return mul_add(fog, convert<Real>(scene_.fog().color), Vector((Real(1) - fog) * background));
+}
+
+/// Fog is no part of it: what has no end is all fog or none, and then that is the background.
+template <class Real>
+Real ReferenceTracer<Real>::transmittance_to_infinity(const Path& path) const {
+    return mean_of_channels(
+        Vector(absorbed(media_.top(path.media), infinity<Real>) * path.throughput));
 }
 
 template <class Real>
@@ -293,7 +315,9 @@ void ReferenceTracer<Real>::reflect(const Path& path, const Surface& surface,
                         throughput,
                         path.depth + 1,
                         /*crossings=*/0,
-                        path.passed});
+                        path.passed,
+                        /*travelled=*/0,
+                        /*is_straight=*/false});
 }
 
 template <class Real>
@@ -306,6 +330,7 @@ void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
     ++searcher_.counters.refracted;
     Path next = through(path, surface, throughput, normalized(direction));
     next.depth += is_free ? 0 : 1;
+    next.is_straight = false;
     pending_.push_back(std::move(next));
 }
 
@@ -333,7 +358,9 @@ ReferenceTracer<Real>::through(const Path& path, const Surface& surface, const V
             throughput,
             path.depth,
             surface.hit.at_start ? path.crossings - 1 : static_cast<int>(surface.contacts.size()),
-            path.passed};
+            path.passed,
+            /*travelled=*/0,
+            path.is_straight};
 }
 
 template <class Real>

@@ -37,6 +37,10 @@ class ReferenceTracer {
     /// The linear RGB colour seen along a ray; its direction is a unit vector.
     Vec3<Real> trace(const Ray<Real>& ray);
 
+    /// Of the last ray, path or pixel: the share of the background that has been left out
+    /// (Settings::alpha).
+    Real transmittance() const { return transmittance_; }
+
     /// Counts of the work of all calls so far.
     const Counters& counters() const { return searcher_.counters; }
 
@@ -49,12 +53,13 @@ class ReferenceTracer {
     struct Path {
         Ray<Real> ray;
         OriginSurfaces<Real> origins;
-        Media media;        ///< media that it is inside of
-        Vector throughput;  ///< share of its colour that reaches the pixel
-        int depth;          ///< reflections and refractions so far
-        int crossings = 0;  ///< of surfaces where it starts that it may cross for nothing
-        int passed = 0;     ///< see-through surfaces that it has gone straight through
-        Real travelled = 0; ///< on the straight line that its ray is on, before its start
+        Media media;             ///< media that it is inside of
+        Vector throughput;       ///< share of its colour that reaches the pixel
+        int depth;               ///< reflections and refractions so far
+        int crossings = 0;       ///< of surfaces where it starts that it may cross for nothing
+        int passed = 0;          ///< see-through surfaces that it has gone straight through
+        Real travelled = 0;      ///< on the straight line that its ray is on, before its start
+        bool is_straight = true; ///< as it left the camera
     };
 
     /// Light that a path, with all that follows from it, brings to the pixel: linear RGB.
@@ -101,6 +106,7 @@ class ReferenceTracer {
 
     Vector light_on(const Path& path);
     Vector color_at_infinity(const Path& path) const;
+    Real transmittance_to_infinity(const Path& path) const;
     Surface surface_at(const Path& path, const Encounter<Real>& encounter) const;
     Vector shade(const Path& path, const Surface& surface, const Vector& throughput);
     Vector lit(const Path& path, const Surface& surface);
@@ -139,6 +145,7 @@ class ReferenceTracer {
 
     std::optional<RegionSamples> to_quality_; // if the picture has one
     Hit<Real> first_hit_;                     // of the last ray from the camera
+    Real transmittance_ = 0;
 };
 
 extern template class ReferenceTracer<float>;

@@ -8,14 +8,18 @@
 
 namespace raylane::core {
 
-/// A picture in linear float RGB; rows run from the top down, pixels from left to right.
+/// A picture in linear float RGB; rows run from the top down, pixels from left to right. It may
+/// have an alpha: the share of each pixel that something covers, in [0, 1], by which its colour is
+/// multiplied already, so that over a background it is color + (1 - alpha) * background.
 class Film {
   public:
-    Film(int width, int height) : Film(Region{0, 0, width, height}) {}
+    Film(int width, int height, bool with_alpha = false)
+        : Film(Region{0, 0, width, height}, with_alpha) {}
     /// A part of a picture, whose pixels are named as in the whole.
-    explicit Film(const Region& part)
+    explicit Film(const Region& part, bool with_alpha = false)
         : x0_(part.x0), y0_(part.y0), width_(part.x1 - part.x0), height_(part.y1 - part.y0),
-          pixels_(static_cast<std::size_t>(width_) * height_, Color(0.0F)) {}
+          pixels_(static_cast<std::size_t>(width_) * height_, Color(0.0F)),
+          alphas_(with_alpha ? pixels_.size() : 0, 0.0F) {}
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -24,25 +28,35 @@ class Film {
     /// width * height colours, row by row.
     const std::vector<Color>& pixels() const { return pixels_; }
 
-    /// A part as a picture of its own, which begins at (0, 0).
-    Film cropped(const Region& part) const {
-        Film film(part.x1 - part.x0, part.y1 - part.y0);
-        for (int y = part.y0; y < part.y1; ++y)
-            for (int x = part.x0; x < part.x1; ++x)
-                film.at(x - part.x0, y - part.y0) = at(x, y);
-        return film;
-    }
-
-  private:
+    bool has_alpha() const { return !alphas_.empty(); }
+    float& alpha_at(int x, int y) { return alphas_[index(x, y)]; }
+    /// 1 if the film has none.
+    float alpha_at(int x, int y) const { return has_alpha() ? alphas_[index(x, y)] : 1.0F; }
+    /// width * height, row by row, or none.
+    const std::vector<float>& alphas() const { return alphas_; }
+    /// Of a pixel, in these.
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y - y0_) * width_ + (x - x0_);
     }
 
+    /// A part as a picture of its own, which begins at (0, 0).
+    Film cropped(const Region& part) const {
+        Film film(part.x1 - part.x0, part.y1 - part.y0, has_alpha());
+        for (int y = part.y0; y < part.y1; ++y)
+            for (int x = part.x0; x < part.x1; ++x) {
+                film.at(x - part.x0, y - part.y0) = at(x, y);
+                if (has_alpha()) film.alpha_at(x - part.x0, y - part.y0) = alpha_at(x, y);
+            }
+        return film;
+    }
+
+  private:
     int x0_;
     int y0_;
     int width_;
     int height_;
     std::vector<Color> pixels_;
+    std::vector<float> alphas_;
 };
 
 } // namespace raylane::core

@@ -85,6 +85,10 @@ struct Settings {
     /// Rays to each light with a size, from each point that a sample sees.
     int light_samples = 8;
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
+    /// The film has an alpha: where the camera sees the background, past everything or straight
+    /// through see-through surfaces, it is left out, with the fog before it. Mirrors and glass show
+    /// it, and cover what is behind them.
+    bool alpha = false;
     int max_depth = 8;         ///< reflections and refractions on one path; 0: primary rays alone
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
     /// See-through surfaces that a path shows, one behind the other, at least 1; further ones are

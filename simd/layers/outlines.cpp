@@ -74,8 +74,10 @@ void Outlines::draw(const core::Region& region, core::Film& film) {
                 hidden += hidden_at((x - region.x0) * per_pixel + reach_ + point % per_pixel,
                                     (y - region.y0) * per_pixel + reach_ + point / per_pixel);
             const auto share = static_cast<float>(hidden / (per_pixel * per_pixel));
-            if (share > 0.0F)
-                film.at(x, y) = (1.0F - share) * film.at(x, y) + share * outline_.color;
+            if (share == 0.0F) continue;
+            film.at(x, y) = (1.0F - share) * film.at(x, y) + share * outline_.color;
+            if (film.has_alpha())
+                film.alpha_at(x, y) = (1.0F - share) * film.alpha_at(x, y) + share;
         }
 }
 

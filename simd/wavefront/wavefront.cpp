@@ -72,6 +72,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     constexpr std::size_t most_pixels = static_cast<std::size_t>(max_region) * max_region;
     if (settings.quality == 0.0F) {
         sums_.reserve(most_pixels);
+        transmittances_.reserve(settings.alpha ? most_pixels : 0);
         return;
     }
     to_quality_.emplace(scene.scene(), settings);
@@ -98,6 +99,7 @@ void Wavefront::take_from(Arena& arena) {
         lens_up_ = arena.take<double>(chunk_samples);
     }
     arena.take(radiance_, chunk_samples);
+    if (settings_.alpha) transmittance_ = arena.take<double>(chunk_samples);
     sorted_.take_from(arena, wave_rays);
     for (auto* columns :
          {&surfaces_.point, &surfaces_.flat_normal, &surfaces_.normal, &surfaces_.direction,
@@ -134,13 +136,17 @@ void Wavefront::render(const core::Region& region, core::Film& film) {
 
 /// As many samples of each pixel as the settings' grid says.
 void Wavefront::render_grid(const core::Region& region, core::Film& film) {
-    const int width = region.x1 - region.x0;
     const int samples = settings_.grid * settings_.grid;
     sums_.assign(static_cast<std::size_t>(region.pixels()), core::Vec3d(0.0));
+    if (settings_.alpha) transmittances_.assign(sums_.size(), 0.0);
     const auto add = [&](const Samples& some, std::size_t i) {
+        const std::size_t end = i + static_cast<std::size_t>(some.count);
+        if (settings_.alpha)
+            for (std::size_t k = i; k < end; ++k)
+                transmittances_[some.pixel] += transmittance_[k];
         core::Vec3d& total = sums_[some.pixel];
         core::Vec3d sum = total;
-        for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
+        for (; i < end; ++i)
             sum += core::Vec3d(radiance_[0][i], radiance_[1][i], radiance_[2][i]);
         total = sum;
     };
@@ -148,11 +154,14 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
         take({x, y, pixel, 0, samples}, add);
     });
     flush(add);
+    std::size_t pixel = 0;
     for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x)
-            film.at(x, y) = core::convert<float>(
-                sums_[static_cast<std::size_t>(y - region.y0) * width + x - region.x0] /
-                static_cast<double>(samples));
+        for (int x = region.x0; x < region.x1; ++x, ++pixel) {
+            film.at(x, y) = core::convert<float>(sums_[pixel] / static_cast<double>(samples));
+            if (film.has_alpha())
+                film.alpha_at(x, y) =
+                    static_cast<float>(1.0 - transmittances_[pixel] / static_cast<double>(samples));
+        }
 }
 
 /// Round after round, the samples that each pixel still wants.
@@ -162,7 +171,8 @@ void Wavefront::render_to_quality(const core::Region& region, core::Film& film) 
         for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
             pixels.add(some.pixel, {{radiance_[0][i], radiance_[1][i], radiance_[2][i]},
                                     first_shape_[i],
-                                    first_t_[i]});
+                                    first_t_[i],
+                                    settings_.alpha ? transmittance_[i] : 0.0});
     };
     pixels.begin(region);
     do {
@@ -173,8 +183,10 @@ void Wavefront::render_to_quality(const core::Region& region, core::Film& film) 
     } while (pixels.end_round());
     std::size_t pixel = 0;
     for (int y = region.y0; y < region.y1; ++y)
-        for (int x = region.x0; x < region.x1; ++x)
-            film.at(x, y) = pixels.mean(pixel++);
+        for (int x = region.x0; x < region.x1; ++x, ++pixel) {
+            film.at(x, y) = pixels.mean(pixel);
+            if (film.has_alpha()) film.alpha_at(x, y) = pixels.alpha(pixel);
+        }
 }
 
 /// Calls visit(x, y, number in the region, row by row) in the order of Morton codes.
@@ -243,6 +255,7 @@ void Wavefront::start(std::size_t count) {
         }
     for (double* channel : radiance_)
         std::fill_n(channel, count, 0.0);
+    if (settings_.alpha) std::fill_n(transmittance_, count, 0.0);
     paths_.count = count;
     tracing_.kernels->rays.camera_rays(camera_, count, across_, upward_, lens_right_, lens_up_,
                                        paths_.origin, paths_.direction);
@@ -307,7 +320,7 @@ void Wavefront::trace_wave(int depth, const Coherence& coherence) {
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts(), paths_.passed,
                  static_cast<std::uint32_t>(settings_.max_see_through));
     if (to_quality_ && depth == 0) note_first_hits();
-    see_background();
+    see_background(depth);
     shade(depth);
 }
 
@@ -329,8 +342,10 @@ void Wavefront::follow(std::size_t lane, int depth) {
     const core::Vec3d light = reference_.light_along(
         {ray_of(paths_, lane), origin_surfaces_of(scene_, paths_, lane), paths_.media_at(lane),
          throughput, depth_of(lane, depth),
-         /*crossings=*/0, static_cast<int>(paths_.passed_at(lane)), paths_.travelled_at(lane)});
+         /*crossings=*/0, static_cast<int>(paths_.passed_at(lane)), paths_.travelled_at(lane),
+         /*is_straight=*/depth_of(lane, depth) == 0});
     add(paths_.sample[lane], light.x, light.y, light.z);
+    if (settings_.alpha) transmittance_[paths_.sample[lane]] += reference_.transmittance();
 }
 
 core::Vec3d Wavefront::background_along(std::size_t lane) {
@@ -346,8 +361,22 @@ core::Vec3d Wavefront::background_along(std::size_t lane) {
     return (1.0 - fog) * color + fog * core::convert<double>(scene.fog().color);
 }
 
-void Wavefront::see_background() {
+/// As core::ReferenceTracer has it.
+double Wavefront::transmittance_to_infinity(std::size_t lane) {
+    core::Vec3d share(paths_.throughput[0][lane], paths_.throughput[1][lane],
+                      paths_.throughput[2][lane]);
+    if (const core::Media media = paths_.media_at(lane); media != core::empty_space)
+        share *= core::let_through_medium(scene_.scene().materials()[reference_.media().top(media)],
+                                          infinity);
+    return core::mean_of_channels(share);
+}
+
+void Wavefront::see_background(int depth) {
     for (const std::uint32_t lane : sorted_.missed()) {
+        if (settings_.alpha && depth_of(lane, depth) == 0) {
+            transmittance_[paths_.sample[lane]] += transmittance_to_infinity(lane);
+            continue;
+        }
         const core::Vec3d color = background_along(lane);
         add(paths_.sample[lane], paths_.throughput[0][lane] * color.x,
             paths_.throughput[1][lane] * color.y, paths_.throughput[2][lane] * color.z);

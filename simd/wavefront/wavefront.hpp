@@ -73,7 +73,7 @@ class Wavefront {
     void trace();
     void trace_wave(int depth, const Coherence& coherence);
     void follow(std::size_t lane, int depth);
-    void see_background();
+    void see_background(int depth);
     void shade(int depth);
     void fill_media();
     void look_at_lights();
@@ -91,6 +91,7 @@ class Wavefront {
     void take_deferred(int& depth);
     void add(std::uint32_t sample, double r, double g, double b);
     core::Vec3d background_along(std::size_t lane);
+    double transmittance_to_infinity(std::size_t lane);
 
     const SceneData& scene_;
     core::Settings settings_;
@@ -119,9 +120,11 @@ class Wavefront {
     double* lens_right_ = nullptr; // if there is a lens
     double* lens_up_ = nullptr;
     double* radiance_[3] = {};            // by sample
+    double* transmittance_ = nullptr;     // by sample, if the picture has an alpha
     std::vector<core::SampleName> names_; // by sample
     std::size_t filled_ = 0;              // samples of the chunk
     std::vector<core::Vec3d> sums_;       // by pixel of the region
+    std::vector<double> transmittances_;  // the same
 
     // If the picture has a quality.
     std::optional<core::RegionSamples> to_quality_;
