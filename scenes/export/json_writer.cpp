@@ -194,6 +194,7 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         image.number("width", settings.width);
         image.number("height", settings.height);
         image.text("transfer", settings.transfer == core::Transfer::srgb ? "srgb" : "linear");
+        if (settings.alpha) image.key("alpha") << "true";
     }
     root.key("sampling");
     {

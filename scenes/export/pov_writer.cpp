@@ -28,6 +28,7 @@ class PovWriter {
             differences_.insert("the spectrum: glass has one index there");
         if (scene_.settings().outline.any())
             differences_.insert("the outline: there is none there");
+        if (scene_.settings().alpha) differences_.insert("the alpha, which +ua has drawn there");
         write_camera();
         write_fog();
         for (const core::Light& light : scene_.lights())

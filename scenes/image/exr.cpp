@@ -86,17 +86,6 @@ Imf::Slice slice_of(Imf::PixelType type, const Value* values, std::size_t step, 
     return {type, base, step, step * static_cast<unsigned>(width)};
 }
 
-/// Halves are rounded by the library, but what is beyond the largest is to be white, not infinite.
-std::vector<Imath::half> halves_of(const core::Film& film) {
-    constexpr float most = 65504.0F;
-    std::vector<Imath::half> halves;
-    halves.reserve(3 * film.pixels().size());
-    for (const core::Color& pixel : film.pixels())
-        for (int channel = 0; channel < 3; ++channel)
-            halves.emplace_back(std::clamp(pixel[channel], -most, most));
-    return halves;
-}
-
 struct Channels {
     Imf::Header& header;
     Imf::FrameBuffer buffer{};
@@ -109,6 +98,35 @@ struct Channels {
                                      header.dataWindow().max.x - header.dataWindow().min.x + 1));
     }
 };
+
+constexpr const char* color_names[] = {"R", "G", "B"};
+
+void add_floats(const core::Film& film, Channels& channels) {
+    for (int channel = 0; channel < 3; ++channel)
+        channels.add(color_names[channel], Imf::FLOAT, &film.pixels().front()[channel],
+                     sizeof(core::Color));
+    if (film.has_alpha()) channels.add("A", Imf::FLOAT, film.alphas().data());
+}
+
+/// What a film's components are rounded to while they are written.
+struct Halves {
+    std::vector<Imath::half> rgb, alpha;
+};
+
+/// Halves are rounded by the library, but what is beyond the largest is to be white, not infinite.
+void add_halves(const core::Film& film, Halves& halves, Channels& channels) {
+    constexpr float most = 65504.0F;
+    halves.rgb.reserve(3 * film.pixels().size());
+    for (const core::Color& pixel : film.pixels())
+        for (int channel = 0; channel < 3; ++channel)
+            halves.rgb.emplace_back(std::clamp(pixel[channel], -most, most));
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        channels.add(color_names[channel], Imf::HALF, &halves.rgb[channel],
+                     3 * sizeof(Imath::half));
+    if (!film.has_alpha()) return;
+    halves.alpha.assign(film.alphas().begin(), film.alphas().end());
+    channels.add("A", Imf::HALF, halves.alpha.data());
+}
 
 void add_layers(const core::Layers& layers, Channels& channels) {
     channels.add("Z", Imf::FLOAT, layers.depth.data());
@@ -140,37 +158,48 @@ std::string all_of(ByteSource& source) {
     return bytes;
 }
 
-std::vector<float> pixels_of(Imf::InputFile& file, int width, int height) {
+/// What the display window shows, of a file that may have more or less.
+void read_pixels(Imf::InputFile& file, Image& image) {
     const Imath::Box2i shown = file.header().displayWindow(), there = file.header().dataWindow();
     const std::int64_t across = std::int64_t{there.max.x} - there.min.x + 1;
     const std::int64_t down = std::int64_t{there.max.y} - there.min.y + 1;
     check_size(across, down);
+    if (!file.isComplete()) throw damaged("EXR"); // before there is room for what it claims
     const auto columns = static_cast<std::size_t>(across), rows = static_cast<std::size_t>(down);
-    const bool is_grey = file.header().channels().findChannel("Y") != nullptr &&
-                         file.header().channels().findChannel("G") == nullptr;
-    std::vector<float> held(3 * columns * rows);
+    const auto has = [&](const char* name) {
+        return file.header().channels().findChannel(name) != nullptr;
+    };
+    const bool is_grey = has("Y") && !has("G"), has_alpha = has("A");
+    std::vector<const char*> names = {"R", "G", "B"};
+    if (is_grey) names = {"Y"};
+    if (has_alpha) names.push_back("A");
+
+    const std::size_t step = names.size();
+    std::vector<float> held(step * columns * rows);
     Imf::FrameBuffer buffer;
-    const char* const names[] = {"R", "G", "B"};
-    for (std::size_t channel = 0; channel < (is_grey ? 1 : 3); ++channel) {
-        const Imf::Slice slice = Imf::Slice::Make(Imf::FLOAT, held.data() + channel, there,
-                                                  3 * sizeof(float), 3 * columns * sizeof(float));
-        buffer.insert(is_grey ? "Y" : names[channel], slice);
-    }
+    for (std::size_t channel = 0; channel < step; ++channel)
+        buffer.insert(names[channel],
+                      Imf::Slice::Make(Imf::FLOAT, held.data() + channel, there,
+                                       step * sizeof(float), step * columns * sizeof(float)));
     file.setFrameBuffer(buffer);
     file.readPixels(there.min.y, there.max.y);
 
-    std::vector<float> rgb(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    auto component = rgb.begin();
+    const std::size_t pixels =
+        static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+    std::vector<float> rgb(3 * pixels), alpha(has_alpha ? pixels : 0);
+    std::size_t pixel = 0;
     for (int y = shown.min.y; y <= shown.max.y; ++y)
-        for (int x = shown.min.x; x <= shown.max.x; ++x, component += 3) {
+        for (int x = shown.min.x; x <= shown.max.x; ++x, ++pixel) {
             if (x < there.min.x || x > there.max.x || y < there.min.y || y > there.max.y) continue;
             const float* const from =
-                &held[3 * (static_cast<std::size_t>(y - there.min.y) * columns +
-                           static_cast<std::size_t>(x - there.min.x))];
-            for (int channel = 0; channel < 3; ++channel)
-                component[channel] = from[is_grey ? 0 : channel];
+                &held[step * (static_cast<std::size_t>(y - there.min.y) * columns +
+                              static_cast<std::size_t>(x - there.min.x))];
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                rgb[3 * pixel + channel] = from[is_grey ? 0 : channel];
+            if (has_alpha) alpha[pixel] = from[step - 1];
         }
-    return rgb;
+    image.rgb = Components(std::move(rgb));
+    image.alpha = Components(std::move(alpha));
 }
 
 } // namespace
@@ -185,16 +214,11 @@ std::string exr_of(const core::Film& film, const core::Layers* layers,
     header.compression() = Imf::ZIP_COMPRESSION;
     add_attributes(options, header);
     Channels channels{header};
-    const char* const names[] = {"R", "G", "B"};
-    std::vector<Imath::half> halves;
-    if (options.bits != 32) halves = halves_of(film);
-    for (int channel = 0; channel < 3; ++channel)
-        if (options.bits == 32)
-            channels.add(names[channel], Imf::FLOAT, &film.pixels().front()[channel],
-                         sizeof(core::Color));
-        else
-            channels.add(names[channel], Imf::HALF, &halves[static_cast<std::size_t>(channel)],
-                         3 * sizeof(Imath::half));
+    Halves halves;
+    if (options.bits == 32)
+        add_floats(film, channels);
+    else
+        add_halves(film, halves, channels);
     if (layers != nullptr) add_layers(*layers, channels);
 
     MemoryOut out;
@@ -219,7 +243,7 @@ void read_exr(ByteSource& source, Image& image) {
         check_size(width, height);
         image.width = static_cast<int>(width);
         image.height = static_cast<int>(height);
-        image.rgb = Components(pixels_of(file, image.width, image.height));
+        read_pixels(file, image);
     } catch (const MalformedPicture& malformed) {
         if (*malformed.what() != '\0') throw;
         throw damaged("EXR");

@@ -11,14 +11,15 @@ namespace raylane::scenes {
 /// OpenEXR, by its library, which raylane may have been built without.
 bool has_exr();
 
-/// The bytes of a file: R G B, linear, in halves, or with 32 bits in floats; of layers, if there
-/// are any, Z, N.X, N.Y and N.Z in floats, and id.shape, id.material and samples in whole numbers.
-/// Where there is nothing, Z is infinite, N is 0 and ids are 4294967295. Throws std::bad_alloc.
+/// The bytes of a file: R G B, linear, and A if the film has an alpha, in halves, or with 32 bits
+/// in floats; of layers, if there are any, Z, N.X, N.Y and N.Z in floats, and id.shape, id.material
+/// and samples in whole numbers. Where there is nothing, Z is infinite, N is 0 and ids are
+/// 4294967295. Throws std::bad_alloc.
 std::string exr_of(const core::Film& film, const core::Layers* layers,
                    const PictureOptions& options);
 
-/// R, G and B, or Y alone, of what the display window shows; what the file does not have of that is
-/// 0. Throws MalformedPicture and std::bad_alloc.
+/// R, G and B, or Y alone, and A, of what the display window shows; what the file does not have of
+/// that is 0. Throws MalformedPicture and std::bad_alloc.
 void read_exr(ByteSource& source, Image& image);
 
 } // namespace raylane::scenes

@@ -1,5 +1,6 @@
 #include "scenes/image/png_reader.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <csetjmp>
 #include <cstdlib>
@@ -30,7 +31,7 @@ class PngReading {
     PngReading(const PngReading&) = delete;
     PngReading& operator=(const PngReading&) = delete;
 
-    /// Width, height and bits of a component, and has all that follow come as such RGB.
+    /// Width, height, bits of a component and whether there is an alpha.
     void begin() {
         step([this] {
             png_set_crc_action(png_, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
@@ -38,21 +39,23 @@ class PngReading {
             png_read_info(png_, info_);
             png_get_IHDR(png_, info_, &width, &height, &bits, &color_type, nullptr, nullptr,
                          nullptr);
+            has_alpha = (color_type & PNG_COLOR_MASK_ALPHA) != 0 ||
+                        png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
         });
     }
+    std::size_t channels() const { return has_alpha ? 4 : 3; }
 
-    /// `rows`: one pointer for each.
+    /// `rows`: one pointer for each. They become RGB or RGBA.
     template <class Code>
     void read(Code** rows) {
         step([this, rows] {
             png_set_expand(png_);
-            png_set_strip_alpha(png_);
             if ((color_type & PNG_COLOR_MASK_COLOR) == 0) png_set_gray_to_rgb(png_);
             if constexpr (sizeof(Code) == 2 && std::endian::native == std::endian::little)
                 png_set_swap(png_);
             const int passes = png_set_interlace_handling(png_);
             png_read_update_info(png_, info_);
-            if (png_get_rowbytes(png_, info_) != std::size_t{3} * width * sizeof(Code))
+            if (png_get_rowbytes(png_, info_) != channels() * width * sizeof(Code))
                 png_error(png_, "rows of another size");
             for (int pass = 0; pass < passes; ++pass)
                 for (png_uint_32 y = 0; y < height; ++y)
@@ -63,6 +66,7 @@ class PngReading {
 
     png_uint_32 width = 0, height = 0;
     int bits = 0, color_type = 0;
+    bool has_alpha = false;
 
   private:
     template <class Act>
@@ -113,14 +117,23 @@ class PngReading {
 };
 
 template <class Code>
-Components components_of(PngReading& reading) {
-    const std::size_t row = std::size_t{3} * reading.width;
+void read_codes(PngReading& reading, Image& image) {
+    const std::size_t row = reading.channels() * reading.width;
     std::vector<Code> codes(row * reading.height);
     std::vector<Code*> rows(reading.height);
     for (std::size_t y = 0; y < rows.size(); ++y)
         rows[y] = codes.data() + y * row;
     reading.read(rows.data());
-    return Components(std::move(codes));
+    if (reading.has_alpha) {
+        std::vector<Code> alpha(codes.size() / 4);
+        for (std::size_t pixel = 0; pixel < alpha.size(); ++pixel) {
+            alpha[pixel] = codes[4 * pixel + 3];
+            std::copy_n(&codes[4 * pixel], 3, &codes[3 * pixel]);
+        }
+        codes.resize(3 * alpha.size());
+        image.alpha = Components(std::move(alpha));
+    }
+    image.rgb = Components(std::move(codes));
 }
 
 } // namespace
@@ -132,8 +145,10 @@ void read_png(ByteSource& source, Image& image) {
     image.width = static_cast<int>(reading.width);
     image.height = static_cast<int>(reading.height);
     constexpr int most_bits_of_a_byte = 8;
-    image.rgb = reading.bits > most_bits_of_a_byte ? components_of<std::uint16_t>(reading)
-                                                   : components_of<std::uint8_t>(reading);
+    if (reading.bits > most_bits_of_a_byte)
+        read_codes<std::uint16_t>(reading, image);
+    else
+        read_codes<std::uint8_t>(reading, image);
     if (source.get() >= 0) throw damaged("PNG");
 }
 

@@ -34,10 +34,11 @@ class PngWriting {
     PngWriting& operator=(const PngWriting&) = delete;
 
     /// What comes before the rows. `metre`: pixels that it has; 0: not known.
-    void begin(int width, int height, int bits, png_uint_32 metre, std::vector<png_text>& texts) {
+    void begin(const core::Film& film, int bits, png_uint_32 metre, std::vector<png_text>& texts) {
         step([&] {
-            png_set_IHDR(png_, info_, static_cast<png_uint_32>(width),
-                         static_cast<png_uint_32>(height), bits, PNG_COLOR_TYPE_RGB,
+            png_set_IHDR(png_, info_, static_cast<png_uint_32>(film.width()),
+                         static_cast<png_uint_32>(film.height()), bits,
+                         film.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
                          PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
             // To search for each row's best filter takes longer than the rest, and saves nothing to
             // speak of; of what this one leaves, zlib finds runs as good as all that it would find
@@ -122,16 +123,30 @@ class RowEncoder {
 
     const std::vector<std::uint8_t>& codes(const core::Film& film, int y) {
         codes_.clear();
-        for (int x = 0; x < film.width(); ++x)
+        for (int x = 0; x < film.width(); ++x) {
+            const float alpha = film.alpha_at(x, y);
             for (int channel = 0; channel < 3; ++channel)
-                add(film.at(x, y)[channel]);
+                add(alpha > 0.0F ? film.at(x, y)[channel] / alpha : 0.0F);
+            if (film.has_alpha()) add_alpha(alpha);
+        }
         return codes_;
     }
 
   private:
     void add(float component) {
-        if (bits() == 8) return codes_.push_back(encode_(component));
-        const std::uint16_t code = core::encode_in_16_bits(component, options_.transfer);
+        if (bits() == 8)
+            codes_.push_back(encode_(component));
+        else
+            add_word(core::encode_in_16_bits(component, options_.transfer));
+    }
+    /// Which is a share, and not light: it has no curve.
+    void add_alpha(float alpha) {
+        if (bits() == 8)
+            codes_.push_back(core::encode(alpha, core::Transfer::linear));
+        else
+            add_word(core::encode_in_16_bits(alpha, core::Transfer::linear));
+    }
+    void add_word(std::uint16_t code) {
         codes_.push_back(static_cast<std::uint8_t>(code >> 8));
         codes_.push_back(static_cast<std::uint8_t>(code & 0xFF));
     }
@@ -150,8 +165,7 @@ void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& o
         std::vector<png_text> texts = png_texts(options);
         PngWriting writing(file);
         const double metre = options.dpi ? static_cast<double>(*options.dpi) / inch : 0.0;
-        writing.begin(film.width(), film.height(), encoder.bits(),
-                      static_cast<png_uint_32>(std::lround(metre)), texts);
+        writing.begin(film, encoder.bits(), static_cast<png_uint_32>(std::lround(metre)), texts);
         for (int y = 0; y < film.height(); ++y)
             writing.row(encoder.codes(film, y));
         writing.end();

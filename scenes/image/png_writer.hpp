@@ -6,7 +6,8 @@
 
 namespace raylane::scenes {
 
-/// PNG by libpng, in RGB. The same bytes for the same picture and options. Throws SystemRefused.
+/// PNG by libpng, in RGB, or RGBA if the film has an alpha, by which PNG's colours are not
+/// multiplied. The same bytes for the same picture and options. Throws SystemRefused.
 void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options);
 
 } // namespace raylane::scenes

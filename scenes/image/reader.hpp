@@ -15,12 +15,12 @@ struct Image {
     /// code (PNG).
     bool linear_float = false;
     Components rgb;   ///< width * height * 3, rows from the top down
+    Components alpha; ///< width * height, or nothing: 1
     std::string name; ///< of its file, for messages
 };
 
-/// Reads a PNG, EXR, HDR or PFM picture; the content tells which. Grey becomes RGB, transparency is
-/// left out. Throws BadInput for anything else and for what is malformed or absurdly large, and
-/// SystemRefused.
+/// Reads a PNG, EXR, HDR or PFM picture; the content tells which. Grey becomes RGB. Throws BadInput
+/// for anything else and for what is malformed or absurdly large, and SystemRefused.
 Image read_image(const std::filesystem::path& path);
 
 } // namespace raylane::scenes

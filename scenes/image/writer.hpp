@@ -21,7 +21,7 @@ PictureFormat picture_format_of(const std::filesystem::path& path, bool with_exr
 using EncodeExr = std::string (*)(const core::Film& film, const core::Layers* layers,
                                   const PictureOptions& options);
 
-/// A picture's file.
+/// A picture's file. Of a film's alpha .png and .exr tell; in the others it lies over black.
 class OutputFile {
   public:
     /// In the format that the ending tells, which is a BadInput if it is none, or .exr and there is

@@ -7,12 +7,13 @@ using core::LightKind;
 using core::Projection;
 
 void read_image(const JsonValue& value, core::Settings& settings) {
-    value.allow_only({"width", "height", "transfer"});
+    value.allow_only({"width", "height", "transfer", "alpha"});
     if (const auto width = value.find("width")) settings.width = width->integer();
     if (const auto height = value.find("height")) settings.height = height->integer();
     if (const auto transfer = value.find("transfer"))
         settings.transfer = transfer->choice<core::Transfer>(
             {{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}});
+    if (const auto alpha = value.find("alpha")) settings.alpha = alpha->boolean();
 }
 
 void read_sampling(const JsonValue& value, core::Settings& settings) {

@@ -131,16 +131,23 @@ Drawing DrawingArguments::drawing() const {
     return drawing;
 }
 
+std::vector<std::pair<std::string, std::string>> DrawingArguments::given() const {
+    std::vector<std::pair<std::string, std::string>> given;
+    const std::pair<const char*, const Argument&> values[] = {
+        {"--style", style}, {"--color", color},         {"--select", select}, {"--view", view},
+        {"--zoom", zoom},   {"--depth-cue", depth_cue}, {"--repeat", repeat}};
+    for (const auto& [name, value] : values)
+        if (value) given.emplace_back(name, *value);
+    const std::pair<const char*, bool> flags[] = {
+        {"--cell", cell}, {"--ellipsoids", ellipsoids}, {"--orthographic", orthographic}};
+    for (const auto& [name, is_given] : flags)
+        if (is_given) given.emplace_back(name, "");
+    return given;
+}
+
 std::string DrawingArguments::first_given() const {
-    const std::pair<const char*, bool> given[] = {
-        {"--style", style.has_value()},   {"--color", color.has_value()},
-        {"--select", select.has_value()}, {"--view", view.has_value()},
-        {"--zoom", zoom.has_value()},     {"--depth-cue", depth_cue.has_value()},
-        {"--repeat", repeat.has_value()}, {"--cell", cell},
-        {"--ellipsoids", ellipsoids},     {"--orthographic", orthographic}};
-    for (const auto& [name, is_given] : given)
-        if (is_given) return name;
-    return {};
+    const auto all = given();
+    return all.empty() ? std::string() : all.front().first;
 }
 
 } // namespace raylane::scenes

@@ -4,6 +4,8 @@
 #include "scenes/tool/command.hpp"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -15,7 +17,9 @@ struct DrawingArguments {
     void add_to(CLI::App& command);
     /// Throws BadInput.
     Drawing drawing() const;
-    /// The first of those that are given; empty if none is.
+    /// Names of those that are given, and their values; of flags these are empty.
+    std::vector<std::pair<std::string, std::string>> given() const;
+    /// The first of these names; empty if none is given.
     std::string first_given() const;
 };
 

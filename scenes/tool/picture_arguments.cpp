@@ -6,6 +6,7 @@
 #include "scenes/tool/arguments.hpp"
 
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 
 namespace raylane::scenes {
@@ -54,6 +55,15 @@ std::string text_of(const core::Region& crop) {
            std::to_string(crop.x1 - crop.x0) + "x" + std::to_string(crop.y1 - crop.y0);
 }
 
+/// #rrggbb.
+std::string text_of(const core::Color& color) {
+    char text[8];
+    std::snprintf(text, sizeof text, "#%02x%02x%02x", core::encode(color.x, core::Transfer::srgb),
+                  core::encode(color.y, core::Transfer::srgb),
+                  core::encode(color.z, core::Transfer::srgb));
+    return text;
+}
+
 /// The settings as options of the tool.
 std::string text_of(const core::Settings& settings) {
     static constexpr const char* filters[] = {"box", "gaussian", "blackman-harris"};
@@ -66,8 +76,9 @@ std::string text_of(const core::Settings& settings) {
     text += " --max-depth " + std::to_string(settings.max_depth);
     text += " --min-weight " + to_text(settings.min_weight);
     if (const core::Outline& outline = settings.outline; outline.any())
-        text += " --outline " + to_text(outline.width) + " --outline-creases " +
-                to_text(outline.creases);
+        text += " --outline " + to_text(outline.width) + " --outline-color " +
+                text_of(outline.color) + " --outline-creases " + to_text(outline.creases);
+    if (settings.alpha) text += " --alpha";
     return text;
 }
 
@@ -79,8 +90,7 @@ void PictureArguments::add_to(CLI::App& command) {
     };
     add("--crop", crop,
         "Draw this part of the picture alone: from X to the right and Y downwards, in pixels of "
-        "the "
-        "whole",
+        "the whole",
         "X,Y,WxH");
     add("--bits", bits,
         "Of a component: 8 or 16 in PNG (default: 8), 16 (halves) or 32 (floats) in EXR (default: "
@@ -91,6 +101,10 @@ void PictureArguments::add_to(CLI::App& command) {
              "Into EXR, what each pixel's middle shows as well: Z (the distance along the ray), "
              "N.X, N.Y, N.Z, id.shape, id.material, and the number of samples");
     command.get_option("--layers")->group(group);
+    add_flag(command, "--alpha", alpha,
+             "Leave out the background, so that the picture can be laid over another: PNG or EXR "
+             "say how much of each pixel is covered");
+    command.get_option("--alpha")->group(group);
     add("--outline", outline,
         "Draw lines where one surface is seen before another, so many pixels wide; 0: none "
         "(default: as the scene says)",
@@ -103,7 +117,8 @@ void PictureArguments::add_to(CLI::App& command) {
         "DEGREES");
 }
 
-PictureChoice::PictureChoice(const PictureArguments& arguments) : layers(arguments.layers) {
+PictureChoice::PictureChoice(const PictureArguments& arguments)
+    : layers(arguments.layers), alpha(arguments.alpha) {
     if (arguments.crop) crop = crop_argument(*arguments.crop);
     if (arguments.bits)
         bits = choice_argument<int>("--bits", *arguments.bits, {{"8", 8}, {"16", 16}, {"32", 32}});
@@ -123,6 +138,7 @@ void PictureChoice::require_fit(PictureFormat format) const {
         throw BadInput("--output", "",
                        "must be .png, .hdr or .pfm, for raylane was built without libopenexr-dev");
     if (layers && !is_exr) throw BadInput("--layers", "", "goes with an output that ends in .exr");
+    if (alpha && !is_png && !is_exr) throw BadInput("--alpha", "", "goes with PNG or EXR");
     if (dpi && !is_png && !is_exr) throw BadInput("--dpi", "", "goes with PNG or EXR");
     if (bits != 0 && !is_png && !is_exr) throw BadInput("--bits", "", "goes with PNG or EXR");
     if (bits == 32 && is_png) throw BadInput("--bits", "", "must be 8 or 16 in PNG, got \"32\"");
@@ -130,6 +146,7 @@ void PictureChoice::require_fit(PictureFormat format) const {
 }
 
 void PictureChoice::apply_to(core::Settings& settings) const {
+    settings.alpha = settings.alpha || alpha;
     settings.outline.width = outline.value_or(settings.outline.width);
     settings.outline.color = outline_color.value_or(settings.outline.color);
     settings.outline.creases = outline_creases.value_or(settings.outline.creases);
@@ -148,15 +165,15 @@ void PictureChoice::apply_to(simd::RenderOptions& options, const core::Settings&
     options.layers = layers;
 }
 
-PictureOptions PictureChoice::options(const std::string& scene,
-                                      const core::Settings& settings) const {
+PictureOptions PictureChoice::options(const std::string& scene, const core::Settings& settings,
+                                      const std::string& others) const {
     PictureOptions options{settings.transfer, bits, dpi, {}};
     if (scene != "-")
         options.texts.emplace_back(
             "Title", printable(std::filesystem::path(scene).filename().string(), 4096));
     options.texts.emplace_back("Software", "raylane " RAYLANE_VERSION);
-    options.texts.emplace_back("Comment",
-                               text_of(settings) + (crop ? " --crop " + text_of(*crop) : ""));
+    options.texts.emplace_back("Comment", text_of(settings) +
+                                              (crop ? " --crop " + text_of(*crop) : "") + others);
     return options;
 }
 

@@ -12,7 +12,7 @@ namespace raylane::scenes {
 /// line says it.
 struct PictureArguments {
     Argument crop, bits, dpi, outline, outline_color, outline_creases;
-    bool layers = false;
+    bool layers = false, alpha = false;
 
     void add_to(CLI::App& command);
 };
@@ -24,15 +24,17 @@ struct PictureChoice {
 
     /// Throws BadInput for what the format of the output does not have.
     void require_fit(PictureFormat format) const;
-    /// The outline that is asked for, or else stays. Throws BadInput for one without a width.
+    /// The outline and alpha that are asked for, or else stay. Throws BadInput for an outline
+    /// without a width.
     void apply_to(core::Settings& settings) const;
     /// Throws BadInput for a crop that does not lie in the picture.
     void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
     /// How the file has a picture of the scene with this name, of which it says what would draw it
-    /// again, but for what changes none.
-    PictureOptions options(const std::string& scene, const core::Settings& settings) const;
+    /// again: these options, and `others` (" --style sticks").
+    PictureOptions options(const std::string& scene, const core::Settings& settings,
+                           const std::string& others) const;
 
-    bool layers;
+    bool layers, alpha;
     int bits = 0;
     std::optional<core::Region> crop;
     std::optional<float> dpi, outline, outline_creases;

@@ -164,9 +164,10 @@ std::string isa_in_use(const std::string& engine) {
 }
 
 /// The mean, if they are as many as a quality takes.
-double samples_per_pixel(const core::Settings& settings, const simd::EngineCounters& counters) {
+double samples_per_pixel(const core::Settings& settings, const simd::RenderOptions& options,
+                         const simd::EngineCounters& counters) {
     return static_cast<double>(counters.primary) /
-           (static_cast<double>(settings.width) * settings.height);
+           simd::drawn_part(settings, options.crop).pixels();
 }
 
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
@@ -182,7 +183,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"width", settings.width},
             {"height", settings.height},
             {"quality", as_printed(settings.quality)},
-            {"samples_per_pixel", samples_per_pixel(settings, counters)},
+            {"samples_per_pixel", samples_per_pixel(settings, options, counters)},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
             {"shapes", scene.shape_count()},
@@ -207,6 +208,20 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
               {"in_flight", counters.in_flight}}},
             {"rays_refined", counters.refined},
             {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
+}
+
+/// What else would draw the picture again, for the picture to say.
+std::string text_of(const DrawingArguments& drawing, core::Precision precision) {
+    std::string text;
+    if (precision != core::Precision::exact)
+        text += " --precision " + std::string(core::name_of(precision));
+    for (const auto& [name, value] : drawing.given()) {
+        text += " " + name;
+        if (value.empty()) continue;
+        const bool is_word = value.find(' ') == std::string::npos;
+        text += is_word ? " " + printable(value, 4096) : " \"" + printable(value, 4096) + '"';
+    }
+    return text;
 }
 
 int render(const RenderArguments& arguments) {
@@ -246,8 +261,10 @@ int render(const RenderArguments& arguments) {
     }();
     times.render = stopwatch.lap();
 
-    output.commit(rendering.film, picture.options(files.scene, settings),
-                  picture.layers ? &rendering.layers : nullptr);
+    output.commit(
+        rendering.film,
+        picture.options(files.scene, settings, text_of(arguments.drawing, options.precision)),
+        picture.layers ? &rendering.layers : nullptr);
     times.write = stopwatch.lap();
 
     if (stats) {
@@ -263,8 +280,8 @@ int render(const RenderArguments& arguments) {
     if (verbosity == Verbosity::verbose || (verbosity == Verbosity::normal && is_terminal()))
         std::fprintf(
             stderr, "%s: %d x %d pixels, %.8g samples each, in %s, %srays/s\n",
-            printable(files.output, 4096).c_str(), settings.width, settings.height,
-            std::round(100.0 * samples_per_pixel(settings, rendering.counters)) / 100.0,
+            printable(files.output, 4096).c_str(), part.x1 - part.x0, part.y1 - part.y0,
+            std::round(100.0 * samples_per_pixel(settings, options, rendering.counters)) / 100.0,
             duration_text(times.render).c_str(),
             with_prefix(static_cast<double>(rendering.counters.rays()) / times.render).c_str());
     return 0;

@@ -14,9 +14,14 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 const float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-Image image_of(std::vector<float> rgb, int width) {
+Image image_of(std::vector<float> rgb, int width, std::vector<float> alpha = {}) {
     const int height = static_cast<int>(rgb.size()) / 3 / width;
-    return {width, height, true, scenes::Components(std::move(rgb)), "a.pfm"};
+    return {width,
+            height,
+            true,
+            scenes::Components(std::move(rgb)),
+            scenes::Components(std::move(alpha)),
+            "a.pfm"};
 }
 
 } // namespace
@@ -60,6 +65,27 @@ TEST_CASE("one code of 255 is 48.13 dB") {
     Image b = image_of({1 / 255.0F, 1 / 255.0F, 1 / 255.0F}, 1);
     a.linear_float = b.linear_float = false;
     CHECK(scenes::compare(a, b, 0.0F).psnr == Approx(48.1308).epsilon(1e-6));
+}
+
+TEST_CASE("an alpha is compared, and colors as they are seen") {
+    const Image a = image_of({0, 0, 0, 0.5F, 0, 0}, 2, {0, 0.5F});
+    const Image opaque = image_of({0, 0, 0, 0.5F, 0, 0}, 2);
+    CHECK(scenes::compare(a, a, 0.0F).differing == 0);
+    for (const auto& [one, other] : {std::pair(&a, &opaque), {&opaque, &a}}) {
+        const Comparison result = scenes::compare(*one, *other, 0.5F);
+        CHECK(result.differing == 1);
+        CHECK(result.largest == 1.0);
+        CHECK(result.rmse == Approx(std::sqrt((1.0 + 0.25) / 8.0)).epsilon(1e-14));
+        const core::Film film = scenes::difference_image(*one, *other);
+        CHECK(film.at(0, 0) == core::Color(1.0F));
+        CHECK(film.at(1, 0) == core::Color(0.5F));
+    }
+    // Codes are not multiplied yet: what cannot be seen is no difference.
+    Image b = image_of({1, 1, 1, 0.5F, 0, 0}, 2, {0, 0.5F});
+    Image c = image_of({0, 0, 0, 0.75F, 0, 0}, 2, {0, 0.5F});
+    b.linear_float = c.linear_float = false;
+    CHECK(scenes::compare(b, c, 0.0F).differing == 1);
+    CHECK(scenes::compare(b, c, 0.0F).largest == 0.125);
 }
 
 TEST_CASE("NaN and infinity differ from all else, beyond any tolerance") {

@@ -88,7 +88,7 @@ TEST_CASE("every value of a scene goes into JSON") {
     const core::Scene scene = tests::scene_of(R"({
         "camera": {"type": "orthographic", "from": [0.1, 2, 9], "at": [0, 1, 0], "up": [0, 1, 0.2],
                    "height": 3.3, "lens_radius": 0.25, "focus_distance": 7.5},
-        "image": {"width": 30, "height": 20, "transfer": "linear"},
+        "image": {"width": 30, "height": 20, "transfer": "linear", "alpha": true},
         "sampling": {"grid": 3, "pattern": "stratified", "quality": 41, "filter": "blackman-harris",
                      "light_samples": 3},
         "limits": {"max_depth": 3, "min_weight": 0.03, "max_see_through": 7},
@@ -133,7 +133,7 @@ TEST_CASE("every value of a scene goes into JSON") {
     const std::filesystem::path twice = directory.path() / "twice.json";
     export_scene(twice, again);
     CHECK(text_of(twice) == text_of(copy));
-    for (const char* part : {R"("transfer": "linear")",
+    for (const char* part : {R"("transfer": "linear", "alpha": true)",
                              R"("pattern": "stratified")",
                              R"("height": 3.3)",
                              R"("lens_radius": 0.25)",

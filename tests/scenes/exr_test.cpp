@@ -60,6 +60,24 @@ TEST_CASE("an EXR holds the film's floats, or halves of them") {
     CHECK(directory.file_count() == 1);
 }
 
+TEST_CASE("an EXR has a film's alpha, and colors that are multiplied by it") {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "out.exr";
+    core::Film film(2, 1, /*with_alpha=*/true);
+    film.at(0, 0) = {0.5F, 0.25F, 0.125F};
+    film.alpha_at(0, 0) = 0.5F;
+    for (const int bits : {16, 32}) {
+        scenes::PictureOptions options;
+        options.bits = bits;
+        scenes::OutputFile(path, scenes::exr_of).commit(film, options);
+        const scenes::Image image = scenes::read_image(path);
+        CHECK(image.rgb.floats() == std::vector<float>{0.5F, 0.25F, 0.125F, 0, 0, 0});
+        CHECK(image.alpha.floats() == std::vector<float>{0.5F, 0});
+        const Imf::InputFile file(path.c_str());
+        CHECK(file.header().channels()["A"].type == (bits == 32 ? Imf::FLOAT : Imf::HALF));
+    }
+}
+
 TEST_CASE("an EXR has layers and what it is told") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.exr";
@@ -111,7 +129,7 @@ TEST_CASE("an EXR has layers and what it is told") {
 TEST_CASE("a damaged EXR is bad input") {
     const TemporaryDirectory directory;
     const core::Layers layers(3, 2);
-    const std::string whole = scenes::exr_of(little_film(), &layers, {});
+    const std::string whole = scenes::exr_of(core::Film(3, 2, /*with_alpha=*/true), &layers, {});
     const auto read = [&](const std::string& content) {
         const auto path = directory.write("a.exr", content);
         return tests::message_in<scenes::BadInput>(directory.path(),

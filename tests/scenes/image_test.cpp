@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <malloc.h>
 #include <random>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -145,6 +146,37 @@ TEST_CASE("a PNG has 16 bits if it is to") {
     CHECK(same_bits(scenes::read_image(path).rgb, codes));
 }
 
+TEST_CASE("a PNG has a film's alpha, and colors that are not multiplied by it") {
+    const TemporaryDirectory directory;
+    const auto path = directory.path() / "out.png";
+    core::Film film(4, 1, /*with_alpha=*/true);
+    film.at(0, 0) = core::Color(0.125F, 0.25F, 0.5F);
+    film.alpha_at(0, 0) = 0.5F;
+    film.at(1, 0) = core::Color(0.3F);
+    film.alpha_at(1, 0) = 1.0F;
+    film.at(2, 0) = core::Color(0.25F); // more than is covered: a highlight
+    film.alpha_at(2, 0) = 0.125F;       // and nothing at all
+    for (const int bits : {8, 16}) {
+        scenes::PictureOptions options;
+        options.bits = bits;
+        scenes::OutputFile(path).commit(film, options);
+        const Image image = scenes::read_image(path);
+        const auto code = [&](float linear, Transfer transfer) {
+            return bits == 8
+                       ? static_cast<float>(core::encode(linear, transfer)) / 255.0F
+                       : static_cast<float>(core::encode_in_16_bits(linear, transfer)) / 65535.0F;
+        };
+        std::vector<float> rgb, alpha;
+        for (const float linear :
+             {0.25F, 0.5F, 1.0F, 0.3F, 0.3F, 0.3F, 1.0F, 1.0F, 1.0F, 0.0F, 0.0F, 0.0F})
+            rgb.push_back(code(linear, Transfer::srgb));
+        for (const float share : {0.5F, 1.0F, 0.125F, 0.0F})
+            alpha.push_back(code(share, Transfer::linear));
+        CHECK(same_bits(image.rgb, rgb));
+        CHECK(same_bits(image.alpha, alpha));
+    }
+}
+
 TEST_CASE("a PNG says what it is told to") {
     const TemporaryDirectory directory;
     const auto path = directory.path() / "out.png";
@@ -238,6 +270,8 @@ TEST_CASE("pictures of other programs are read") {
     // The content tells the format, not the ending.
     const Image grey = scenes::read_image(directory.write("b.hdr", grey_png));
     CHECK(same_bits(grey.rgb, {0.0F, 0.0F, 0.0F, 0.2F, 0.2F, 0.2F}));
+    CHECK(same_bits(grey.alpha, {1.0F, 128 / 255.0F}));
+    CHECK(sixteen.alpha.size() == 0);
 
     const std::string big_endian = bytes("Pf\n2 1\n1\n\x3F\x80\x00\x00\xC0\x00\x00\x00");
     const Image map = scenes::read_image(directory.write("c.pfm", big_endian));
@@ -306,6 +340,7 @@ TEST_CASE("a PNG takes the memory of its codes, and says so if there is none") {
     const auto reads_within = [&](rlim_t megabytes) {
         const pid_t child = ::fork();
         if (child == 0) {
+            ::malloc_trim(0); // other tests leave room in the heap
             rlimit limit{};
             ::getrlimit(RLIMIT_AS, &limit);
             limit.rlim_cur = (used_megabytes() + megabytes) << 20;

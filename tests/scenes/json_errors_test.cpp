@@ -194,6 +194,7 @@ TEST_CASE("complaints about words") {
         {"{" + camera +
              R"(, "lights": [{"type": "directional", "direction": [0, 0, 1]}], "objects": [{"type": "sphere", "material": "clay", "center": [0, 0, 0], "radius": 1}]})",
          R"(/objects/0/material: must be the name of a material, got "clay")"},
+        {with(R"("image": {"alpha": 1})"), "/image/alpha: must be true or false, got 1"},
         {with(R"("image": {"transfer": "sRGB"})"),
          R"(/image/transfer: must be "srgb" or "linear", got "sRGB")"},
         {with(R"("sampling": {"pattern": "random"})"),

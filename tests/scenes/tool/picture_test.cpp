@@ -69,6 +69,29 @@ TEST_CASE("lines are drawn as the scene or the command line says") {
     CHECK(bytes_of(with_outline, {"--outline", "0"}) == bytes_of(plain, {}));
 }
 
+TEST_CASE("an alpha leaves the background out") {
+    std::string without = ball;
+    without.replace(without.find("\"width\""), 0, "\"alpha\": true, ");
+    const Workshop workshop, by_scene(without);
+    const scenes::Image asked = picture(workshop, "a.png", {"--alpha"});
+    REQUIRE(asked.alpha.size() == 16 * 12);
+    CHECK(asked.alpha[0] == 0.0F);
+    CHECK(asked.rgb[2] == 0.0F);
+    CHECK(asked.alpha[6 * 16 + 8] == 1.0F);
+    picture(by_scene, "a.png", {});
+    CHECK(content_of(workshop.path() / "a.png") == content_of(by_scene.path() / "a.png"));
+    CHECK(picture(workshop, "b.png", {}).alpha.size() == 0);
+    CHECK(workshop.run({"compare", "a.png", "a.png"}).code == 0);
+    CHECK(workshop.run({"compare", "a.png", "b.png"}).code == 1);
+    // Others have it over black.
+    CHECK(picture(by_scene, "a.pfm", {}).rgb[2] == 0.0F);
+    CHECK(error_of(workshop, "a.pfm", {"--alpha"}) == "raylane: --alpha: goes with PNG or EXR\n");
+    if (!scenes::has_exr()) return;
+    const scenes::Image exr = picture(workshop, "a.exr", {"--alpha", "--bits", "32"});
+    CHECK(exr.rgb.floats() == picture(by_scene, "a.pfm", {}).rgb.floats());
+    CHECK(exr.alpha[6 * 16 + 8] == 1.0F);
+}
+
 TEST_CASE("what a picture cannot have is told in a line") {
     const Workshop workshop;
     const std::string crop = "raylane: --crop: must be X,Y,WIDTHxHEIGHT in pixels from the upper "
