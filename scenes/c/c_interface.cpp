@@ -158,13 +158,23 @@ Settings from_c(const raylane_settings& s) {
     settings.quality = s.quality;
     settings.filter = enum_from<PixelFilter>(s.filter);
     settings.light_samples = s.light_samples;
+    settings.outline = {s.outline.width, from_c(s.outline.color), s.outline.creases};
     return settings;
 }
 
 raylane_settings to_c(const Settings& s) {
-    return {s.width,          s.height,     s.grid,    number_of(s.samples), number_of(s.transfer),
-            s.max_depth,      s.min_weight, s.quality, number_of(s.filter),  s.light_samples,
-            s.max_see_through};
+    return {s.width,
+            s.height,
+            s.grid,
+            number_of(s.samples),
+            number_of(s.transfer),
+            s.max_depth,
+            s.min_weight,
+            s.quality,
+            number_of(s.filter),
+            s.light_samples,
+            s.max_see_through,
+            {s.outline.width, to_c(s.outline.color), s.outline.creases}};
 }
 
 raylane_progress to_c(const Progress& progress) {

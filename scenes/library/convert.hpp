@@ -121,6 +121,7 @@ void copy(const From& from, To& to) {
     copy(from.filter, to.filter);
     copy(from.light_samples, to.light_samples);
     copy(from.transfer, to.transfer);
+    copy(from.alpha, to.alpha);
     copy(from.max_depth, to.max_depth);
     copy(from.min_weight, to.min_weight);
     copy(from.max_see_through, to.max_see_through);

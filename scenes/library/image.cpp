@@ -7,8 +7,10 @@
 #include "scenes/library/translate.hpp"
 #include "simd/render.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <string>
+#include <utility>
 
 namespace raylane {
 
@@ -39,12 +41,43 @@ simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
     }
 }
 
-Image image_of(const core::Film& film) {
-    Image image{film.width(), film.height(), {}};
-    image.rgb.reserve(3 * film.pixels().size());
-    for (const core::Color& pixel : film.pixels())
-        image.rgb.insert(image.rgb.end(), {pixel.x, pixel.y, pixel.z});
-    return image;
+simd::RenderOptions inner_options(const Scene& scene, const core::Settings& settings,
+                                  const RenderOptions& options) {
+    simd::RenderOptions inner;
+    inner.threads = options.threads;
+    inner.precision = precision_for(scene, settings, options);
+    inner.layers = options.layers;
+    if (const auto& crop = options.crop) {
+        const auto is_within = [](int first, int count, int all) { // without sums that overflow
+            return first >= 0 && count >= 1 &&
+                   count <= std::min(all, core::Settings::max_size) - first;
+        };
+        if (!is_within(crop->x, crop->width, settings.width) ||
+            !is_within(crop->y, crop->height, settings.height))
+            throw InvalidValue("crop", "must be a part of the picture");
+        inner.crop = {crop->x, crop->y, crop->x + crop->width, crop->y + crop->height};
+    }
+    return inner;
+}
+
+template <class Vector>
+std::vector<float> components_of(const std::vector<Vector>& vectors) {
+    std::vector<float> components;
+    components.reserve(3 * vectors.size());
+    for (const Vector& vector : vectors)
+        components.insert(components.end(), {vector.x, vector.y, vector.z});
+    return components;
+}
+
+Image image_of(simd::Rendering rendering) {
+    const core::Film& film = rendering.film;
+    core::Layers& layers = rendering.layers;
+    return {film.width(),
+            film.height(),
+            components_of(film.pixels()),
+            film.alphas(),
+            {std::move(layers.depth), components_of(layers.normal), std::move(layers.shape),
+             std::move(layers.material), std::move(layers.samples)}};
 }
 
 Tile tile_of(const core::Film& film, const core::Region& region) {
@@ -54,7 +87,8 @@ Tile tile_of(const core::Film& film, const core::Region& region) {
             region.x1 - region.x0,
             region.y1 - region.y0,
             &film.at(region.x0, region.y0).x,
-            std::size_t{3} * film.width()};
+            std::size_t{3} * film.width(),
+            film.has_alpha() ? &film.alphas()[film.index(region.x0, region.y0)] : nullptr};
 }
 
 void require_side(const char* field, int pixels) {
@@ -67,23 +101,19 @@ void require_side(const char* field, int pixels) {
 
 Image render(const Scene& scene, const RenderOptions& options) {
     const core::Settings settings = settings_for(scene, options);
-    simd::RenderOptions inner;
-    inner.threads = options.threads;
-    inner.precision = precision_for(scene, settings, options);
-    return image_of(render_with(scene, settings, inner).film);
+    return image_of(render_with(scene, settings, inner_options(scene, settings, options)));
 }
 
 std::optional<Image> render(const Scene& scene, const RenderOptions& options,
                             const ProgressCallback& progress) {
     if (!progress) return render(scene, options);
     const core::Settings settings = settings_for(scene, options);
-    const std::int64_t total = std::int64_t{settings.width} * settings.height;
+    simd::RenderOptions inner = inner_options(scene, settings, options);
+    const core::Region drawn = simd::drawn_part(settings, inner.crop);
+    const std::int64_t total = std::int64_t{drawn.x1 - drawn.x0} * (drawn.y1 - drawn.y0);
     simd::Progress made;
     std::mutex calling;
     bool has_ended = false; // by the callback's answer or by what it throws
-    simd::RenderOptions inner;
-    inner.threads = options.threads;
-    inner.precision = precision_for(scene, settings, options);
     inner.progress = &made;
     inner.after_tile = [&](const core::Region& region, const core::Film& film) {
         const std::lock_guard lock(calling);
@@ -92,9 +122,9 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
         has_ended = !progress({made.pixels, total, made.rays, tile_of(film, region)});
         made.stop = has_ended;
     };
-    const simd::Rendering rendering = render_with(scene, settings, inner);
+    simd::Rendering rendering = render_with(scene, settings, inner);
     if (!rendering.complete) return std::nullopt;
-    return image_of(rendering.film);
+    return image_of(std::move(rendering));
 }
 
 void write_image(const std::filesystem::path& path, const Image& image, Transfer transfer) {
@@ -106,13 +136,20 @@ void write_image(const std::filesystem::path& path, const Image& image, Transfer
                                       std::to_string(image.width) + " x " +
                                       std::to_string(image.height) + " pixels, got " +
                                       std::to_string(image.rgb.size()));
+    if (!image.alpha.empty() && 3 * image.alpha.size() != image.rgb.size())
+        throw InvalidValue("alpha", "must be empty, or one for each of " +
+                                        std::to_string(image.width) + " x " +
+                                        std::to_string(image.height) + " pixels, got " +
+                                        std::to_string(image.alpha.size()));
     translated([&] {
         scenes::OutputFile file(path);
-        core::Film film(image.width, image.height);
+        core::Film film(image.width, image.height, !image.alpha.empty());
+        std::size_t i = 0;
         for (int y = 0; y < image.height; ++y)
-            for (int x = 0; x < image.width; ++x) {
+            for (int x = 0; x < image.width; ++x, ++i) {
                 const Color pixel = image.at(x, y);
                 film.at(x, y) = {pixel.x, pixel.y, pixel.z};
+                if (film.has_alpha()) film.alpha_at(x, y) = image.alpha[i];
             }
         file.reserve(image.width, image.height);
         file.commit(film, converted<core::Transfer>(transfer));

@@ -13,11 +13,30 @@
 
 namespace RAYLANE_API raylane {
 
+/// What the ray through the middle of each pixel, and the middle of the lens, hits first of what
+/// can be seen from there, see-through or not. Arrays are height x width, as in Image.
+struct Layers {
+    /// From the camera or, orthographic, from the plane through it that the picture is in, along
+    /// the ray, in units of length; infinite where there is nothing.
+    std::vector<float> depth{};
+    /// height x width x 3: unit, to shade with, on the side that is seen; 0 where there is nothing.
+    std::vector<float> normal{};
+    /// Of shapes that are the same, the first; no_shape where there is nothing. Parts of solids
+    /// count for themselves (Scene::solid_of).
+    std::vector<ShapeId> shape{};
+    std::vector<MaterialIndex> material{}; ///< 4294967295 where there is nothing
+    std::vector<std::uint32_t> samples{};  ///< that the colour is the mean of
+};
+
 /// A picture in linear float RGB. Components are >= 0 and may exceed 1.
 struct Image {
-    int width = 0;          ///< pixels
-    int height = 0;         ///< pixels
-    std::vector<float> rgb; ///< height x width x 3: rows from the top down, pixels left to right
+    int width = 0;            ///< pixels
+    int height = 0;           ///< pixels
+    std::vector<float> rgb{}; ///< height x width x 3: rows from the top down, pixels left to right
+    /// height x width, or empty. The share of each pixel that something covers, in [0, 1]; colours
+    /// are multiplied by it, so that over a background they are rgb + (1 - alpha) * background.
+    std::vector<float> alpha{};
+    Layers layers{}; ///< empty if they were not asked for
 
     /// The pixel in column x from the left, row y from the top.
     Color at(int x, int y) const {
@@ -28,10 +47,19 @@ struct Image {
     }
 };
 
+/// A part of a picture, in its pixels, from the left and from the top.
+struct PixelRect {
+    int x = 0, y = 0;
+    int width = 0, height = 0;
+};
+
 struct RenderOptions {
     std::optional<Settings> settings{}; ///< in place of the scene's
     int threads = 0; ///< at most, 1 to 4096; 0: as RAYLANE_THREADS says, or all of the machine
     Precision precision = Precision::exact;
+    /// The part of the picture that becomes the image, with the bits that it has in the whole.
+    std::optional<PixelRect> crop{};
+    bool layers = false; ///< wanted, too
 };
 
 /// Part of a picture, where the picture is drawn: not to be read behind the call that it is an
@@ -41,6 +69,7 @@ struct Tile {
     int width = 0, height = 0;    ///< pixels
     const float* rgb = nullptr;   ///< linear components of the upper left pixel, then of its row
     std::size_t floats_a_row = 0; ///< from a pixel to the one below
+    const float* alpha = nullptr; ///< as rgb, with a third as many a row; null if there is none
 
     /// The pixel in the tile's column from the left, row from the top.
     Color at(int column, int row) const {
@@ -53,7 +82,7 @@ struct Tile {
 /// Progress of a rendering.
 struct Progress {
     std::int64_t pixels = 0;       ///< done
-    std::int64_t total_pixels = 0; ///< of the picture
+    std::int64_t total_pixels = 0; ///< of the picture, or of what is drawn for a crop
     std::uint64_t rays = 0;        ///< traced, of all kinds
     Tile tile;                     ///< done last; no two share a pixel
 };
@@ -63,8 +92,8 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 
 /// The picture of a scene. With Precision::exact the same scene and settings give the same bits,
 /// whatever the threads and the processor. May be called by several threads at a time. Throws
-/// InvalidValue for options that are none (fields "settings/width", ..., "threads", "precision"),
-/// and std::bad_alloc.
+/// InvalidValue for options that are none (fields "settings/width", ..., "crop", "threads",
+/// "precision"), and std::bad_alloc.
 RAYLANE_API Image render(const Scene& scene, const RenderOptions& options = {});
 
 /// The same, with a callback: called with every tile of some hundred pixels or more, by whichever
@@ -75,7 +104,9 @@ RAYLANE_API std::optional<Image> render(const Scene& scene, const RenderOptions&
                                         const ProgressCallback& progress);
 
 /// Writes a picture; the file's ending tells the format: .png, .tga, .bmp, .ppm (8 bits through the
-/// transfer curve), .hdr (Radiance) or .pfm (the floats unchanged). The file appears whole or not
+/// transfer curve), .hdr (Radiance) or .pfm (the floats unchanged). Of alpha .png tells, as its
+/// format has it, with colours not multiplied; in the others the picture lies over black. The file
+/// appears whole or not
 /// at all. Throws InvalidValue for an image whose size is not that of its pixels, BadInput for
 /// another ending, and SystemRefused.
 RAYLANE_API void write_image(const std::filesystem::path& path, const Image& image,

@@ -141,6 +141,13 @@ typedef struct raylane_camera {
     float field_of_view, height, lens_radius, focus_distance;
 } raylane_camera;
 
+typedef struct raylane_outline {
+    float width;
+    raylane_vec3 color;
+    float creases;
+} raylane_outline;
+
+/** All but alpha: a scene that has it is drawn over black. */
 typedef struct raylane_settings {
     int width, height, grid;
     uint8_t samples, transfer;
@@ -149,6 +156,7 @@ typedef struct raylane_settings {
     uint8_t filter;
     int light_samples;
     int max_see_through;
+    raylane_outline outline;
 } raylane_settings;
 
 /** The values that C++ starts with. */

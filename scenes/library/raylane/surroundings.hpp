@@ -106,7 +106,11 @@ struct Settings {
     /// Rays to each light with a size, from each point that a sample sees, 1 to 4096.
     int light_samples = 8;
     Transfer transfer = Transfer::srgb; ///< for write_image
-    int max_depth = 8;                  ///< reflections and refractions on one path, 0 to 1000
+    /// The picture has an alpha: where the camera sees the background, past everything or straight
+    /// through surfaces of opacities below 1, it is left out, with the fog before it. Mirrors and
+    /// glass show it, and cover what is behind them.
+    bool alpha = false;
+    int max_depth = 8;         ///< reflections and refractions on one path, 0 to 1000
     float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
     /// Surfaces of opacities below 1 that a path shows, one behind the other, 1 to 1000000; further
     /// ones are as if they were not there.

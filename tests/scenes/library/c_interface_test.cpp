@@ -63,6 +63,7 @@ SceneHandle balls_in_c() {
     raylane_settings settings = raylane_default_settings();
     settings.width = 32;
     settings.height = 24;
+    settings.outline.width = 2.0F;
     CHECK(raylane_set_settings(builder.get(), &settings) == RAYLANE_OK);
     return built(builder);
 }
@@ -75,6 +76,7 @@ Scene balls() {
     builder.add_light({.position = {4, 6, 5}});
     builder.settings.width = 32;
     builder.settings.height = 24;
+    builder.settings.outline.width = 2.0F;
     return builder.build();
 }
 
@@ -157,6 +159,7 @@ TEST_CASE("C has the defaults of C++") {
     CHECK(raylane_default_settings().light_samples == Settings{}.light_samples);
     CHECK(raylane_default_settings().max_depth == Settings{}.max_depth);
     CHECK(raylane_default_settings().max_see_through == Settings{}.max_see_through);
+    CHECK(raylane_default_settings().outline.creases == Settings{}.outline.creases);
     CHECK(raylane_default_material().opacity == Material{}.opacity);
 }
 

@@ -6,7 +6,10 @@
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -196,6 +199,82 @@ TEST_CASE("pictures are written, in the format of the ending") {
     }
     write_image(directory.path() / "linear.png", image, Transfer::linear);
     CHECK(scenes::read_image(directory.path() / "linear.png").rgb[0] * 255.0F == Approx(64.0F));
+}
+
+TEST_CASE("a picture may leave its background out") {
+    const Scene scene = mirrored_ball();
+    Settings settings = scene.settings();
+    settings.alpha = true;
+    const Image image = render(scene, {.settings = settings});
+    REQUIRE(image.alpha.size() == 70 * 50);
+    CHECK(image.alpha[0] == 0.0F);
+    CHECK(image.at(0, 0) == Color{0, 0, 0});
+    CHECK(image.alpha[25 * 70 + 35] == 1.0F);
+    CHECK(image.at(35, 25) == render(scene).at(35, 25));
+    CHECK(render(scene).alpha.empty());
+
+    std::vector<float> alpha(image.alpha.size());
+    render(scene, {.settings = settings}, [&](const Progress& progress) {
+        const Tile& tile = progress.tile;
+        for (int row = 0; row < tile.height; ++row)
+            std::copy_n(tile.alpha + static_cast<std::size_t>(row) * (tile.floats_a_row / 3),
+                        tile.width, alpha.begin() + (tile.y + row) * 70 + tile.x);
+        return true;
+    });
+    CHECK(alpha == image.alpha);
+
+    const tests::TemporaryDirectory directory;
+    write_image(directory.path() / "a.png", image);
+    const scenes::Image read = scenes::read_image(directory.path() / "a.png");
+    CHECK(read.alpha[0] == 0.0F);
+    CHECK(read.alpha[25 * 70 + 35] == 1.0F);
+    Image lacking = image;
+    lacking.alpha.pop_back();
+    CHECK(message_of([&] { write_image(directory.path() / "b.png", lacking); }) ==
+          "alpha: must be empty, or one for each of 70 x 50 pixels, got 3499");
+}
+
+TEST_CASE("a part of a picture is drawn by itself, with what it shows") {
+    const Scene scene = mirrored_ball();
+    const Image whole = render(scene, {.layers = true});
+    REQUIRE(whole.layers.depth.size() == 70 * 50);
+    CHECK(whole.layers.shape[0] == no_shape);
+    CHECK(whole.layers.depth[0] == std::numeric_limits<float>::infinity());
+    const std::size_t middle = 25 * 70 + 35;
+    CHECK(whole.layers.shape[middle] == 0);
+    CHECK(whole.layers.material[middle] == 0);
+    CHECK(whole.layers.samples[middle] == 1);
+    const float* const normal = &whole.layers.normal[3 * middle];
+    CHECK(std::hypot(normal[0], normal[1], normal[2]) == Approx(1.0F).epsilon(1e-6));
+    CHECK(render(scene).layers.depth.empty());
+
+    const PixelRect crop{30, 20, 11, 7};
+    std::int64_t pixels = 0;
+    const std::optional<Image> part =
+        render(scene, {.crop = crop, .layers = true}, [&](const Progress& progress) {
+            CHECK(progress.total_pixels == 11 * 7);
+            CHECK((progress.tile.x >= 30 && progress.tile.y >= 20)); // of the whole
+            pixels = progress.pixels;
+            return true;
+        });
+    CHECK(pixels == 11 * 7);
+    REQUIRE(part);
+    CHECK((part->width == 11 && part->height == 7));
+    for (int y = 0; y < 7; ++y)
+        for (int x = 0; x < 11; ++x) {
+            CHECK(part->at(x, y) == whole.at(30 + x, 20 + y));
+            CHECK(part->layers.depth[static_cast<std::size_t>(y * 11 + x)] ==
+                  whole.layers.depth[static_cast<std::size_t>((20 + y) * 70 + 30 + x)]);
+        }
+    constexpr int most = std::numeric_limits<int>::max();
+    for (const PixelRect& outside : {PixelRect{0, 0, 71, 1},
+                                     {0, 0, 1, 0},
+                                     {-1, 0, 2, 2},
+                                     {69, 49, 1, 2},
+                                     {1, 1, most, most},
+                                     {most, most, 1, 1}})
+        CHECK(message_of<InvalidValue>([&] { render(scene, {.crop = outside}); }) ==
+              "crop: must be a part of the picture");
 }
 
 TEST_CASE("pictures that cannot be written leave no file") {

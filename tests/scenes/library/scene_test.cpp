@@ -82,6 +82,7 @@ TEST_CASE("everything else comes back as it was given") {
                         .filter = PixelFilter::gaussian,
                         .light_samples = 3,
                         .transfer = Transfer::linear,
+                        .alpha = true,
                         .max_depth = 5,
                         .min_weight = 0.25F,
                         .outline = {.width = 2, .color = {0, 0.5F, 1}, .creases = 30}};
@@ -132,6 +133,7 @@ TEST_CASE("everything else comes back as it was given") {
     CHECK(settings.filter == PixelFilter::gaussian);
     CHECK(settings.light_samples == 3);
     CHECK(settings.transfer == Transfer::linear);
+    CHECK(settings.alpha);
     CHECK((settings.max_depth == 5 && settings.min_weight == 0.25F));
     CHECK((settings.outline.width == 2 && settings.outline.creases == 30));
     CHECK((settings.outline.color.y == 0.5F && settings.outline.color.z == 1));
