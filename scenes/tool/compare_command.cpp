@@ -3,6 +3,7 @@
 #include "scenes/image/writer.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/picture_arguments.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -59,6 +60,7 @@ int compare(const CompareArguments& arguments) {
         require_other_file("--diff", name, "A", name_of_a);
         require_other_file("--diff", name, "B", name_of_b);
         output.emplace(name, exr_of);
+        require_writable("--diff", output->format());
     }
     const Image a = read_image(name_of_a), b = read_image(name_of_b);
     const Comparison comparison = scenes::compare(a, b, tolerance);

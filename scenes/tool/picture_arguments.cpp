@@ -134,15 +134,19 @@ PictureChoice::PictureChoice(const PictureArguments& arguments)
 
 void PictureChoice::require_fit(PictureFormat format) const {
     const bool is_png = format == PictureFormat::png, is_exr = format == PictureFormat::exr;
-    if (is_exr && !has_exr())
-        throw BadInput("--output", "",
-                       "must be .png, .hdr or .pfm, for raylane was built without libopenexr-dev");
+    require_writable("--output", format);
     if (layers && !is_exr) throw BadInput("--layers", "", "goes with an output that ends in .exr");
     if (alpha && !is_png && !is_exr) throw BadInput("--alpha", "", "goes with PNG or EXR");
     if (dpi && !is_png && !is_exr) throw BadInput("--dpi", "", "goes with PNG or EXR");
     if (bits != 0 && !is_png && !is_exr) throw BadInput("--bits", "", "goes with PNG or EXR");
     if (bits == 32 && is_png) throw BadInput("--bits", "", "must be 8 or 16 in PNG, got \"32\"");
     if (bits == 8 && is_exr) throw BadInput("--bits", "", "must be 16 or 32 in EXR, got \"8\"");
+}
+
+void require_writable(const std::string& option, PictureFormat format) {
+    if (format == PictureFormat::exr && !has_exr())
+        throw BadInput(option, "",
+                       "must be .png, .hdr or .pfm, for raylane was built without libopenexr-dev");
 }
 
 void PictureChoice::apply_to(core::Settings& settings) const {

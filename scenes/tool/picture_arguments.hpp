@@ -41,4 +41,7 @@ struct PictureChoice {
     std::optional<core::Color> outline_color;
 };
 
+/// Throws BadInput, in the option's name, for OpenEXR if raylane was built without.
+void require_writable(const std::string& option, PictureFormat format);
+
 } // namespace raylane::scenes
