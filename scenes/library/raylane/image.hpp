@@ -106,9 +106,8 @@ RAYLANE_API std::optional<Image> render(const Scene& scene, const RenderOptions&
 /// Writes a picture; the file's ending tells the format: .png, .tga, .bmp, .ppm (8 bits through the
 /// transfer curve), .hdr (Radiance) or .pfm (the floats unchanged). Of alpha .png tells, as its
 /// format has it, with colours not multiplied; in the others the picture lies over black. The file
-/// appears whole or not
-/// at all. Throws InvalidValue for an image whose size is not that of its pixels, BadInput for
-/// another ending, and SystemRefused.
+/// appears whole or not at all. Throws InvalidValue for an image whose size is not that of its
+/// pixels, BadInput for another ending, and SystemRefused.
 RAYLANE_API void write_image(const std::filesystem::path& path, const Image& image,
                              Transfer transfer = Transfer::srgb);
 
