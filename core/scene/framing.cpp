@@ -13,6 +13,15 @@ constexpr double margin = 1.05;
 /// The eye's distance from the nearest, by the size of all.
 constexpr double closest = 0x1p-6;
 
+constexpr float side = 0.5F;
+constexpr NamedView views[] = {
+    {"front", {0, 0, -1}, {0, 1, 0}}, {"back", {0, 0, 1}, {0, 1, 0}},
+    {"right", {-1, 0, 0}, {0, 1, 0}}, {"left", {1, 0, 0}, {0, 1, 0}},
+    {"top", {0, -1, 0}, {0, 0, -1}},  {"bottom", {0, 1, 0}, {0, 0, 1}},
+    {"x", {-1, 0, 0}, {0, 0, 1}},     {"y", {0, -1, 0}, {0, 0, 1}},
+    {"z", {0, 0, -1}, {0, 1, 0}},     {"corner", {-1, -side, -0.7F}, {0, 1, 0}},
+};
+
 /// Of the picture's upper edge.
 double slope_of(const Framing& framing) {
     return std::tan(static_cast<double>(framing.field_of_view) * std::numbers::pi / 360.0);
@@ -20,12 +29,31 @@ double slope_of(const Framing& framing) {
 
 } // namespace
 
+std::span<const NamedView> named_views() {
+    return views;
+}
+
+/// y; if that is what one looks along, the next.
+Vec3f upright(const Vec3f& direction) {
+    const bool is_steep = std::abs(direction.y) > 100.0F * std::hypot(direction.x, direction.z);
+    return is_steep ? Vec3f(0, 0, -1) : Vec3f(0, 1, 0);
+}
+
+Framing framing_of(const Camera& camera) {
+    return {.projection = camera.projection,
+            .direction = convert<float>(convert<double>(camera.at) - convert<double>(camera.from)),
+            .up = camera.up,
+            .field_of_view = camera.field_of_view};
+}
+
 Frame::Frame(const Framing& framing, double aspect) : framing_(framing), aspect_(aspect) {
     const Vec3d direction = convert<double>(framing.direction);
     back_ = -1.0 / length(direction) * direction;
     const Vec3d across = cross(convert<double>(framing.up), back_);
     right_ = 1.0 / length(across) * across;
     up_ = cross(back_, right_);
+    axis_ = convert<double>(framing.up);
+    axis_ = 1.0 / length(axis_) * axis_;
     if (framing.projection == Projection::orthographic) {
         cosine_[0] = cosine_[1] = 1.0;
         return;
@@ -39,20 +67,38 @@ Frame::Frame(const Framing& framing, double aspect) : framing_(framing), aspect_
 }
 
 void Frame::include(const Vec3d& center, double radius) {
+    if (!center_) return include_ring(center, axis_, 0.0, radius);
+    const Vec3d from = center - *center_, along = dot(from, axis_) * axis_;
+    include_ring(*center_ + along, axis_, length(from - along), radius);
+}
+
+void Frame::include_disc(const Vec3d& center, const Vec3d& axis, double radius) {
+    if (center_) return include(center, radius);
+    include_ring(center, 1.0 / length(axis) * axis, radius, 0.0);
+}
+
+void Frame::include_ring(const Vec3d& center, const Vec3d& axis, double ring, double radius) {
     empty_ = false;
+    // How far it reaches beyond its center in a direction of length 1.
+    const auto reach = [&](const Vec3d& direction) {
+        if (ring == 0.0) return radius;
+        const double cosine = dot(axis, direction);
+        return radius + ring * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    };
     const double depth = dot(center, back_);
-    const double places[2] = {dot(center, right_), dot(center, up_)};
-    for (int axis = 0; axis < 2; ++axis) {
-        const double across = places[axis] * cosine_[axis], back = depth * sine_[axis] + radius;
-        reach_[axis].positive = std::max(reach_[axis].positive, back + across);
-        reach_[axis].negative = std::max(reach_[axis].negative, back - across);
+    const Vec3d across[2] = {right_, up_};
+    for (int i = 0; i < 2; ++i) {
+        const double place = dot(center, across[i]);
+        const Vec3d aside = cosine_[i] * across[i], behind = sine_[i] * back_;
+        reach_[i].positive = std::max(reach_[i].positive, depth * sine_[i] + reach(behind + aside) +
+                                                              place * cosine_[i]);
+        reach_[i].negative = std::max(reach_[i].negative, depth * sine_[i] + reach(behind - aside) -
+                                                              place * cosine_[i]);
+        extent_[i].positive = std::max(extent_[i].positive, place + reach(across[i]));
+        extent_[i].negative = std::max(extent_[i].negative, reach(across[i]) - place);
     }
-    for (int axis = 0; axis < 2; ++axis) {
-        extent_[axis].positive = std::max(extent_[axis].positive, places[axis] + radius);
-        extent_[axis].negative = std::max(extent_[axis].negative, radius - places[axis]);
-    }
-    along_.positive = std::max(along_.positive, depth + radius);
-    along_.negative = std::max(along_.negative, radius - depth);
+    along_.positive = std::max(along_.positive, depth + reach(back_));
+    along_.negative = std::max(along_.negative, reach(back_) - depth);
 }
 
 void Frame::include(const Bounds& bounds) {

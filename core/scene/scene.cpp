@@ -244,7 +244,7 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     validate_in("camera", camera);
     validate_in("fog", fog);
     validate_color("background", background);
-    if (wants_light && scene_.lights_.empty() && shape_count() > 0)
+    if (wants_light && !staging.lights && scene_.lights_.empty() && shape_count() > 0)
         throw InvalidValue("lights",
                            "must have at least one light where there are objects, got none");
 
@@ -272,7 +272,23 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     scene_.fog_ = fog;
     scene_.settings_ = settings;
     scene_.wavelengths_ = wavelengths;
-    return std::move(scene_);
+    scene_.own_light_count_ = scene_.lights_.size();
+    if (!staging.any()) return std::move(scene_);
+    const View view = staged(scene_, staging, settings);
+    return std::move(scene_).seen(staging, view);
+}
+
+Scene Scene::seen(const Staging& staging, const View& view) && {
+    validate_in("camera", view.camera);
+    validate_in("fog", view.fog);
+    for (const Light& light : view.lights)
+        validate(light);
+    staging_ = staging;
+    camera_ = view.camera;
+    fog_ = view.fog;
+    lights_.resize(own_light_count_);
+    lights_.insert(lights_.end(), view.lights.begin(), view.lights.end());
+    return std::move(*this);
 }
 
 #define RAYLANE_INSTANTIATE(Shape, name, text)                                                     \

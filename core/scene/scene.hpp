@@ -2,6 +2,7 @@
 
 #include "core/hierarchy/hierarchy.hpp"
 #include "core/scene/material.hpp"
+#include "core/scene/staging.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
 #include "core/shapes/shape_table.hpp"
@@ -62,6 +63,13 @@ class Scene {
     /// The scene in light of one wavelength.
     Scene in_light_of(double wavelength) const;
 
+    /// How its camera found its place, and what came along.
+    const Staging& staging() const { return staging_; }
+    /// Lights that did not come with the camera: so many of the first.
+    std::size_t own_light_count() const { return own_light_count_; }
+    /// The same shapes, seen otherwise. Throws InvalidValue for a camera or fog that is none.
+    Scene seen(const Staging& staging, const View& view) &&;
+
     /// The shapes that lie in one flat polygon with `id`: itself alone unless added by add_polygon.
     IdRange coplanar_with(ShapeId id) const;
 
@@ -88,6 +96,8 @@ class Scene {
     Color background_{0.0F};
     Settings settings_;
     std::vector<double> wavelengths_;
+    Staging staging_;
+    std::size_t own_light_count_ = 0;
 };
 
 /// Collects a scene, in any order, and checks each value as it comes. All functions throw
@@ -99,8 +109,11 @@ class SceneBuilder {
     Fog fog;                         ///< checked by build(), field "fog/..."
     Settings settings;               ///< checked by build(), field "settings/..."
     std::vector<double> wavelengths; ///< checked by build(), field "spectrum/wavelengths/..."
-    bool wants_light = true;         ///< true if build() refuses shapes without a light
-    Workers* workers = nullptr;      ///< that build the hierarchy; default: the caller's thread
+    /// What of camera, fog and lights build() finds by itself. Throws InvalidValue, field "camera",
+    /// if there is nothing that a camera could find its place by.
+    Staging staging;
+    bool wants_light = true;    ///< true if build() refuses shapes without a light
+    Workers* workers = nullptr; ///< that build the hierarchy; default: the caller's thread
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);

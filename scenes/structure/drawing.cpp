@@ -96,7 +96,7 @@ class Artist {
         : structure_(structure), drawing_(drawing), file_(file), builder_(builder),
           palette_(builder) {}
 
-    void draw() {
+    DrawingScale draw() {
         if (structure_.size() == 0) throw BadInput(file_, "", "has no atoms");
         if (drawing_.select != "all") {
             selected_ = select_atoms(structure_, "--select", drawing_.select);
@@ -108,20 +108,29 @@ class Artist {
         } else {
             count_ = structure_.size();
         }
+        find_scale();
         find_colors();
-        find_usual_radius();
         find_images();
-        style_ = drawing_.style != Style::automatic                     ? drawing_.style
-                 : count_ > most_for_balls || !structure_.radii.empty() ? Style::spheres
-                                                                        : Style::balls;
         add_atoms();
-        if (style_ != Style::spheres && style_ != Style::points) add_bonds();
+        if (scale_.style != Style::spheres && scale_.style != Style::points) add_bonds();
         if (drawing_.show_cell) add_cell();
         set_up_view();
+        return scale_;
     }
 
   private:
     bool is_selected(AtomIndex atom) const { return selected_.empty() || selected_[atom] != 0; }
+
+    void find_scale() {
+        if (drawing_.scale) {
+            scale_ = *drawing_.scale;
+            return;
+        }
+        find_usual_radius();
+        scale_.style = drawing_.style != Style::automatic                     ? drawing_.style
+                       : count_ > most_for_balls || !structure_.radii.empty() ? Style::spheres
+                                                                              : Style::balls;
+    }
 
     void find_colors() {
         const std::string& by = drawing_.color;
@@ -173,14 +182,9 @@ class Artist {
             throw BadInput("--color", "",
                            "must be " + alternatives(names) + ", got \"" + printable(name) + "\"" +
                                suggestion(name, {names.begin(), names.end()}));
-        double least = std::numeric_limits<double>::infinity(), most = -least;
-        for (AtomIndex i = 0; i < structure_.size(); ++i) {
-            const auto value = static_cast<double>(found->values[i]);
-            if (!is_selected(i) || !std::isfinite(value)) continue;
-            least = std::min(least, value);
-            most = std::max(most, value);
-        }
         const std::vector<float>* values = &found->values;
+        if (!drawing_.scale) find_range(*values);
+        const double least = scale_.least, most = scale_.most;
         color_of_ = [=](AtomIndex i) {
             const auto value = static_cast<double>((*values)[i]);
             if (!std::isfinite(value)) return data_of(0).color;
@@ -188,9 +192,20 @@ class Artist {
         };
     }
 
+    void find_range(const std::vector<float>& values) {
+        scale_.least = std::numeric_limits<double>::infinity();
+        scale_.most = -scale_.least;
+        for (AtomIndex i = 0; i < structure_.size(); ++i) {
+            const auto value = static_cast<double>(values[i]);
+            if (!is_selected(i) || !std::isfinite(value)) continue;
+            scale_.least = std::min(scale_.least, value);
+            scale_.most = std::max(scale_.most, value);
+        }
+    }
+
     /// Of atoms of no known element: so that they nearly touch if they fill their bounds.
     void find_usual_radius() {
-        usual_radius_ = 1.5F;
+        scale_.usual_radius = 1.5F;
         const auto has_element = [](const AtomKind& kind) { return kind.element != 0; };
         if (std::any_of(structure_.of_kind.begin(), structure_.of_kind.end(), has_element)) return;
         core::Bounds bounds;
@@ -207,7 +222,7 @@ class Artist {
                 ++dimensions;
             }
         if (dimensions > 0)
-            usual_radius_ = static_cast<float>(
+            scale_.usual_radius = static_cast<float>(
                 0.5 * std::pow(volume / static_cast<double>(structure_.size()), 1.0 / dimensions));
     }
 
@@ -229,13 +244,13 @@ class Artist {
         if (!structure_.radii.empty() && structure_.radii[atom] > 0.0F)
             return structure_.radii[atom];
         const Element element = structure_.element(atom);
-        if (element == 0) return usual_radius_;
+        if (element == 0) return scale_.usual_radius;
         const float radius = data_of(element).van_der_waals_radius;
         return radius > 0.0F ? radius : 2.0F;
     }
 
     float radius_of(AtomIndex atom) const {
-        switch (style_) {
+        switch (scale_.style) {
         case Style::automatic:
         case Style::spheres:
             return full_radius(atom);
@@ -328,16 +343,16 @@ class Artist {
 
     void add_bonds() {
         const std::vector<Bond> bonds = find_bonds(structure_);
-        if (style_ != Style::licorice) find_neighbours(bonds);
+        if (scale_.style != Style::licorice) find_neighbours(bonds);
         for (const Bond& bond : bonds) {
             if (!is_selected(bond.a) || !is_selected(bond.b)) continue;
             const Vec3d a = core::convert<double>(structure_.positions[bond.a]);
             const Vec3d b = core::convert<double>(structure_.positions[bond.b]);
             if (a == b) continue;
-            const int sticks = style_ == Style::licorice ? 1 : bond.order;
-            const float radius = (style_ == Style::licorice ? licorice_stick
-                                  : style_ == Style::balls  ? stick_with_balls
-                                                            : stick) *
+            const int sticks = scale_.style == Style::licorice ? 1 : bond.order;
+            const float radius = (scale_.style == Style::licorice ? licorice_stick
+                                  : scale_.style == Style::balls  ? stick_with_balls
+                                                                  : stick) *
                                  (sticks == 1 ? 1.0F : 0.55F);
             if (sticks == 1) {
                 add_stick(bond, a, b, radius);
@@ -433,58 +448,12 @@ class Artist {
     }
 
     void set_up_view() {
-        core::Settings& settings = builder_.settings;
-        settings.width = drawing_.width;
-        settings.height = drawing_.height;
-        settings.quality = 40.0F;
-        core::Frame frame(drawing_.framing, static_cast<double>(settings.width) / settings.height);
-        for (AtomIndex atom = 0; atom < structure_.size(); ++atom) {
-            if (!is_selected(atom)) continue;
-            const auto radius = static_cast<double>(radius_of(atom));
-            for (const Vec3f& image : images_)
-                frame.include(core::convert<double>(structure_.positions[atom] + image), radius);
-        }
-        if (drawing_.show_cell) include_cell(frame);
-        builder_.camera = frame.camera();
-        const auto [near, far] = frame.depths(builder_.camera);
+        builder_.settings.width = drawing_.width;
+        builder_.settings.height = drawing_.height;
+        builder_.settings.quality = 40.0F;
         builder_.background = core::Color(1.0F);
-        // Of what is flat there is less to tell.
-        const auto asked = static_cast<double>(drawing_.depth_cue);
-        const double cue = asked * std::min(1.0, (far - near) / frame.width());
-        if (cue > 0.0 && far > near)
-            builder_.fog = {.kind = core::FogKind::linear,
-                            .color = builder_.background,
-                            .start = static_cast<float>(std::max(near, 0.0)),
-                            .end = static_cast<float>(near + (far - near) / cue)};
-        add_lights(frame, std::max(far - near, 1e-20));
-    }
-
-    void include_cell(core::Frame& frame) const {
-        const auto& edges = structure_.cell.edges;
-        for (const Vec3f& image : images_)
-            for (int corner = 0; corner < 8; ++corner) {
-                Vec3d at = structure_.cell.origin + core::convert<double>(image);
-                for (int k = 0; k < 3; ++k)
-                    if ((corner >> k & 1) != 0) at = at + edges[static_cast<std::size_t>(k)];
-                frame.include(at, static_cast<double>(cell_stick));
-            }
-    }
-
-    /// The sky above the picture, and a lamp over the left shoulder.
-    void add_lights(const core::Frame& frame, double depth) {
-        builder_.add_light({.kind = core::LightKind::sky,
-                            .direction = core::convert<float>(-frame.up()),
-                            .color = {0.8F, 0.85F, 0.9F},
-                            .ground = {0.38F, 0.33F, 0.31F}});
-        const Vec3d at = core::convert<double>(builder_.camera.at);
-        const double distance =
-            4.0 * std::max(depth, core::length(core::convert<double>(builder_.camera.from) - at));
-        const Vec3d to_lamp = -0.55 * frame.right() + 0.75 * frame.up() + 0.9 * frame.back();
-        builder_.add_light(
-            {.kind = core::LightKind::sphere,
-             .position = core::convert<float>(at + distance / core::length(to_lamp) * to_lamp),
-             .color = {22.0F, 20.5F, 18.5F},
-             .radius = static_cast<float>(0.19 * distance)});
+        builder_.staging = {
+            .framing = drawing_.framing, .lights = true, .depth_cue = drawing_.depth_cue};
     }
 
     const Structure& structure_;
@@ -494,19 +463,18 @@ class Artist {
     Palette palette_;
     std::vector<char> selected_; // empty: all
     std::size_t count_ = 0;
-    Style style_ = Style::automatic;
+    DrawingScale scale_;
     std::vector<std::uint32_t> of_kind_;
     std::function<std::uint32_t(AtomIndex)> color_of_;
-    float usual_radius_ = 1.5F;
     std::vector<Vec3f> images_;
     std::vector<AtomIndex> one_, another_;
 };
 
 } // namespace
 
-void draw(const Structure& structure, const Drawing& drawing, const std::string& file,
-          core::SceneBuilder& builder) {
-    Artist(structure, drawing, file, builder).draw();
+DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
+                  core::SceneBuilder& builder) {
+    return Artist(structure, drawing, file, builder).draw();
 }
 
 } // namespace raylane::scenes

@@ -5,6 +5,7 @@
 #include "scenes/structure/structure.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace raylane::scenes {
@@ -18,6 +19,13 @@ enum class Style {
     points,    ///< small balls of one size
 };
 
+/// What follows from a structure as a whole, and so for several frames should from one of them.
+struct DrawingScale {
+    Style style = Style::automatic;
+    float usual_radius = 1.5F;      ///< of atoms of no known element
+    double least = 0.0, most = 0.0; ///< of what colours stand for, if that is a number
+};
+
 /// How a structure is drawn.
 struct Drawing {
     Style style = Style::automatic;
@@ -29,12 +37,13 @@ struct Drawing {
     core::Framing framing;
     int width = 1200, height = 900; ///< pixels of the picture
     float depth_cue = 0.3F; ///< how much of the background the farthest atoms have, in [0, 1)
+    std::optional<DrawingScale> scale; ///< of another frame
 };
 
 /// Fills a builder with the atoms, a camera that sees them all, lights around them, and settings
 /// for a picture that one looks at. `file` is what messages call it. Throws BadInput for what there
 /// is not: nothing selected, no such property.
-void draw(const Structure& structure, const Drawing& drawing, const std::string& file,
-          core::SceneBuilder& builder);
+DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
+                  core::SceneBuilder& builder);
 
 } // namespace raylane::scenes

@@ -1,13 +1,22 @@
 #include "scenes/structure/structure_file.hpp"
 
 #include "scenes/errors.hpp"
-#include "scenes/structure/readers.hpp"
 
 namespace raylane::scenes {
 
 namespace {
 
-std::unique_ptr<FrameReader> reader_of(InputFile& file, Format format) {
+core::Scene build(core::SceneBuilder& builder, const std::string& file) {
+    try {
+        return std::move(builder).build();
+    } catch (const core::InvalidValue& invalid) {
+        throw BadInput(file, "", invalid.what());
+    }
+}
+
+} // namespace
+
+std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format) {
     switch (format) {
     case Format::pdb:
         return open_pdb(file);
@@ -30,7 +39,14 @@ std::unique_ptr<FrameReader> reader_of(InputFile& file, Format format) {
     throw BadInput(file.name(), "", "is no file of atoms");
 }
 
-} // namespace
+core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
+                           const std::string& file, core::Workers* workers, DrawingScale* scale) {
+    core::SceneBuilder builder;
+    builder.workers = workers;
+    const DrawingScale drawn = draw(structure, drawing, file, builder);
+    if (scale != nullptr) *scale = drawn;
+    return build(builder, file);
+}
 
 core::Scene read_structure(InputFile& file, Format format, const Drawing& drawing,
                            core::Workers* workers) {
@@ -38,15 +54,11 @@ core::Scene read_structure(InputFile& file, Format format, const Drawing& drawin
     builder.workers = workers;
     {
         Structure structure;
-        if (!reader_of(file, format)->next(structure))
+        if (!open_structure(file, format)->next(structure))
             throw BadInput(file.name(), "", "has no atoms");
         draw(structure, drawing, file.name(), builder);
-    }
-    try {
-        return std::move(builder).build();
-    } catch (const core::InvalidValue& invalid) {
-        throw BadInput(file.name(), "", invalid.what());
-    }
+    } // before the hierarchy takes room
+    return build(builder, file.name());
 }
 
 } // namespace raylane::scenes

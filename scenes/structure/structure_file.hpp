@@ -3,8 +3,17 @@
 #include "core/scene/scene.hpp"
 #include "scenes/format.hpp"
 #include "scenes/structure/drawing.hpp"
+#include "scenes/structure/readers.hpp"
 
 namespace raylane::scenes {
+
+/// The reader of a file of atoms, which must outlive it. Throws BadInput for another format.
+std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format);
+
+/// The scene of a frame; `file` is what messages call it, and `scale` what draw() leaves there.
+core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
+                           const std::string& file, core::Workers* workers = nullptr,
+                           DrawingScale* scale = nullptr);
 
 /// Reads the first frame of a file of atoms, and draws it. Throws BadInput, with the line, and
 /// SystemRefused.

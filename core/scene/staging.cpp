@@ -1,0 +1,150 @@
+#include "core/scene/staging.hpp"
+
+#include "core/numbers/elementary.hpp"
+#include "core/numbers/primitives.hpp"
+#include "core/scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace raylane::core {
+
+namespace {
+
+/// Any shape that has bounds, by what of it is cheap to say.
+template <class Shape>
+void include_shape(const Shape& shape, Frame& frame) {
+    constexpr Kind kind = kind_of<Shape>;
+    if constexpr (kind == Kind::sphere) {
+        frame.include(shape.center, shape.radius);
+    } else if constexpr (kind == Kind::disc) {
+        frame.include_disc(shape.center, shape.normal, shape.radius);
+    } else if constexpr (kind == Kind::open_cylinder || kind == Kind::capped_cylinder) {
+        frame.include_disc(shape.base, shape.axis, shape.radius);
+        frame.include_disc(shape.base + shape.axis, shape.axis, shape.radius);
+    } else if constexpr (kind == Kind::open_cone || kind == Kind::capped_cone) {
+        frame.include_disc(shape.base, shape.axis, shape.base_radius);
+        frame.include_disc(shape.base + shape.axis, shape.axis, shape.top_radius);
+    } else if constexpr (kind == Kind::triangle || kind == Kind::smooth_triangle) {
+        for (const Vec3d& corner : {shape.a, shape.b, shape.c})
+            frame.include(corner, 0.0);
+    } else {
+        frame.include(bounds_of(shape));
+    }
+}
+
+/// The middle of all that has bounds.
+Vec3d center_of(const Scene& scene) {
+    Bounds all;
+    for_each_bounded_table(scene.shapes(), [&](const auto& table) {
+        for_each_shape(table, [&](const auto& shape, ShapeId id) {
+            if (!scene.solids().has(id)) all.include(bounds_of(shape));
+        });
+    });
+    for (Solids::Index i = 0; i < scene.solids().nodes().size(); i = scene.solids().node(i).end)
+        if (is_finite(scene.solids().bounds(i))) all.include(scene.solids().bounds(i));
+    if (!is_finite(all)) return Vec3d(0.0);
+    return 0.5 * (convert<double>(all.lower) + convert<double>(all.upper));
+}
+
+/// That did not come with the camera.
+Fog own_fog_of(const Scene& scene) {
+    return scene.staging().depth_cue > 0.0F ? Fog{} : scene.fog();
+}
+
+/// In the background's colour, between the nearest and the farthest.
+Fog depth_cue(const Scene& scene, const Staging& staging, const Frame& frame,
+              const Camera& camera) {
+    const auto [near, far] = frame.depths(camera);
+    // Of what is flat there is less to tell.
+    const double cue =
+        static_cast<double>(staging.depth_cue) * std::min(1.0, (far - near) / frame.width());
+    if (!(cue > 0.0 && far > near && far > 0.0)) return own_fog_of(scene);
+    return {.kind = FogKind::linear,
+            .color = scene.background(),
+            .start = static_cast<float>(std::max(near, 0.0)),
+            .end = static_cast<float>(near + (far - near) / cue)};
+}
+
+/// The sky above the picture, and a lamp over the left shoulder.
+std::vector<Light> lights_of(const Frame& frame, const Camera& camera) {
+    const auto [near, far] = frame.depths(camera);
+    const double depth = frame.empty() ? 0.0 : std::max(far - near, 1e-20);
+    const Vec3d at = convert<double>(camera.at);
+    const double distance = 4.0 * std::max(depth, length(convert<double>(camera.from) - at));
+    const Vec3d to_lamp = -0.55 * frame.right() + 0.75 * frame.up() + 0.9 * frame.back();
+    return {{.kind = LightKind::sky,
+             .direction = convert<float>(-frame.up()),
+             .color = {0.8F, 0.85F, 0.9F},
+             .ground = {0.38F, 0.33F, 0.31F}},
+            {.kind = LightKind::sphere,
+             .position = convert<float>(at + distance / length(to_lamp) * to_lamp),
+             .color = {22.0F, 20.5F, 18.5F},
+             .radius = static_cast<float>(0.19 * distance)}};
+}
+
+} // namespace
+
+Frame empty_frame(const Scene& scene, const Staging& staging, const Settings& settings) {
+    Frame frame(staging.framing ? *staging.framing : framing_of(scene.camera()),
+                static_cast<double>(settings.width) / settings.height);
+    if (staging.turning && staging.framing) frame.turn_about(center_of(scene));
+    return frame;
+}
+
+void include_shapes(const Scene& scene, Frame& frame) {
+    const Solids& solids = scene.solids();
+    for_each_bounded_table(scene.shapes(), [&](const auto& table) {
+        for_each_shape(table, [&](const auto& shape, ShapeId id) {
+            if (!solids.has(id)) include_shape(shape, frame);
+        });
+    });
+    for (Solids::Index i = 0; i < solids.nodes().size(); i = solids.node(i).end)
+        frame.include(solids.bounds(i));
+}
+
+View staged(const Scene& scene, const Staging& staging, const Frame& frame) {
+    View view{.camera = scene.camera(), .fog = own_fog_of(scene), .lights = {}};
+    if (staging.framing) {
+        if (frame.empty())
+            throw InvalidValue("camera", "must have something to find its place by, other than "
+                                         "planes and what else has no end");
+        view.camera = frame.camera();
+    }
+    if (staging.depth_cue > 0.0F && !frame.empty())
+        view.fog = depth_cue(scene, staging, frame, view.camera);
+    if (staging.lights) view.lights = lights_of(frame, view.camera);
+    return view;
+}
+
+View staged(const Scene& scene, const Staging& staging, const Settings& settings) {
+    Frame frame = empty_frame(scene, staging, settings);
+    include_shapes(scene, frame);
+    return staged(scene, staging, frame);
+}
+
+View turned(const View& view, const Vec3f& up, double degrees) {
+    const auto turn =
+        Elementary<double>::sin_cos(std::fmod(degrees, 360.0) * std::numbers::pi / 180.0);
+    const Vec3d axis = 1.0 / length(convert<double>(up)) * convert<double>(up);
+    const Vec3d at = convert<double>(view.camera.at);
+    // Rodrigues' formula.
+    const auto direction = [&](const Vec3d& v) {
+        const Vec3d along = dot(v, axis) * axis;
+        return along + turn.cosine * (v - along) + turn.sine * cross(axis, v);
+    };
+    const auto point = [&](const Vec3f& p) {
+        return convert<float>(at + direction(convert<double>(p) - at));
+    };
+    View result = view;
+    result.camera.from = point(view.camera.from);
+    result.camera.up = convert<float>(direction(convert<double>(view.camera.up)));
+    for (Light& light : result.lights) {
+        light.position = point(light.position);
+        light.direction = convert<float>(direction(convert<double>(light.direction)));
+    }
+    return result;
+}
+
+} // namespace raylane::core
