@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace raylane::scenes {
@@ -89,11 +90,17 @@ void InputErrors::add(const BadInput& bad) {
 
 void InputErrors::report() const {
     if (errors_.empty()) return;
+    std::vector<std::string> files; // in the order in which they came
+    for (const InputError& error : errors_)
+        if (std::find(files.begin(), files.end(), error.file) == files.end())
+            files.push_back(error.file);
+    const auto place = [&](const InputError& error) {
+        return std::tuple(std::find(files.begin(), files.end(), error.file), error.position.line,
+                          error.position.column);
+    };
     std::vector<InputError> sorted = errors_;
-    std::stable_sort(sorted.begin(), sorted.end(), [](const InputError& a, const InputError& b) {
-        return std::pair(a.position.line, a.position.column) <
-               std::pair(b.position.line, b.position.column);
-    });
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](const InputError& a, const InputError& b) { return place(a) < place(b); });
     throw BadInput(std::move(sorted), overflowed_);
 }
 

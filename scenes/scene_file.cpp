@@ -16,6 +16,10 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
     file.on_read = options.on_read;
     if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
     const Format format = format_of(file);
+    if (!options.parameters.empty() && format != Format::json)
+        throw BadInput(file.name(), "",
+                       "has no number \"$" + printable(options.parameters.begin()->first) +
+                           "\" that could be set: only JSON may");
     if (is_structure(format)) return read_structure(file, format, options.drawing, options.workers);
     if (!options.option_for_atoms.empty())
         throw BadInput(options.option_for_atoms, "",
@@ -24,7 +28,7 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
     if (format == Format::pov) return read_pov(file, options.workers, options.on_remark);
     if (format == Format::tachyon)
         return read_tachyon(file, options.workers, options.on_remark, options.tachyon);
-    return format == Format::json ? read_json(file, options.workers)
+    return format == Format::json ? read_json(file, options.workers, options.parameters)
                                   : read_nff(file, options.workers);
 }
 

@@ -6,6 +6,7 @@
 #include "scenes/tachyon/shading.hpp"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,8 @@ struct LoadOptions {
     /// What a scene is refused with: an option that says how atoms are drawn; empty: none is given.
     std::string option_for_atoms = {};
     TachyonShading tachyon = {}; ///< in place of what a scene of Tachyon's says
+    /// What "$name" stands for in JSON, in place of what the file says; each has to be used.
+    std::map<std::string, double> parameters = {};
 };
 
 /// Reads a scene, or atoms, of which it makes one; scenes/format.hpp has the formats. Throws

@@ -60,8 +60,8 @@ std::string expectation_in(std::string_view error) {
 class ItemParser {
   public:
     ItemParser(std::string_view file, JsonText& text, std::span<const RootKey> keys,
-               const TakeItem& take, InputErrors& errors)
-        : file_(file), text_(text), keys_(keys), take_(take), errors_(errors) {}
+               const TakeItem& take, InputErrors& errors, Parameters* parameters)
+        : file_(file), text_(text), keys_(keys), take_(take), errors_(errors), item_(parameters) {}
 
     /// Looks for required keys that did not come.
     Outline finish();
@@ -298,10 +298,10 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
 } // namespace
 
 Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
-                   InputErrors& errors) {
+                   InputErrors& errors, Parameters* parameters) {
     try {
         JsonText text(file);
-        ItemParser parser(file.name(), text, keys, take, errors);
+        ItemParser parser(file.name(), text, keys, take, errors, parameters);
         if (json::sax_parse(JsonTextIterator(text), JsonTextIterator(), &parser))
             return parser.finish();
     } catch (const BadInput& fatal) {

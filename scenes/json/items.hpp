@@ -48,11 +48,12 @@ struct Outline {
 
 /// Reads a JSON text with comments, whose outermost value is an object, and hands over its items,
 /// one by one and in the order of the file, so that a long list is never held in memory.
+/// `parameters`: what "$name" stands for in them.
 ///
 /// Adds to `errors` what `take` throws, and unknown, missing and repeated keys, and goes on behind
 /// them. Throws BadInput with all errors so far where it cannot: for what is not JSON, for items
 /// too deep or too large to belong to a scene, and where there are too many errors already.
 Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
-                   InputErrors& errors);
+                   InputErrors& errors, Parameters* parameters = nullptr);
 
 } // namespace raylane::scenes

@@ -83,10 +83,42 @@ core::Sellmeier read_glass(const JsonValue& value) {
     return value.choice(JsonValue::Choices<core::Sellmeier>(glasses));
 }
 
+/// What is clear, of this index of refraction.
+core::Material clear(float index) {
+    return {.pattern = {.colors = {core::Color(0.0F), core::Color(0.0F)}},
+            .reflection = core::Reflection::dielectric,
+            .transmission = 1.0F,
+            .index = index};
+}
+
+/// What materials are like that go by a name; keys beside it say otherwise.
+core::Material read_preset(const JsonValue& value) {
+    using core::Material;
+    const auto of_color = [](float gray) {
+        return Pattern{.colors = {core::Color(gray), core::Color(gray)}};
+    };
+    return value.choice<Material>({
+        {"matte", Material{}},
+        {"plastic", Material{.pattern = {},
+                             .specular = 0.3F,
+                             .exponent = 60.0F,
+                             .reflection = core::Reflection::dielectric}},
+        {"metal", Material{.pattern = of_color(0.7F),
+                           .diffuse = 0.4F,
+                           .specular = 0.6F,
+                           .exponent = 80.0F,
+                           .reflectivity = 0.35F}},
+        {"mirror", Material{.pattern = of_color(0.0F), .reflectivity = 0.95F}},
+        {"glass", clear(1.5F)},
+        {"water", clear(1.33F)},
+        {"diamond", clear(2.42F)},
+    });
+}
+
 } // namespace
 
 core::Material read_material(const JsonValue& value) {
-    value.allow_only({"color", "pattern", "ambient", "diffuse", "specular", "exponent",
+    value.allow_only({"preset", "color", "pattern", "ambient", "diffuse", "specular", "exponent",
                       "reflectivity", "reflection", "transmission", "index", "glass", "absorption",
                       "opacity", "visible"});
     value.exclude("color", "pattern");
@@ -94,6 +126,7 @@ core::Material read_material(const JsonValue& value) {
     value.exclude("index", "glass");
 
     core::Material material;
+    if (const auto preset = value.find("preset")) material = read_preset(*preset);
     if (const auto color = value.find("color")) material.pattern.colors[0] = color->color();
     if (const auto pattern = value.find("pattern")) material.pattern = read_pattern(*pattern);
     const std::initializer_list<std::pair<std::string_view, float*>> numbers = {
@@ -103,6 +136,7 @@ core::Material read_material(const JsonValue& value) {
         {"opacity", &material.opacity},           {"index", &material.index}};
     for (const auto& [key, number] : numbers)
         if (const auto found = value.find(key)) *number = found->number();
+    if (value.find("reflectivity")) material.reflection = core::Reflection::constant;
     if (const auto reflection = value.find("reflection"))
         material.reflection = reflection->choice<core::Reflection>(
             {{"schlick", core::Reflection::schlick}, {"dielectric", core::Reflection::dielectric}});
@@ -114,6 +148,14 @@ core::Material read_material(const JsonValue& value) {
                                                            {"outside", core::Visible::outside},
                                                            {"inside", core::Visible::inside}});
     return material;
+}
+
+std::string key_of_material_field(const std::string& field, core::PatternKind pattern) {
+    static constexpr std::string_view first_color = "pattern/colors/0";
+    if (pattern == core::PatternKind::solid && field.starts_with(first_color))
+        return "color" + field.substr(first_color.size());
+    if (pattern == core::PatternKind::stripes && field == "pattern/size") return "pattern/width";
+    return field;
 }
 
 } // namespace raylane::scenes

@@ -2,15 +2,20 @@
 
 #include "core/scene/validate.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/json/inclusion.hpp"
 #include "scenes/json/items.hpp"
+#include "scenes/json/late_parameters.hpp"
 #include "scenes/json/material.hpp"
 #include "scenes/json/object.hpp"
+#include "scenes/json/object_places.hpp"
 #include "scenes/json/surroundings.hpp"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,29 +24,30 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Key in the file for a field of core::Material: to core a plain colour is a pattern, too.
-std::string key_of_material_field(const std::string& field, core::PatternKind pattern) {
-    static constexpr std::string_view first_color = "pattern/colors/0";
-    if (pattern == core::PatternKind::solid && field.starts_with(first_color))
-        return "color" + field.substr(first_color.size());
-    if (pattern == core::PatternKind::stripes && field == "pattern/size") return "pattern/width";
-    return field;
+/// For a name that has been given.
+[[noreturn]] void refuse_again(const JsonValue& value) {
+    InputError repeated = value.error("must be given only once");
+    repeated.position = value.positions().key;
+    throw BadInput({repeated});
 }
 
 /// Collects a scene from the items of its file.
 class SceneReader {
   public:
-    SceneReader(std::string_view file, core::Workers* workers) : file_(file) {
+    SceneReader(std::string_view file, core::Workers* workers, Parameters parameters)
+        : file_(file), inclusion_(file_), parameters_(std::move(parameters)) {
         builder_.workers = workers;
     }
 
-    /// Throws BadInput for what is wrong with the item, and is good for others after that.
-    void take(const RootKey& key, std::string_view name, const JsonDocument& item);
+    /// Takes all items of a file: of the first, or of one that is included.
+    Outline take_all(InputFile& file, InputErrors& errors);
     /// Throws BadInput for `errors` and what is wrong with the scene as a whole.
     core::Scene finish(const Outline& outline, InputErrors& errors);
 
-    static constexpr std::array<RootKey, 13> keys = {{
+    static constexpr std::array<RootKey, 15> keys = {{
         {"$schema", Holds::one_item},
+        {"parameters", Holds::named_items},
+        {"include", Holds::item_list},
         {"image", Holds::one_item},
         {"sampling", Holds::one_item},
         {"limits", Holds::one_item},
@@ -57,15 +63,29 @@ class SceneReader {
     }};
 
   private:
+    /// What an included file has for those that include it. It may be a scene of its own, too.
+    static bool is_included(std::string_view key) {
+        return key == "parameters" || key == "include" || key == "lights" || key == "materials" ||
+               key == "definitions" || key == "objects";
+    }
+
     /// A name that came before its material, or has none: where it was used first, and the index
     /// that it has until the material comes.
     struct UnknownName {
         core::MaterialIndex index;
+        std::string file;
         TextPosition position;
         std::string pointer;
         bool reported;
     };
-
+    /// A light in its file.
+    struct LightPlace {
+        std::string file, pointer;
+        TextPosition position;
+    };
+    /// Throws BadInput for what is wrong with the item, and is good for others after that.
+    void take(const RootKey& key, std::string_view name, const JsonDocument& item);
+    void include(const JsonValue& value);
     void take_settings(const JsonValue& value, void (*read)(const JsonValue&, core::Settings&));
     void take_outline(const JsonValue& value);
     void take_camera(const JsonValue& value);
@@ -88,23 +108,46 @@ class SceneReader {
     void number_materials();
     InputError error_in_scene(const core::InvalidValue& invalid, const Outline& outline) const;
 
-    std::string_view file_;
+    std::string file_; // that everything is in, but for what is included
+    Inclusion inclusion_;
+    Parameters parameters_;
     core::SceneBuilder builder_;
     std::map<std::string, core::MaterialIndex, std::less<>> materials_;
     std::map<std::string, UnknownName, std::less<>> unknown_names_;
     Definitions definitions_;
     std::vector<core::MaterialIndex> named_; // in the order of the file
     std::size_t material_count_ = 0;
-    std::vector<TextPosition> lights_;     // of their positions
-    std::vector<core::IdRange> generated_; // the shapes of each object that is more than one
+    std::vector<LightPlace> lights_;
+    ObjectPlaces objects_;
     bool has_lights_ = false, has_objects_ = false;
+    bool lacks_included_ = false; // what was to be included may have had what others lack
     MaterialOf material_of_ = [this](const JsonValue& value) { return material_of(value); };
 };
+
+Outline SceneReader::take_all(InputFile& file, InputErrors& errors) {
+    const bool is_first = inclusion_.depth() == 0;
+    std::array<RootKey, keys.size()> known = keys;
+    for (RootKey& key : known)
+        key.required = key.required && is_first;
+    std::set<std::string, std::less<>> parameters; // others may have the same: the first counts
+    return read_items(
+        file, known,
+        [&](const RootKey& key, std::string_view name, const JsonDocument& item) {
+            if (key.name == "parameters" && !parameters.emplace(name).second)
+                refuse_again(item.root());
+            if (is_first || is_included(key.name)) take(key, name, item);
+        },
+        errors, &parameters_);
+}
 
 void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocument& item) {
     const JsonValue value = item.root();
     if (key.name == "$schema")
         static_cast<void>(value.string());
+    else if (key.name == "parameters")
+        read_parameter(name, value, parameters_);
+    else if (key.name == "include")
+        include(value);
     else if (key.name == "image")
         take_settings(value, read_image);
     else if (key.name == "sampling")
@@ -131,6 +174,21 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
         take_object(value);
 }
 
+void SceneReader::include(const JsonValue& value) {
+    try {
+        inclusion_.include(value, [&](InputFile& file) {
+            objects_.enter(file.name(), builder_.shape_count());
+            InputErrors errors;
+            static_cast<void>(take_all(file, errors));
+            errors.report();
+            objects_.leave(builder_.shape_count());
+        });
+    } catch (const BadInput&) {
+        lacks_included_ = true;
+        throw;
+    }
+}
+
 // core keeps in one place what the file groups by purpose, under the same names.
 void SceneReader::take_settings(const JsonValue& value,
                                 void (*read)(const JsonValue&, core::Settings&)) {
@@ -147,7 +205,7 @@ void SceneReader::take_outline(const JsonValue& value) {
 }
 
 void SceneReader::take_camera(const JsonValue& value) {
-    const core::Camera camera = read_camera(value);
+    const core::Camera camera = read_camera(value, builder_.staging);
     checked(value, [&] { core::validate(camera); });
     builder_.camera = camera;
 }
@@ -179,27 +237,25 @@ void SceneReader::take_spectrum(const JsonValue& value) {
 
 void SceneReader::take_light(const JsonValue& value) {
     has_lights_ = true;
-    checked(value, [&] { builder_.add_light(read_light(value)); });
-    lights_.push_back(value.toward("position").positions().value);
+    const std::optional<core::Light> light = read_light(value);
+    if (!light) {
+        builder_.staging.lights = true;
+        return;
+    }
+    checked(value, [&] { builder_.add_light(*light); });
+    lights_.push_back(
+        {std::string(value.file()), value.pointer(), value.toward("position").positions().value});
 }
 
 void SceneReader::take_material(std::string_view name, const JsonValue& value) {
-    if (materials_.contains(name)) {
-        InputError repeated = value.error("must be given only once");
-        repeated.position = value.positions().key;
-        throw BadInput({repeated});
-    }
+    if (materials_.contains(name)) refuse_again(value);
     const auto entry = materials_.emplace(name, 0).first;
     entry->second = add_material(value);
     named_.push_back(entry->second);
 }
 
 void SceneReader::take_definition(std::string_view name, const JsonValue& value) {
-    if (definitions_.contains(name)) {
-        InputError repeated = value.error("must be given only once");
-        repeated.position = value.positions().key;
-        throw BadInput({repeated});
-    }
+    if (definitions_.contains(name)) refuse_again(value);
     definitions_.emplace(name, described_object(value, {material_of_, definitions_}));
 }
 
@@ -207,10 +263,7 @@ void SceneReader::take_object(const JsonValue& value) {
     has_objects_ = true;
     const std::size_t before = builder_.shape_count();
     add_object(value, builder_, {material_of_, definitions_});
-    const std::size_t after = builder_.shape_count();
-    if (after - before > 1)
-        generated_.push_back(
-            {static_cast<core::ShapeId>(before), static_cast<core::ShapeId>(after - 1)});
+    objects_.add(before, builder_.shape_count() - before);
 }
 
 core::MaterialIndex SceneReader::add_material(const JsonValue& value) {
@@ -238,10 +291,11 @@ core::MaterialIndex SceneReader::material_of(const JsonValue& value) {
 core::MaterialIndex SceneReader::index_of_unknown(const JsonValue& value) {
     const auto found = unknown_names_.find(value.string());
     if (found != unknown_names_.end()) return found->second.index;
-    const bool hopeless = !materials_.empty();
+    const bool hopeless = !materials_.empty() && !lacks_included_;
     const core::MaterialIndex index = add({});
     unknown_names_.emplace(value.string(),
-                           UnknownName{index, value.positions().value, value.pointer(), hopeless});
+                           UnknownName{index, std::string(value.file()), value.positions().value,
+                                       value.pointer(), hopeless});
     if (hopeless) value.fail(complaint_about_name(value.string()));
     return index;
 }
@@ -270,51 +324,76 @@ void SceneReader::number_materials() {
 }
 
 core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
+    if (lacks_included_) errors.report();
     for (const auto& [name, unknown] : unknown_names_)
         if (!unknown.reported && !materials_.contains(name))
-            errors.add({std::string(file_), unknown.position, unknown.pointer,
-                        complaint_about_name(name)});
-    if (has_objects_ && !has_lights_)
-        errors.add({std::string(file_), outline.of("lights"), "/lights",
+            errors.add(
+                {unknown.file, unknown.position, unknown.pointer, complaint_about_name(name)});
+    // A camera that finds its place by itself has light, too.
+    if (!has_lights_ && builder_.staging.framing) builder_.staging.lights = true;
+    if (has_objects_ && !has_lights_ && !builder_.staging.lights)
+        errors.add({file_, outline.of("lights"), "/lights",
                     "must have at least one light where there are objects, got none"});
     errors.report();
+    if (const auto unused = parameters_.first_unused()) {
+        std::vector<std::string_view> others = parameters_.names();
+        std::erase(others, *unused);
+        throw BadInput(file_, "",
+                       "has no number \"$" + *unused + "\" that could be set" +
+                           suggestion(*unused, others, "$"));
+    }
 
     number_materials();
-    const auto object_of = [this](core::ShapeId id) {
-        return "/objects/" + std::to_string(core::rank_in_groups(generated_, id));
-    };
     try {
-        return std::move(builder_).build(object_of);
+        return std::move(builder_).build([this](core::ShapeId id) { return objects_.name_of(id); });
     } catch (const core::InvalidValue& invalid) {
         throw BadInput({error_in_scene(invalid, outline)});
     }
 }
 
-/// What is left for core to find are lights: "lights/0/position".
+/// What is left for core to find are lights, "lights/0/position", and what a camera cannot see.
 InputError SceneReader::error_in_scene(const core::InvalidValue& invalid,
                                        const Outline& outline) const {
     constexpr std::string_view lights = "lights/";
-    TextPosition position = outline.of(invalid.field.substr(0, invalid.field.find('/')));
     const std::string_view field = invalid.field;
-    std::size_t light = lights_.size();
+    std::size_t index = lights_.size();
+    const char* end = field.data();
     if (field.starts_with(lights))
-        std::from_chars(field.data() + lights.size(), field.data() + field.size(), light);
-    if (light < lights_.size()) position = lights_[light];
-    return {std::string(file_), position, "/" + invalid.field, invalid.expectation};
+        end = std::from_chars(field.data() + lights.size(), field.data() + field.size(), index).ptr;
+    if (index >= lights_.size())
+        return {file_, outline.of(field.substr(0, field.find('/'))), "/" + invalid.field,
+                invalid.expectation};
+    const LightPlace& light = lights_[index];
+    return {light.file, light.position,
+            light.pointer + std::string(end, field.data() + field.size()), invalid.expectation};
 }
 
 } // namespace
 
-core::Scene read_json(InputFile& file, core::Workers* workers) {
-    SceneReader reader(file.name(), workers);
-    InputErrors errors;
-    const Outline outline = read_items(
-        file, SceneReader::keys,
-        [&](const RootKey& key, std::string_view name, const JsonDocument& item) {
-            reader.take(key, name, item);
-        },
-        errors);
-    return reader.finish(outline, errors);
+core::Scene read_json(InputFile& file, core::Workers* workers,
+                      const std::map<std::string, double>& given) {
+    const auto read = [&](Parameters parameters) {
+        SceneReader reader(file.name(), workers, std::move(parameters));
+        InputErrors errors;
+        const Outline outline = reader.take_all(file, errors);
+        return reader.finish(outline, errors);
+    };
+    Parameters parameters(given);
+    parameters.expects_more = true;
+    try {
+        return read(parameters);
+    } catch (const LateParameter& late) {
+        if (!file.rewind()) {
+            InputError error = late.error.errors().front();
+            error.message += "; in a pipe it has to come before";
+            throw BadInput({error});
+        }
+    }
+    // They come behind what refers to them.
+    parameters.expects_more = false;
+    take_parameters(file, SceneReader::keys, parameters);
+    if (!file.rewind()) throw SystemRefused(file.name(), "read again", errno);
+    return read(std::move(parameters));
 }
 
 } // namespace raylane::scenes

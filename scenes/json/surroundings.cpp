@@ -1,10 +1,71 @@
 #include "scenes/json/surroundings.hpp"
 
+#include <cmath>
+
 namespace raylane::scenes {
 
 using core::FogKind;
 using core::LightKind;
 using core::Projection;
+
+namespace {
+
+/// By name, or the direction that the camera looks in.
+void read_view(const JsonValue& value, core::Framing& framing) {
+    if (value.type() == JsonType::array) {
+        framing.direction = value.vector();
+        if (framing.direction == core::Vec3f(0.0F))
+            value.fail("must be other than [0, 0, 0], for a direction");
+        framing.up = core::upright(framing.direction);
+        return;
+    }
+    std::vector<std::pair<std::string_view, const core::NamedView*>> choices;
+    for (const core::NamedView& view : core::named_views())
+        choices.emplace_back(view.name, &view);
+    const auto* view = value.choice(JsonValue::Choices<const core::NamedView*>(choices));
+    framing.direction = view->direction;
+    framing.up = view->up;
+}
+
+float number_between(const JsonValue& value, float least, float most, const char* expected) {
+    const float number = value.number();
+    if (!(number >= least && number <= most)) value.fail_expecting(expected);
+    return number;
+}
+
+core::Framing read_framing(const JsonValue& value) {
+    value.allow_only({"type", "view", "up", "zoom", "orthographic", "field_of_view", "depth_cue"});
+    value.exclude("orthographic", "field_of_view");
+    core::Framing framing;
+    if (const auto view = value.find("view")) read_view(*view, framing);
+    if (const auto up = value.find("up")) {
+        framing.up = up->vector();
+        const auto across = core::cross(core::convert<double>(framing.up),
+                                        core::convert<double>(framing.direction));
+        if (across == core::Vec3d(0.0)) up->fail("must not be along the view, or 0");
+    }
+    if (const auto zoom = value.find("zoom"))
+        framing.zoom = number_between(*zoom, 0.01F, 1000.0F, "from 0.01 to 1000");
+    if (const auto orthographic = value.find("orthographic"))
+        framing.projection =
+            orthographic->boolean() ? Projection::orthographic : Projection::perspective;
+    if (const auto angle = value.find("field_of_view"))
+        framing.field_of_view = number_between(*angle, 0.01F, 179.0F, "from 0.01 to 179");
+    return framing;
+}
+
+} // namespace
+
+void read_parameter(std::string_view name, const JsonValue& value, Parameters& parameters) {
+    if (!is_parameter_name(name)) {
+        InputError wrong = value.error("must be named by letters, digits and underscores");
+        wrong.position = value.positions().key;
+        throw BadInput({wrong});
+    }
+    const double number = value.real();
+    if (!(std::abs(number) <= 1e30)) value.fail_expecting("a number from -1e30 to 1e30");
+    parameters.add_default(name, number);
+}
 
 void read_image(const JsonValue& value, core::Settings& settings) {
     value.allow_only({"width", "height", "transfer", "alpha"});
@@ -49,11 +110,25 @@ core::Outline read_outline(const JsonValue& value) {
     return outline;
 }
 
-core::Camera read_camera(const JsonValue& value) {
+core::Camera read_camera(const JsonValue& value, core::Staging& staging) {
     core::Camera camera;
+    if (value.type() == JsonType::string) {
+        staging.framing = value.choice<core::Framing>({{"auto", {}}});
+        return camera;
+    }
+    std::optional<Projection> projection = Projection::perspective;
     if (const auto type = value.find("type"))
-        camera.projection = type->choice<Projection>(
-            {{"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}});
+        projection =
+            type->choice<std::optional<Projection>>({{"perspective", Projection::perspective},
+                                                     {"orthographic", Projection::orthographic},
+                                                     {"auto", std::nullopt}});
+    if (!projection) {
+        staging.framing = read_framing(value);
+        if (const auto cue = value.find("depth_cue"))
+            staging.depth_cue = number_between(*cue, 0.0F, 0.99F, "from 0 to 0.99");
+        return camera;
+    }
+    camera.projection = *projection;
     if (camera.projection == Projection::perspective) {
         value.allow_only(
             {"type", "from", "at", "up", "field_of_view", "lens_radius", "focus_distance"});
@@ -87,14 +162,20 @@ core::Fog read_fog(const JsonValue& value) {
     return fog;
 }
 
-core::Light read_light(const JsonValue& value) {
-    core::Light light;
-    light.kind = value.at("type").choice<LightKind>({{"point", LightKind::point},
-                                                     {"directional", LightKind::directional},
-                                                     {"sky", LightKind::sky},
-                                                     {"sphere", LightKind::sphere},
-                                                     {"disc", LightKind::disc},
-                                                     {"rectangle", LightKind::rectangle}});
+std::optional<core::Light> read_light(const JsonValue& value) {
+    const auto kind =
+        value.at("type").choice<std::optional<LightKind>>({{"point", LightKind::point},
+                                                           {"directional", LightKind::directional},
+                                                           {"sky", LightKind::sky},
+                                                           {"sphere", LightKind::sphere},
+                                                           {"disc", LightKind::disc},
+                                                           {"rectangle", LightKind::rectangle},
+                                                           {"camera", std::nullopt}});
+    if (!kind) {
+        value.allow_only({"type"});
+        return std::nullopt;
+    }
+    core::Light light{.kind = *kind};
     if (const auto color = value.find("color")) light.color = color->color();
     switch (light.kind) {
     case LightKind::point:

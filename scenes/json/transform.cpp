@@ -26,7 +26,7 @@ core::Transform transform_of(const JsonValue& object) {
     }
     Transform transform;
     if (const auto scale = object.find("scale")) {
-        const bool is_even = scale->type() == JsonType::number;
+        const bool is_even = scale->is_number();
         const core::Vec3d by = is_even ? core::Vec3d(scale->real()) : scale->real_vector();
         if (is_even && by.x == 0.0) scale->fail_expecting("other than 0");
         transform = checked(object, [&] { return Transform::scaling(by); });

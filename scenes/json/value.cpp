@@ -152,6 +152,34 @@ std::string JsonValue::quoted() const {
     return "an object";
 }
 
+bool JsonValue::is_number() const {
+    return type() == JsonType::number ||
+           (type() == JsonType::string && is_reference(document_->get(node().text)));
+}
+
+template <class Use>
+auto JsonValue::with_number(const Use& use) const {
+    if (type() == JsonType::number) return use(document_->get(node().text), node().number);
+    const Parameters::Number number = referred();
+    return use(std::string_view(number.text), number.value);
+}
+
+Parameters::Number JsonValue::referred() const {
+    if (!is_number()) fail_expecting("a number");
+    const std::string_view text = document_->get(node().text);
+    if (document_->parameters_ != nullptr)
+        if (auto number = document_->parameters_->find(text)) return *std::move(number);
+    const std::string_view name = text.substr(text.find('$') + 1);
+    if (!is_parameter_name(name))
+        fail_expecting("a number, or $ and a name of letters, digits and underscores");
+    const bool knows_some = document_->parameters_ != nullptr;
+    const BadInput missing(
+        {error("must have a value, by \"parameters\" or --set, got " + quoted() +
+               (knows_some ? suggestion(name, document_->parameters_->names(), "$") : ""))});
+    if (knows_some && document_->parameters_->expects_more) throw LateParameter{missing};
+    throw missing;
+}
+
 JsonValue JsonValue::toward(std::string_view path) const {
     const std::size_t slash = std::min(path.find('/'), path.size());
     const std::string_view step = path.substr(0, slash);
@@ -250,29 +278,33 @@ std::vector<JsonValue> JsonValue::array(std::string_view elements) const {
 }
 
 float JsonValue::number() const {
-    const float number = nearest_float(document_->get(node().text), real());
-    if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");
-    return number;
+    return with_number([this](std::string_view text, double rounded) {
+        const float number = nearest_float(text, rounded);
+        if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");
+        return number;
+    });
 }
 
 double JsonValue::real() const {
-    require(JsonType::number);
-    const double number = node().number;
-    if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");
-    if (std::abs(number) < core::least_double)
-        return static_cast<double>(nearest_float(document_->get(node().text), number));
-    return number;
+    return with_number([this](std::string_view text, double number) {
+        if (std::isinf(number)) fail_expecting("a number from -1e30 to 1e30");
+        if (std::abs(number) < core::least_double)
+            return static_cast<double>(nearest_float(text, number));
+        return number;
+    });
 }
 
 int JsonValue::integer() const {
-    const std::string_view text = document_->get(node().text);
-    double value = 0.5;
-    if (type() == JsonType::number) std::from_chars(text.data(), text.data() + text.size(), value);
-    if (std::trunc(value) != value) fail_expecting("a whole number");
-    if (std::abs(value) > std::numeric_limits<int>::max())
-        fail_expecting("a whole number of at most " +
-                       std::to_string(std::numeric_limits<int>::max()));
-    return static_cast<int>(value);
+    if (!is_number()) fail_expecting("a whole number");
+    return with_number([this](std::string_view text, double) {
+        double value = 0.5;
+        std::from_chars(text.data(), text.data() + text.size(), value);
+        if (std::trunc(value) != value) fail("must be a whole number, got " + printable(text));
+        if (std::abs(value) > std::numeric_limits<int>::max())
+            fail_expecting("a whole number of at most " +
+                           std::to_string(std::numeric_limits<int>::max()));
+        return static_cast<int>(value);
+    });
 }
 
 bool JsonValue::boolean() const {

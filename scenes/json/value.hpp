@@ -3,6 +3,7 @@
 #include "core/scene/material.hpp"
 #include "core/shapes/invalid_value.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/json/parameters.hpp"
 
 #include <cstdint>
 #include <initializer_list>
@@ -27,10 +28,18 @@ struct JsonPositions {
 
 class JsonValue;
 
+/// Thrown for a parameter without a value where one may come further on, in place of `error`.
+struct LateParameter {
+    BadInput error;
+};
+
 /// One value of a file with all that is in it, in the order of the file. Its nodes lie in one
 /// vector, and their texts in one string: a scene may have to hold millions of these.
 class JsonDocument {
   public:
+    /// `parameters`: what "$name" stands for, for as long as this is used.
+    explicit JsonDocument(Parameters* parameters = nullptr) : parameters_(parameters) {}
+
     /// Empties it for a value at `pointer` (a JSON pointer, printable) in `file`, which must
     /// outlive it.
     void begin(std::string_view file, std::string pointer);
@@ -77,6 +86,7 @@ class JsonDocument {
         return std::string_view(text_).substr(text.first, text.size);
     }
 
+    Parameters* parameters_;
     std::string_view file_;
     std::string pointer_;
     std::vector<Node> nodes_;
@@ -127,6 +137,8 @@ class JsonValue {
     /// However many there are.
     std::vector<JsonValue> array(std::string_view elements) const;
 
+    /// True of a number, and of what stands for one.
+    bool is_number() const;
     /// The nearest float.
     float number() const;
     /// The nearest double; or float, where that is below what shapes in double are made of.
@@ -161,6 +173,11 @@ class JsonValue {
 
   private:
     const JsonDocument::Node& node() const { return document_->nodes_[node_]; }
+    /// Calls use(text, value) for a number, or what "$name" stands for.
+    template <class Use>
+    auto with_number(const Use& use) const;
+    /// What "$name" stands for; throws BadInput for what is no number.
+    Parameters::Number referred() const;
     void require(JsonType type) const;
     std::vector<JsonValue> children() const;
     [[noreturn]] void fail_choice(const std::vector<std::string_view>& names) const;

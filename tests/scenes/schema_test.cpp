@@ -117,11 +117,11 @@ TEST_CASE("the reader and the schema know the same keys") {
         const char* alternatives; // in the schema
         const char* value;        // in a scene
     };
-    for (const Place& place :
-         {Place{"/properties/camera/oneOf", "/camera"}, Place{"/properties/fog/oneOf", "/fog"},
-          Place{"/properties/lights/items/oneOf", "/lights/0"},
-          Place{"/properties/objects/items/oneOf", "/objects/0"},
-          Place{"/definitions/pattern/oneOf", "/materials/m/pattern"}})
+    for (const Place& place : {Place{"/properties/camera/anyOf/1/oneOf", "/camera"},
+                               Place{"/properties/fog/oneOf", "/fog"},
+                               Place{"/properties/lights/items/oneOf", "/lights/0"},
+                               Place{"/properties/objects/items/oneOf", "/objects/0"},
+                               Place{"/definitions/pattern/oneOf", "/materials/m/pattern"}})
         for (const auto& [type, keys] :
              keys_by_type(schema, schema.at(json::json_pointer(place.alternatives)))) {
             json scene = base;

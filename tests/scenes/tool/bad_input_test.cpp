@@ -127,8 +127,8 @@ TEST_CASE("what is no JSON, or not a scene's, is told in one line") {
         in_object("too few numbers", R"("type": "sphere", "center": [0, 0], "radius": 1)",
                   "/center: must be an array of 3 numbers, got 2"),
         in_scene("unknown type", R"("lights": [{"type": "pint"}])",
-                 R"(/lights/0/type: must be "point", "directional", "sky", "sphere", "disc" )"
-                 R"(or "rectangle", got "pint", )"
+                 R"(/lights/0/type: must be "point", "directional", "sky", "sphere", "disc", )"
+                 R"("rectangle" or "camera", got "pint", )"
                  R"(did you mean "point"?)"),
     });
 }

@@ -1,0 +1,42 @@
+#include "scenes/json/inclusion.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+namespace raylane::scenes {
+
+namespace {
+
+bool contains(const std::vector<std::filesystem::path>& files, const std::filesystem::path& path) {
+    return std::any_of(files.begin(), files.end(), [&](const std::filesystem::path& file) {
+        std::error_code none;
+        return std::filesystem::equivalent(file, path, none);
+    });
+}
+
+} // namespace
+
+void Inclusion::include(const JsonValue& value, const std::function<void(InputFile&)>& read) {
+    const std::filesystem::path path = files_.back().parent_path() / value.string();
+    std::error_code unknown;
+    if (value.string().empty() || !std::filesystem::is_regular_file(path, unknown))
+        value.fail("must be the name of a file, got " + value.quoted() + ", and there is no file " +
+                   printable(path.string(), 4096));
+    if (contains(files_, path))
+        value.fail("must not include what it is included by, got " + value.quoted());
+    if (contains(read_, path)) return;
+    if (depth() == deepest)
+        value.fail("must not be included more than " + std::to_string(deepest) + " deep");
+    InputFile file(path);
+    files_.push_back(path);
+    try {
+        read(file);
+    } catch (...) {
+        files_.pop_back();
+        throw;
+    }
+    files_.pop_back();
+    read_.push_back(path);
+}
+
+} // namespace raylane::scenes

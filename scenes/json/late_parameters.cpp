@@ -1,0 +1,35 @@
+#include "scenes/json/late_parameters.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/json/inclusion.hpp"
+#include "scenes/json/surroundings.hpp"
+
+namespace raylane::scenes {
+
+namespace {
+
+void take_all(InputFile& file, std::span<const RootKey> keys, Inclusion& inclusion,
+              Parameters& parameters) {
+    InputErrors untold;
+    const auto take = [&](const RootKey& key, std::string_view name, const JsonDocument& item) {
+        if (key.name == "parameters") read_parameter(name, item.root(), parameters);
+        if (key.name == "include")
+            inclusion.include(item.root(), [&](InputFile& included) {
+                take_all(included, keys, inclusion, parameters);
+            });
+    };
+    try {
+        read_items(file, keys, take, untold, &parameters);
+    } catch (const BadInput&) { // as far as can be read
+        return;
+    }
+}
+
+} // namespace
+
+void take_parameters(InputFile& file, std::span<const RootKey> keys, Parameters& parameters) {
+    Inclusion inclusion(file.name());
+    take_all(file, keys, inclusion, parameters);
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// True of "$name" and "-$name", that stand for numbers.
+bool is_reference(std::string_view text);
+
+/// Letters, digits and underscores, of which the first is no digit.
+bool is_parameter_name(std::string_view name);
+
+/// Numbers by name.
+class Parameters {
+  public:
+    struct Number {
+        std::string text; ///< as a message quotes it
+        double value;
+    };
+
+    Parameters() = default;
+    /// Values that a file's own do not change.
+    explicit Parameters(const std::map<std::string, double>& given);
+
+    /// True while one without a value may have one further on in the file.
+    bool expects_more = false;
+
+    /// Adds one that a file has, unless that is given.
+    void add_default(std::string_view name, double value);
+    /// What is_reference() stands for, which then counts as used; nothing if it has no value.
+    std::optional<Number> find(std::string_view reference);
+    /// Of all that have a value.
+    std::vector<std::string_view> names() const;
+    /// Of those that were given, the first that nothing has referred to.
+    std::optional<std::string> first_unused() const;
+
+  private:
+    struct Parameter {
+        double value;
+        bool given = false, used = false;
+    };
+    std::map<std::string, Parameter, std::less<>> parameters_;
+};
+
+} // namespace raylane::scenes
