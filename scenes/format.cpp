@@ -167,6 +167,7 @@ bool looks_like_lammps_data(const std::vector<std::string_view>& lines) {
 } // namespace
 
 Format format_of(InputFile& file) {
+    if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
     std::filesystem::path name = file.name();
     const auto ending_of = [](const std::filesystem::path& path) {
         std::string ending = path.extension().string();

@@ -14,7 +14,6 @@ namespace {
 
 core::Scene read_scene(InputFile& file, const LoadOptions& options) {
     file.on_read = options.on_read;
-    if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
     const Format format = format_of(file);
     if (!options.parameters.empty() && format != Format::json)
         throw BadInput(file.name(), "",

@@ -38,6 +38,16 @@ void require_other_file(const std::string& option, const std::string& file,
     if (same_file(file, other_file)) refuse(option, "another file than " + other_option, file);
 }
 
+std::vector<std::string_view> parts_of(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    while (true) {
+        const std::size_t end = text.find(separator);
+        parts.push_back(text.substr(0, end));
+        if (end == std::string_view::npos) return parts;
+        text.remove_prefix(end + 1);
+    }
+}
+
 int whole_argument(const std::string& option, const std::string& text, int least, int most) {
     const std::optional<int> value = to_int(text);
     if (!value || *value < least || *value > most)

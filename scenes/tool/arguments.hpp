@@ -19,6 +19,9 @@ const std::string& file_argument(const std::string& option, const std::string& t
 void require_other_file(const std::string& option, const std::string& file,
                         const std::string& other_option, const std::string& other_file);
 
+/// What is between the separators of "1:2:3": at least one part, and each may be empty.
+std::vector<std::string_view> parts_of(std::string_view text, char separator);
+
 int whole_argument(const std::string& option, const std::string& text, int least, int most);
 
 float number_argument(const std::string& option, const std::string& text, float least, float most);

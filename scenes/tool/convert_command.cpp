@@ -4,9 +4,11 @@
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/drawing_arguments.hpp"
 #include "scenes/tool/loading.hpp"
+#include "scenes/tool/scene_arguments.hpp"
 
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -14,8 +16,7 @@ namespace {
 
 struct ConvertArguments {
     Argument scene, output;
-    DrawingArguments drawing;
-    VerbosityArguments verbosity;
+    SceneArguments scene_arguments;
 };
 
 int convert(const ConvertArguments& arguments) {
@@ -23,14 +24,13 @@ int convert(const ConvertArguments& arguments) {
     const std::string& output = file_argument("OUTPUT", *arguments.output);
     require_other_file("OUTPUT", output, "SCENE", scene);
     require_scene_ending(output);
-    const Verbosity verbosity = arguments.verbosity.verbosity();
+    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
     std::string differences;
-    const core::Scene loaded =
-        load_with_progress(scene,
-                           {.drawing = arguments.drawing.drawing(),
-                            .option_for_atoms = arguments.drawing.first_given()},
-                           verbosity);
-    for (const std::string& what : export_scene(output, loaded))
+    const ViewChange change = arguments.scene_arguments.view.change();
+    core::Scene loaded =
+        load_with_progress(scene, arguments.scene_arguments.load_options(), verbosity);
+    const core::Settings settings = loaded.settings();
+    for (const std::string& what : export_scene(output, seen(std::move(loaded), change, settings)))
         differences.append(differences.empty() ? "" : ", ").append(what);
     if (!differences.empty() && verbosity != Verbosity::quiet)
         std::fprintf(stderr, "%s: not as in the scene, for want of a word in the format: %s\n",
@@ -49,8 +49,7 @@ Command add_convert_command(CLI::App& app) {
         *command, "OUTPUT", arguments->output,
         "The file to write: .json, .nff, or .pov for POV-Ray 3.7; or - for JSON to standard "
         "output");
-    arguments->verbosity.add_to(*command);
-    arguments->drawing.add_to(*command);
+    arguments->scene_arguments.add_to(*command);
     command->footer("Example: raylane convert scenes/lattice.json lattice.pov");
     return {command, [arguments] { return convert(*arguments); }};
 }

@@ -11,8 +11,8 @@ namespace raylane::scenes {
 
 /// How atoms are drawn, as the command line says it.
 struct DrawingArguments {
-    Argument style, color, select, repeat, view, zoom, depth_cue;
-    bool cell = false, ellipsoids = false, orthographic = false;
+    Argument style, color, select, repeat;
+    bool cell = false, ellipsoids = false;
 
     void add_to(CLI::App& command);
     /// Throws BadInput.

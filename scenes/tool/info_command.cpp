@@ -6,12 +6,14 @@
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/drawing_arguments.hpp"
 #include "scenes/tool/loading.hpp"
+#include "scenes/tool/scene_arguments.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -21,8 +23,7 @@ using Json = nlohmann::ordered_json;
 
 struct InfoArguments {
     Argument scene;
-    DrawingArguments drawing;
-    VerbosityArguments verbosity;
+    SceneArguments scene_arguments;
     bool json = false;
 };
 
@@ -176,11 +177,11 @@ void print(const Json& info) {
 
 int info(const InfoArguments& arguments) {
     const std::string& scene = file_argument("SCENE", *arguments.scene);
-    const Json info =
-        info_of(scene, load_with_progress(scene,
-                                          {.drawing = arguments.drawing.drawing(),
-                                           .option_for_atoms = arguments.drawing.first_given()},
-                                          arguments.verbosity.verbosity()));
+    const SceneArguments& how = arguments.scene_arguments;
+    const ViewChange change = how.view.change();
+    core::Scene loaded = load_with_progress(scene, how.load_options(), how.verbosity.verbosity());
+    const core::Settings settings = loaded.settings();
+    const Json info = info_of(scene, seen(std::move(loaded), change, settings));
     if (arguments.json)
         std::printf("%s\n", info.dump(2).c_str());
     else
@@ -196,8 +197,7 @@ Command add_info_command(CLI::App& app) {
     auto arguments = std::make_shared<InfoArguments>();
     add_positional(*command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
     add_flag(*command, "--json", arguments->json, "Print it as JSON");
-    arguments->verbosity.add_to(*command);
-    arguments->drawing.add_to(*command);
+    arguments->scene_arguments.add_to(*command);
     command->footer("Example: raylane info scenes/birthday.json");
     return {command, [arguments] { return info(*arguments); }};
 }

@@ -4,10 +4,13 @@
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
-#include "scenes/tool/drawing_arguments.hpp"
+#include "scenes/tool/film_strip.hpp"
+#include "scenes/tool/film_strip_arguments.hpp"
 #include "scenes/tool/loading.hpp"
+#include "scenes/tool/output_name.hpp"
 #include "scenes/tool/picture_arguments.hpp"
 #include "scenes/tool/progress_bar.hpp"
+#include "scenes/tool/scene_arguments.hpp"
 #include "simd/render.hpp"
 #include "simd/tiles.hpp"
 
@@ -26,8 +29,8 @@ struct RenderArguments {
     Argument scene, output, size, samples, quality, filter, light_samples, max_depth, min_weight,
         threads, transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
-    DrawingArguments drawing;
-    VerbosityArguments verbosity;
+    SceneArguments scene_arguments;
+    FrameArguments frames;
     PictureArguments picture;
 };
 
@@ -49,19 +52,11 @@ struct Times {
     double load, render, write;
 };
 
-std::string default_output(const std::filesystem::path& scene) {
-    // A name that ends in a slash has no stem. It is refused when it is to be read.
-    if (!scene.has_stem() || scene == "-") return "scene.png";
-    std::filesystem::path name = scene.filename();
-    if (name.extension() == ".gz") name = name.stem();
-    return name.stem().concat(".png").string();
-}
-
 struct Files {
     explicit Files(const RenderArguments& arguments)
         : scene(file_argument("SCENE", *arguments.scene)),
           output(arguments.output ? file_argument("--output", *arguments.output)
-                                  : default_output(scene)) {
+                                  : default_output(scene, ".png")) {
         require_other_file("--output", output, "SCENE", scene);
         if (!arguments.stats) return;
         stats = file_argument("--stats", *arguments.stats);
@@ -211,11 +206,11 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
 }
 
 /// What else would draw the picture again, for the picture to say.
-std::string text_of(const DrawingArguments& drawing, core::Precision precision) {
+std::string text_of(const SceneArguments& scene_arguments, core::Precision precision) {
     std::string text;
     if (precision != core::Precision::exact)
         text += " --precision " + std::string(core::name_of(precision));
-    for (const auto& [name, value] : drawing.given()) {
+    for (const auto& [name, value] : scene_arguments.given()) {
         text += " " + name;
         if (value.empty()) continue;
         const bool is_word = value.find(' ') == std::string::npos;
@@ -226,24 +221,54 @@ std::string text_of(const DrawingArguments& drawing, core::Precision precision) 
 
 int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
-    const Verbosity verbosity = arguments.verbosity.verbosity();
+    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
     const PictureChoice picture(arguments.picture);
-    Drawing drawing = arguments.drawing.drawing();
-    if (overrides.size) std::tie(drawing.width, drawing.height) = *overrides.size;
+    const LoadOptions load_options = arguments.scene_arguments.load_options(true);
+    const ViewChange change = arguments.scene_arguments.view.change();
+    const auto settings_of = [&](const core::Settings& own) {
+        core::Settings settings = overrides.applied_to(own);
+        picture.apply_to(settings);
+        return settings;
+    };
     const Files files(arguments);
+    if (std::optional<FilmStrip> strip =
+            film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
+                          arguments.output, options.threads)) {
+        if (files.stats)
+            throw BadInput("--stats", "", "goes without --frames, --turn and several values");
+        {
+            const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
+            picture.require_fit(writable.format());
+        }
+        strip->settings = settings_of;
+        strip->draw = [&](const core::Scene& scene, const std::string& name,
+                          simd::Progress& progress) {
+            OutputFile output(name, exr_of);
+            const core::Settings settings = settings_of(scene.settings());
+            picture.apply_to(options, settings);
+            options.precision =
+                precision ? *precision : core::choose_method(scene, settings).precision;
+            options.progress = &progress;
+            const simd::Rendering rendering = simd::render(scene, settings, options);
+            output.commit(rendering.film,
+                          picture.options(files.scene, settings,
+                                          text_of(arguments.scene_arguments, options.precision)),
+                          picture.layers ? &rendering.layers : nullptr);
+        };
+        draw(*strip);
+        return 0;
+    }
     OutputFile output(files.output, exr_of);
     picture.require_fit(output.format());
     std::optional<AtomicFile> stats;
     if (files.stats) stats.emplace(*files.stats);
 
     Stopwatch stopwatch;
-    const core::Scene scene = load_with_progress(
-        files.scene, {.drawing = drawing, .option_for_atoms = arguments.drawing.first_given()},
-        verbosity, options.threads);
-    core::Settings settings = overrides.applied_to(scene.settings());
-    picture.apply_to(settings);
+    core::Scene loaded = load_with_progress(files.scene, load_options, verbosity, options.threads);
+    const core::Settings settings = settings_of(loaded.settings());
+    const core::Scene scene = seen(std::move(loaded), change, settings);
     picture.apply_to(options, settings);
     options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     const core::Region part =
@@ -261,10 +286,10 @@ int render(const RenderArguments& arguments) {
     }();
     times.render = stopwatch.lap();
 
-    output.commit(
-        rendering.film,
-        picture.options(files.scene, settings, text_of(arguments.drawing, options.precision)),
-        picture.layers ? &rendering.layers : nullptr);
+    output.commit(rendering.film,
+                  picture.options(files.scene, settings,
+                                  text_of(arguments.scene_arguments, options.precision)),
+                  picture.layers ? &rendering.layers : nullptr);
     times.write = stopwatch.lap();
 
     if (stats) {
@@ -342,9 +367,9 @@ Command add_render_command(CLI::App& app) {
         "srgb|linear");
     add("--stats", arguments->stats,
         "Write figures about the rendering as JSON; - is standard output", "FILE");
-    arguments->verbosity.add_to(*command);
     arguments->picture.add_to(*command);
-    arguments->drawing.add_to(*command);
+    arguments->frames.add_to(*command);
+    arguments->scene_arguments.add_to(*command, true);
     command->footer("Example: raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");
     return {command, [arguments] { return render(*arguments); }};

@@ -1,0 +1,206 @@
+#include "scenes/tool/film_strip.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/tool/progress_bar.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <future>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// A picture that is to be drawn.
+struct Picture {
+    std::string name;
+    std::optional<core::Scene> scene; ///< none: it is there already
+};
+
+/// Makes scenes, one after the other, with the cameras that they are seen by.
+class Stage {
+  public:
+    explicit Stage(const FilmStrip& strip) : strip_(strip), change_(strip.view) {
+        change_.turning = strip.turn.has_value();
+        if (strip.fit_to == FitTo::all && strip.source->count() != 1) fit_to_all();
+    }
+
+    /// True if there is one scene, which is only gone around.
+    bool is_still() const { return strip_.source->count() == 1; }
+    std::size_t count() const {
+        return is_still() && strip_.turn ? strip_.turn->count : strip_.source->count();
+    }
+
+    std::optional<Picture> next() {
+        if (is_still() && made_ > 0) {
+            if (made_ >= count()) return std::nullopt;
+            number_ = made_;
+        } else {
+            const std::optional<std::size_t> number = strip_.source->next();
+            if (!number) return std::nullopt;
+            number_ = *number;
+        }
+        const std::size_t place = made_++;
+        Picture picture{strip_.name(is_still() && strip_.turn ? place : number_), std::nullopt};
+        if (is_wanted(picture.name)) picture.scene = scene(place);
+        // The others need to know what the first one is like.
+        else if (place == 0 && strip_.fit_to == FitTo::first && !is_still())
+            static_cast<void>(scene(place));
+        return picture;
+    }
+
+    /// A scene that has been drawn, for the next picture to be made of if that is the same one.
+    void take_back(core::Scene scene) {
+        if (is_still()) still_ = std::move(scene);
+    }
+
+  private:
+    bool is_wanted(const std::string& name) const {
+        std::error_code unknown;
+        return strip_.overwrites || !std::filesystem::is_regular_file(name, unknown);
+    }
+
+    core::Scene scene(std::size_t place) {
+        core::Scene scene = still_ ? *std::exchange(still_, std::nullopt) : strip_.source->scene();
+        if (place == 0 && strip_.fit_to == FitTo::first) strip_.source->keep_scale();
+        if (!is_still() || !is_set_up_) {
+            const core::Settings settings = strip_.settings(scene.settings());
+            scene = seen(std::move(scene), change_, settings, frame_);
+            // A scene that has a camera of its own is seen by that.
+            if (!is_set_up_ && (is_still() || strip_.fit_to != FitTo::each))
+                fixed_ = view_of(scene);
+            is_set_up_ = true;
+        }
+        const core::Staging staging = scene.staging();
+        core::View view = view_of(scene);
+        if (fixed_ && (staging.framing || is_still())) {
+            const core::Fog own = view.fog;
+            view = *fixed_;
+            if (!(staging.depth_cue > 0.0F)) view.fog = own;
+        }
+        if (strip_.turn) {
+            const core::Vec3f up = staging.framing ? staging.framing->up : view.camera.up;
+            view = core::turned(view, up,
+                                strip_.turn->degrees * static_cast<double>(place) /
+                                    static_cast<double>(strip_.turn->count));
+        }
+        return std::move(scene).seen(staging, view);
+    }
+
+    static core::View view_of(const core::Scene& scene) {
+        const auto first =
+            scene.lights().begin() + static_cast<std::ptrdiff_t>(scene.own_light_count());
+        return {scene.camera(), scene.fog(), {first, scene.lights().end()}};
+    }
+
+    /// All of them once, for what is to be seen in the end.
+    void fit_to_all() {
+        std::atomic<std::size_t> count = 0;
+        const ProgressLine line(strip_.verbosity,
+                                [&] { return std::to_string(count) + " pictures looked at"; });
+        for (; strip_.source->next(); ++count) {
+            const core::Scene scene = strip_.source->scene();
+            core::Camera camera = scene.camera();
+            const core::Staging staging = change_.staging(scene, camera);
+            if (staging.framing) {
+                if (!frame_)
+                    frame_ = core::empty_frame(scene, staging, strip_.settings(scene.settings()));
+                core::include_shapes(scene, *frame_);
+            }
+        }
+        strip_.source->keep_scale();
+        strip_.source->rewind();
+    }
+
+    const FilmStrip& strip_;
+    ViewChange change_;
+    std::optional<core::Frame> frame_; // of all
+    std::optional<core::View> fixed_;
+    std::optional<core::Scene> still_;
+    bool is_set_up_ = false;
+    std::size_t made_ = 0, number_ = 0;
+};
+
+/// Progress over all pictures, for another thread to ask.
+class StripProgress {
+  public:
+    explicit StripProgress(std::size_t count) : count_(count) {}
+
+    simd::Progress& of_picture(const core::Settings& settings) {
+        rays_ += progress_.rays.exchange(0);
+        progress_.pixels = 0;
+        pixels_ = std::int64_t{settings.width} * settings.height;
+        return progress_;
+    }
+    void drawn() { ++drawn_; }
+    void kept() { ++kept_; }
+    std::size_t kept_count() const { return kept_; }
+
+    std::string text() const {
+        const double seconds = seconds_since(start_);
+        const std::size_t done = drawn_ + kept_;
+        const std::string rate =
+            with_prefix(static_cast<double>(rays_ + progress_.rays) / seconds) + "rays/s";
+        if (count_ == 0) return "picture " + std::to_string(done + 1) + "  " + rate;
+        const double part =
+            std::min(1.0, static_cast<double>(progress_.pixels) / static_cast<double>(pixels_));
+        const double drawn = static_cast<double>(drawn_) + (done < count_ ? part : 0.0);
+        const double left = static_cast<double>(count_ - std::min(count_, done)) - part;
+        return bar_text(std::min(1.0, (static_cast<double>(kept_) + drawn) /
+                                          static_cast<double>(count_))) +
+               "  picture " + std::to_string(std::min(done + 1, count_)) + " of " +
+               std::to_string(count_) + "  " + rate + "  " +
+               (drawn > 0.0 ? duration_text(seconds * std::max(0.0, left) / drawn) + " left" : "");
+    }
+
+  private:
+    std::size_t count_;
+    simd::Progress progress_;
+    std::atomic<std::uint64_t> rays_ = 0;
+    std::atomic<std::int64_t> pixels_ = 1;
+    std::atomic<std::size_t> drawn_ = 0, kept_ = 0;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+void draw(const FilmStrip& strip) {
+    Stage stage(strip);
+    StripProgress progress(stage.count());
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t pictures = 0;
+    {
+        const ProgressLine line(strip.verbosity, [&] { return progress.text(); });
+        const auto make_next = [&] { return stage.next(); };
+        std::optional<Picture> picture = stage.next();
+        while (picture) {
+            ++pictures;
+            std::future<std::optional<Picture>> next;
+            // What is the same scene cannot be made anew before it has been drawn.
+            if (!stage.is_still()) next = std::async(std::launch::async, make_next);
+            if (picture->scene) {
+                strip.draw(*picture->scene, picture->name,
+                           progress.of_picture(strip.settings(picture->scene->settings())));
+                progress.drawn();
+                stage.take_back(*std::move(picture->scene));
+            } else {
+                progress.kept();
+            }
+            picture = next.valid() ? next.get() : stage.next();
+        }
+    }
+    if (pictures == 0) throw BadInput("--frames", "", "must be of at least one picture, got none");
+    const std::size_t kept = progress.kept_count();
+    if (strip.verbosity == Verbosity::verbose ||
+        (strip.verbosity == Verbosity::normal && is_terminal()))
+        std::fprintf(stderr, "%zu pictures drawn in %s\n", pictures - kept,
+                     duration_text(seconds_since(start)).c_str());
+    if (kept > 0 && strip.verbosity != Verbosity::quiet)
+        std::fprintf(stderr, "%zu of %zu pictures are there already; --overwrite draws them anew\n",
+                     kept, pictures);
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "scenes/tool/frame_arguments.hpp"
+#include "scenes/tool/scene_source.hpp"
+#include "scenes/tool/verbosity.hpp"
+#include "scenes/tool/view_arguments.hpp"
+#include "simd/render.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace raylane::scenes {
+
+/// Several pictures that belong together: frames of atoms, values of parameters, ways around.
+struct FilmStrip {
+    std::shared_ptr<core::Workers> workers; ///< of the source
+    std::unique_ptr<SceneSource> source;
+    std::function<std::string(std::size_t)> name; ///< of the file of the picture with a number
+    ViewChange view;
+    FitTo fit_to = FitTo::first;
+    std::optional<Turn> turn;
+    bool overwrites = true; ///< files that are there already
+    Verbosity verbosity = Verbosity::normal;
+    /// What a scene's settings become.
+    std::function<core::Settings(const core::Settings&)> settings;
+    /// Draws a scene into a file.
+    std::function<void(const core::Scene&, const std::string& name, simd::Progress&)> draw;
+};
+
+/// Draws all of them; while one is drawn the scene of the next is made. Throws what the source and
+/// the drawing do, once what came before is drawn.
+void draw(const FilmStrip& strip);
+
+} // namespace raylane::scenes

@@ -1,0 +1,75 @@
+#include "scenes/tool/film_strip_arguments.hpp"
+
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/output_name.hpp"
+#include "scenes/tool/progress_bar.hpp"
+#include "simd/workers.hpp"
+
+#include <cstdio>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+std::string with_percents_doubled(const std::string& text) {
+    std::string result;
+    for (const char c : text)
+        result.append(c == '%' ? 2 : 1, c);
+    return result;
+}
+
+/// `is_one`: a single picture, whose name needs no number.
+void name_pictures(FilmStrip& strip, const std::string& scene, const Argument& output,
+                   bool is_one) {
+    const NumberedName name("--output",
+                            output ? file_argument("--output", *output)
+                                   : with_percents_doubled(default_output(scene, "")) +
+                                         (is_one ? ".png" : "-%05d.png"),
+                            !is_one);
+    strip.name = [=](std::size_t number) {
+        std::string file = name(number);
+        require_other_file("--output", file, "SCENE", scene);
+        return file;
+    };
+}
+
+} // namespace
+
+std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
+                                       const SceneArguments& scene_arguments,
+                                       const std::string& scene, const Argument& output,
+                                       int threads) {
+    FilmStrip strip;
+    strip.view = scene_arguments.view.change();
+    strip.turn = frames.turning();
+    strip.fit_to = frames.fit_to();
+    const std::optional<FrameRange> range = frames.range();
+    auto parameters = scene_arguments.parameters.values(true);
+    if (!range && !strip.turn && parameters.size() == 1) return std::nullopt;
+    if (range && !parameters.front().empty())
+        throw BadInput("--set", "", "goes with a scene in JSON, and --frames with atoms");
+
+    LoadOptions options = scene_arguments.load_options(true);
+    strip.workers = std::make_shared<simd::ParallelWorkers>(threads);
+    options.workers = strip.workers.get();
+    strip.verbosity = scene_arguments.verbosity.verbosity();
+    if (strip.verbosity != Verbosity::quiet)
+        options.on_remark = [](const std::string& remark) {
+            // In place of the line of progress, which is drawn anew.
+            std::fprintf(stderr, is_terminal() ? "\r%s\x1B[K\n" : "%s\n", remark.c_str());
+        };
+    strip.source = range ? trajectory_of(scene, options, *range)
+                         : sweep_of(scene, options, std::move(parameters));
+    const std::size_t count = strip.source->count();
+    if (strip.turn && count > 1 && count != strip.turn->count)
+        throw BadInput("--turn", "",
+                       "must be in as many pictures as there are otherwise, " +
+                           std::to_string(count) + ", got " + std::to_string(strip.turn->count));
+    const bool is_one = range && range->is_one && !strip.turn;
+    name_pictures(strip, scene, output, is_one);
+    strip.overwrites = frames.overwrite || is_one;
+    return strip;
+}
+
+} // namespace raylane::scenes

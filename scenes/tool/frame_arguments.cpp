@@ -1,0 +1,82 @@
+#include "scenes/tool/frame_arguments.hpp"
+
+#include "scenes/tool/arguments.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace raylane::scenes {
+
+FrameRange FrameRange::of(long count) const {
+    const auto place = [&](std::optional<long> at) -> std::optional<long> {
+        if (!at || *at >= 0) return at;
+        return std::max(0L, *at + count);
+    };
+    FrameRange range{place(start), place(stop), step, is_one};
+    // Before the first there is none.
+    if (is_one && *start < -count) range.start = std::numeric_limits<long>::max();
+    return range;
+}
+
+void FrameArguments::add_to(CLI::App& command) {
+    const auto add = [&](const char* name, Argument& value, const char* help, const char* type) {
+        add_option(command, name, value, help, type)->group(group_of_several);
+    };
+    add("--frames", frames,
+        "Of a file with several frames of atoms START:STOP:STEP as Python has it, or one; a "
+        "picture's number is its frame's (default: 0)",
+        "WHICH");
+    add("--turn", turn,
+        "Go around what is seen by DEGREES, in so many pictures, the camera to its right",
+        "DEGREES/PICTURES");
+    add("--camera-from", camera_from,
+        "What a camera sees all of that finds its place by itself, and what ranges of colours "
+        "span: the first frame, all, or each its own (default: first)",
+        "first|all|each");
+    add_flag(command, "--overwrite,--force", overwrite,
+             "Draw pictures of several anew that are there already");
+    command.get_option("--overwrite")->group(group_of_several);
+}
+
+std::optional<FrameRange> FrameArguments::range() const {
+    if (!frames) return std::nullopt;
+    const auto refuse = [&] {
+        throw BadInput("--frames", "",
+                       "must be a number or START:STOP:STEP, such as 0:100:2, with a step from 1, "
+                       "got \"" +
+                           printable(*frames) + "\"");
+    };
+    const std::vector<std::string_view> parts = parts_of(*frames, ':');
+    std::optional<long> numbers[3];
+    if (parts.size() > 3) refuse();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].empty()) continue;
+        const std::optional<int> number = to_int(parts[i]);
+        if (!number) refuse();
+        numbers[i] = *number;
+    }
+    FrameRange range{numbers[0], numbers[1], numbers[2].value_or(1), parts.size() == 1};
+    if (range.step < 1 || (range.is_one && !range.start)) refuse();
+    return range;
+}
+
+std::optional<Turn> FrameArguments::turning() const {
+    if (!turn) return std::nullopt;
+    const std::vector<std::string_view> parts = parts_of(*turn, '/');
+    const std::optional<float> degrees = to_float(parts[0]);
+    const std::optional<int> count = parts.size() == 2 ? to_int(parts[1]) : std::nullopt;
+    if (!degrees || !count || *count < 1 || *count > most_pictures)
+        throw BadInput("--turn", "",
+                       "must be DEGREES/PICTURES, such as 360/120, got \"" + printable(*turn) +
+                           "\"");
+    return Turn{static_cast<double>(*degrees), static_cast<std::size_t>(*count)};
+}
+
+FitTo FrameArguments::fit_to() const {
+    return choice_argument<FitTo>(
+        "--camera-from", camera_from.value_or("first"),
+        {{"first", FitTo::first}, {"all", FitTo::all}, {"each", FitTo::each}});
+}
+
+} // namespace raylane::scenes

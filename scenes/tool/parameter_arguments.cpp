@@ -1,0 +1,98 @@
+#include "scenes/tool/parameter_arguments.hpp"
+
+#include "scenes/json/parameters.hpp"
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/frame_arguments.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace raylane::scenes {
+
+namespace {
+
+std::optional<double> to_double(std::string_view word) {
+    if (!is_number(word)) return std::nullopt;
+    if (word.starts_with('+')) word.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || !(std::abs(value) <= 1e30)) return std::nullopt;
+    return value;
+}
+
+struct Setting {
+    std::string name;
+    std::vector<double> values;
+};
+
+Setting setting_argument(const std::string& text) {
+    const auto refuse = [&] {
+        throw BadInput(
+            "--set", "",
+            "must be NAME=NUMBER, or NAME=FIRST:LAST:COUNT for several pictures, got \"" +
+                printable(text) + "\"");
+    };
+    const std::size_t equals = text.find('=');
+    Setting setting{text.substr(0, equals), {}};
+    if (equals == std::string::npos || !is_parameter_name(setting.name)) refuse();
+    const std::vector<std::string_view> parts =
+        parts_of(std::string_view(text).substr(equals + 1), ':');
+    const std::optional<double> first = to_double(parts[0]);
+    if (!first || (parts.size() != 1 && parts.size() != 3)) refuse();
+    if (parts.size() == 1) {
+        setting.values = {*first};
+        return setting;
+    }
+    const std::optional<double> last = to_double(parts[1]);
+    const std::optional<int> count = to_int(parts[2]);
+    if (!last || !count || *count < 1 || *count > most_pictures) refuse();
+    setting.values.resize(static_cast<std::size_t>(*count), *last);
+    // Divided last: whole numbers stay whole.
+    for (int i = 0; i + 1 < *count; ++i)
+        setting.values[static_cast<std::size_t>(i)] = *first + i * (*last - *first) / (*count - 1);
+    if (*count == 1) setting.values = {*first};
+    return setting;
+}
+
+} // namespace
+
+void ParameterArguments::add_to(CLI::App& command, bool sweeps) {
+    command
+        .add_option("--set", set,
+                    sweeps ? "What \"$NAME\" in a scene stands for: a number, or FIRST:LAST:COUNT "
+                             "for as many pictures; several go along with each other"
+                           : "The number that \"$NAME\" in a scene stands for")
+        ->type_name("NAME=VALUE")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group(group_of_several);
+}
+
+std::vector<std::map<std::string, double>> ParameterArguments::values(bool sweeps) const {
+    std::vector<Setting> settings;
+    std::size_t count = 1;
+    for (const std::string& text : set) {
+        const Setting setting = setting_argument(text);
+        for (const Setting& other : settings)
+            if (other.name == setting.name)
+                throw BadInput("--set", "", "must give \"" + printable(setting.name) + "\" once");
+        const std::size_t values = setting.values.size();
+        if (values > 1 && !sweeps)
+            throw BadInput("--set", "", "must be one number here, got \"" + printable(text) + "\"");
+        if (values > 1 && count > 1 && values != count)
+            throw BadInput("--set", "",
+                           "must have as many values each, got " + std::to_string(count) + " and " +
+                               std::to_string(values));
+        if (values > 1) count = values;
+        settings.push_back(setting);
+    }
+    std::vector<std::map<std::string, double>> pictures(count);
+    for (const Setting& setting : settings)
+        for (std::size_t i = 0; i < count; ++i)
+            pictures[i][setting.name] = setting.values[setting.values.size() == 1 ? 0 : i];
+    return pictures;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,121 @@
+#include "scenes/tool/view_arguments.hpp"
+
+#include "scenes/tool/arguments.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace raylane::scenes {
+
+namespace {
+
+constexpr const char* group = "Camera";
+
+/// A view by name, or the direction that the camera looks in, as "1,-1,-0.5".
+core::NamedView view_argument(const std::string& text) {
+    std::vector<std::string_view> names;
+    for (const core::NamedView& view : core::named_views()) {
+        names.push_back(view.name);
+        if (text == view.name) return view;
+    }
+    core::Vec3f direction(0.0F);
+    const std::vector<std::string_view> parts = parts_of(text, ',');
+    bool is_direction = parts.size() == 3;
+    for (int axis = 0; is_direction && axis < 3; ++axis) {
+        const std::optional<float> number = to_float(parts[static_cast<std::size_t>(axis)]);
+        is_direction = number.has_value();
+        direction[axis] = number.value_or(0.0F);
+    }
+    if (!is_direction || direction == core::Vec3f(0.0F))
+        throw BadInput("--view", "",
+                       "must be " + alternatives({names.begin(), names.end()}) +
+                           ", or a direction such as 1,-1,-0.5, got \"" + printable(text) + "\"" +
+                           suggestion(text, names));
+    return {"", direction, core::upright(direction)};
+}
+
+/// What a camera shows of where it looks to, `zoom` times as large.
+void zoom_in(core::Camera& camera, float zoom) {
+    camera.height /= zoom;
+    const double slope =
+        std::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0);
+    camera.field_of_view = static_cast<float>(2.0 * std::atan(slope / static_cast<double>(zoom)) *
+                                              180.0 / std::numbers::pi);
+}
+
+/// As large where it looks to.
+void make_orthographic(core::Camera& camera) {
+    if (camera.projection == core::Projection::orthographic) return;
+    const double distance =
+        core::length(core::convert<double>(camera.at) - core::convert<double>(camera.from));
+    camera.projection = core::Projection::orthographic;
+    camera.height = static_cast<float>(
+        2.0 * distance *
+        std::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0));
+}
+
+} // namespace
+
+core::Staging ViewChange::staging(const core::Scene& scene, core::Camera& camera) const {
+    core::Staging staging = scene.staging();
+    staging.turning = turning;
+    staging.depth_cue = depth_cue.value_or(staging.depth_cue);
+    if (way) {
+        if (!staging.framing) staging.framing = core::framing_of(camera);
+        staging.framing->direction = way->direction;
+        staging.framing->up = way->up;
+    }
+    if (staging.framing) {
+        staging.framing->zoom = zoom.value_or(staging.framing->zoom);
+        if (orthographic) staging.framing->projection = core::Projection::orthographic;
+    } else {
+        if (orthographic) make_orthographic(camera);
+        if (zoom) zoom_in(camera, *zoom);
+    }
+    return staging;
+}
+
+core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settings& settings,
+                 const std::optional<core::Frame>& frame) {
+    core::Camera camera = scene.camera();
+    const core::Staging own = scene.staging(), staging = change.staging(scene, camera);
+    const core::Fog fog = scene.fog();
+    const bool is_staged = staging.any() || own.any();
+    try {
+        scene = std::move(scene).seen(own, {camera, fog, {}});
+        if (!is_staged) return scene;
+        const core::View view = frame && staging.framing ? core::staged(scene, staging, *frame)
+                                                         : core::staged(scene, staging, settings);
+        return std::move(scene).seen(staging, view);
+    } catch (const core::InvalidValue& invalid) {
+        throw BadInput(change.way ? "--view" : "camera", "", invalid.expectation);
+    }
+}
+
+void ViewArguments::add_to(CLI::App& command) {
+    const auto add = [&](const char* name, Argument& value, const char* help, const char* type) {
+        add_option(command, name, value, help, type)->group(group);
+    };
+    add("--view", view,
+        "See all that has an end from front, back, left, right, top, bottom, x, y, z or corner, or "
+        "in the direction 1,-1,-0.5 (default: as the scene says; atoms: front)",
+        "WAY");
+    add("--zoom", zoom, "How much larger (default: 1)", "TIMES");
+    add_flag(command, "--orthographic", orthographic, "Without perspective");
+    command.get_option("--orthographic")->group(group);
+    add("--depth-cue", depth_cue,
+        "How much of the background the farthest has, 0 to 0.99 (default: as the scene says; "
+        "atoms: 0.3)",
+        "SHARE");
+}
+
+ViewChange ViewArguments::change() const {
+    ViewChange change;
+    if (view) change.way = view_argument(*view);
+    if (zoom) change.zoom = number_argument("--zoom", *zoom, 0.01F, 1000.0F);
+    if (depth_cue) change.depth_cue = number_argument("--depth-cue", *depth_cue, 0.0F, 0.99F);
+    change.orthographic = orthographic;
+    return change;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,305 @@
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+using Options = std::vector<std::string>;
+
+/// Three atoms that move apart, frame by frame.
+std::string trajectory(int frames) {
+    std::string text;
+    for (int i = 0; i < frames; ++i) {
+        const std::string at = std::to_string(1 + i);
+        text += "3\n\nO 0 0 0\nH " + at + " 0 0\nH 0 " + at + " 0\n";
+    }
+    return text;
+}
+
+/// A ball whose radius is a parameter, before a camera that finds its place by it.
+const std::string growing = R"({
+    "image": {"width": 16, "height": 12},
+    "camera": "auto",
+    "parameters": {"r": 1, "x": 0},
+    "materials": {"red": {"color": [1, 0, 0]}},
+    "objects": [{"type": "sphere", "material": "red", "center": ["$x", 0, 0], "radius": "$r"}]
+})";
+
+std::string picture(const Workshop& workshop, const std::string& name) {
+    return content_of(workshop.path() / name);
+}
+
+std::string complaint(const Workshop& workshop, const Options& options) {
+    const Outcome outcome = workshop.run(joined({"render"}, options));
+    CHECK(outcome.code == 2);
+    CHECK(is_one_line(outcome.err));
+    return outcome.err;
+}
+
+const Options small = {"--size", "16x12", "--spp", "1"};
+
+} // namespace
+
+TEST_CASE("frames are drawn that a range names, by their numbers") {
+    const Workshop workshop;
+    workshop.write("move.xyz", trajectory(7));
+    const auto drawn = [&](const std::string& frames) {
+        std::filesystem::remove_all(workshop.output());
+        std::filesystem::create_directory(workshop.output());
+        const Outcome outcome = workshop.run(
+            joined({"render", "move.xyz", "-o", "out/f%02d.pfm", "--frames", frames}, small));
+        CHECK(outcome.code == 0);
+        CHECK(outcome.err.empty());
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(workshop.output()))
+            names.push_back(entry.path().stem().string());
+        std::sort(names.begin(), names.end());
+        return names;
+    };
+    CHECK(drawn("1:6:2") == Options{"f01", "f03", "f05"});
+    CHECK(drawn("-2:") == Options{"f05", "f06"});
+    CHECK(drawn(":-5") == Options{"f00", "f01"});
+    CHECK(drawn("5:100") == Options{"f05", "f06"});
+    CHECK(drawn("::3") == Options{"f00", "f03", "f06"});
+    CHECK(drawn("3:4") == Options{"f03"});
+    CHECK(drawn("3") == Options{"f03"});
+    // The same bits as each by itself, if each has its own camera.
+    const Options each = joined(small, {"--camera-from", "each"});
+    CHECK(workshop.run(joined({"render", "move.xyz", "-o", "out/e%d.pfm", "--frames", "2:4"}, each))
+              .code == 0);
+    CHECK(
+        workshop.run(joined({"render", "move.xyz", "-o", "out/alone.pfm", "--frames", "-4"}, each))
+            .code == 0);
+    CHECK(picture(workshop, "out/e3.pfm") == picture(workshop, "out/alone.pfm"));
+}
+
+TEST_CASE("a camera is the first frame's, all frames' or each frame's own") {
+    const Workshop workshop;
+    workshop.write("move.xyz", trajectory(3));
+    const auto draw = [&](const std::string& fit) {
+        CHECK(workshop
+                  .run(joined({"render", "move.xyz", "-o", fit + "%d.pfm", "--frames", ":",
+                               "--camera-from", fit},
+                              small))
+                  .code == 0);
+        return Options{picture(workshop, fit + "0.pfm"), picture(workshop, fit + "2.pfm")};
+    };
+    const Options first = draw("first"), all = draw("all"), each = draw("each");
+    CHECK(first[0] == each[0]);
+    CHECK(first[1] != each[1]);
+    CHECK(all[0] != each[0]);
+    CHECK(all[1] != first[1]);
+}
+
+TEST_CASE("values of a parameter are swept, and several together") {
+    const Workshop workshop(growing);
+    const auto render = [&](const std::string& name, const Options& options) {
+        const Outcome outcome = workshop.render(name, options);
+        CHECK(outcome.err.empty());
+        CHECK(outcome.code == 0);
+    };
+    render("s%d.pfm", {"--set", "r=1:2:3", "--set", "x=0:0.5:3", "--camera-from", "each"});
+    CHECK(!std::filesystem::exists(workshop.path() / "s3.pfm"));
+    render("one.pfm", {"--set", "r=1.5", "--set", "x=0.25"});
+    CHECK(picture(workshop, "s1.pfm") == picture(workshop, "one.pfm"));
+    render("last.pfm", {"--set=r=2", "--set=x=0.5"});
+    CHECK(picture(workshop, "s2.pfm") == picture(workshop, "last.pfm"));
+    // The first one's camera sees the ball grow.
+    render("g%d.pfm", {"--set", "r=1:2:2"});
+    CHECK(picture(workshop, "g0.pfm") != picture(workshop, "g1.pfm"));
+    // What other commands have of it.
+    const Outcome converted = workshop.run({"convert", "scene.json", "-", "--set", "r=3"});
+    CHECK(nlohmann::json::parse(converted.out)["objects"][0]["radius"] == 3);
+}
+
+TEST_CASE("whole numbers stay whole in a sweep") {
+    const Workshop workshop(R"({"image": {"width": "$w", "height": 1}, "camera": "auto",
+        "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})");
+    const Outcome outcome = workshop.render("w%d.pfm", {"--set", "w=1:23:23"});
+    CHECK(outcome.err.empty());
+    CHECK(outcome.code == 0);
+    CHECK(std::filesystem::exists(workshop.path() / "w22.pfm"));
+}
+
+TEST_CASE("fog that a scene has is each picture's own, whatever the camera") {
+    std::string foggy = growing;
+    foggy.insert(1, R"("fog": {"type": "exponential", "density": "$d"},)");
+    const Workshop workshop(foggy);
+    CHECK(workshop.render("f%d.pfm", {"--set", "d=0.01:0.1:2"}).code == 0);
+    CHECK(workshop.render("one.pfm", {"--set", "d=0.1"}).code == 0);
+    CHECK(picture(workshop, "f0.pfm") != picture(workshop, "f1.pfm"));
+    CHECK(picture(workshop, "f1.pfm") == picture(workshop, "one.pfm"));
+}
+
+TEST_CASE("a camera goes around, whether it finds its place or has it") {
+    const Workshop workshop;
+    CHECK(workshop.render("t%03d.pfm", {"--turn", "360/4"}).code == 0);
+    CHECK(!std::filesystem::exists(workshop.path() / "t004.pfm"));
+    CHECK(workshop.render("scene.pfm").code == 0);
+    CHECK(picture(workshop, "t000.pfm") == picture(workshop, "scene.pfm"));
+    CHECK(picture(workshop, "t001.pfm") != picture(workshop, "scene.pfm"));
+    const Workshop other(growing);
+    CHECK(other.render("t%d.pfm", {"--turn", "90/2", "--set", "x=0:1:2"}).code == 0);
+    CHECK(complaint(other, {"scene.json", "-o", "t%d.pfm", "--turn", "90/2", "--set", "x=0:1:3"})
+              .find("as many pictures as there are otherwise, 3, got 2") != std::string::npos);
+}
+
+TEST_CASE("pictures that are there are kept, unless they are to be drawn anew") {
+    const Workshop workshop(growing);
+    const Options sweep = {"--set", "r=1:2:3"};
+    CHECK(workshop.render("s%d.pfm", sweep).code == 0);
+    const std::string first = picture(workshop, "s0.pfm"), last = picture(workshop, "s2.pfm");
+    workshop.write("s0.pfm", "mine");
+    std::filesystem::remove(workshop.path() / "s2.pfm");
+    const Outcome again = workshop.render("s%d.pfm", sweep);
+    CHECK(again.code == 0);
+    CHECK(again.err == "2 of 3 pictures are there already; --overwrite draws them anew\n");
+    CHECK(picture(workshop, "s0.pfm") == "mine");
+    CHECK(picture(workshop, "s2.pfm") == last);
+    CHECK(workshop.render("s%d.pfm", joined(sweep, {"--force"})).code == 0);
+    CHECK(picture(workshop, "s0.pfm") == first);
+}
+
+TEST_CASE("a film that was interrupted goes on where it was") {
+    const Workshop workshop(growing);
+    workshop.write("out/f0.pfm", "drawn");
+    const Options film = {"render", "scene.json", "-o", "out/f%d.pfm", "--set", "r=1:2:3"};
+    Process process = workshop.start(joined(film, hours));
+    REQUIRE(workshop.wait_for_files(2)); // amid the second
+    process.send(SIGINT);
+    CHECK(process.wait().code == 128 + SIGINT);
+    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
+    CHECK(workshop.run(film).err ==
+          "1 of 3 pictures are there already; --overwrite draws them anew\n");
+    CHECK(picture(workshop, "out/f0.pfm") == "drawn");
+    CHECK(std::filesystem::exists(workshop.output() / "f2.pfm"));
+}
+
+TEST_CASE("a view is of any scene, and so are lights that come with it") {
+    const Workshop workshop;
+    const auto convert = [&](const Options& options) {
+        const Outcome outcome = workshop.run(joined({"convert", "scene.json", "-"}, options));
+        CHECK(outcome.code == 0);
+        return nlohmann::json::parse(outcome.out);
+    };
+    const auto right = convert({"--view", "right", "--orthographic"});
+    CHECK(right["camera"]["type"] == "orthographic");
+    CHECK(right["camera"]["from"][0] > 1);
+    CHECK(right["lights"].size() == 1);
+    CHECK(convert({"--depth-cue", "0.5"})["fog"]["type"] == "linear");
+    // A camera that has its place keeps it.
+    const auto near = convert({"--zoom", "2"});
+    CHECK(near["camera"]["from"][2] == 5);
+    CHECK(near["camera"]["field_of_view"] < 25);
+    workshop.write("floor.json", R"({"camera": {"from": [0, 1, 0], "at": [0, 0, 1]},
+        "lights": [{"type": "camera"}],
+        "objects": [{"type": "plane", "material": {}, "point": [0, 0, 0], "normal": [0, 1, 0]}]})");
+    CHECK(workshop.run({"render", "floor.json"}).code == 0);
+    CHECK(complaint(workshop, {"floor.json", "--view", "top"})
+              .find("--view: must have something to find its place by") != std::string::npos);
+}
+
+TEST_CASE("scenes of other programs are seen from any side and gone around, but have no frames") {
+    const Workshop workshop;
+    workshop.write("ball.pov", R"(camera { location <0, 0, -5> look_at 0 angle 40 }
+light_source { <9, 9, -9> color rgb 1 }
+sphere { <0, 0, 0>, 1 pigment { color rgb <1, 0, 0> } }
+)");
+    workshop.write("ball.dat", R"(BEGIN_SCENE
+RESOLUTION 16 12
+CAMERA
+ZOOM 1 ASPECTRATIO 1 ANTIALIASING 0 RAYDEPTH 9
+CENTER 0 0 -5 VIEWDIR 0 0 1 UPDIR 0 1 0
+END_CAMERA
+DIRECTIONAL_LIGHT DIRECTION 1 -1 1 COLOR 1 1 1
+TEXDEF RED AMBIENT 0 DIFFUSE 1 SPECULAR 0 OPACITY 1 COLOR 1 0 0 TEXFUNC 0
+SPHERE CENTER 0 0 0 RAD 1 RED
+END_SCENE
+)");
+    for (const std::string name : {"ball.pov", "ball.dat"}) {
+        CAPTURE(name);
+        const auto camera = [&](const Options& options) {
+            const Outcome outcome = workshop.run(joined({"convert", name, "-"}, options));
+            CAPTURE(outcome.err);
+            CHECK(outcome.code == 0);
+            return nlohmann::json::parse(outcome.out)["camera"];
+        };
+        const auto own = camera({});
+        CHECK(own["from"][2] == 5);
+        const auto zoomed = camera({"--zoom", "2"});
+        CHECK(zoomed["from"] == own["from"]);
+        CHECK(zoomed["field_of_view"] < own["field_of_view"]);
+        CHECK(camera({"--orthographic"})["type"] == "orthographic");
+        const auto right = camera({"--view", "right"});
+        CHECK(right["from"][0] > 2);
+        CHECK(right["field_of_view"] == own["field_of_view"]);
+        CHECK(workshop
+                  .run(joined({"render", name, "-o", name + "%d.pfm", "--turn", "180/2", "--quiet"},
+                              small))
+                  .code == 0);
+        CHECK(picture(workshop, name + "0.pfm") != picture(workshop, name + "1.pfm"));
+        CHECK(complaint(workshop, {name, "--frames", "0:2"}) ==
+              "raylane: --frames: goes with a file of atoms, and " + name + " is a scene\n");
+        CHECK(complaint(workshop, {name, "--set", "n=1:2:2"}).find("only JSON may") !=
+              std::string::npos);
+    }
+}
+
+TEST_CASE("mistakes about several pictures cost one line") {
+    const Workshop workshop(growing);
+    workshop.write("move.xyz", trajectory(2));
+    const auto says = [&](const Options& options, const std::string& what) {
+        INFO(what);
+        const std::string said = complaint(workshop, options);
+        INFO(said);
+        CHECK(said.find(what) != std::string::npos);
+    };
+    for (const char* pattern : {"p.png", "p%d%d.png", "p%s.png", "p%n.png", "p%.png", "p%05x.png",
+                                "p%1000d.png", "%", "p%ld.png"})
+        says({"scene.json", "-o", pattern, "--set", "r=1:2:2"}, "--output: must have one number");
+    says({"scene.json", "--set", "r"}, "--set: must be NAME=NUMBER");
+    says({"scene.json", "--set", "r=1:2"}, "--set: must be NAME=NUMBER");
+    says({"scene.json", "--set", "r=1:2:0"}, "--set: must be NAME=NUMBER");
+    says({"scene.json", "--set", "1=1"}, "--set: must be NAME=NUMBER");
+    says({"scene.json", "--set", "r=nan"}, "--set: must be NAME=NUMBER");
+    says({"scene.json", "--set", "r=1", "--set", "r=2"}, "--set: must give \"r\" once");
+    says({"scene.json", "--set", "r=1:2:2", "--set", "x=1:2:3"},
+         "as many values each, got 2 and 3");
+    says({"scene.json", "--set", "q=1"}, "scene.json: has no number \"$q\"");
+    says({"scene.json", "--frames", "0:2"}, "--frames: goes with a file of atoms");
+    says({"move.xyz", "--set", "r=1"}, "only JSON may");
+    says({"move.xyz", "--frames", "0:2:0"}, "--frames: must be");
+    says({"move.xyz", "--frames", "a"}, "--frames: must be");
+    says({"move.xyz", "--frames", ""}, "--frames: must be");
+    says({"move.xyz", "--frames", "2", "-o", "x.png"}, "of the 2 frames");
+    says({"move.xyz", "--frames", "-3", "-o", "x.png"},
+         "--frames: must be of the 2 frames that move.xyz has, from 0 on, got none of them\n");
+    workshop.write("nothing", "");
+    says({"nothing", "--frames", "0:2"}, "nothing: must be a scene, got an empty file");
+    says({"move.xyz", "--frames", "0:2", "-o", "f%d.gif"}, "f0.gif: must end in");
+    says({"move.xyz", "--frames", "1:1"}, "--frames: must be of at least one picture");
+    says({"scene.json", "--turn", "360"}, "--turn: must be DEGREES/PICTURES");
+    says({"scene.json", "--turn", "360/0"}, "--turn: must be DEGREES/PICTURES");
+    says({"scene.json", "--turn", "360/4", "--camera-from", "last"}, "--camera-from: must be");
+    says({"scene.json", "--turn", "360/4", "--stats", "s.json"}, "--stats: goes without --frames");
+    CHECK(workshop.run({"info", "scene.json", "--set", "r=1:2:3"}).err.find("one number here") !=
+          std::string::npos);
+}
+
+TEST_CASE("a frame that is malformed ends the film behind those before it") {
+    const Workshop workshop;
+    workshop.write("move.xyz", trajectory(2) + "3\n\nO 0 0 zero\nH 1 0 0\nH 0 1 0\n");
+    const Outcome outcome =
+        workshop.run(joined({"render", "move.xyz", "-o", "f%d.pfm", "--frames", ":"}, small));
+    CHECK(outcome.code == 2);
+    CHECK(is_one_line(outcome.err));
+    CHECK(outcome.err.find("13") != std::string::npos);
+    CHECK(std::filesystem::exists(workshop.path() / "f1.pfm"));
+    CHECK(!std::filesystem::exists(workshop.path() / "f2.pfm"));
+}
