@@ -176,15 +176,19 @@ Scene SceneBuilder::build() {
     return translated([&] { return owning(std::move(builder).build()); });
 }
 
-Scene load(const std::filesystem::path& path) {
+Scene load(const std::filesystem::path& path, const OnRemark& on_remark) {
     simd::ParallelWorkers workers;
-    return translated([&] { return owning(scenes::load_scene(path, {.workers = &workers})); });
+    return translated([&] {
+        return owning(scenes::load_scene(path, {.workers = &workers, .on_remark = on_remark}));
+    });
 }
 
-Scene parse(std::string_view text, const std::string& name) {
+Scene parse(std::string_view text, const std::string& name, const OnRemark& on_remark) {
     simd::ParallelWorkers workers;
-    return translated(
-        [&] { return owning(scenes::parse_scene(name, text, {.workers = &workers})); });
+    return translated([&] {
+        return owning(
+            scenes::parse_scene(name, text, {.workers = &workers, .on_remark = on_remark}));
+    });
 }
 
 } // namespace raylane

@@ -46,6 +46,8 @@ Command add_compare_command(CLI::App& app);
 Command add_convert_command(CLI::App& app);
 Command add_manual_command(CLI::App& app);
 Command add_completion_command(CLI::App& app);
+/// To be called once all are there: the manual's choices are the commands.
+void name_commands(CLI::App& app);
 Command add_tachyon_command(CLI::App& app);
 
 } // namespace raylane::scenes

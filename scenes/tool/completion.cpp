@@ -113,7 +113,10 @@ std::string zsh_spec(const CLI::Option& option) {
     const std::vector<std::string> names = names_of(option);
     std::string all;
     for (const std::string& name : names)
-        all.append(all.empty() ? "" : ",").append(name + (is_flag(option) ? "" : "="));
+        all.append(all.empty() ? "" : ",")
+            .append(name + (is_flag(option)          ? ""
+                            : name.starts_with("--") ? "="
+                                                     : "+")); // "-o FILE" or "-oFILE"
     std::string what = brief(option);
     for (const char special : {'[', ']', ':'})
         std::replace(what.begin(), what.end(), special, ' ');

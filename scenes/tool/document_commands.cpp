@@ -60,6 +60,13 @@ Command add_manual_command(CLI::App& app) {
     return {command, [&app, arguments] { return print_manual(app, *arguments); }};
 }
 
+void name_commands(CLI::App& app) {
+    std::string all;
+    for (const CLI::App* command : commands_of(app))
+        all.append(all.empty() ? "" : "|").append(command->get_name());
+    app.get_subcommand("manual")->get_option("COMMAND")->type_name(all);
+}
+
 Command add_completion_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "completion", "Print what a shell reads to complete commands, options and files");

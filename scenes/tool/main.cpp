@@ -50,6 +50,7 @@ int run(int argc, const char* const* argv) {
                                              add_compare_command(app),   add_convert_command(app),
                                              add_tachyon_command(app),   add_manual_command(app),
                                              add_completion_command(app)};
+    name_commands(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& request) {

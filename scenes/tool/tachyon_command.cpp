@@ -148,8 +148,10 @@ void TachyonOptions::add_output_options() {
     options_["-numthreads"] = [this] {
         arguments_.threads = whole_argument(option_, value(), 1, simd::max_threads);
     };
-    options_["-help"] = options_["--help"] = [this] { arguments_.wants_help = true; };
-    options_["-version"] = options_["-banner"] = [this] { arguments_.wants_version = true; };
+    options_["-help"] = options_["--help"] =
+        options_["-h"] = [this] { arguments_.wants_help = true; };
+    options_["-version"] = options_["--version"] =
+        options_["-banner"] = [this] { arguments_.wants_version = true; };
 }
 
 void TachyonOptions::add_options_without_effect() {
@@ -213,7 +215,7 @@ int draw(const std::vector<std::string>& words) {
         std::fprintf(stderr, "%s: changes nothing here\n", option.c_str());
 
     simd::RenderOptions options;
-    options.threads = arguments.threads.value_or(simd::default_threads());
+    options.threads = arguments.threads ? *arguments.threads : simd::default_threads();
     const core::Scene scene = load_with_progress(scene_name, {.tachyon = arguments.shading},
                                                  Verbosity::normal, options.threads);
     core::Settings settings = scene.settings();

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -123,14 +124,19 @@ class SceneBuilder {
     std::unique_ptr<core::SceneBuilder> builder_; // none as long as it is new
 };
 
-/// Reads a scene from a file: JSON (scenes/raylane-scene.schema.json describes it), NFF or
-/// Tachyon's. The format follows its ending (.json, .nff) or else its content. Throws
-/// BadInput for what is malformed, in JSON for up to ten mistakes at once, SystemRefused, and
-/// std::bad_alloc.
-RAYLANE_API Scene load(const std::filesystem::path& path);
+/// Told of what a file says and the scene does not have, one line each, on the caller's thread.
+using OnRemark = std::function<void(const std::string& remark)>;
 
-/// The same for a scene in memory. `name` is what messages call it; the format follows its ending,
-/// or else the content.
-RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene");
+/// Reads a scene from a file: JSON (scenes/raylane-scene.schema.json describes it), NFF, POV-Ray's
+/// language or Tachyon's; or atoms, of which it makes one: PDB, mmCIF, CIF, XYZ, GRO, LAMMPS' dump
+/// or data. The format follows its ending or else its content. What the file includes is read as
+/// well. Throws BadInput for what is malformed, in JSON for up to ten mistakes at once,
+/// SystemRefused, and std::bad_alloc.
+RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_remark = {});
+
+/// The same for a scene in memory. `name` is what messages call it, and where included files are
+/// looked for; the format follows its ending, or else the content.
+RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene",
+                        const OnRemark& on_remark = {});
 
 } // namespace raylane

@@ -94,3 +94,16 @@ TEST_CASE("the README's program is the one that is tested") {
     const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
     CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
 }
+
+TEST_CASE("what a file says and a scene does not have is told to who loads it") {
+    const std::string pov = "camera { location <0, 0, -5> look_at 0 }\n"
+                            "light_source { <1, 2, -3> color rgb 1 shadowless }\n"
+                            "sphere { 0, 1 pigment { color rgb 1 } }\n";
+    std::vector<std::string> remarks;
+    const Scene scene =
+        parse(pov, "a.pov", [&](const std::string& remark) { remarks.push_back(remark); });
+    CHECK(scene.shape_count() == 1);
+    CHECK(remarks ==
+          std::vector<std::string>{"a.pov:2:39: has lights without shadows, which have them here"});
+    CHECK(parse(pov, "a.pov").shape_count() == 1);
+}

@@ -75,6 +75,8 @@ TEST_CASE("manual pages and completions have all that the help has") {
     CHECK(holds(zsh, ":choice:(vector reference)"));
     CHECK(holds(fish, " -l engine -x -a 'vector reference'"));
     CHECK(holds(bash, "completion:*) words=\"bash zsh fish\""));
+    CHECK(holds(bash, "manual:*) words=\"render info "));
+    CHECK(holds(zsh, "{-o+,--output=}'[")); // "-o FILE": no "-o=FILE"
 }
 
 TEST_CASE("no line of a manual page is a request that it should not be") {
