@@ -21,6 +21,8 @@ libstb-dev          writes HDR
 zlib1g-dev          reads what gzip compressed
 libpng-dev          writes and reads PNG
 libopenexr-dev      writes and reads OpenEXR
+libsdl2-dev         opens windows
+xvfb                the test of these
 gemmi-dev           reads PDB and mmCIF,
 tao-pegtl-dev       which needs this
 libbenchmark-dev    measures speed

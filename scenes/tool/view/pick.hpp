@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/scene/scene.hpp"
+
+#include <string>
+
+namespace raylane::scenes {
+
+/// What a camera sees through the middle of a pixel of a picture of the settings' size, in one
+/// line: which shape, where, how far away, as real arithmetic says.
+std::string what_is_at(const core::Scene& scene, const core::Settings& settings, int x, int y);
+
+/// A scene's camera as its JSON says it: `"camera": {...}`.
+std::string camera_text(const core::Camera& camera);
+
+} // namespace raylane::scenes

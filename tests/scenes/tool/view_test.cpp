@@ -1,0 +1,135 @@
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <unistd.h>
+
+/// Windows, on a display that is a file (Xvfb's).
+using namespace raylane::tests;
+
+namespace {
+
+constexpr int screen_width = 640, screen_height = 480;
+
+/// Xvfb, with its screen in a folder.
+class Display {
+  public:
+    explicit Display(const std::filesystem::path& folder) : folder_(folder) {
+        int ends[2];
+        if (::pipe(ends) != 0) return;
+        child_ = ::fork();
+        if (child_ == 0) {
+            const std::string number = std::to_string(ends[1]);
+            ::execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "640x480x24",
+                     "-fbdir", folder.c_str(), "-nolisten", "tcp", nullptr);
+            ::_exit(127);
+        }
+        ::close(ends[1]);
+        char text[16] = {};
+        const ssize_t size = ::read(ends[0], text, sizeof text - 1); // once it serves
+        ::close(ends[0]);
+        if (size > 0) name_ = ":" + std::to_string(std::atoi(text));
+    }
+    ~Display() {
+        if (child_ > 0) ::kill(child_, SIGKILL);
+    }
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+
+    /// Empty where there is no Xvfb.
+    const std::string& name() const { return name_; }
+
+    /// Red, green and blue of each pixel of the screen, of the format xwd.
+    std::vector<std::uint8_t> pixels() const {
+        std::ifstream file(folder_ / "Xvfb_screen0", std::ios::binary);
+        const std::string all((std::istreambuf_iterator<char>(file)), {});
+        const auto number = [&](std::size_t at) { // most significant byte first
+            std::uint32_t value = 0;
+            for (std::size_t i = 0; i < 4; ++i)
+                value = value << 8 | static_cast<std::uint8_t>(all.at(4 * at + i));
+            return value;
+        };
+        constexpr std::size_t header_size = 0, line_bytes = 12, colors = 19, color_bytes = 12;
+        const std::size_t start = number(header_size) + color_bytes * number(colors);
+        std::vector<std::uint8_t> result;
+        for (std::size_t y = 0; y < screen_height; ++y)
+            for (std::size_t x = 0; x < screen_width; ++x)
+                for (const std::size_t channel : {2, 1, 0})
+                    result.push_back(static_cast<std::uint8_t>(
+                        all.at(start + y * number(line_bytes) + 4 * x + channel)));
+        return result;
+    }
+
+  private:
+    std::filesystem::path folder_;
+    pid_t child_ = -1;
+    std::string name_;
+};
+
+/// Those of a PPM of 8 bits.
+std::vector<std::uint8_t> pixels_of(const std::filesystem::path& ppm, std::size_t count) {
+    std::ifstream file(ppm, std::ios::binary);
+    const std::string all((std::istreambuf_iterator<char>(file)), {});
+    return {all.end() - static_cast<std::ptrdiff_t>(count), all.end()};
+}
+
+Setup on_display(const std::string& name) {
+    Setup setup;
+    setup.in_child = [name] {
+        ::setenv("DISPLAY", name.c_str(), 1);
+        ::setenv("SDL_VIDEODRIVER", "x11", 1);
+    };
+    return setup;
+}
+
+} // namespace
+
+TEST_CASE("without a display there is one line") {
+    const Workshop workshop;
+    Setup setup;
+    setup.in_child = [] {
+        ::unsetenv("DISPLAY");
+        ::unsetenv("WAYLAND_DISPLAY");
+        ::setenv("SDL_VIDEODRIVER", "x11", 1);
+    };
+    const Outcome outcome = workshop.run({"view", "scene.json"}, setup);
+    CHECK(outcome.code == 3);
+    CHECK(is_one_line(outcome.err));
+    CHECK(outcome.err.starts_with("raylane: view: cannot open a window: "));
+}
+
+TEST_CASE("a window shows what render draws, and what is written since") {
+    const Workshop workshop;
+    std::filesystem::create_directory(workshop.path() / "screen");
+    const Display display(workshop.path() / "screen");
+    if (display.name().empty()) {
+        WARN("skipped: there is no Xvfb");
+        return;
+    }
+    Process viewer({"view", "scene.json", "--size", "640x480"}, [&] {
+        Setup setup = on_display(display.name());
+        setup.directory = workshop.path();
+        return setup;
+    }());
+    constexpr std::size_t size = std::size_t{3} * screen_width * screen_height;
+    std::string scene = ball;
+    for (const std::string color : {"[1, 0, 0]", "[0, 1, 0]"}) {
+        CAPTURE(color);
+        scene.replace(scene.find("\"color\": ["), 18, "\"color\": " + color);
+        workshop.write("scene.json", scene);
+        REQUIRE(
+            workshop.run({"render", "scene.json", "--size", "640x480", "-o", "out/a.ppm"}).code ==
+            0);
+        const auto expected = pixels_of(workshop.output() / "a.ppm", size);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (display.pixels() != expected && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        CHECK((display.pixels() == expected));
+        std::filesystem::remove(workshop.output() / "a.ppm");
+    }
+    viewer.send(SIGTERM);
+    CHECK(viewer.wait().code == 128 + SIGTERM);
+}
