@@ -18,7 +18,7 @@ core::Settings test_settings(const core::Scene& scene) {
 #ifdef RAYLANE_FEW_RAYS
     constexpr int longest = 64;
 #else
-    constexpr int longest = 240;
+    constexpr int longest = 160;
 #endif
     core::Settings settings = tests::scaled_down(scene.settings(), longest);
     settings.grid = std::min(settings.grid, 2);
