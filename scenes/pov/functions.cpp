@@ -122,11 +122,13 @@ Tuple of_names(Tokens& tokens, const Token& name) {
     const Value* value = tokens.find(of.text);
     double result = value != nullptr ? 1.0 : 0.0;
     if (name.is("dimension_size")) {
-        const auto* array = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
+        const auto* found = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
+        // For as long as the number is read, which may declare it anew.
+        const std::shared_ptr<Array> array = found != nullptr ? *found : nullptr;
         if (array == nullptr) fail(of.place, "must be the name of an array, got " + of.quoted());
         tokens.expect(",");
         const double which = read_number(tokens);
-        const auto& sizes = (*array)->sizes;
+        const auto& sizes = array->sizes;
         if (!(which >= 1.0 && which <= static_cast<double>(sizes.size())))
             fail(of.place, "must have a dimension of that number, got " + of.quoted());
         result = static_cast<double>(sizes[static_cast<std::size_t>(which) - 1]);

@@ -167,6 +167,16 @@ Shared<Object> read_named(Tokens& tokens) {
     return *object;
 }
 
+/// Counts what is so many times in an object from then on.
+void count_in(Object& object, const Object& part, std::size_t times) {
+    object.count += times * part.count;
+    object.depth = std::max(object.depth, part.depth + 1);
+    if (object.depth > deepest)
+        fail(object.place, "must not be nested more than " + std::to_string(deepest) + " deep");
+    if (object.count > most_shapes)
+        fail(object.place, "must not be of more than " + std::to_string(most_shapes) + " shapes");
+}
+
 /// Reads what comes behind an object's numbers.
 class Modifiers {
   public:
@@ -235,15 +245,23 @@ class Modifiers {
             if (tokens_.accept("bounded_by") || tokens_.accept("clipped_by")) continue;
             Shared<Object> by = read_object(tokens_);
             if (!clips) continue; // it should bound what it is around of, which we do ourselves
-            if (object_.motion != nullptr) { // which does not move what comes later
-                Object moved = std::move(object_);
-                object_ = {.kind = ObjectKind::all_in_one, .place = moved.place};
-                object_.texture = moved.texture;
-                object_.interior = moved.interior;
-                object_.parts.push_back(std::make_shared<const Object>(std::move(moved)));
-            }
+            if (object_.count == 0) continue;            // nothing to clip
+            if (object_.motion != nullptr) put_within(); // which does not move what comes later
+            count_in(object_, *by, object_.pieces);
             object_.clips.push_back(std::move(by));
         }
+    }
+
+    void put_within() {
+        Object inner = std::move(object_);
+        object_ = {.kind = ObjectKind::all_in_one,
+                   .place = inner.place,
+                   .count = 0,
+                   .pieces = inner.pieces};
+        object_.texture = inner.texture;
+        object_.interior = inner.interior;
+        count_in(object_, inner, 1);
+        object_.parts.push_back(std::make_shared<const Object>(std::move(inner)));
     }
 
     void read_flag(const Token& word) {
@@ -278,13 +296,8 @@ class Modifiers {
 
 void add_part(Tokens& tokens, Object& object) {
     Shared<Object> part = read_object(tokens);
-    object.count += part->count;
-    object.depth = std::max(object.depth, part->depth + 1);
-    if (object.count > most_shapes || object.depth > deepest)
-        fail(object.place,
-             object.depth > deepest
-                 ? "must not be nested more than " + std::to_string(deepest) + " deep"
-                 : "must not be of more than " + std::to_string(most_shapes) + " shapes");
+    count_in(object, *part, 1);
+    if (object.kind == ObjectKind::all_in_one) object.pieces += part->pieces;
     object.parts.push_back(std::move(part));
 }
 
@@ -352,6 +365,7 @@ Shared<Object> read_object(Tokens& tokens) {
     } else if (compound != nullptr) {
         object.kind = compound->read;
         object.count = 0;
+        if (object.kind == ObjectKind::all_in_one) object.pieces = 0;
         while (begins_object(tokens, tokens.peek()) ||
                std::find(std::begin(not_read), std::end(not_read), tokens.peek().text) !=
                    std::end(not_read))

@@ -216,7 +216,7 @@ void Tokens::begin_macro() {
     declare(name.text, Value{Shared<Macro>(std::move(macro))}, false);
 }
 
-void Tokens::call(const Shared<Macro>& macro, const Place& place) {
+void Tokens::call(const Shared<Macro> macro, const Place& place) {
     count_turn(place);
     const Level level(depth, place);
     expect("(");

@@ -91,7 +91,8 @@ class Tokens {
     void directive(const Place& hash);
     void declaration(const Token& word);
     void begin_macro();
-    void call(const Shared<Macro>& macro, const Place& place);
+    /// By value: an argument may declare the macro's name anew.
+    void call(Shared<Macro> macro, const Place& place);
     void include();
     void open(const std::string& name, const Place& place);
     void begin_if(bool holds, const Place& place);

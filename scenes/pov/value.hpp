@@ -106,7 +106,8 @@ struct Object {
     Shared<Motion> motion{};
     bool inverse = false;
     bool is_hidden = false; ///< that is left out
-    std::size_t count = 1;  ///< of shapes in it
+    std::size_t count = 1;  ///< of shapes in it, its clips with them
+    std::size_t pieces = 1; ///< that it is in a scene, each with all of its clips
     int depth = 1;          ///< of objects in it
 };
 
