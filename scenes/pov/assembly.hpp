@@ -16,7 +16,10 @@ class Assembly {
 
     /// z against z, of all that is added from then on.
     void set_mirrored();
-    void add(const Object& object) { add(object, {}, mirror_, {}); }
+    /// `texture`: where it has none of its own.
+    void add(const Object& object, const Shared<Texture>& texture) {
+        add(object, {texture, nullptr, mirror_}, mirror_, {});
+    }
 
   private:
     struct Clip {

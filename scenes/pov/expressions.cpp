@@ -74,11 +74,6 @@ Tuple read_vector_literal(Tokens& tokens, const Place& place) {
     return vector;
 }
 
-const Value& named_element(Tokens& tokens, const Token& name) {
-    const std::vector<std::size_t> indices = read_indices(tokens);
-    return element_of(tokens, name, indices);
-}
-
 /// A number, a name, a function, or what is in brackets.
 Tuple read_primary(Tokens& tokens) {
     const Token token = tokens.next();
@@ -93,9 +88,11 @@ Tuple read_primary(Tokens& tokens) {
     if (token.is("color") || token.is("colour")) return read_color(tokens);
     if (token.kind == TokenKind::word) {
         if (const Value* value = tokens.find(token.text)) {
-            if (value->get_if<std::shared_ptr<Array>>() != nullptr)
-                value = &named_element(tokens, token);
             if (const auto* tuple = value->get_if<Tuple>()) return *tuple;
+            if (value->get_if<std::shared_ptr<Array>>() != nullptr)
+                if (const Value element = read_element(tokens, token);
+                    const auto* tuple = element.get_if<Tuple>())
+                    return *tuple;
             fail(token.place,
                  "must be the name of a number, vector or colour, got " + token.quoted());
         }
@@ -181,13 +178,6 @@ Tuple read_comparison(Tokens& tokens) {
     }
 }
 
-std::shared_ptr<Array> array_of(Tokens& tokens, const Token& name) {
-    const Value* value = tokens.find(name.text);
-    const auto* array = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
-    if (array == nullptr) fail(name.place, "must be the name of an array, got " + name.quoted());
-    return *array;
-}
-
 } // namespace
 
 Tuple read_tuple(Tokens& tokens) {
@@ -268,40 +258,10 @@ bool at_tuple(Tokens& tokens) {
     if (token.kind != TokenKind::word) return false;
     if (const Value* value = tokens.find(token.text)) {
         if (const auto* array = value->get_if<std::shared_ptr<Array>>())
-            return !(*array)->values.empty() && (*array)->values[0].get_if<Tuple>() != nullptr;
-        return value->get_if<Tuple>() != nullptr;
+            value = tokens.is_before("[") ? first_of(**array) : nullptr;
+        return value != nullptr && value->get_if<Tuple>() != nullptr;
     }
     return is_function(token.text);
-}
-
-std::string read_string(Tokens& tokens) {
-    const Token token = tokens.next();
-    if (token.kind == TokenKind::string) return std::string(token.text);
-    if (const Value* value = token.kind == TokenKind::word ? tokens.find(token.text) : nullptr)
-        if (const auto* text = value->get_if<std::string>()) return *text;
-    if (token.is("str") || token.is("vstr")) {
-        tokens.expect("(");
-        std::string text;
-        do {
-            const Tuple tuple = token.is("str") || text.empty() ? read_tuple(tokens) : Tuple{};
-            if (text.empty()) text = std::to_string(tuple.at[0]);
-            while (!tokens.at(",") && !tokens.at(")"))
-                tokens.next();
-        } while (tokens.accept(","));
-        tokens.expect(")");
-        return text;
-    }
-    if (token.is("concat")) {
-        const Level level(tokens.depth, token.place);
-        std::string text;
-        tokens.expect("(");
-        do
-            text += read_string(tokens);
-        while (text.size() < longest_string && tokens.accept(","));
-        tokens.expect(")");
-        return text;
-    }
-    fail(token.place, "must be a string, got " + token.quoted());
 }
 
 std::vector<std::size_t> read_indices(Tokens& tokens) {
@@ -317,19 +277,38 @@ std::vector<std::size_t> read_indices(Tokens& tokens) {
     return indices;
 }
 
-Value& element_of(Tokens& tokens, const Token& name, const std::vector<std::size_t>& indices) {
-    const std::shared_ptr<Array> array = array_of(tokens, name);
-    if (indices.size() != array->sizes.size())
-        fail(name.place, "must have " + std::to_string(array->sizes.size()) + " indices, got " +
+std::shared_ptr<Array> array_of(Tokens& tokens, const Token& name) {
+    const Value* value = tokens.find(name.text);
+    const auto* array = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
+    if (array == nullptr) fail(name.place, "must be the name of an array, got " + name.quoted());
+    return *array;
+}
+
+std::size_t index_in(const Array& array, const Token& name,
+                     const std::vector<std::size_t>& indices) {
+    if (indices.size() != array.sizes.size())
+        fail(name.place, "must have " + std::to_string(array.sizes.size()) + " indices, got " +
                              std::to_string(indices.size()));
     std::size_t at = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) {
-        if (indices[i] >= array->sizes[i])
-            fail(name.place, "must have an index below " + std::to_string(array->sizes[i]) +
+        if (indices[i] >= array.sizes[i])
+            fail(name.place, "must have an index below " + std::to_string(array.sizes[i]) +
                                  ", got " + std::to_string(indices[i]));
-        at = at * array->sizes[i] + indices[i];
+        at = at * array.sizes[i] + indices[i];
     }
-    return array->values[at];
+    return at;
+}
+
+const Value* first_of(const Array& array) {
+    for (const Value& value : array.values)
+        if (value.get_if<std::monostate>() == nullptr) return &value;
+    return nullptr;
+}
+
+Value read_element(Tokens& tokens, const Token& name) {
+    // The scope of the name may end behind the indices.
+    const std::shared_ptr<Array> array = array_of(tokens, name);
+    return array->values[index_in(*array, name, read_indices(tokens))];
 }
 
 } // namespace raylane::scenes::pov

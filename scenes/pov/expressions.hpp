@@ -19,11 +19,19 @@ Tuple read_color(Tokens& tokens);
 bool begins_color(const Token& token);
 /// True if a number, vector or colour comes next.
 bool at_tuple(Tokens& tokens);
+/// True of a string, and of a function that makes one.
+bool begins_string(const Token& token);
 std::string read_string(Tokens& tokens);
 
 /// "[1][2]"
 std::vector<std::size_t> read_indices(Tokens& tokens);
-/// An element of the array of that name.
-Value& element_of(Tokens& tokens, const Token& name, const std::vector<std::size_t>& indices);
+std::shared_ptr<Array> array_of(Tokens& tokens, const Token& name);
+/// Of an element in its values.
+std::size_t index_in(const Array& array, const Token& name,
+                     const std::vector<std::size_t>& indices);
+/// What tells of an array's elements: the first that is set; null if there is none.
+const Value* first_of(const Array& array);
+/// An element of the array of that name, whose indices come next.
+Value read_element(Tokens& tokens, const Token& name);
 
 } // namespace raylane::scenes::pov

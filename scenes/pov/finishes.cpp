@@ -262,7 +262,7 @@ Finish read_finish(Tokens& tokens, Finish finish) {
 }
 
 Shared<Texture> read_texture(Tokens& tokens) {
-    auto texture = std::make_shared<Texture>(tokens.default_texture);
+    auto texture = std::make_shared<Texture>(*tokens.default_texture);
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (const auto known = named<Texture>(tokens)) {
@@ -334,7 +334,7 @@ Material read_material(Tokens& tokens) {
 }
 
 void read_default(Tokens& tokens) {
-    Texture& texture = tokens.default_texture;
+    Texture texture = *tokens.default_texture;
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (tokens.accept("texture")) {
@@ -348,6 +348,7 @@ void read_default(Tokens& tokens) {
             fail(word.place, "must be a texture, pigment or finish, got " + word.quoted());
         }
     }
+    tokens.default_texture = std::make_shared<const Texture>(std::move(texture));
 }
 
 } // namespace raylane::scenes::pov

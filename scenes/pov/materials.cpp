@@ -130,7 +130,7 @@ void set_highlight(const Finish& finish, core::Material& material, Tokens& token
 
 core::Material Materials::material_of(const Look& look, const Place& place,
                                       const core::PlaneOf<double>* plane) {
-    const Texture& texture = look.texture != nullptr ? *look.texture : tokens_.default_texture;
+    const Texture& texture = look.texture != nullptr ? *look.texture : *tokens_.default_texture;
     const Pigment& pigment = texture.pigment;
     const Finish& finish = texture.finish;
     core::Material material;

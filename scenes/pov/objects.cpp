@@ -152,17 +152,16 @@ const Shared<Object>* named_object(const Tokens& tokens, const Token& token) {
     const Value* value = token.kind == TokenKind::word ? tokens.find(token.text) : nullptr;
     if (value == nullptr) return nullptr;
     if (const auto* array = value->get_if<std::shared_ptr<Array>>())
-        for (const Value& element : (*array)->values)
-            if (const auto* object = element.get_if<Shared<Object>>()) return object;
-    return value->get_if<Shared<Object>>();
+        value = tokens.is_before("[") ? first_of(**array) : nullptr;
+    return value != nullptr ? value->get_if<Shared<Object>>() : nullptr;
 }
 
 Shared<Object> read_named(Tokens& tokens) {
     const Token name = tokens.next();
-    const Value* value = tokens.find(name.text);
-    if (value != nullptr && value->get_if<std::shared_ptr<Array>>() != nullptr)
-        value = &element_of(tokens, name, read_indices(tokens));
-    const auto* object = value != nullptr ? value->get_if<Shared<Object>>() : nullptr;
+    const Value* found = tokens.find(name.text);
+    Value value = found != nullptr ? *found : Value{};
+    if (value.get_if<std::shared_ptr<Array>>() != nullptr) value = read_element(tokens, name);
+    const auto* object = value.get_if<Shared<Object>>();
     if (object == nullptr) fail(name.place, "must be an object, got " + name.quoted());
     return *object;
 }
@@ -203,7 +202,7 @@ class Modifiers {
     }
 
     Texture own_texture() const {
-        return object_.texture != nullptr ? *object_.texture : tokens_.default_texture;
+        return object_.texture != nullptr ? *object_.texture : *tokens_.default_texture;
     }
     void set(Texture texture) {
         object_.texture = std::make_shared<const Texture>(std::move(texture));

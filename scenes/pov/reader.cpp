@@ -20,7 +20,9 @@ using namespace pov;
 pov::Source source_of(InputFile& file) {
     std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
     if (folder.empty()) folder = ".";
-    return {file.name(), file.read_all(), folder};
+    std::string text = file.read_all();
+    skip_byte_order_mark(text);
+    return {file.name(), std::move(text), folder};
 }
 
 /// A number that follows `option` in a remark at the beginning; 0 if there is none.
@@ -131,9 +133,9 @@ class Reader {
             fail(object->place,
                  "must be one of at most " + std::to_string(most_shapes) + " shapes");
         if (has_camera_)
-            assembly_.add(*object);
+            assembly_.add(*object, tokens_.default_texture);
         else
-            waiting_.push_back(std::move(object));
+            waiting_.push_back({std::move(object), tokens_.default_texture});
     }
 
     void set_camera(const Camera& camera, const Place& place) {
@@ -147,8 +149,8 @@ class Reader {
         has_camera_ = true;
         mirrored_ = view.mirrored;
         if (mirrored_) assembly_.set_mirrored();
-        for (const Shared<Object>& object : waiting_)
-            assembly_.add(*object);
+        for (const auto& [object, texture] : waiting_)
+            assembly_.add(*object, texture);
         waiting_.clear();
     }
 
@@ -185,7 +187,11 @@ class Reader {
     core::SceneBuilder builder_;
     Assembly assembly_;
     GlobalSettings settings_;
-    std::vector<Shared<Object>> waiting_;
+    struct Waiting {
+        Shared<Object> object;
+        Shared<Texture> texture; ///< the default where it stands
+    };
+    std::vector<Waiting> waiting_;
     std::vector<LightSource> lights_;
     Tuple background_{{}, 5};
     Place camera_place_{};

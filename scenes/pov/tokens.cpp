@@ -88,6 +88,11 @@ void Tokens::expect(std::string_view what) {
         fail(token.place, "must be \"" + std::string(what) + "\", got " + token.quoted());
 }
 
+bool Tokens::is_before(std::string_view what) const {
+    Scanner beyond = frames_.back().scanner;
+    return beyond.next().is(what);
+}
+
 void Tokens::skip_braces() {
     expect("{");
     for (std::size_t open = 1; open > 0;) {
@@ -99,23 +104,37 @@ void Tokens::skip_braces() {
     }
 }
 
-const Value* Tokens::find(std::string_view name) const {
-    for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame)
-        if (const auto found = frame->names.find(name); found != frame->names.end())
-            return &found->second;
-    return nullptr;
+Tokens::Found Tokens::found(std::string_view name) const {
+    for (std::size_t i = frames_.size(); i-- > 0;) {
+        const Frame& frame = frames_[i];
+        if (const auto found = frame.names.find(name); found != frame.names.end())
+            return {&found->second, i, name};
+        for (const Alias& alias : frame.aliases) {
+            if (alias.parameter != name) continue;
+            const auto& names = frames_[alias.frame].names;
+            const auto found = names.find(alias.name);
+            return {found != names.end() ? &found->second : nullptr, alias.frame, alias.name};
+        }
+    }
+    return {nullptr, 0, name};
 }
 
+const Value* Tokens::find(std::string_view name) const {
+    return found(name).value;
+}
+
+/// A parameter is here what it stands for.
 void Tokens::declare_here(std::string_view name, Value value) {
+    for (const Alias& alias : frames_.back().aliases)
+        if (alias.parameter == name) return declare(name, std::move(value), false);
     frames_.back().names.insert_or_assign(name, std::move(value));
 }
 
-/// What is not local is all files', unless this one has a name for something of its own.
+/// What is not local is of the innermost scope that has the name, and if there is none, of all.
 void Tokens::declare(std::string_view name, Value value, bool is_local) {
-    if (is_local || frames_.back().names.contains(name))
-        declare_here(name, std::move(value));
-    else
-        frames_.front().names.insert_or_assign(name, std::move(value));
+    if (is_local) return declare_here(name, std::move(value));
+    const Found place = found(name);
+    frames_[place.frame].names.insert_or_assign(place.name, std::move(value));
 }
 
 Token Tokens::raw_word(const char* what) {
@@ -134,6 +153,7 @@ void Tokens::enter(Frame frame) {
     if (frames_.size() >= static_cast<std::size_t>(deepest))
         fail(frame.place, "must not be of files and macros that are in each other more than " +
                               std::to_string(deepest) + " deep");
+    frame.serial = ++frames_entered_;
     frames_.push_back(std::move(frame));
 }
 
@@ -170,8 +190,8 @@ void Tokens::directive(const Place& hash) {
     if (name == "default") return read_default(*this);
     if (name == "undef") {
         const Token undefined = raw_word("a name");
-        for (Frame& frame : frames_)
-            frame.names.erase(undefined.text);
+        const Found place = found(undefined.text);
+        frames_[place.frame].names.erase(place.name);
         return;
     }
     if (std::find(messages.begin(), messages.end(), name) != messages.end()) {
@@ -189,14 +209,24 @@ void Tokens::declaration(const Token& word) {
     if (at("[")) {
         const std::vector<std::size_t> indices = read_indices(*this);
         expect("=");
-        Value value = read_value(*this);
-        element_of(*this, name, indices) = std::move(value);
+        Value value = copied(read_value(*this), name.place);
+        const std::shared_ptr<Array> array = array_of(*this, name);
+        set_element(*array, index_in(*array, name, indices), std::move(value), name.place);
     } else {
         expect("=");
-        Value value = read_value(*this);
+        Value value = copied(read_value(*this), name.place);
         declare(name.text, std::move(value), is_local);
     }
     if (ahead().is(";")) peeked_.reset();
+}
+
+/// An array has names of its own, and no other is in it that may change.
+Value Tokens::copied(Value value, const Place& place) {
+    const auto* array = value.get_if<std::shared_ptr<Array>>();
+    if (array == nullptr) return value;
+    tokens_ += (*array)->values.size();
+    if (tokens_ > most_tokens) fail(place, "must copy fewer elements of arrays, at most 1e9");
+    return {std::make_shared<Array>(**array)};
 }
 
 void Tokens::begin_macro() {
@@ -225,13 +255,32 @@ void Tokens::call(const Shared<Macro> macro, const Place& place) {
         if (at(")"))
             fail(place, "must be called with " + std::to_string(macro->parameters.size()) +
                             " arguments, got fewer");
-        frame.names.insert_or_assign(parameter, read_value(*this));
+        read_argument(frame, parameter);
         accept(",");
     }
+    // The scope of one may have ended among those behind it.
+    std::erase_if(frame.aliases, [&](const Alias& alias) {
+        return alias.frame >= frames_.size() || frames_[alias.frame].serial != alias.serial;
+    });
+    for (const Alias& alias : frame.aliases)
+        frame.names.erase(alias.parameter);
     if (!at(")"))
         fail(peek().place, "must be \")\" behind the last argument, got " + peek().quoted());
     peeked_.reset();
     enter(std::move(frame));
+}
+
+/// A name by itself stands for what has the name, which the macro may change.
+void Tokens::read_argument(Frame& frame, std::string_view parameter) {
+    const Token word = peek();
+    const Found named = word.kind == TokenKind::word ? found(word.text) : Found{};
+    if (named.value == nullptr || !(is_before(",") || is_before(")"))) {
+        frame.names.insert_or_assign(parameter, copied(read_value(*this), word.place));
+        return;
+    }
+    frame.aliases.push_back({parameter, named.frame, frames_[named.frame].serial, named.name});
+    frame.names.insert_or_assign(parameter, *named.value);
+    next();
 }
 
 void Tokens::include() {
@@ -265,130 +314,10 @@ void Tokens::open(const std::string& name, const Place& place) {
              "must be a file beside this one, or one of POV-Ray's that are known here, got \"" +
                  printable(name) + "\"");
     if (!text) text = InputFile(path).read_all();
+    skip_byte_order_mark(*text);
     sources_.push_back({path.empty() ? name : path.string(), std::move(*text), path.parent_path()});
     included_.emplace(name, &sources_.back());
     enter({Scanner(sources_.back()), FrameKind::file, place});
-}
-
-bool Tokens::condition() {
-    expect("(");
-    const Tuple value = read_relation(*this);
-    expect(")");
-    return value.at[0] != 0.0;
-}
-
-bool Tokens::is_declared() {
-    Scanner& scanner = frames_.back().scanner;
-    Token token = scanner.next();
-    if (!token.is("(")) fail(token.place, "must be \"(\", got " + token.quoted());
-    const Token name = raw_word("a name");
-    do {
-        token = scanner.next();
-        if (token.kind == TokenKind::end) fail(token.place, "must be \")\", got " + token.quoted());
-    } while (!token.is(")"));
-    return find(name.text) != nullptr;
-}
-
-/// Past the #end of what has begun or, `at_branches`, its #else or #elseif.
-Token Tokens::skip_to(const Place& place, bool at_branches) {
-    static constexpr std::array<std::string_view, 7> beginnings = {
-        "if", "ifdef", "ifndef", "while", "for", "switch", "macro"};
-    Scanner& scanner = frames_.back().scanner;
-    for (std::size_t open = 0;;) {
-        Token token = scanner.next();
-        if (token.kind == TokenKind::end) fail(place, "must have an #end, and the file ends");
-        if (!token.is("#")) continue;
-        token = scanner.next();
-        if (token.is("end")) {
-            if (open == 0) return token;
-            --open;
-        } else if (std::find(beginnings.begin(), beginnings.end(), token.text) !=
-                   beginnings.end()) {
-            ++open;
-        } else if (at_branches && open == 0 && (token.is("else") || token.is("elseif"))) {
-            return token;
-        }
-    }
-}
-
-void Tokens::begin_if(bool holds, const Place& place) {
-    while (!holds) {
-        const Token branch = skip_to(place, true);
-        if (branch.is("end")) return;
-        holds = branch.is("else") || condition();
-    }
-    frames_.back().conditions.push_back({Condition::Kind::choice, place});
-}
-
-void Tokens::begin_while(const Place& place) {
-    const Scanner again = frames_.back().scanner;
-    if (!condition()) {
-        skip_to(place, false);
-        return;
-    }
-    frames_.back().conditions.push_back({Condition::Kind::while_loop, place, again});
-}
-
-void Tokens::begin_for(const Place& place) {
-    expect("(");
-    const Token counter = raw_word("a name");
-    expect(",");
-    const double first = read_number(*this);
-    expect(",");
-    const double last = read_number(*this);
-    const double step = accept(",") ? read_number(*this) : 1.0;
-    expect(")");
-    if (step == 0.0) fail(place, "must have steps other than 0");
-    if (step > 0.0 ? first > last : first < last) {
-        skip_to(place, false);
-        return;
-    }
-    declare_here(counter.text, Value{Tuple::of(first)});
-    frames_.back().conditions.push_back(
-        {Condition::Kind::for_loop, place, frames_.back().scanner, counter.text, last, step});
-}
-
-void Tokens::leave_loop(const Place& place) {
-    auto& conditions = frames_.back().conditions;
-    for (;;) {
-        if (conditions.empty()) fail(place, "must be in a loop");
-        const Condition left = conditions.back();
-        conditions.pop_back();
-        skip_to(left.place, false);
-        if (left.kind != Condition::Kind::choice) return;
-    }
-}
-
-void Tokens::end(const Place& place) {
-    Frame& frame = frames_.back();
-    if (frame.conditions.empty()) {
-        if (frame.kind != FrameKind::macro)
-            fail(place, "must end something, and nothing has begun");
-        frames_.pop_back();
-        return;
-    }
-    const Condition ended = frame.conditions.back();
-    frame.conditions.pop_back();
-    if (ended.kind == Condition::Kind::choice) return;
-    count_turn(place);
-    const Scanner behind = frame.scanner;
-    frame.scanner = *ended.again;
-    if (ended.kind == Condition::Kind::while_loop) {
-        if (condition()) {
-            frames_.back().conditions.push_back(ended);
-            return;
-        }
-    } else {
-        const Value* counter = find(ended.counter);
-        const Tuple* value = counter != nullptr ? counter->get_if<Tuple>() : nullptr;
-        const double next = value != nullptr ? value->at[0] + ended.step : ended.last + ended.step;
-        declare_here(ended.counter, Value{Tuple::of(next)});
-        if (ended.step > 0.0 ? next <= ended.last : next >= ended.last) {
-            frame.conditions.push_back(ended);
-            return;
-        }
-    }
-    frames_.back().scanner = behind;
 }
 
 } // namespace raylane::scenes::pov

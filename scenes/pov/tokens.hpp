@@ -51,12 +51,16 @@ class Tokens {
     /// True, and past it, if it comes next.
     bool accept(std::string_view what);
     void expect(std::string_view what);
+    /// True if the word that `peek` has told of stands before that.
+    bool is_before(std::string_view what) const;
     /// Past what is between braces, and these.
     void skip_braces();
 
     /// Null for what is not declared.
     const Value* find(std::string_view name) const;
     void declare(std::string_view name, Value value, bool is_local);
+    /// A value to keep under another name: an array is one of its own, so that none is in itself.
+    Value copied(Value value, const Place& place);
     /// In the scope of what is read.
     void declare_here(std::string_view name, Value value);
 
@@ -65,7 +69,7 @@ class Tokens {
 
     int depth = 0;         ///< of what is read
     double version = 3.62; ///< of the language; POV-Ray 3.7 takes that for one without
-    Texture default_texture{};
+    Shared<Texture> default_texture = std::make_shared<const Texture>();
     const Source& main() const { return sources_.front(); }
 
   private:
@@ -76,6 +80,12 @@ class Tokens {
         std::string_view counter{};     ///< for
         double last = 0.0, step = 0.0;  ///< for
     };
+    /// A name of an outer scope that a parameter stands for.
+    struct Alias {
+        std::string_view parameter;
+        std::size_t frame, serial; ///< a frame of another serial is not the one that is meant
+        std::string_view name;
+    };
     enum class FrameKind : std::uint8_t { file, macro };
     struct Frame {
         Scanner scanner;
@@ -83,8 +93,18 @@ class Tokens {
         Place place{};
         std::vector<Condition> conditions{};
         std::unordered_map<std::string_view, Value> names{};
+        std::vector<Alias> aliases{};
+        std::size_t serial = 0; ///< of no other
+    };
+    /// Where a name is declared, as far as it is.
+    struct Found {
+        const Value* value = nullptr;
+        std::size_t frame = 0;
+        std::string_view name{};
     };
 
+    Found found(std::string_view name) const;
+    void read_argument(Frame& frame, std::string_view parameter);
     Token raw();
     Token raw_word(const char* what);
     bool leave_frame(const Place& end);
@@ -113,10 +133,12 @@ class Tokens {
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::map<std::string, const Source*> included_;
-    std::size_t turns_ = 0, tokens_ = 0;
+    std::size_t turns_ = 0, tokens_ = 0, frames_entered_ = 0;
 };
 
 /// What may stand behind "#declare NAME =", or as an argument of a macro.
 Value read_value(Tokens& tokens);
+/// Puts into an array what has been copied.
+void set_element(Array& array, std::size_t index, Value value, const Place& place);
 
 } // namespace raylane::scenes::pov

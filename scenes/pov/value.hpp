@@ -132,6 +132,7 @@ struct Value;
 struct Array {
     std::vector<std::size_t> sizes;
     std::vector<Value> values;
+    int depth = 1; ///< of arrays in it
 };
 struct Macro {
     std::string_view name;

@@ -3,6 +3,7 @@
 #include "scenes/pov/objects.hpp"
 #include "scenes/pov/surroundings.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace raylane::scenes::pov {
@@ -15,14 +16,15 @@ Value shared(T value) {
 }
 
 /// "array[2][3] { {1, 2, 3}, {4, 5, 6} }", which may be empty.
-void read_elements(Tokens& tokens, const std::vector<std::size_t>& sizes, std::size_t dimension,
-                   std::vector<Value>& values, std::size_t& at) {
+void read_elements(Tokens& tokens, Array& array, std::size_t dimension, std::size_t& at) {
+    const std::vector<std::size_t>& sizes = array.sizes;
+    const Place place = tokens.peek().place;
     tokens.expect("{");
     for (std::size_t i = 0; i < sizes[dimension] && !tokens.at("}"); ++i) {
         if (dimension + 1 < sizes.size())
-            read_elements(tokens, sizes, dimension + 1, values, at);
+            read_elements(tokens, array, dimension + 1, at);
         else
-            values[at++] = read_value(tokens);
+            set_element(array, at++, tokens.copied(read_value(tokens), place), place);
         tokens.accept(",");
     }
     tokens.expect("}");
@@ -38,23 +40,32 @@ Value read_array(Tokens& tokens, const Place& place) {
         fail(place, "must be an array of 1 to " + std::to_string(most_elements) + " elements");
     array->values.resize(count);
     std::size_t at = 0;
-    if (tokens.ahead().is("{")) read_elements(tokens, array->sizes, 0, array->values, at);
+    if (tokens.ahead().is("{")) read_elements(tokens, *array, 0, at);
     return {std::move(array)};
 }
 
 } // namespace
 
+void set_element(Array& array, std::size_t index, Value value, const Place& place) {
+    if (const auto* inner = value.get_if<std::shared_ptr<Array>>()) {
+        array.depth = std::max(array.depth, (*inner)->depth + 1);
+        if (array.depth > deepest)
+            fail(place, "must not be of arrays in each other more than " + std::to_string(deepest) +
+                            " deep");
+    }
+    array.values[index] = std::move(value);
+}
+
 Value read_value(Tokens& tokens) {
     const Token word = tokens.peek();
     const Level level(tokens.depth, word.place);
     if (at_tuple(tokens)) return {begins_color(word) ? read_color(tokens) : read_tuple(tokens)};
-    if (word.kind == TokenKind::string || word.is("concat") || word.is("str"))
-        return {read_string(tokens)};
+    if (begins_string(word)) return {read_string(tokens)};
     if (tokens.accept("array")) return read_array(tokens, word.place);
     if (tokens.accept("texture")) return {read_texture(tokens)};
     if (tokens.accept("pigment"))
-        return shared(read_pigment(tokens, tokens.default_texture.pigment));
-    if (tokens.accept("finish")) return shared(read_finish(tokens, tokens.default_texture.finish));
+        return shared(read_pigment(tokens, tokens.default_texture->pigment));
+    if (tokens.accept("finish")) return shared(read_finish(tokens, tokens.default_texture->finish));
     if (tokens.accept("material")) return shared(read_material(tokens));
     if (tokens.accept("interior")) return shared(read_interior(tokens));
     if (tokens.accept("transform")) return {read_transform(tokens)};
@@ -63,11 +74,11 @@ Value read_value(Tokens& tokens) {
     if (begins_object(tokens, word)) return {read_object(tokens)};
     if (word.kind == TokenKind::word)
         if (const Value* value = tokens.find(word.text)) {
-            Value copy = *value;
+            const Value copy = *value;
+            const bool is_element =
+                value->get_if<std::shared_ptr<Array>>() != nullptr && tokens.is_before("[");
             tokens.next();
-            if (copy.get_if<std::shared_ptr<Array>>() == nullptr || !tokens.ahead().is("["))
-                return copy;
-            return element_of(tokens, word, read_indices(tokens));
+            return is_element ? read_element(tokens, word) : copy;
         }
     if (word.kind == TokenKind::word && !word.is("function"))
         return {read_object(tokens)}; // which says what is not read

@@ -5,6 +5,7 @@
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
+#include "tests/scenes/temporary_directory.hpp"
 
 #include <string>
 #include <vector>
@@ -76,4 +77,74 @@ TEST_CASE("POV-Ray: clips are counted, and how deep they are in each other") {
                     "#for (I, 1, 14) #declare P = union { object { P } object { P } } #end\n"
                     "object { P clipped_by { P } }")
               .find("must not be of more than 16777216 shapes") != std::string::npos);
+}
+
+TEST_CASE("POV-Ray: str makes of a number what POV-Ray does") {
+    const auto text = [](const std::string& expression) {
+        return complaint("#error " + expression).substr(42);
+    };
+    CHECK(text("str(7, 0, 0)") == "7");
+    CHECK(text("str(7, 5, 1)") == "  7.0");
+    CHECK(text("str(-7.25, -8, 3)") == "-007.250");
+    CHECK(text("str(7.123456789, 0, -1)") == "7.123457");
+    CHECK(text("vstr(3, <1, 2, 3>, \", \", 0, 1)") == "1.0, 2.0, 3.0");
+    CHECK(text("concat(strupr(\"ab\"), substr(\"abcdef\", 2, 3), strlwr(\"XY\"))") == "ABbcdxy");
+    CHECK(number("strlen(str(7, 0, 0))") == "1");
+    CHECK(complaint("#debug str(1") == "a.pov:1:13: must be \",\", got the end of the file");
+}
+
+TEST_CASE("POV-Ray: a name is declared where it is found") {
+    CHECK(number("Outer()", "#macro Inc() #declare N = N + 1; #end\n"
+                            "#macro Outer() #local N = 0; Inc() Inc() N #end") == "2");
+    CHECK(number("N", "#macro M() #declare N = 4; #end M()") == "4");
+}
+
+TEST_CASE("POV-Ray: a macro changes what it is given by name") {
+    const std::string add = "#macro Add(A) #declare A = A + 2; #end #declare N = 1; ";
+    CHECK(number("N", add + "Add(N)") == "3");
+    CHECK(number("N", add + "Add(N + 0)") == "1");
+    CHECK(number("N", add + "#macro Twice(B) Add(B) Add(B) #end Twice(N)") == "5");
+    CHECK(number("N", add + "#macro Own(N) #local N = 9; #end Own(N)") == "9"); // so there, too
+    CHECK(number("A[0]",
+                 "#macro Set(X) #declare X[0] = 9; #end #declare A = array[1] {1} Set(A)") == "9");
+    // The scope that a name is of ends before the macro is read.
+    CHECK(number("K() 5)", "#macro M(A, B) A + B #end #macro K() #local L = 1; M(L, #end") == "6");
+}
+
+TEST_CASE("POV-Ray: an array is a value") {
+    const std::string array = "#declare A = array[2] {1, 2} ";
+    CHECK(number("A[0]", array + "#declare B = A; #declare B[0] = 7;") == "1");
+    CHECK(number("M(A)", array + "#macro M(X) X[1] #end") == "2");
+    CHECK(number("A[1]", array + "#declare A[0] = A;") == "2");
+    CHECK(read("#declare A = array[2] {sphere { 0, 1 }, sphere { x, 1 }} #declare B = A;\n"
+               "object { B[1] }")
+              .scene.shape_count() == 1);
+    CHECK(complaint("#declare A = array[1]; #while (1) #declare A[0] = A; #end")
+              .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
+    CHECK(complaint("#declare A = array[1]; #while (1) #declare A = array[1] {A} #end")
+              .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
+}
+
+TEST_CASE("POV-Ray: an object has the default texture of where it stands") {
+    const Read of = read("#default { pigment { rgb <1, 0, 0> } } sphere { -2*x, 1 }\n"
+                         "#default { pigment { rgb <0, 0, 1> } } sphere { 2*x, 1 }\n" +
+                             camera + "#default { pigment { rgb <0, 1, 0> } } sphere { 2*y, 1 }",
+                         "");
+    CHECK(of.material_of(0).pattern.colors[0] == core::Color(1, 0, 0));
+    CHECK(of.material_of(1).pattern.colors[0] == core::Color(0, 0, 1));
+    CHECK(of.material_of(2).pattern.colors[0] == core::Color(0, 1, 0));
+}
+
+TEST_CASE("a byte-order mark begins a scene") {
+    const std::string mark = "\xEF\xBB\xBF";
+    CHECK(parse_scene("a.pov", mark + "#version 3.7; sphere { 0, 1 }").shape_count() == 1);
+    CHECK(parse_scene("a", mark + "#version 3.7; sphere { 0, 1 }").shape_count() == 1);
+    const std::string tachyon = mark + "BEGIN_SCENE\nRESOLUTION 8 8\nEND_SCENE\n";
+    CHECK(parse_scene("a", tachyon).settings().width == 8);
+    CHECK(tests::message_of<BadInput>([&] {
+              parse_scene("a.pov", mark + "spheer { }");
+          }).starts_with("a.pov:1:1: "));
+    const tests::TemporaryDirectory directory;
+    directory.write("b.inc", mark + "sphere { 0, 1 }");
+    CHECK(load_scene(directory.write("a.pov", "#include \"b.inc\"")).shape_count() == 1);
 }

@@ -1,0 +1,131 @@
+#include "scenes/pov/expressions.hpp"
+#include "scenes/pov/tokens.hpp"
+
+#include <algorithm>
+#include <array>
+
+/// Conditions and loops among the directives.
+namespace raylane::scenes::pov {
+
+bool Tokens::condition() {
+    expect("(");
+    const Tuple value = read_relation(*this);
+    expect(")");
+    return value.at[0] != 0.0;
+}
+
+bool Tokens::is_declared() {
+    Scanner& scanner = frames_.back().scanner;
+    Token token = scanner.next();
+    if (!token.is("(")) fail(token.place, "must be \"(\", got " + token.quoted());
+    const Token name = raw_word("a name");
+    do {
+        token = scanner.next();
+        if (token.kind == TokenKind::end) fail(token.place, "must be \")\", got " + token.quoted());
+    } while (!token.is(")"));
+    return find(name.text) != nullptr;
+}
+
+/// Past the #end of what has begun or, `at_branches`, its #else or #elseif.
+Token Tokens::skip_to(const Place& place, bool at_branches) {
+    static constexpr std::array<std::string_view, 7> beginnings = {
+        "if", "ifdef", "ifndef", "while", "for", "switch", "macro"};
+    Scanner& scanner = frames_.back().scanner;
+    for (std::size_t open = 0;;) {
+        Token token = scanner.next();
+        if (token.kind == TokenKind::end) fail(place, "must have an #end, and the file ends");
+        if (!token.is("#")) continue;
+        token = scanner.next();
+        if (token.is("end")) {
+            if (open == 0) return token;
+            --open;
+        } else if (std::find(beginnings.begin(), beginnings.end(), token.text) !=
+                   beginnings.end()) {
+            ++open;
+        } else if (at_branches && open == 0 && (token.is("else") || token.is("elseif"))) {
+            return token;
+        }
+    }
+}
+
+void Tokens::begin_if(bool holds, const Place& place) {
+    while (!holds) {
+        const Token branch = skip_to(place, true);
+        if (branch.is("end")) return;
+        holds = branch.is("else") || condition();
+    }
+    frames_.back().conditions.push_back({Condition::Kind::choice, place});
+}
+
+void Tokens::begin_while(const Place& place) {
+    const Scanner again = frames_.back().scanner;
+    if (!condition()) {
+        skip_to(place, false);
+        return;
+    }
+    frames_.back().conditions.push_back({Condition::Kind::while_loop, place, again});
+}
+
+void Tokens::begin_for(const Place& place) {
+    expect("(");
+    const Token counter = raw_word("a name");
+    expect(",");
+    const double first = read_number(*this);
+    expect(",");
+    const double last = read_number(*this);
+    const double step = accept(",") ? read_number(*this) : 1.0;
+    expect(")");
+    if (step == 0.0) fail(place, "must have steps other than 0");
+    if (step > 0.0 ? first > last : first < last) {
+        skip_to(place, false);
+        return;
+    }
+    declare_here(counter.text, Value{Tuple::of(first)});
+    frames_.back().conditions.push_back(
+        {Condition::Kind::for_loop, place, frames_.back().scanner, counter.text, last, step});
+}
+
+void Tokens::leave_loop(const Place& place) {
+    auto& conditions = frames_.back().conditions;
+    for (;;) {
+        if (conditions.empty()) fail(place, "must be in a loop");
+        const Condition left = conditions.back();
+        conditions.pop_back();
+        skip_to(left.place, false);
+        if (left.kind != Condition::Kind::choice) return;
+    }
+}
+
+void Tokens::end(const Place& place) {
+    Frame& frame = frames_.back();
+    if (frame.conditions.empty()) {
+        if (frame.kind != FrameKind::macro)
+            fail(place, "must end something, and nothing has begun");
+        frames_.pop_back();
+        return;
+    }
+    const Condition ended = frame.conditions.back();
+    frame.conditions.pop_back();
+    if (ended.kind == Condition::Kind::choice) return;
+    count_turn(place);
+    const Scanner behind = frame.scanner;
+    frame.scanner = *ended.again;
+    if (ended.kind == Condition::Kind::while_loop) {
+        if (condition()) {
+            frames_.back().conditions.push_back(ended);
+            return;
+        }
+    } else {
+        const Value* counter = find(ended.counter);
+        const Tuple* value = counter != nullptr ? counter->get_if<Tuple>() : nullptr;
+        const double next = value != nullptr ? value->at[0] + ended.step : ended.last + ended.step;
+        declare_here(ended.counter, Value{Tuple::of(next)});
+        if (ended.step > 0.0 ? next <= ended.last : next >= ended.last) {
+            frame.conditions.push_back(ended);
+            return;
+        }
+    }
+    frames_.back().scanner = behind;
+}
+
+} // namespace raylane::scenes::pov
