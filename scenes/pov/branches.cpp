@@ -26,8 +26,8 @@ bool Tokens::is_declared() {
     return find(name.text) != nullptr;
 }
 
-/// Past the #end of what has begun or, `at_branches`, its #else or #elseif.
-Token Tokens::skip_to(const Place& place, bool at_branches) {
+/// Past the #end of what has begun, or the first word of another branch of it.
+Token Tokens::skip_to(const Place& place, Until until) {
     static constexpr std::array<std::string_view, 7> beginnings = {
         "if", "ifdef", "ifndef", "while", "for", "switch", "macro"};
     Scanner& scanner = frames_.back().scanner;
@@ -42,7 +42,10 @@ Token Tokens::skip_to(const Place& place, bool at_branches) {
         } else if (std::find(beginnings.begin(), beginnings.end(), token.text) !=
                    beginnings.end()) {
             ++open;
-        } else if (at_branches && open == 0 && (token.is("else") || token.is("elseif"))) {
+        } else if (open == 0 && until != Until::end &&
+                   (token.is("else") ||
+                    (until == Until::branch ? token.is("elseif")
+                                            : token.is("case") || token.is("range")))) {
             return token;
         }
     }
@@ -50,17 +53,39 @@ Token Tokens::skip_to(const Place& place, bool at_branches) {
 
 void Tokens::begin_if(bool holds, const Place& place) {
     while (!holds) {
-        const Token branch = skip_to(place, true);
+        const Token branch = skip_to(place, Until::branch);
         if (branch.is("end")) return;
         holds = branch.is("else") || condition();
     }
     frames_.back().conditions.push_back({Condition::Kind::choice, place});
 }
 
+std::array<double, 2> Tokens::read_in_parentheses() {
+    expect("(");
+    const double first = read_number(*this);
+    const double second = accept(",") ? read_number(*this) : first;
+    expect(")");
+    return {first, second};
+}
+
+/// From the first #case that is equal, #range that it is in, or #else on.
+void Tokens::begin_switch(const Place& place) {
+    const double value = read_in_parentheses()[0];
+    for (bool holds = false; !holds;) {
+        const Token branch = skip_to(place, Until::switch_case);
+        if (branch.is("end")) return;
+        holds = branch.is("else");
+        if (holds) break;
+        const auto [least, most] = read_in_parentheses();
+        holds = least <= value && value <= most;
+    }
+    frames_.back().conditions.push_back({Condition::Kind::switch_case, place});
+}
+
 void Tokens::begin_while(const Place& place) {
     const Scanner again = frames_.back().scanner;
     if (!condition()) {
-        skip_to(place, false);
+        skip_to(place, Until::end);
         return;
     }
     frames_.back().conditions.push_back({Condition::Kind::while_loop, place, again});
@@ -77,7 +102,7 @@ void Tokens::begin_for(const Place& place) {
     expect(")");
     if (step == 0.0) fail(place, "must have steps other than 0");
     if (step > 0.0 ? first > last : first < last) {
-        skip_to(place, false);
+        skip_to(place, Until::end);
         return;
     }
     declare_here(counter.text, Value{Tuple::of(first)});
@@ -85,13 +110,14 @@ void Tokens::begin_for(const Place& place) {
         {Condition::Kind::for_loop, place, frames_.back().scanner, counter.text, last, step});
 }
 
+/// Or a #switch.
 void Tokens::leave_loop(const Place& place) {
     auto& conditions = frames_.back().conditions;
     for (;;) {
-        if (conditions.empty()) fail(place, "must be in a loop");
+        if (conditions.empty()) fail(place, "must be in a loop or a #switch");
         const Condition left = conditions.back();
         conditions.pop_back();
-        skip_to(left.place, false);
+        skip_to(left.place, Until::end);
         if (left.kind != Condition::Kind::choice) return;
     }
 }
@@ -106,7 +132,7 @@ void Tokens::end(const Place& place) {
     }
     const Condition ended = frame.conditions.back();
     frame.conditions.pop_back();
-    if (ended.kind == Condition::Kind::choice) return;
+    if (!ended.again) return;
     count_turn(place);
     const Scanner behind = frame.scanner;
     frame.scanner = *ended.again;

@@ -99,7 +99,8 @@ Tuple read_primary(Tokens& tokens) {
         if (const std::optional<Tuple> made = read_function(tokens, token)) return *made;
     }
     if (token.kind == TokenKind::word)
-        fail(token.place, "must be a number, and " + token.quoted() + " is not known");
+        fail(token.place,
+             "must be a number, and " + token.quoted() + " is not known" + tokens.perhaps_of());
     fail(token.place, "must be a number, got " + token.quoted());
 }
 

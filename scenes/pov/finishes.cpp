@@ -3,6 +3,7 @@
 #include "scenes/pov/expressions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace raylane::scenes::pov {
@@ -169,6 +170,19 @@ void read_reflection(Tokens& tokens, Finish& finish, const Place& place) {
         tokens.remark(place, "has limits of Fresnel's reflection, which are not drawn");
 }
 
+/// Which shares are of all the light that comes back, in all directions.
+struct Albedo {
+    bool diffuse = false, phong = false, specular = false;
+};
+
+/// The shares in the direction where they are largest, as POV-Ray makes them of these.
+void set_by_albedo(Finish& finish, const Albedo& is) {
+    const double n = 1.0 / finish.roughness;
+    if (is.diffuse) finish.diffuse *= 0.5 * (finish.brilliance + 1.0);
+    if (is.phong) finish.phong *= 0.5 * (finish.phong_size + 1.0);
+    if (is.specular) finish.specular *= (n + 2.0) / (4.0 * (2.0 - std::pow(2.0, -0.5 * n)));
+}
+
 } // namespace
 
 Pigment read_pigment(Tokens& tokens, Pigment pigment) {
@@ -203,13 +217,14 @@ Pigment read_pigment(Tokens& tokens, Pigment pigment) {
                 std::copy(before.at.begin(), before.at.begin() + 3, pigment.color.at.begin());
             pigment.kind = PigmentKind::color;
         } else {
-            fail(word.place, "must be of a pigment, got " + word.quoted());
+            fail(word.place, "must be of a pigment, got " + word.quoted() + tokens.perhaps_of());
         }
     }
     return pigment;
 }
 
 Finish read_finish(Tokens& tokens, Finish finish) {
+    Albedo of_albedo;
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (const auto known = named<Finish>(tokens)) {
@@ -217,8 +232,9 @@ Finish read_finish(Tokens& tokens, Finish finish) {
             continue;
         }
         const Token word = tokens.next();
-        const auto number = [&] {
-            tokens.accept("albedo");
+        const auto number = [&] { return read_number(tokens); };
+        const auto share = [&](bool& is_albedo) {
+            is_albedo = tokens.accept("albedo");
             return read_number(tokens);
         };
         if (word.is("ambient")) {
@@ -226,18 +242,18 @@ Finish read_finish(Tokens& tokens, Finish finish) {
         } else if (word.is("emission")) {
             finish.emission = read_share(tokens, "emission");
         } else if (word.is("diffuse")) {
-            finish.diffuse = number();
+            finish.diffuse = share(of_albedo.diffuse);
             if (tokens.accept(",")) read_number(tokens);
         } else if (word.is("brilliance")) {
             finish.brilliance = std::max(number(), 0.0);
             if (finish.brilliance != 1.0)
                 tokens.remark(word.place, "has brilliance, drawn as less diffuse light");
         } else if (word.is("phong")) {
-            finish.phong = number();
+            finish.phong = share(of_albedo.phong);
         } else if (word.is("phong_size")) {
             finish.phong_size = number();
         } else if (word.is("specular")) {
-            finish.specular = number();
+            finish.specular = share(of_albedo.specular);
         } else if (word.is("roughness")) {
             finish.roughness = number();
             if (!(finish.roughness > 0.0)) fail(word.place, "must be positive");
@@ -258,6 +274,7 @@ Finish read_finish(Tokens& tokens, Finish finish) {
             fail(word.place, "must be of a finish, got " + word.quoted());
         }
     }
+    set_by_albedo(finish, of_albedo);
     return finish;
 }
 
@@ -275,7 +292,9 @@ Shared<Texture> read_texture(Tokens& tokens) {
             texture->finish = read_finish(tokens, texture->finish);
         } else {
             const Token word = tokens.next();
-            if (!word.is("normal")) fail(word.place, "must be of a texture, got " + word.quoted());
+            if (!word.is("normal"))
+                fail(word.place,
+                     "must be of a texture, got " + word.quoted() + tokens.perhaps_of());
             tokens.skip_braces();
             tokens.remark(word.place, "bends normals, which are drawn as they are");
         }

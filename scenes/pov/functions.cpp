@@ -67,10 +67,14 @@ struct FunctionOfOne {
 const FunctionOfOne functions_of_one[] = {
     {"abs", [](double a) { return std::abs(a); }},
     {"acos", [](double a) { return std::acos(a); }},
+    {"acosh", [](double a) { return std::acosh(a); }},
     {"asin", [](double a) { return std::asin(a); }},
+    {"asinh", [](double a) { return std::asinh(a); }},
     {"atan", [](double a) { return std::atan(a); }},
+    {"atanh", [](double a) { return std::atanh(a); }},
     {"ceil", [](double a) { return std::ceil(a); }},
     {"cos", cosine},
+    {"cosh", [](double a) { return std::cosh(a); }},
     {"degrees", [](double a) { return a / degree; }},
     {"exp", [](double a) { return std::exp(a); }},
     {"floor", [](double a) { return std::floor(a); }},
@@ -79,9 +83,11 @@ const FunctionOfOne functions_of_one[] = {
     {"log", [](double a) { return std::log10(a); }},
     {"radians", [](double a) { return a * degree; }},
     {"sin", sine},
+    {"sinh", [](double a) { return std::sinh(a); }},
     {"sqr", [](double a) { return a * a; }},
     {"sqrt", [](double a) { return std::sqrt(a); }},
     {"tan", tangent},
+    {"tanh", [](double a) { return std::tanh(a); }},
 };
 
 struct FunctionOfTwo {
@@ -99,7 +105,8 @@ const FunctionOfTwo functions_of_two[] = {
 
 constexpr std::string_view of_vectors[] = {"vlength", "vnormalize",   "vdot",    "vcross",
                                            "vrotate", "vaxis_rotate", "defined", "dimension_size",
-                                           "version", "strlen"};
+                                           "version", "strlen",       "strcmp",  "asc",
+                                           "select",  "seed",         "rand"};
 
 template <class Table>
 auto* entry(Table& table, std::string_view name) {
@@ -137,13 +144,53 @@ Tuple of_names(Tokens& tokens, const Token& name) {
     return Tuple::of(result);
 }
 
+/// "select(A, BELOW, AT, ABOVE)", by A and 0; without the last, that at 0 is above, too.
+Tuple read_select(Tokens& tokens) {
+    const double by = read_number(tokens);
+    Tuple values[3];
+    for (Tuple& value : values) {
+        if (&value == &values[2] && !tokens.at(",")) {
+            value = values[1];
+            break;
+        }
+        tokens.expect(",");
+        value = read_relation(tokens);
+    }
+    return values[by < 0.0 ? 0 : by == 0.0 ? 1 : 2];
+}
+
+/// What is made of strings, or of a stream of random numbers that seed() has begun.
+Tuple of_strings_or_streams(Tokens& tokens, const Token& name) {
+    if (name.is("seed")) {
+        const double seed = std::fmod(std::trunc(read_number(tokens)), 4294967296.0);
+        return Tuple::of(
+            tokens.begin_random(static_cast<std::uint32_t>(static_cast<std::int64_t>(seed))));
+    }
+    if (name.is("rand")) {
+        const Place place = tokens.peek().place;
+        return Tuple::of(tokens.next_random(read_number(tokens), place));
+    }
+    const Place place = tokens.peek().place;
+    const std::string text = read_string(tokens);
+    if (name.is("strlen")) return Tuple::of(static_cast<double>(text.size()));
+    if (name.is("asc")) {
+        if (text.empty()) fail(place, "must be a string that is not empty");
+        return Tuple::of(static_cast<double>(static_cast<unsigned char>(text[0])));
+    }
+    tokens.expect(",");
+    const int order = text.compare(read_string(tokens));
+    return Tuple::of(order < 0 ? -1.0 : order > 0 ? 1.0 : 0.0);
+}
+
 Tuple of_vectors_named(Tokens& tokens, const Token& name) {
     if (name.is("version")) return Tuple::of(tokens.version);
     if (name.is("defined") || name.is("dimension_size")) return of_names(tokens, name);
     tokens.expect("(");
     Tuple result;
-    if (name.is("strlen")) {
-        result = Tuple::of(static_cast<double>(read_string(tokens).size()));
+    if (name.is("select")) {
+        result = read_select(tokens);
+    } else if (!name.text.starts_with('v')) {
+        result = of_strings_or_streams(tokens, name);
     } else {
         const Vec3d a = read_vector(tokens);
         const bool of_one = name.is("vlength") || name.is("vnormalize");
@@ -172,6 +219,21 @@ Tuple of_vectors_named(Tokens& tokens, const Token& name) {
 }
 
 } // namespace
+
+double Tokens::begin_random(std::uint32_t seed) {
+    if (random_.size() < most_elements) random_.push_back(seed);
+    random_.back() = seed;
+    return static_cast<double>(random_.size() - 1);
+}
+
+/// The generator of POV-Ray, so that a scene is the same.
+double Tokens::next_random(double stream, const Place& place) {
+    if (!(stream >= 0.0 && stream < static_cast<double>(random_.size())))
+        fail(place, "must be what seed() has made");
+    std::uint32_t& state = random_[static_cast<std::size_t>(stream)];
+    state = state * 1812433253U + 12345U;
+    return static_cast<double>(state) / 4294967295.0;
+}
 
 bool is_function(std::string_view name) {
     return entry(constants, name) != nullptr || entry(functions_of_one, name) != nullptr ||

@@ -144,12 +144,20 @@ core::Material Materials::material_of(const Look& look, const Place& place,
                                 : set_gradient(pigment, all, pattern);
         if (is_set) {
             material.pattern = pattern;
+            // What convert writes is seen between the ends alone.
+            if (pattern.kind == core::PatternKind::gradient && !tokens_.is_by_convert())
+                tokens_.remark(place, "has a gradient, which repeats beyond its ends, and has the "
+                                      "colours of the ends there here");
         } else {
             material.pattern.colors[0] = 0.5F * (color_of(pigment.color) + color_of(pigment.other));
             tokens_.remark(place, "has a pattern that is turned or moved, drawn as one colour");
         }
     }
     const auto& color = pigment.color.at;
+    if (pigment.kind != PigmentKind::color &&
+        (color[3] != pigment.other.at[3] || color[4] != pigment.other.at[4]))
+        tokens_.remark(place, "has a pattern of colours that let different light through, of which "
+                              "all is as the first here");
     const double largest = std::clamp(std::max({color[0], color[1], color[2]}), 0.0, 1.0);
     if (color[3] != 0.0)
         tokens_.remark(place,

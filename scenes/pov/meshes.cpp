@@ -37,7 +37,7 @@ void read_mesh_triangle(Tokens& tokens, Mesh& mesh, bool is_smooth) {
     core::TriangleOf<double> flat{v[0], is_smooth ? v[2] : v[1], is_smooth ? v[4] : v[2]};
     if (has_no_area(tokens, flat, place)) return;
     if (is_smooth)
-        triangle.shape = core::SmoothTriangleOf<double>{flat.a, flat.b, flat.c, v[1], v[3], v[5]};
+        triangle.shape = smooth_or_flat({flat.a, flat.b, flat.c, v[1], v[3], v[5]});
     else
         triangle.shape = flat;
     mesh.triangles.push_back(triangle);
@@ -177,9 +177,8 @@ class Mesh2Reader {
             const auto normal = [&](std::size_t i) {
                 return at(normals_, normals->corners[i], normals->place);
             };
-            if (normal(0) != Vec3d(0.0) && normal(1) != Vec3d(0.0) && normal(2) != Vec3d(0.0))
-                triangle.shape = core::SmoothTriangleOf<double>{flat.a,    flat.b,    flat.c,
-                                                                normal(0), normal(1), normal(2)};
+            triangle.shape =
+                smooth_or_flat({flat.a, flat.b, flat.c, normal(0), normal(1), normal(2)});
         }
         mesh_.triangles.push_back(triangle);
     }

@@ -4,6 +4,7 @@
 #include "scenes/pov/finishes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace raylane::scenes::pov {
@@ -16,7 +17,7 @@ core::PartShape read_sphere(Tokens& tokens) {
     core::SphereOf<double> sphere{};
     sphere.center = read_vector(tokens);
     skip_comma(tokens);
-    sphere.radius = read_number(tokens);
+    sphere.radius = std::abs(read_number(tokens)); // as there
     return sphere;
 }
 
@@ -37,7 +38,7 @@ core::PartShape read_cylinder(Tokens& tokens) {
     skip_comma(tokens);
     const Vec3d axis = read_vector(tokens) - base;
     skip_comma(tokens);
-    const double radius = read_number(tokens);
+    const double radius = std::abs(read_number(tokens));
     if (tokens.accept("open")) return core::CylinderOf<double, Ends::open>{base, axis, radius};
     return core::CylinderOf<double, Ends::capped>{base, axis, radius};
 }
@@ -72,7 +73,7 @@ core::PartShape read_disc(Tokens& tokens) {
     skip_comma(tokens);
     disc.normal = read_vector(tokens);
     skip_comma(tokens);
-    disc.radius = read_number(tokens);
+    disc.radius = std::abs(read_number(tokens));
     if (tokens.accept(",") && read_number(tokens) != 0.0)
         tokens.remark(place, "has a hole in a disc, which is not drawn");
     return disc;
@@ -93,7 +94,7 @@ core::PartShape read_smooth_triangle(Tokens& tokens) {
         *v = read_vector(tokens);
         skip_comma(tokens);
     }
-    return t;
+    return smooth_or_flat(t);
 }
 
 core::PartShape read_quadric(Tokens& tokens) {
@@ -166,133 +167,6 @@ Shared<Object> read_named(Tokens& tokens) {
     return *object;
 }
 
-/// Counts what is so many times in an object from then on.
-void count_in(Object& object, const Object& part, std::size_t times) {
-    object.count += times * part.count;
-    object.depth = std::max(object.depth, part.depth + 1);
-    if (object.depth > deepest)
-        fail(object.place, "must not be nested more than " + std::to_string(deepest) + " deep");
-    if (object.count > most_shapes)
-        fail(object.place, "must not be of more than " + std::to_string(most_shapes) + " shapes");
-}
-
-/// Reads what comes behind an object's numbers.
-class Modifiers {
-  public:
-    Modifiers(Tokens& tokens, Object& object) : tokens_(tokens), object_(object) {}
-
-    /// As far as the brace; past it.
-    void read() {
-        while (!tokens_.accept("}")) {
-            if (const auto motion = read_motion(tokens_))
-                move(motion);
-            else
-                read_one(tokens_.next());
-        }
-    }
-
-  private:
-    void move(const Shared<Motion>& motion) {
-        object_.motion = both(object_.motion, motion);
-        if (object_.texture == nullptr || object_.texture->pigment.kind == PigmentKind::color)
-            return;
-        Texture texture = *object_.texture;
-        texture.pigment.motion = both(texture.pigment.motion, motion);
-        object_.texture = std::make_shared<const Texture>(std::move(texture));
-    }
-
-    Texture own_texture() const {
-        return object_.texture != nullptr ? *object_.texture : *tokens_.default_texture;
-    }
-    void set(Texture texture) {
-        object_.texture = std::make_shared<const Texture>(std::move(texture));
-    }
-
-    void read_one(const Token& word) {
-        if (word.is("texture")) {
-            Shared<Texture> texture = read_texture(tokens_);
-            const Tuple& color = texture->pigment.color;
-            if (object_.texture != nullptr && (color.at[3] != 0.0 || color.at[4] != 0.0))
-                tokens_.remark(word.place, "has layers of textures, of which the last is drawn");
-            object_.texture = std::move(texture);
-        } else if (word.is("pigment")) {
-            Texture texture = own_texture();
-            texture.pigment = read_pigment(tokens_, texture.pigment);
-            set(std::move(texture));
-        } else if (word.is("finish")) {
-            Texture texture = own_texture();
-            texture.finish = read_finish(tokens_, texture.finish);
-            set(std::move(texture));
-        } else if (word.is("material")) {
-            const Material material = read_material(tokens_);
-            if (material.texture != nullptr) object_.texture = material.texture;
-            if (material.interior != nullptr) object_.interior = material.interior;
-        } else if (word.is("interior")) {
-            object_.interior = std::make_shared<const Interior>(read_interior(tokens_));
-        } else if (word.is("clipped_by") || word.is("bounded_by")) {
-            read_clip(word.is("clipped_by"));
-        } else if (word.is("inverse")) {
-            object_.inverse = !object_.inverse;
-        } else {
-            read_flag(word);
-        }
-    }
-
-    void read_clip(bool clips) {
-        tokens_.expect("{");
-        while (!tokens_.accept("}")) {
-            if (tokens_.accept("bounded_by") || tokens_.accept("clipped_by")) continue;
-            Shared<Object> by = read_object(tokens_);
-            if (!clips) continue; // it should bound what it is around of, which we do ourselves
-            if (object_.count == 0) continue;            // nothing to clip
-            if (object_.motion != nullptr) put_within(); // which does not move what comes later
-            count_in(object_, *by, object_.pieces);
-            object_.clips.push_back(std::move(by));
-        }
-    }
-
-    void put_within() {
-        Object inner = std::move(object_);
-        object_ = {.kind = ObjectKind::all_in_one,
-                   .place = inner.place,
-                   .count = 0,
-                   .pieces = inner.pieces};
-        object_.texture = inner.texture;
-        object_.interior = inner.interior;
-        count_in(object_, inner, 1);
-        object_.parts.push_back(std::make_shared<const Object>(std::move(inner)));
-    }
-
-    void read_flag(const Token& word) {
-        static constexpr std::string_view without_meaning[] = {
-            "hollow",      "double_illuminate", "sturm", "hierarchy",
-            "split_union", "cutaway_textures",  "orient"};
-        const bool is_ignored = std::find(std::begin(without_meaning), std::end(without_meaning),
-                                          word.text) != std::end(without_meaning);
-        if (is_ignored || word.is("no_shadow") || word.is("no_reflection") || word.is("no_image") ||
-            word.is("no_radiosity")) {
-            const bool holds = !at_tuple(tokens_) || read_number(tokens_) != 0.0;
-            if (word.is("no_image") && holds) object_.is_hidden = true;
-            if ((word.is("no_shadow") || word.is("no_image") || word.is("no_reflection")) && holds)
-                tokens_.remark(word.place,
-                               word.is("no_shadow")
-                                   ? "has objects without shadows, which have them here"
-                               : word.is("no_image")
-                                   ? "has objects without an image, which are left out"
-                                   : "has objects without a reflection, which have one here");
-        } else if (word.is("normal") || word.is("photons") || word.is("radiosity") ||
-                   word.is("interior_texture") || word.is("uv_vectors")) {
-            if (!word.is("uv_vectors")) tokens_.skip_braces();
-            tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
-        } else {
-            fail(word.place, "must be of an object, got " + word.quoted());
-        }
-    }
-
-    Tokens& tokens_;
-    Object& object_;
-};
-
 void add_part(Tokens& tokens, Object& object) {
     Shared<Object> part = read_object(tokens);
     count_in(object, *part, 1);
@@ -300,8 +174,32 @@ void add_part(Tokens& tokens, Object& object) {
     object.parts.push_back(std::move(part));
 }
 
+/// A box without a thickness is a rectangle.
+void draw_flat_box(Object& object) {
+    const auto* box = std::get_if<core::BoxOf<double>>(&object.shape);
+    if (box == nullptr) return;
+    const Vec3d size = box->edge_u + box->edge_v + box->edge_w;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3d u(0.0), v(0.0);
+        const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+        u[first] = size[first];
+        v[second] = size[second];
+        if (size[axis] != 0.0 || size[first] == 0.0 || size[second] == 0.0) continue;
+        const Vec3d a = box->corner, c = a + u + v;
+        Mesh mesh;
+        mesh.triangles = {{core::TriangleOf<double>{a, a + u, c}},
+                          {core::TriangleOf<double>{a, c, a + v}}};
+        object.kind = ObjectKind::mesh;
+        object.count = mesh.triangles.size();
+        object.mesh = std::make_shared<const Mesh>(std::move(mesh));
+        return;
+    }
+}
+
 /// Leaves out what has no size, as PyMOL writes it.
 void leave_out_if_flat(Tokens& tokens, Object& object) {
+    draw_flat_box(object);
+    if (object.kind != ObjectKind::shape) return;
     const bool is_flat = std::visit(
         [&](const auto& shape) {
             if constexpr (requires {
@@ -312,23 +210,33 @@ void leave_out_if_flat(Tokens& tokens, Object& object) {
                 return has_no_area(tokens, {shape.a, shape.b, shape.c}, object.place);
             else if constexpr (requires { shape.axis; })
                 return shape.axis == Vec3d(0.0);
+            else if constexpr (requires { shape.edge_u; })
+                return shape.edge_u == Vec3d(0.0) || shape.edge_v == Vec3d(0.0) ||
+                       shape.edge_w == Vec3d(0.0);
+            else if constexpr (requires { shape.radius; })
+                return shape.radius == 0.0;
             else
                 return false;
         },
         object.shape);
     if (!is_flat) return;
-    tokens.remark(object.place, "has cylinders without a length, or triangles without an area, "
-                                "which are left out");
+    tokens.remark(object.place, "has objects without a size, which are left out");
     object.kind = ObjectKind::all_in_one;
     object.count = 0;
 }
 
 } // namespace
 
+core::PartShape smooth_or_flat(const core::SmoothTriangleOf<double>& t) {
+    const bool is_smooth =
+        t.normal_a != Vec3d(0.0) && t.normal_b != Vec3d(0.0) && t.normal_c != Vec3d(0.0);
+    if (is_smooth) return t;
+    return core::TriangleOf<double>{t.a, t.b, t.c};
+}
+
 bool has_no_area(Tokens& tokens, const core::TriangleOf<double>& triangle, const Place& place) {
     if (!core::checks::are_collinear(triangle.a, triangle.b, triangle.c)) return false;
-    tokens.remark(place, "has cylinders without a length, or triangles without an area, "
-                         "which are left out");
+    tokens.remark(place, "has objects without a size, which are left out");
     return true;
 }
 
@@ -351,7 +259,8 @@ Shared<Object> read_object(Tokens& tokens) {
         if (std::find(std::begin(not_read), std::end(not_read), word.text) != std::end(not_read))
             fail(word.place,
                  "must be made of quadrics, and " + word.quoted() + " is not: it is not read");
-        fail(word.place, "must be an object that is read, got " + word.quoted());
+        fail(word.place,
+             "must be an object that is read, got " + word.quoted() + tokens.perhaps_of());
     }
     tokens.expect("{");
     if (shape != nullptr) {
@@ -373,7 +282,7 @@ Shared<Object> read_object(Tokens& tokens) {
         object = *read_object(tokens);
         object.place = word.place;
     }
-    Modifiers(tokens, object).read();
+    read_modifiers(tokens, object);
     return std::make_shared<const Object>(std::move(object));
 }
 

@@ -216,6 +216,11 @@ LightSource read_light(Tokens& tokens) {
             fail(word.place, "must be of a light, got " + word.quoted());
         }
     }
+    for (int channel = 0; channel < 3; ++channel) {
+        if (light.color[channel] >= 0.0) continue;
+        light.color[channel] = 0.0;
+        tokens.remark(light.place, "has lights that take light away, which are black here");
+    }
     const double radius = 0.5 * core::length(first);
     // It fades by 2 / (1 + (d / fade_distance)^2) there, and by (radius / d)^2 here.
     if (is_ball && fade_power == 2.0 && fade_distance > 0.0 && radius >= 64.0 * fade_distance) {

@@ -14,6 +14,19 @@ Tokens::Tokens(Source source, const OnRemark& on_remark) : on_remark_(on_remark)
     frames_.push_back({Scanner(sources_.front()), FrameKind::file});
 }
 
+std::string Tokens::perhaps_of() const {
+    if (without_names_.empty()) return "";
+    return ": it may be of " + without_names_ + ", whose names are not read";
+}
+
+bool Tokens::is_by_convert() const {
+    // Its size and samples, and then the version.
+    const std::string_view text = main().text;
+    const std::string_view first = text.substr(0, text.find('\n') + 1);
+    return first.starts_with("// povray +W") && first.ends_with(" +A0.3\n") &&
+           text.substr(first.size()).starts_with("#version 3.7;\nglobal_settings { assumed_gamma ");
+}
+
 void Tokens::remark(const Place& place, const std::string& what) {
     if (!on_remark_ || !remarks_.insert(what).second) return;
     on_remark_(text_of({place.source->name, position_of(place), "", what}));
@@ -168,15 +181,23 @@ void Tokens::directive(const Place& hash) {
     if (name == "if") return begin_if(condition(), hash);
     if (name == "ifdef" || name == "ifndef")
         return begin_if(is_declared() == (name == "ifdef"), hash);
+    if (name == "switch") return begin_switch(hash);
     if (name == "while") return begin_while(hash);
     if (name == "for") return begin_for(hash);
     if (name == "break") return leave_loop(hash);
     if (name == "end") return end(hash);
+    auto& conditions = frames_.back().conditions;
+    if (!conditions.empty() && conditions.back().kind == Condition::Kind::switch_case) {
+        if (name == "else") return; // what held goes on
+        if (name == "case" || name == "range") {
+            read_in_parentheses();
+            return;
+        }
+    }
     if (name == "else" || name == "elseif") { // of what held
-        auto& conditions = frames_.back().conditions;
         if (conditions.empty() || conditions.back().kind != Condition::Kind::choice)
             fail(hash, "must be in an #if, got " + word.quoted());
-        skip_to(conditions.back().place, false);
+        skip_to(conditions.back().place, Until::end);
         conditions.pop_back();
         return;
     }
@@ -242,7 +263,7 @@ void Tokens::begin_macro() {
         macro->parameters.push_back(token.text);
     }
     macro->body = scanner;
-    skip_to(name.place, false);
+    skip_to(name.place, Until::end);
     declare(name.text, Value{Shared<Macro>(std::move(macro))}, false);
 }
 
@@ -305,6 +326,8 @@ void Tokens::open(const std::string& name, const Place& place) {
         }
     }
     if (path.empty()) text = standard_include(name);
+    if (text && text->empty())
+        without_names_ += (without_names_.empty() ? "\"" : " or \"") + name + "\"";
     const std::filesystem::path installed = "/usr/share/povray/include";
     if (std::error_code none; path.empty() && !text && name == "babel_povray3.inc" &&
                               std::filesystem::is_regular_file(installed / name, none))

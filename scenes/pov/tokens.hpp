@@ -67,14 +67,23 @@ class Tokens {
     /// Says once what is not drawn as POV-Ray does.
     void remark(const Place& place, const std::string& what);
 
+    /// The number of a stream of random numbers.
+    double begin_random(std::uint32_t seed);
+    /// From 0 to 1.
+    double next_random(double stream, const Place& place);
+
     int depth = 0;         ///< of what is read
     double version = 3.62; ///< of the language; POV-Ray 3.7 takes that for one without
     Shared<Texture> default_texture = std::make_shared<const Texture>();
+    /// For the end of a message: of which included files a name may be that is not known.
+    std::string perhaps_of() const;
+    /// True of a file that raylane has written, by its first words.
+    bool is_by_convert() const;
     const Source& main() const { return sources_.front(); }
 
   private:
     struct Condition {
-        enum class Kind : std::uint8_t { choice, while_loop, for_loop } kind;
+        enum class Kind : std::uint8_t { choice, switch_case, while_loop, for_loop } kind;
         Place place{};
         std::optional<Scanner> again{}; ///< loops
         std::string_view counter{};     ///< for
@@ -116,12 +125,16 @@ class Tokens {
     void include();
     void open(const std::string& name, const Place& place);
     void begin_if(bool holds, const Place& place);
+    void begin_switch(const Place& place);
     void begin_while(const Place& place);
     void begin_for(const Place& place);
     void leave_loop(const Place& place);
     void end(const Place& place);
-    Token skip_to(const Place& place, bool at_branches);
+    enum class Until : std::uint8_t { end, branch, switch_case };
+    Token skip_to(const Place& place, Until until);
     bool condition();
+    /// One or two numbers.
+    std::array<double, 2> read_in_parentheses();
     bool is_declared();
     void count_turn(const Place& place);
     void enter(Frame frame);
@@ -133,6 +146,8 @@ class Tokens {
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::map<std::string, const Source*> included_;
+    std::vector<std::uint32_t> random_; ///< where each stream is
+    std::string without_names_{};       ///< POV-Ray's own files, included, that are not read
     std::size_t turns_ = 0, tokens_ = 0, frames_entered_ = 0;
 };
 

@@ -1,56 +1,16 @@
 #include "core/scene/scene.hpp"
 #include "scenes/errors.hpp"
-#include "scenes/export/writers.hpp"
-#include "scenes/number.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
+#include "tests/scenes/pov/read.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <string>
-#include <vector>
 
 using namespace raylane;
 using namespace raylane::scenes;
-
-namespace {
-
-/// Seen as raylane sees it: the coordinates of what is read are those that are written.
-const std::string camera = "camera { location <0, 0, 9> look_at 0 right -x up y }\n";
-
-struct Read {
-    core::Scene scene;
-    std::string remarks;
-
-    const core::Material& material_of(core::ShapeId id = 0) const { return scene.material_of(id); }
-    bool remarks_on(const std::string& what) const {
-        return remarks.find(what) != std::string::npos;
-    }
-};
-
-Read read(const std::string& text, const std::string& before = camera) {
-    std::string remarks;
-    LoadOptions options;
-    options.on_remark = [&](const std::string& remark) { remarks += remark + "\n"; };
-    core::Scene scene = parse_scene("a.pov", before + text, options);
-    return {std::move(scene), std::move(remarks)};
-}
-
-std::string complaint(const std::string& text) {
-    return tests::message_of<BadInput>([&] { parse_scene("a.pov", text); });
-}
-
-/// What a number is after some statements.
-std::string number(const std::string& expression, const std::string& before = "") {
-    const Read of = read(before + " sphere { <" + expression + ", 0, 0>, 1 }");
-    std::string text;
-    for_each_by_id(of.scene, [&](const auto& shape, core::ShapeId) {
-        text = to_text(static_cast<float>(core::numbers_of(shape)[0]));
-    });
-    return text;
-}
-
-} // namespace
+using tests::camera, tests::complaint, tests::number, tests::read, tests::Read;
 
 TEST_CASE("POV-Ray: what is read may declare anew what it is read for") {
     const std::string long_text = "\"" + std::string(100, 'a') + "\"";

@@ -1,0 +1,178 @@
+#include "scenes/pov/expressions.hpp"
+#include "scenes/pov/finishes.hpp"
+#include "scenes/pov/objects.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace raylane::scenes::pov {
+
+namespace {
+
+/// Of the parts of an object that have a texture, as they lie in it.
+void collect_textures(const Object& object, std::vector<Texture>& textures) {
+    const auto moved = [&](Texture texture) {
+        texture.pigment.motion = both(texture.pigment.motion, object.motion);
+        return texture;
+    };
+    for (const Shared<Object>& part : object.parts) {
+        const std::size_t before = textures.size();
+        if (part->texture != nullptr)
+            textures.push_back(*part->texture);
+        else
+            collect_textures(*part, textures);
+        for (std::size_t i = before; i < textures.size(); ++i)
+            textures[i] = moved(std::move(textures[i]));
+        if (textures.size() > 1) return; // that is enough to know that they are several
+    }
+}
+
+/// Reads what comes behind an object's numbers.
+class Modifiers {
+  public:
+    Modifiers(Tokens& tokens, Object& object) : tokens_(tokens), object_(object) {}
+
+    /// As far as the brace; past it.
+    void read() {
+        while (!tokens_.accept("}")) {
+            if (const auto motion = read_motion(tokens_))
+                move(motion);
+            else
+                read_one(tokens_.next());
+        }
+        if (cuts_textures_) cut_texture();
+    }
+
+  private:
+    void move(const Shared<Motion>& motion) {
+        object_.motion = both(object_.motion, motion);
+        if (object_.texture == nullptr || object_.texture->pigment.kind == PigmentKind::color)
+            return;
+        Texture texture = *object_.texture;
+        texture.pigment.motion = both(texture.pigment.motion, motion);
+        object_.texture = std::make_shared<const Texture>(std::move(texture));
+    }
+
+    /// What parts without a texture have on their surfaces: that of what they are cut out of.
+    void cut_texture() {
+        if (object_.texture != nullptr) return;
+        std::vector<Texture> textures;
+        collect_textures(object_, textures);
+        if (textures.empty()) return;
+        if (textures.size() > 1)
+            tokens_.remark(object_.place, "has cutaway_textures of several textures, of which the "
+                                          "first is drawn where others are cut");
+        set(std::move(textures.front()));
+    }
+
+    Texture own_texture() const {
+        return object_.texture != nullptr ? *object_.texture : *tokens_.default_texture;
+    }
+    void set(Texture texture) {
+        object_.texture = std::make_shared<const Texture>(std::move(texture));
+    }
+
+    void read_one(const Token& word) {
+        if (word.is("texture")) {
+            Shared<Texture> texture = read_texture(tokens_);
+            const Tuple& color = texture->pigment.color;
+            if (object_.texture != nullptr && (color.at[3] != 0.0 || color.at[4] != 0.0))
+                tokens_.remark(word.place, "has layers of textures, of which the last is drawn");
+            object_.texture = std::move(texture);
+        } else if (word.is("pigment")) {
+            Texture texture = own_texture();
+            texture.pigment = read_pigment(tokens_, texture.pigment);
+            set(std::move(texture));
+        } else if (word.is("finish")) {
+            Texture texture = own_texture();
+            texture.finish = read_finish(tokens_, texture.finish);
+            set(std::move(texture));
+        } else if (word.is("material")) {
+            const Material material = read_material(tokens_);
+            if (material.texture != nullptr) object_.texture = material.texture;
+            if (material.interior != nullptr) object_.interior = material.interior;
+        } else if (word.is("interior")) {
+            object_.interior = std::make_shared<const Interior>(read_interior(tokens_));
+        } else if (word.is("clipped_by") || word.is("bounded_by")) {
+            read_clip(word.is("clipped_by"));
+        } else if (word.is("inverse")) {
+            object_.inverse = !object_.inverse;
+        } else {
+            read_flag(word);
+        }
+    }
+
+    void read_clip(bool clips) {
+        tokens_.expect("{");
+        while (!tokens_.accept("}")) {
+            if (tokens_.accept("bounded_by") || tokens_.accept("clipped_by")) continue;
+            Shared<Object> by = read_object(tokens_);
+            if (!clips) continue; // it should bound what it is around of, which we do ourselves
+            if (object_.count == 0) continue;            // nothing to clip
+            if (object_.motion != nullptr) put_within(); // which does not move what comes later
+            count_in(object_, *by, object_.pieces);
+            object_.clips.push_back(std::move(by));
+        }
+    }
+
+    void put_within() {
+        Object inner = std::move(object_);
+        object_ = {.kind = ObjectKind::all_in_one,
+                   .place = inner.place,
+                   .count = 0,
+                   .pieces = inner.pieces};
+        object_.texture = inner.texture;
+        object_.interior = inner.interior;
+        count_in(object_, inner, 1);
+        object_.parts.push_back(std::make_shared<const Object>(std::move(inner)));
+    }
+
+    void read_flag(const Token& word) {
+        static constexpr std::string_view without_meaning[] = {
+            "hollow",      "double_illuminate", "sturm", "hierarchy",
+            "split_union", "cutaway_textures",  "orient"};
+        const bool is_ignored = std::find(std::begin(without_meaning), std::end(without_meaning),
+                                          word.text) != std::end(without_meaning);
+        if (is_ignored || word.is("no_shadow") || word.is("no_reflection") || word.is("no_image") ||
+            word.is("no_radiosity")) {
+            const bool holds = !at_tuple(tokens_) || read_number(tokens_) != 0.0;
+            if (word.is("no_image") && holds) object_.is_hidden = true;
+            if (word.is("cutaway_textures")) cuts_textures_ = holds;
+            if ((word.is("no_shadow") || word.is("no_image") || word.is("no_reflection")) && holds)
+                tokens_.remark(word.place,
+                               word.is("no_shadow")
+                                   ? "has objects without shadows, which have them here"
+                               : word.is("no_image")
+                                   ? "has objects without an image, which are left out"
+                                   : "has objects without a reflection, which have one here");
+        } else if (word.is("normal") || word.is("photons") || word.is("radiosity") ||
+                   word.is("interior_texture") || word.is("uv_vectors")) {
+            if (!word.is("uv_vectors")) tokens_.skip_braces();
+            tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
+        } else {
+            fail(word.place, "must be of an object, got " + word.quoted());
+        }
+    }
+
+    Tokens& tokens_;
+    Object& object_;
+    bool cuts_textures_ = false;
+};
+
+} // namespace
+
+/// Counts what is so many times in an object from then on.
+void count_in(Object& object, const Object& part, std::size_t times) {
+    object.count += times * part.count;
+    object.depth = std::max(object.depth, part.depth + 1);
+    if (object.depth > deepest)
+        fail(object.place, "must not be nested more than " + std::to_string(deepest) + " deep");
+    if (object.count > most_shapes)
+        fail(object.place, "must not be of more than " + std::to_string(most_shapes) + " shapes");
+}
+
+void read_modifiers(Tokens& tokens, Object& object) {
+    Modifiers(tokens, object).read();
+}
+
+} // namespace raylane::scenes::pov

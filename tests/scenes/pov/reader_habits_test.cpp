@@ -1,0 +1,123 @@
+#include "core/scene/scene.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/export/writers.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/pov/read.hpp"
+
+using namespace raylane;
+using namespace raylane::scenes;
+using tests::complaint, tests::number, tests::Read, tests::read;
+
+namespace {
+
+std::size_t shapes(const std::string& text) {
+    return read(text).scene.shape_count();
+}
+
+} // namespace
+
+TEST_CASE("POV-Ray: a gradient repeats there") {
+    const std::string gradient =
+        "sphere { 0, 3 pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }";
+    CHECK(read(gradient).remarks_on("has a gradient, which repeats beyond its ends"));
+    const std::string by_convert = "// povray +W640 +H480 +A0.3\n#version 3.7;\n"
+                                   "global_settings { assumed_gamma 1 }\n";
+    CHECK(read(gradient, by_convert + tests::camera).remarks.empty());
+    const std::string stripes = "sphere { 0, 3 pigment { gradient y color_map { [0 rgb 0] "
+                                "[0.5 rgb 0] [0.5 rgb 1] [1 rgb 1] } } }";
+    CHECK(read(stripes).remarks.empty());
+}
+
+TEST_CASE("POV-Ray: patterns let light through as one") {
+    const std::string what = "has a pattern of colours that let different light through";
+    CHECK(read("plane { y, 0 pigment { checker rgb 1, rgbt 1 } }").remarks_on(what));
+    CHECK(read("plane { y, 0 pigment { gradient y color_map { [0 rgb 0] [1 rgbf 1] } } }")
+              .remarks_on(what));
+    CHECK_FALSE(read("plane { y, 0 pigment { checker rgbt 1, rgbt 1 } }").remarks_on(what));
+}
+
+TEST_CASE("POV-Ray: cutaway_textures are of what is cut") {
+    const std::string cut = "difference { sphere { 0, 2 pigment { rgb x } } box { -3, <3, 3, 0> } ";
+    const auto color_of_cut = [](const Read& of) { return of.material_of(1).pattern.colors[0]; };
+    CHECK(color_of_cut(read(cut + "}")) == core::Color(0, 0, 0));
+    const Read one = read(cut + "cutaway_textures }");
+    CHECK(color_of_cut(one) == core::Color(1, 0, 0));
+    CHECK(one.remarks.empty());
+    CHECK(color_of_cut(read(cut + "cutaway_textures off }")) == core::Color(0, 0, 0));
+    CHECK(read("difference { union { sphere { 0, 2 pigment { rgb x } } sphere { y, 2 pigment { rgb "
+               "y } } } box { -3, <3, 3, 0> } cutaway_textures }")
+              .remarks_on("has cutaway_textures of several textures"));
+}
+
+TEST_CASE("POV-Ray: albedo is of all the light that comes back") {
+    // As POV-Ray draws them: 0.01 is 0.1275 where it is brightest.
+    const auto finish = [](const std::string& text) {
+        return read("sphere { 0, 1 finish { " + text + " } }").material_of();
+    };
+    CHECK(finish("specular albedo 0.01 roughness 0.01").specular == Approx(0.1275F));
+    CHECK(finish("roughness 0.01 specular 0.01").specular == 0.01F);
+    CHECK(finish("phong albedo 0.01 phong_size 40").specular == Approx(0.205F));
+    CHECK(finish("diffuse albedo 0.25 brilliance 1").diffuse == 0.25F);
+    CHECK(finish("diffuse albedo 0.25 brilliance 3").diffuse ==
+          Approx(2.0F * finish("diffuse 0.25 brilliance 3").diffuse));
+}
+
+TEST_CASE("POV-Ray: shapes without a size, and those that are inside out") {
+    CHECK(number("0", "sphere { 0, -1 } cylinder { 0, y, -1 } disc { 0, y, -1 }") == "0");
+    CHECK(shapes("sphere { 0, 0 }") == 0);
+    CHECK(read("sphere { 0, 0 }").remarks_on("has objects without a size, which are left out"));
+    CHECK(shapes("box { 0, <1, 1, 0> }") == 2);
+    CHECK(shapes("box { 0, <1, 0, 0> }") == 0);
+    const std::string smooth = "smooth_triangle { 0, z, x, 0, y, z }";
+    for (const std::string& text : {smooth, "mesh { " + smooth + " }"})
+        scenes::for_each_by_id(read(text).scene, [](const auto& shape, core::ShapeId) {
+            CHECK(core::kind_of<std::decay_t<decltype(shape)>> == core::Kind::triangle);
+        });
+}
+
+TEST_CASE("POV-Ray: lights that take light away are black") {
+    const Read dark = read("light_source { 9*y, rgb <-1, 0.5, 0> } sphere { 0, 1 }");
+    REQUIRE(dark.scene.lights().size() == 1);
+    CHECK(dark.scene.lights()[0].color == core::Color(0, 0.5F, 0));
+    CHECK(dark.remarks_on("has lights that take light away, which are black here"));
+}
+
+TEST_CASE("POV-Ray: a #switch goes on from the first case that holds") {
+    const auto chosen = [](const std::string& value) {
+        return number("N", "#declare N = 0; #switch (" + value +
+                               ") #case (1) #declare N = N + 1; #case (2) #declare N = N + 10;\n"
+                               "#switch (1) #case (1) #break #else #declare N = 77; #end\n"
+                               "#if (1) #break #end\n"
+                               "#range (3, 5) #declare N = N + 100; #break\n"
+                               "#else #declare N = N + 1000; #end");
+    };
+    CHECK(chosen("1") == "11");
+    CHECK(chosen("2") == "10");
+    CHECK(chosen("4") == "100");
+    CHECK(chosen("6") == "1000");
+    CHECK(number("N", "#declare N = 3; #switch (2) #case (1) #declare N = 4; #end") == "3");
+    CHECK(complaint("#switch (1) #case (1)").find("must have an #end") != std::string::npos);
+}
+
+TEST_CASE("POV-Ray: functions are those of POV-Ray") {
+    CHECK(number("select(-1, 1, 2, 3) * 100 + select(0, 1, 2, 3) * 10 + select(1, 1, 2, 3)") ==
+          "123");
+    CHECK(number("select(-1, 1, 2) * 10 + select(0, 1, 2)") == "12");
+    CHECK(number("sinh(0) + cosh(0) + tanh(0) + asinh(0) + acosh(1) + atanh(0)") == "1");
+    CHECK(number("asc(\"A\") + strcmp(\"a\", \"b\")") == "64");
+    CHECK(number("rand(S)", "#declare S = seed(7);") == "0.9539329");
+    CHECK(number("rand(S)", "#declare S = seed(7); #declare A = rand(S);") == "0.6104663");
+    CHECK(complaint("#declare A = rand(0);") == "a.pov:1:19: must be what seed() has made");
+}
+
+TEST_CASE("POV-Ray: a name that is not known may be of an include without use") {
+    const std::string perhaps = ": it may be of \"math.inc\", whose names are not read";
+    CHECK(complaint("#include \"math.inc\"\nsphere { 0, VMin(x) }") ==
+          "a.pov:2:13: must be a number, and \"VMin\" is not known" + perhaps);
+    CHECK(complaint("#include \"math.inc\"\nobject { Round }").find(perhaps) != std::string::npos);
+    CHECK(complaint("#include \"math.inc\"\nsphere { 0, 1 texture { Gold } }").find(perhaps) !=
+          std::string::npos);
+    CHECK(complaint("sphere { 0, VMin(x) }").find("math.inc") == std::string::npos);
+}
