@@ -208,6 +208,11 @@ void leave_out_if_flat(Tokens& tokens, Object& object) {
                               shape.c;
                           })
                 return has_no_area(tokens, {shape.a, shape.b, shape.c}, object.place);
+            else if constexpr (requires {
+                                   shape.axis;
+                                   shape.radius;
+                               })
+                return shape.axis == Vec3d(0.0) || shape.radius == 0.0;
             else if constexpr (requires { shape.axis; })
                 return shape.axis == Vec3d(0.0);
             else if constexpr (requires { shape.edge_u; })

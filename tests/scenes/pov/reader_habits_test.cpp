@@ -66,7 +66,7 @@ TEST_CASE("POV-Ray: albedo is of all the light that comes back") {
 
 TEST_CASE("POV-Ray: shapes without a size, and those that are inside out") {
     CHECK(number("0", "sphere { 0, -1 } cylinder { 0, y, -1 } disc { 0, y, -1 }") == "0");
-    CHECK(shapes("sphere { 0, 0 }") == 0);
+    CHECK(shapes("sphere { 0, 0 } cylinder { 0, y, 0 } cylinder { 0, 0, 1 }") == 0);
     CHECK(read("sphere { 0, 0 }").remarks_on("has objects without a size, which are left out"));
     CHECK(shapes("box { 0, <1, 1, 0> }") == 2);
     CHECK(shapes("box { 0, <1, 0, 0> }") == 0);
