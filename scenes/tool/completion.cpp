@@ -25,6 +25,7 @@ std::vector<std::string> names_of(const CLI::Option& option) {
 
 std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) {
     std::vector<std::string> names;
+    names.reserve(commands.size());
     for (const CLI::App* command : commands)
         names.push_back(command->get_name());
     return names;
@@ -46,7 +47,7 @@ std::string in_quotes(std::string_view text) {
 std::string brief(const CLI::Option& option) {
     const std::string& text = option.get_description();
     const std::size_t end = std::min(text.find_first_of(":;("), text.size());
-    return text.substr(0, text.find_last_not_of(" ", end - 1) + 1);
+    return text.substr(0, text.find_last_not_of(' ', end - 1) + 1);
 }
 
 /// "render:-o|render:--output".

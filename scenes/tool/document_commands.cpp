@@ -14,6 +14,7 @@ namespace {
 const CLI::App& command_named(const CLI::App& app, const std::string& name) {
     std::vector<std::pair<std::string_view, const CLI::App*>> choices;
     const std::vector<const CLI::App*> commands = commands_of(app);
+    choices.reserve(commands.size());
     for (const CLI::App* command : commands) // whose names outlive this
         choices.emplace_back(command->get_name(), command);
     return *choice_argument<const CLI::App*>("COMMAND", name, choices);
