@@ -4,6 +4,7 @@
 #include <SDL.h>
 #include <algorithm>
 #include <cstdlib>
+#include <string>
 
 namespace {
 
@@ -132,7 +133,10 @@ raylane_open_window(const char* title, int width, int height, const char** why) 
         window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width,
                                   height, SDL_WINDOW_RESIZABLE);
     if (window == nullptr) {
-        *why = SDL_GetError();
+        static std::string reason;
+        reason = SDL_GetError();
+        SDL_Quit();
+        *why = reason.c_str();
         return nullptr;
     }
     return new SdlWindow(window);
