@@ -1,6 +1,7 @@
 #include "scenes/tool/arguments.hpp"
 
 #include "core/scene/surroundings.hpp"
+#include "simd/threads.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -55,6 +56,11 @@ int whole_argument(const std::string& option, const std::string& text, int least
                "a whole number from " + std::to_string(least) + " to " + std::to_string(most),
                text);
     return *value;
+}
+
+int threads_argument(const std::optional<std::string>& text) {
+    return text ? whole_argument("--threads", *text, 1, simd::max_threads)
+                : simd::default_threads();
 }
 
 float number_argument(const std::string& option, const std::string& text, float least, float most) {

@@ -3,6 +3,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,10 @@ void require_other_file(const std::string& option, const std::string& file,
 std::vector<std::string_view> parts_of(std::string_view text, char separator);
 
 int whole_argument(const std::string& option, const std::string& text, int least, int most);
+
+/// The number of threads that --threads says, if it does; else default_threads(), which the
+/// environment may say.
+int threads_argument(const std::optional<std::string>& text);
 
 float number_argument(const std::string& option, const std::string& text, float least, float most);
 

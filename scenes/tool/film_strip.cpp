@@ -90,12 +90,6 @@ class Stage {
         return std::move(scene).seen(staging, view);
     }
 
-    static core::View view_of(const core::Scene& scene) {
-        const auto first =
-            scene.lights().begin() + static_cast<std::ptrdiff_t>(scene.own_light_count());
-        return {scene.camera(), scene.fog(), {first, scene.lights().end()}};
-    }
-
     /// All of them once, for what is to be seen in the end.
     void fit_to_all() {
         std::atomic<std::size_t> count = 0;

@@ -12,14 +12,12 @@
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/scene_arguments.hpp"
 #include "simd/render.hpp"
-#include "simd/tiles.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <thread>
 
 namespace raylane::scenes {
 
@@ -148,9 +146,7 @@ simd::RenderOptions options_of(const RenderArguments& arguments) {
         {{"vector", simd::Engine::vector}, {"reference", simd::Engine::reference}});
     if (arguments.isa) options.isa = isa_argument(*arguments.isa, options.engine);
     if (arguments.tile) options.tile = whole_argument("--tile", *arguments.tile, 8, 64);
-    options.threads = arguments.threads
-                          ? whole_argument("--threads", *arguments.threads, 1, simd::max_threads)
-                          : simd::default_threads();
+    options.threads = threads_argument(arguments.threads);
     return options;
 }
 
@@ -233,6 +229,17 @@ int render(const RenderArguments& arguments) {
         return settings;
     };
     const Files files(arguments);
+    const auto prepare = [&](const core::Scene& scene, const core::Settings& settings) {
+        picture.apply_to(options, settings);
+        options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
+    };
+    const auto write = [&](OutputFile& output, const simd::Rendering& rendering,
+                           const core::Settings& settings) {
+        output.commit(rendering.film,
+                      picture.options(files.scene, settings,
+                                      text_of(arguments.scene_arguments, options.precision)),
+                      picture.layers ? &rendering.layers : nullptr);
+    };
     if (std::optional<FilmStrip> strip =
             film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
                           arguments.output, options.threads)) {
@@ -247,15 +254,9 @@ int render(const RenderArguments& arguments) {
                           simd::Progress& progress) {
             OutputFile output(name, exr_of);
             const core::Settings settings = settings_of(scene.settings());
-            picture.apply_to(options, settings);
-            options.precision =
-                precision ? *precision : core::choose_method(scene, settings).precision;
+            prepare(scene, settings);
             options.progress = &progress;
-            const simd::Rendering rendering = simd::render(scene, settings, options);
-            output.commit(rendering.film,
-                          picture.options(files.scene, settings,
-                                          text_of(arguments.scene_arguments, options.precision)),
-                          picture.layers ? &rendering.layers : nullptr);
+            write(output, simd::render(scene, settings, options), settings);
         };
         draw(*strip);
         return 0;
@@ -269,8 +270,7 @@ int render(const RenderArguments& arguments) {
     core::Scene loaded = load_with_progress(files.scene, load_options, verbosity, options.threads);
     const core::Settings settings = settings_of(loaded.settings());
     const core::Scene scene = seen(std::move(loaded), change, settings);
-    picture.apply_to(options, settings);
-    options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
+    prepare(scene, settings);
     const core::Region part =
         options.crop.value_or(core::Region{0, 0, settings.width, settings.height});
     output.reserve(part.x1 - part.x0, part.y1 - part.y0);
@@ -286,10 +286,7 @@ int render(const RenderArguments& arguments) {
     }();
     times.render = stopwatch.lap();
 
-    output.commit(rendering.film,
-                  picture.options(files.scene, settings,
-                                  text_of(arguments.scene_arguments, options.precision)),
-                  picture.layers ? &rendering.layers : nullptr);
+    write(output, rendering, settings);
     times.write = stopwatch.lap();
 
     if (stats) {

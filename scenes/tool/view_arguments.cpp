@@ -75,6 +75,11 @@ core::Staging ViewChange::staging(const core::Scene& scene, core::Camera& camera
     return staging;
 }
 
+core::View view_of(const core::Scene& scene) {
+    const auto own = static_cast<std::ptrdiff_t>(scene.own_light_count());
+    return {scene.camera(), scene.fog(), {scene.lights().begin() + own, scene.lights().end()}};
+}
+
 core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settings& settings,
                  const std::optional<core::Frame>& frame) {
     core::Camera camera = scene.camera();

@@ -19,6 +19,9 @@ struct ViewChange {
     core::Staging staging(const core::Scene& scene, core::Camera& camera) const;
 };
 
+/// How a scene is seen, with the lights that came with its camera.
+core::View view_of(const core::Scene& scene);
+
 /// The scene as it is to be seen in a picture of the settings' size; a camera that finds its place
 /// by itself sees all that is in `frame`, if there is one, or else all of the scene. Throws
 /// BadInput where that is nothing.

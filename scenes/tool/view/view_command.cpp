@@ -10,7 +10,6 @@
 #include "scenes/tool/view/pick.hpp"
 #include "scenes/tool/view/picture_maker.hpp"
 #include "scenes/tool/view/window.hpp"
-#include "simd/threads.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -26,11 +25,6 @@ struct ViewCommandArguments {
     Argument scene, size, threads;
     SceneArguments scene_arguments;
 };
-
-core::View view_of(const core::Scene& scene) {
-    const auto own = static_cast<std::ptrdiff_t>(scene.own_light_count());
-    return {scene.camera(), scene.fog(), {scene.lights().begin() + own, scene.lights().end()}};
-}
 
 /// A name that no file has yet: "scene-1.png", "scene-2.png", ...
 std::string free_name(const std::string& scene) {
@@ -49,7 +43,7 @@ class Viewer {
     explicit Viewer(const ViewCommandArguments& arguments)
         : arguments_(arguments), name_(file_argument("SCENE", *arguments.scene)),
           verbosity_(arguments.scene_arguments.verbosity.verbosity()),
-          threads_(threads_of(arguments)), written_(time_of_file()),
+          threads_(threads_argument(arguments.threads)), written_(time_of_file()),
           window_size_(size_of(arguments)) {
         core::Scene scene = loaded();
         settings_ = scene.settings();
@@ -76,11 +70,6 @@ class Viewer {
     }
 
   private:
-    static int threads_of(const ViewCommandArguments& arguments) {
-        return arguments.threads
-                   ? whole_argument("--threads", *arguments.threads, 1, simd::max_threads)
-                   : simd::default_threads();
-    }
     static std::optional<std::pair<int, int>> size_of(const ViewCommandArguments& arguments) {
         if (!arguments.size) return std::nullopt;
         return size_argument("--size", *arguments.size);
