@@ -72,18 +72,50 @@ std::vector<Model> models_of(const gemmi::Structure& structure) {
     return models;
 }
 
+/// A site's atom where an operation of symmetry has it. U of CIF is along the reciprocal cell's
+/// edges, of length 1: International Tables D, 4.1.10 (2006).
+Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& cell,
+              const gemmi::Fractional& at, const gemmi::Mat33& turned) {
+    Atom atom;
+    copy(cell.orthogonalize(at), atom.at);
+    atom.element = number_of(site.element);
+    atom.name = site.label;
+    atom.occupancy = static_cast<float>(site.occ);
+    atom.has_u = site.aniso.nonzero();
+    const double lengths[] = {cell.ar, cell.br, cell.cr};
+    const auto in_cell = [&](double u, int i, int j) { return u * lengths[i] * lengths[j]; };
+    const gemmi::SMat33<double>& u = site.aniso;
+    const gemmi::SMat33<double> of_fractions = {in_cell(u.u11, 0, 0), in_cell(u.u22, 1, 1),
+                                                in_cell(u.u33, 2, 2), in_cell(u.u12, 0, 1),
+                                                in_cell(u.u13, 0, 2), in_cell(u.u23, 1, 2)};
+    const auto along_axes =
+        of_fractions.transformed_by<double>(cell.orth.mat.multiply(turned)).elements_pdb();
+    for (std::size_t k = 0; k < along_axes.size(); ++k)
+        atom.u[k] = static_cast<float>(along_axes[k]);
+    return atom;
+}
+
+/// All atoms of a cell: of images that are as near as atoms never are, the first.
 Model model_of(const gemmi::SmallStructure& structure) {
+    constexpr double one_place = 0.4 * 0.4; // angstrom^2
+    const gemmi::UnitCell& cell = structure.cell;
     Model model;
     model.title = structure.name;
     model.is_small = true;
-    take_cell(structure.cell, model);
+    take_cell(cell, model);
     Residue all;
-    for (const gemmi::SmallStructure::Site& site : structure.get_all_unit_cell_sites()) {
-        Atom atom;
-        copy(structure.cell.orthogonalize(site.fract), atom.at);
-        atom.element = number_of(site.element);
-        atom.occupancy = static_cast<float>(site.occ);
-        all.atoms.push_back(std::move(atom));
+    for (const gemmi::SmallStructure::Site& site : structure.sites) {
+        std::vector<gemmi::Fractional> places = {site.fract};
+        all.atoms.push_back(image_of(site, cell, site.fract, gemmi::Mat33()));
+        for (const gemmi::FTransform& image : cell.images) {
+            const gemmi::Fractional at = image.apply(site.fract);
+            const auto is_here = [&](const gemmi::Fractional& other) {
+                return cell.distance_sq(at, other) < one_place;
+            };
+            if (std::any_of(places.begin(), places.end(), is_here)) continue;
+            places.push_back(at);
+            all.atoms.push_back(image_of(site, cell, at, image.mat));
+        }
     }
     model.chains.push_back({"", {std::move(all)}});
     return model;

@@ -95,13 +95,13 @@ class ModelReader : public FrameReader {
                 data_of(element).symbol, [&](std::string_view) { return element; })));
             frame.properties[0].values.push_back(atom.b_factor);
             frame.properties[1].values.push_back(atom.occupancy);
-            if (is_small) continue;
             frame.names.push_back(atom.name);
-            frame.residues.push_back(index);
             if (atom.has_u) {
                 const auto& u = atom.u;
                 frame.anisotropies.push_back({at, {u[0], u[1], u[2], u[3], u[4], u[5]}});
             }
+            if (is_small) continue;
+            frame.residues.push_back(index);
             atom_of.emplace(atom.serial, at);
         }
     }
