@@ -2,6 +2,7 @@
 
 #include "scenes/structure/structure.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -21,6 +22,9 @@ class KindTable {
     template <class ElementOf>
     std::size_t index_of(std::string_view label, const ElementOf& element_of) {
         if (last_ < kinds_.size() && kinds_[last_].label == label) return last_;
+        constexpr std::size_t few = 8;
+        for (std::size_t kind = 0; kind < std::min(kinds_.size(), few); ++kind)
+            if (kinds_[kind].label == label) return last_ = kind;
         const auto found = index_.find(label);
         if (found != index_.end()) return last_ = found->second;
         if (kinds_.size() == Structure::most_kinds) return kinds_.size();

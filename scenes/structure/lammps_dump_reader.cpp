@@ -1,11 +1,12 @@
 #include "scenes/errors.hpp"
+#include "scenes/number.hpp"
 #include "scenes/structure/kind_table.hpp"
 #include "scenes/structure/lines.hpp"
 #include "scenes/structure/readers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace raylane::scenes {
@@ -120,7 +121,7 @@ class DumpReader : public FrameReader {
 
     void read_columns(Structure& frame, std::string_view names) {
         columns_.clear();
-        scaled_ = {};
+        is_scaled_ = false;
         bool seen[3] = {};
         has_element_ = has_radius_ = false;
         for (;;) {
@@ -133,10 +134,10 @@ class DumpReader : public FrameReader {
                                          ? static_cast<std::size_t>(name[0] - 'x')
                                          : std::size_t{3};
             const std::string_view rest = name.substr(1);
-            const bool is_scaled = rest == "s" || rest == "su";
+            const bool is_scaled = rest == "s" || rest == "su"; // one of them: all
             if (axis < 3 && (rest.empty() || rest == "u" || is_scaled) && !seen[axis]) {
                 seen[axis] = true;
-                scaled_[axis] = is_scaled;
+                is_scaled_ = is_scaled_ || is_scaled;
                 columns_.push_back({static_cast<Is>(axis), 0});
             } else if (name == "element") {
                 has_element_ = true;
@@ -156,7 +157,7 @@ class DumpReader : public FrameReader {
         if (!seen[0] || !seen[1] || !seen[2])
             lines_.fail("must have x, y and z (or xs, xu, xsu), got \"" +
                         printable(lines_.text(), 200) + "\"");
-        if ((scaled_[0] || scaled_[1] || scaled_[2]) && !frame.cell.any())
+        if (is_scaled_ && !frame.cell.any())
             lines_.fail(
                 "must come after ITEM: BOX BOUNDS, as its coordinates are parts of the box");
     }
@@ -182,7 +183,7 @@ class DumpReader : public FrameReader {
 
     void read_atom(Structure& frame, KindTable& kinds) {
         Words words(lines_);
-        double at[3] = {};
+        core::Vec3f at(0.0F);
         std::string_view label = "1";
         float radius = 0.0F;
         for (const Column& column : columns_) {
@@ -190,8 +191,7 @@ class DumpReader : public FrameReader {
             case Is::x:
             case Is::y:
             case Is::z:
-                at[static_cast<int>(column.is)] =
-                    static_cast<double>(words.coordinate("a coordinate"));
+                at[static_cast<int>(column.is)] = words.coordinate("a coordinate");
                 break;
             case Is::element:
                 label = words.get("an element");
@@ -212,32 +212,32 @@ class DumpReader : public FrameReader {
                 words.get("a value");
             }
         }
-        core::Vec3d position(at[0], at[1], at[2]);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (scaled_[axis]) {
-                position = frame.cell.origin + at[0] * frame.cell.edges[0] +
-                           at[1] * frame.cell.edges[1] + at[2] * frame.cell.edges[2];
-                break;
-            }
+        if (is_scaled_) {
+            const auto part = core::convert<double>(at);
+            at = core::convert<float>(frame.cell.origin + part.x * frame.cell.edges[0] +
+                                      part.y * frame.cell.edges[1] + part.z * frame.cell.edges[2]);
+        }
         const std::size_t kind = kinds.index_of(label, [&](std::string_view name) {
             return has_element_ ? element_of_label(name, true) : Element{0};
         });
         if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 types");
         if (has_radius_) frame.radii.push_back(radius);
-        frame.positions.push_back(core::convert<float>(position));
+        frame.positions.push_back(at);
         frame.kinds.push_back(static_cast<std::uint16_t>(kind));
     }
 
     /// Of a word, as a molecule's name may be one, not a number.
     static float value_of(std::string_view word) {
-        return static_cast<float>(number_in(word).value_or(std::nan("")));
+        if (const std::optional<float> nearest = to_float(word)) return *nearest;
+        const double value = number_in(word).value_or(std::nan("")); // a Fortran exponent, or none
+        constexpr auto most = static_cast<double>(std::numeric_limits<float>::max());
+        return static_cast<float>(std::abs(value) <= most ? value : std::nan(""));
     }
 
     InputFile& file_;
     Lines lines_;
     std::vector<Column> columns_;
-    std::array<bool, 3> scaled_{};
-    bool has_element_ = false, has_radius_ = false;
+    bool is_scaled_ = false, has_element_ = false, has_radius_ = false;
     std::size_t frames_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/shapes/checks.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/number.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -104,6 +105,10 @@ double Words::number(std::string_view what) {
 }
 
 float Words::coordinate(std::string_view what) {
+    const std::size_t before = position_;
+    const std::optional<float> nearest = to_float(get(what));
+    if (nearest && std::abs(*nearest) <= core::coordinate_limit) return *nearest;
+    position_ = before; // with a Fortran exponent, or none
     const double value = number(what);
     if (!(std::abs(value) <= static_cast<double>(core::coordinate_limit)))
         fail(std::string(what) + " must be from -1e30 to 1e30");
