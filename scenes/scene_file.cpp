@@ -19,7 +19,8 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
         throw BadInput(file.name(), "",
                        "has no number \"$" + printable(options.parameters.begin()->first) +
                            "\" that could be set: only JSON may");
-    if (is_structure(format)) return read_structure(file, format, options.drawing, options.workers);
+    if (is_structure(format))
+        return read_structure(file, format, options.drawing, options.workers, options.legend);
     if (!options.option_for_atoms.empty())
         throw BadInput(options.option_for_atoms, "",
                        "goes with a file of atoms, and " + printable(file.name(), 4096) +

@@ -3,6 +3,7 @@
 #include "core/scene/scene.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/structure/drawing.hpp"
+#include "scenes/structure/legend.hpp"
 #include "scenes/tachyon/shading.hpp"
 
 #include <filesystem>
@@ -15,8 +16,9 @@ namespace raylane::scenes {
 struct LoadOptions {
     core::Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
     OnRead on_read = {};
-    OnRemark on_remark = {}; ///< of scenes of other programs
-    Drawing drawing = {};    ///< of files of atoms
+    OnRemark on_remark = {};  ///< of scenes of other programs
+    Drawing drawing = {};     ///< of files of atoms
+    Legend* legend = nullptr; ///< is left with what the shapes are, of a file of atoms
     /// What a scene is refused with: an option that says how atoms are drawn; empty: none is given.
     std::string option_for_atoms = {};
     TachyonShading tachyon = {}; ///< in place of what a scene of Tachyon's says

@@ -1,14 +1,14 @@
 #include "scenes/structure/drawing.hpp"
 
-#include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/structure/bonds.hpp"
+#include "scenes/structure/colors.hpp"
+#include "scenes/structure/displacement.hpp"
 #include "scenes/structure/selection.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <unordered_map>
 
 namespace raylane::scenes {
 
@@ -24,77 +24,12 @@ constexpr float stick_with_balls = 0.12F, stick = 0.16F, licorice_stick = 0.3F, 
 constexpr double apart = 0.13; // the sticks of a double bond from its line
 constexpr float cell_stick = 0.06F;
 
-/// Okabe and Ito, "Color Universal Design" (2008), without black.
-constexpr std::array<std::uint32_t, 7> apart_from_each_other = {
-    0x0072b2, 0xe69f00, 0x009e73, 0xd55e00, 0x56b4e9, 0xcc79a7, 0xf0e442};
-
-/// Kelly, "Twenty-two colors of maximum contrast" (1965), without white and black.
-constexpr std::array<std::uint32_t, 20> many_apart = {
-    0xf3c300, 0x875692, 0xf38400, 0xa1caf1, 0xbe0032, 0xc2b280, 0x848482,
-    0x008856, 0xe68fac, 0x0067a5, 0xf99379, 0x604e97, 0xf6a600, 0xb3446c,
-    0xdcd300, 0x882d17, 0x8db600, 0x654522, 0xe25822, 0x2b3d26};
-
-/// Viridis: Smith and van der Walt (2015), by nine of its colours.
-constexpr std::array<std::uint32_t, 9> ramp = {0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c,
-                                               0x28ae80, 0x5ec962, 0xaddc30, 0xfde725};
-
-core::Color linear(std::uint32_t srgb) {
-    const auto channel = [&](int shift) {
-        return core::decode_srgb(static_cast<std::uint8_t>(srgb >> shift & 255));
-    };
-    return {channel(16), channel(8), channel(0)};
-}
-
-std::uint32_t ramp_at(double share) {
-    constexpr int steps = static_cast<int>(ramp.size()) - 1;
-    // 64 colours are enough for the eye, and few materials.
-    const double place = std::round(std::clamp(share, 0.0, 1.0) * 64.0) / 64.0 * steps;
-    const int below = std::min(static_cast<int>(place), steps - 1);
-    const double part = place - below;
-    std::uint32_t color = 0;
-    for (int shift = 16; shift >= 0; shift -= 8) {
-        const auto channel = [&](int step) {
-            return static_cast<double>(ramp[static_cast<std::size_t>(step)] >> shift & 255);
-        };
-        const double value = channel(below) + part * (channel(below + 1) - channel(below));
-        color |= static_cast<std::uint32_t>(std::lround(value)) << shift;
-    }
-    return color;
-}
-
-/// Materials by colour.
-class Palette {
-  public:
-    explicit Palette(core::SceneBuilder& builder) : builder_(builder) {}
-
-    MaterialIndex of(std::uint32_t srgb) {
-        if (srgb == last_color_ && !index_.empty()) return last_;
-        const auto [found, is_new] = index_.try_emplace(srgb);
-        if (is_new) {
-            core::Material material;
-            material.pattern.colors[0] = linear(srgb);
-            material.ambient = 0.0F;
-            material.specular = 0.15F;
-            material.exponent = 20.0F;
-            found->second = builder_.add_material(material);
-        }
-        last_color_ = srgb;
-        return last_ = found->second;
-    }
-
-  private:
-    core::SceneBuilder& builder_;
-    std::unordered_map<std::uint32_t, MaterialIndex> index_;
-    std::uint32_t last_color_ = 0;
-    MaterialIndex last_ = 0;
-};
-
 class Artist {
   public:
     Artist(const Structure& structure, const Drawing& drawing, const std::string& file,
-           core::SceneBuilder& builder)
+           core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape)
         : structure_(structure), drawing_(drawing), file_(file), builder_(builder),
-          palette_(builder) {}
+          palette_(builder, drawing.opacity), atoms_of_shape_(atoms_of_shape) {}
 
     DrawingScale draw() {
         if (structure_.size() == 0) throw BadInput(file_, "", "has no atoms");
@@ -113,6 +48,7 @@ class Artist {
         find_images();
         add_atoms();
         if (scale_.style != Style::spheres && scale_.style != Style::points) add_bonds();
+        add_see_through();
         if (drawing_.show_cell) add_cell();
         set_up_view();
         return scale_;
@@ -138,10 +74,8 @@ class Artist {
             // Types that are no element's by number.
             std::size_t unknown = 0;
             for (const AtomKind& kind : structure_.of_kind)
-                of_kind_.push_back(
-                    kind.element != 0
-                        ? data_of(kind.element).color
-                        : apart_from_each_other[unknown++ % apart_from_each_other.size()]);
+                of_kind_.push_back(kind.element != 0 ? data_of(kind.element).color
+                                                     : color_of_type(unknown++));
             color_of_ = [this](AtomIndex i) { return of_kind_[structure_.kinds[i]]; };
         } else if (by == "chain" || by == "residue") {
             if (structure_.residues.empty())
@@ -162,13 +96,6 @@ class Artist {
         } else {
             color_by_property(by);
         }
-    }
-
-    /// One of several that have no order.
-    static std::uint32_t color_of_one(std::size_t place, std::size_t of) {
-        if (of <= apart_from_each_other.size()) return apart_from_each_other[place];
-        if (of <= many_apart.size()) return many_apart[place];
-        return ramp_at(static_cast<double>(place) / static_cast<double>(of - 1));
     }
 
     void color_by_property(const std::string& name) {
@@ -266,6 +193,22 @@ class Artist {
         return 0.0F;
     }
 
+    /// What is seen through becomes one solid, as its walls inside are none of a molecule's.
+    template <class Shape>
+    void add(const Shape& shape, MaterialIndex material, const AtomPair& atoms) {
+        if (drawing_.opacity < 1.0F && atoms != no_atoms)
+            see_through_.parts.push_back({.shape = core::to_doubles(shape), .material = material});
+        else
+            builder_.add(shape, material);
+        if (atoms_of_shape_ != nullptr) atoms_of_shape_->push_back(atoms);
+    }
+    void add_see_through() {
+        if (see_through_.parts.empty()) return;
+        if (see_through_.parts.size() == 1) see_through_ = core::Solid(see_through_.parts[0]);
+        builder_.add_solid(see_through_, see_through_.material);
+        see_through_ = {};
+    }
+
     void add_atoms() {
         builder_.reserve(count_ * images_.size());
         std::vector<char> has_ellipsoid;
@@ -276,69 +219,29 @@ class Artist {
             const MaterialIndex material = palette_.of(color_of_(atom));
             const float radius = radius_of(atom);
             for (const Vec3f& image : images_)
-                builder_.add(core::Sphere{structure_.positions[atom] + image, radius}, material);
+                add(core::Sphere{structure_.positions[atom] + image, radius}, material,
+                    {atom, atom});
         }
     }
 
-    /// Surfaces that hold half of a displacement's probability: 1.5382 standard deviations away.
     std::vector<char> add_ellipsoids() {
         if (structure_.anisotropies.empty())
             throw BadInput("--ellipsoids", "", file_ + " has no anisotropic displacements");
-        constexpr double half_probability = 1.5382;
         std::vector<char> done(structure_.size());
         for (const Anisotropy& of : structure_.anisotropies) {
             if (!is_selected(of.atom)) continue;
-            const auto& u = of.u;
-            std::array<Vec3d, 3> axes = {Vec3d(u[0], u[3], u[4]), Vec3d(u[3], u[1], u[5]),
-                                         Vec3d(u[4], u[5], u[2])};
-            if (!to_axes(axes, half_probability)) continue; // a tensor that is none of an ellipsoid
+            const auto axes = axes_of(of);
+            if (!axes) continue;
             const MaterialIndex material = palette_.of(color_of_(of.atom));
             for (const Vec3f& image : images_)
-                builder_.add(core::Ellipsoid{structure_.positions[of.atom] + image,
-                                             core::convert<float>(axes[0]),
-                                             core::convert<float>(axes[1]),
-                                             core::convert<float>(axes[2])},
-                             material);
+                add(core::Ellipsoid{structure_.positions[of.atom] + image,
+                                    core::convert<float>((*axes)[0]),
+                                    core::convert<float>((*axes)[1]),
+                                    core::convert<float>((*axes)[2])},
+                    material, {of.atom, of.atom});
             done[of.atom] = 1;
         }
         return done;
-    }
-
-    /// From a symmetric tensor's rows, by Jacobi's rotations: its principal axes, as long as
-    /// `times` the roots of its values. False if one is not positive.
-    static bool to_axes(std::array<Vec3d, 3>& rows, double times) {
-        std::array<Vec3d, 3> axes = {Vec3d(1, 0, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)}; // columns
-        for (int sweep = 0; sweep < 32; ++sweep)
-            for (int p = 0; p < 2; ++p)
-                for (int q = p + 1; q < 3; ++q) {
-                    auto& row_p = rows[static_cast<std::size_t>(p)];
-                    auto& row_q = rows[static_cast<std::size_t>(q)];
-                    const double off = row_p[q];
-                    if (off == 0.0) continue;
-                    const double theta = (row_q[q] - row_p[p]) / (2.0 * off);
-                    const double t =
-                        (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::hypot(theta, 1.0));
-                    const double c = 1.0 / std::hypot(t, 1.0), s = t * c;
-                    const Vec3d old_p = row_p, old_q = row_q;
-                    row_p = c * old_p - s * old_q;
-                    row_q = s * old_p + c * old_q;
-                    for (Vec3d& row : rows) {
-                        const double at_p = row[p], at_q = row[q];
-                        row[p] = c * at_p - s * at_q;
-                        row[q] = s * at_p + c * at_q;
-                    }
-                    Vec3d& axis_p = axes[static_cast<std::size_t>(p)];
-                    Vec3d& axis_q = axes[static_cast<std::size_t>(q)];
-                    const Vec3d before = axis_p;
-                    axis_p = c * before - s * axis_q;
-                    axis_q = s * before + c * axis_q;
-                }
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double value = rows[k][static_cast<int>(k)];
-            if (!(value > 1e-9)) return false;
-            rows[k] = times * std::sqrt(value) * axes[k];
-        }
-        return true;
     }
 
     void add_bonds() {
@@ -375,17 +278,17 @@ class Artist {
         const double share = std::clamp(0.5 + 0.5 * larger / distance, 0.1, 0.9);
         for (const Vec3f& image : images_) {
             const Vec3d by = core::convert<double>(image);
-            const auto add = [&](const Vec3d& from, const Vec3d& to, MaterialIndex material) {
-                builder_.add(core::CappedCylinder{core::convert<float>(from + by),
-                                                  core::convert<float>(to - from), radius},
-                             material);
+            const auto add_part = [&](const Vec3d& from, const Vec3d& to, MaterialIndex material) {
+                add(core::CappedCylinder{core::convert<float>(from + by),
+                                         core::convert<float>(to - from), radius},
+                    material, {bond.a, bond.b});
             };
             if (of_a == of_b) {
-                add(a, b, of_a);
+                add_part(a, b, of_a);
             } else {
                 const Vec3d middle = a + share * (b - a);
-                add(a, middle, of_a);
-                add(b, middle, of_b);
+                add_part(a, middle, of_a);
+                add_part(b, middle, of_b);
             }
         }
     }
@@ -428,7 +331,7 @@ class Artist {
     void add_cell() {
         if (!structure_.cell.any())
             throw BadInput("--cell", "", "must have a cell to show, and " + file_ + " has none");
-        const MaterialIndex gray = palette_.of(0x808080);
+        const MaterialIndex gray = Palette(builder_).of(0x808080);
         const auto& edges = structure_.cell.edges;
         for (const Vec3f& image : images_)
             for (int corner = 0; corner < 8; ++corner) {
@@ -436,14 +339,14 @@ class Artist {
                 for (int k = 0; k < 3; ++k)
                     if ((corner >> k & 1) != 0) at = at + edges[static_cast<std::size_t>(k)];
                 const auto from = core::convert<float>(at);
-                builder_.add(core::Sphere{from, cell_stick}, gray);
+                add(core::Sphere{from, cell_stick}, gray, no_atoms);
                 for (int k = 0; k < 3; ++k)
                     if ((corner >> k & 1) == 0)
-                        builder_.add(
+                        add(
                             core::CappedCylinder{
                                 from, core::convert<float>(edges[static_cast<std::size_t>(k)]),
                                 cell_stick},
-                            gray);
+                            gray, no_atoms);
             }
     }
 
@@ -461,6 +364,8 @@ class Artist {
     const std::string& file_;
     core::SceneBuilder& builder_;
     Palette palette_;
+    std::vector<AtomPair>* atoms_of_shape_;
+    core::Solid see_through_{.made = core::Made::by_union};
     std::vector<char> selected_; // empty: all
     std::size_t count_ = 0;
     DrawingScale scale_;
@@ -473,8 +378,8 @@ class Artist {
 } // namespace
 
 DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
-                  core::SceneBuilder& builder) {
-    return Artist(structure, drawing, file, builder).draw();
+                  core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape) {
+    return Artist(structure, drawing, file, builder, atoms_of_shape).draw();
 }
 
 } // namespace raylane::scenes

@@ -5,8 +5,10 @@
 #include "scenes/structure/structure.hpp"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -36,14 +38,21 @@ struct Drawing {
     bool ellipsoids = false;               ///< of displacement, which hold half of the probability
     core::Framing framing;
     int width = 1200, height = 900; ///< pixels of the picture
+    float opacity = 1.0F;           ///< of all that is drawn, in (0, 1]
     float depth_cue = 0.3F; ///< how much of the background the farthest atoms have, in [0, 1)
     std::optional<DrawingScale> scale; ///< of another frame
 };
 
+/// Whose shape one is: of an atom, twice that; of a bond, its ends; `no_atoms` of the cell's edges.
+using AtomPair = std::array<AtomIndex, 2>;
+inline constexpr AtomPair no_atoms = {std::numeric_limits<AtomIndex>::max(),
+                                      std::numeric_limits<AtomIndex>::max()};
+
 /// Fills a builder with the atoms, a camera that sees them all, lights around them, and settings
-/// for a picture that one looks at. `file` is what messages call it. Throws BadInput for what there
-/// is not: nothing selected, no such property.
+/// for a picture that one looks at. `file` is what messages call it; `atoms_of_shape`, if there is
+/// one, is left with the atoms of each shape. Throws BadInput for what there is not: nothing
+/// selected, no such property.
 DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
-                  core::SceneBuilder& builder);
+                  core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape = nullptr);
 
 } // namespace raylane::scenes

@@ -49,14 +49,16 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
 }
 
 core::Scene read_structure(InputFile& file, Format format, const Drawing& drawing,
-                           core::Workers* workers) {
+                           core::Workers* workers, Legend* legend) {
     core::SceneBuilder builder;
     builder.workers = workers;
     {
         Structure structure;
         if (!open_structure(file, format)->next(structure))
             throw BadInput(file.name(), "", "has no atoms");
-        draw(structure, drawing, file.name(), builder);
+        std::vector<AtomPair> atoms;
+        draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms);
+        if (legend != nullptr) *legend = {std::move(structure), std::move(atoms)};
     } // before the hierarchy takes room
     return build(builder, file.name());
 }

@@ -3,6 +3,7 @@
 #include "core/scene/scene.hpp"
 #include "scenes/format.hpp"
 #include "scenes/structure/drawing.hpp"
+#include "scenes/structure/legend.hpp"
 #include "scenes/structure/readers.hpp"
 
 namespace raylane::scenes {
@@ -15,9 +16,9 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
                            const std::string& file, core::Workers* workers = nullptr,
                            DrawingScale* scale = nullptr);
 
-/// Reads the first frame of a file of atoms, and draws it. Throws BadInput, with the line, and
-/// SystemRefused.
+/// Reads the first frame of a file of atoms, and draws it; `legend`, if there is one, is left with
+/// what its shapes are. Throws BadInput, with the line, and SystemRefused.
 core::Scene read_structure(InputFile& file, Format format, const Drawing& drawing,
-                           core::Workers* workers = nullptr);
+                           core::Workers* workers = nullptr, Legend* legend = nullptr);
 
 } // namespace raylane::scenes

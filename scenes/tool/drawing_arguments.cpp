@@ -44,6 +44,11 @@ void DrawingArguments::add_to(CLI::App& command) {
         "The atoms to draw, such as \"chain A and not water\" or \"within 5 of residue HEM\" "
         "(default: all)",
         "WHICH");
+    add("--opacity", opacity,
+        "How much atoms and bonds cover of what is behind them, above 0 and up to 1; walls inside "
+        "of "
+        "what overlaps are not seen (default: 1)",
+        "A");
     add("--repeat", repeat, "Cells side by side, such as 2x2x1", "AxBxC");
     const auto flag = [&](const char* name, bool& value, const char* help) {
         add_flag(command, name, value, help);
@@ -65,6 +70,13 @@ Drawing DrawingArguments::drawing() const {
                                                 {"points", Style::points}});
     drawing.color = color.value_or(drawing.color);
     drawing.select = select.value_or(drawing.select);
+    if (opacity) {
+        const std::optional<float> value = to_float(*opacity);
+        if (!value || !(*value > 0.0F && *value <= 1.0F))
+            throw BadInput("--opacity", "",
+                           "must be above 0 and at most 1, got \"" + printable(*opacity) + "\"");
+        drawing.opacity = *value;
+    }
     if (repeat) drawing.repeat = repeat_argument(*repeat);
     drawing.show_cell = cell;
     drawing.ellipsoids = ellipsoids;
@@ -73,8 +85,11 @@ Drawing DrawingArguments::drawing() const {
 
 std::vector<std::pair<std::string, std::string>> DrawingArguments::given() const {
     std::vector<std::pair<std::string, std::string>> given;
-    const std::pair<const char*, const Argument&> values[] = {
-        {"--style", style}, {"--color", color}, {"--select", select}, {"--repeat", repeat}};
+    const std::pair<const char*, const Argument&> values[] = {{"--style", style},
+                                                              {"--color", color},
+                                                              {"--select", select},
+                                                              {"--opacity", opacity},
+                                                              {"--repeat", repeat}};
     for (const auto& [name, value] : values)
         if (value) given.emplace_back(name, *value);
     const std::pair<const char*, bool> flags[] = {{"--cell", cell}, {"--ellipsoids", ellipsoids}};

@@ -30,7 +30,8 @@ std::string place_text(const core::Vec3d& place) {
 
 } // namespace
 
-std::string what_is_at(const core::Scene& scene, const core::Settings& settings, int x, int y) {
+std::string what_is_at(const core::Scene& scene, const core::Settings& settings, int x, int y,
+                       const Legend& legend) {
     core::Settings plain = settings;
     plain.grid = 1;
     plain.samples = core::SamplePattern::regular;
@@ -53,7 +54,9 @@ std::string what_is_at(const core::Scene& scene, const core::Settings& settings,
     if (shape == core::no_shape) return "nothing but the background";
     char distance[64];
     std::snprintf(distance, sizeof distance, "%.17g", t);
-    return kind_of_shape(scene, shape) + " " + std::to_string(shape) + " of material " +
+    std::string atoms = legend.of(shape);
+    if (!atoms.empty()) atoms += ": ";
+    return atoms + kind_of_shape(scene, shape) + " " + std::to_string(shape) + " of material " +
            std::to_string(scene.material_index_of(shape)) + ", at " +
            place_text(ray.origin + t * ray.direction) + ", " + distance +
            " away (the double nearest to the true one)";

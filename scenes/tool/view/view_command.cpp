@@ -45,7 +45,7 @@ class Viewer {
           verbosity_(arguments.scene_arguments.verbosity.verbosity()),
           threads_(threads_argument(arguments.threads)), written_(time_of_file()),
           window_size_(size_of(arguments)) {
-        core::Scene scene = loaded();
+        core::Scene scene = loaded(legend_);
         settings_ = scene.settings();
         if (window_size_) std::tie(settings_.width, settings_.height) = *window_size_;
         scene = seen(std::move(scene), arguments_.scene_arguments.view.change(), settings_);
@@ -77,9 +77,10 @@ class Viewer {
 
     std::string title() const { return printable(name_, 200) + " - raylane"; }
 
-    core::Scene loaded() const {
-        return load_with_progress(name_, arguments_.scene_arguments.load_options(), verbosity_,
-                                  threads_);
+    core::Scene loaded(Legend& legend) const {
+        LoadOptions options = arguments_.scene_arguments.load_options();
+        options.legend = &legend;
+        return load_with_progress(name_, std::move(options), verbosity_, threads_);
     }
 
     std::filesystem::file_time_type time_of_file() const {
@@ -107,7 +108,9 @@ class Viewer {
         if (time == written_) return;
         written_ = time;
         try {
-            maker_->replace(loaded());
+            Legend legend;
+            maker_->replace(loaded(legend));
+            legend_ = std::move(legend);
             is_moved_ = true;
         } catch (const BadInput& bad) { // it may be in the middle of being written
             std::fprintf(stderr, "raylane: %s\n", bad.what());
@@ -133,7 +136,8 @@ class Viewer {
             break;
         case Kind::clicked:
             maker_->with_scene([&](const core::Scene& scene) {
-                std::printf("%s\n", what_is_at(scene, settings_, event.x, event.y).c_str());
+                std::printf("%s\n",
+                            what_is_at(scene, settings_, event.x, event.y, legend_).c_str());
             });
             std::fflush(stdout);
             break; // what was stopped is drawn again
@@ -192,6 +196,7 @@ class Viewer {
     int threads_;
     std::filesystem::file_time_type written_;
     std::optional<std::pair<int, int>> window_size_;
+    Legend legend_;
     core::Settings settings_;
     core::View first_;
     std::optional<Orbit> orbit_;
