@@ -19,8 +19,10 @@ LoadOptions SceneArguments::load_options(bool sweeps) const {
 
 std::vector<std::pair<std::string, std::string>> SceneArguments::given() const {
     auto all = drawing.given();
-    const std::pair<const char*, const Argument&> values[] = {
-        {"--view", view.view}, {"--zoom", view.zoom}, {"--depth-cue", view.depth_cue}};
+    const std::pair<const char*, const Argument&> values[] = {{"--view", view.view},
+                                                              {"--up", view.up},
+                                                              {"--zoom", view.zoom},
+                                                              {"--depth-cue", view.depth_cue}};
     for (const auto& [name, value] : values)
         if (value) all.emplace_back(name, *value);
     if (view.orthographic) all.emplace_back("--orthographic", "");

@@ -11,6 +11,33 @@ namespace {
 
 constexpr const char* group = "Camera";
 
+/// As "1,-1,-0.5"; nothing if it is none, or 0.
+std::optional<core::Vec3f> direction_in(const std::string& text) {
+    const std::vector<std::string_view> parts = parts_of(text, ',');
+    if (parts.size() != 3) return std::nullopt;
+    core::Vec3f direction(0.0F);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::optional<float> number = to_float(parts[static_cast<std::size_t>(axis)]);
+        if (!number) return std::nullopt;
+        direction[axis] = *number;
+    }
+    if (direction == core::Vec3f(0.0F)) return std::nullopt;
+    return direction;
+}
+
+core::Vec3f up_argument(const std::string& text) {
+    constexpr std::pair<const char*, core::Vec3f> axes[] = {
+        {"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
+    for (const auto& [name, axis] : axes)
+        if (text == name) return axis;
+    const std::optional<core::Vec3f> direction = direction_in(text);
+    if (!direction)
+        throw BadInput("--up", "",
+                       "must be x, y or z, or a direction such as 0,1,1, got \"" + printable(text) +
+                           "\"");
+    return *direction;
+}
+
 /// A view by name, or the direction that the camera looks in, as "1,-1,-0.5".
 core::NamedView view_argument(const std::string& text) {
     std::vector<std::string_view> names;
@@ -18,20 +45,13 @@ core::NamedView view_argument(const std::string& text) {
         names.push_back(view.name);
         if (text == view.name) return view;
     }
-    core::Vec3f direction(0.0F);
-    const std::vector<std::string_view> parts = parts_of(text, ',');
-    bool is_direction = parts.size() == 3;
-    for (int axis = 0; is_direction && axis < 3; ++axis) {
-        const std::optional<float> number = to_float(parts[static_cast<std::size_t>(axis)]);
-        is_direction = number.has_value();
-        direction[axis] = number.value_or(0.0F);
-    }
-    if (!is_direction || direction == core::Vec3f(0.0F))
+    const std::optional<core::Vec3f> direction = direction_in(text);
+    if (!direction)
         throw BadInput("--view", "",
                        "must be " + alternatives({names.begin(), names.end()}) +
                            ", or a direction such as 1,-1,-0.5, got \"" + printable(text) + "\"" +
                            suggestion(text, names));
-    return {"", direction, core::upright(direction)};
+    return {"", *direction, core::upright(*direction)};
 }
 
 /// What a camera shows of where it looks to, `zoom` times as large.
@@ -64,6 +84,15 @@ core::Staging ViewChange::staging(const core::Scene& scene, core::Camera& camera
         if (!staging.framing) staging.framing = core::framing_of(camera);
         staging.framing->direction = way->direction;
         staging.framing->up = way->up;
+    }
+    if (up) {
+        core::Vec3f& of_camera = staging.framing ? staging.framing->up : camera.up;
+        const core::Vec3f along =
+            staging.framing ? staging.framing->direction : core::framing_of(camera).direction;
+        of_camera = *up;
+        if (core::cross(core::convert<double>(*up), core::convert<double>(along)) ==
+            core::Vec3d(0.0))
+            throw BadInput("--up", "", "must not be along the view");
     }
     if (staging.framing) {
         staging.framing->zoom = zoom.value_or(staging.framing->zoom);
@@ -105,6 +134,10 @@ void ViewArguments::add_to(CLI::App& command) {
         "See all that has an end from front, back, left, right, top, bottom, x, y, z or corner, or "
         "in the direction 1,-1,-0.5 (default: as the scene says; atoms: front)",
         "WAY");
+    add("--up", up,
+        "What is up in the picture: x, y or z, or a direction such as 0,1,1 (default: as the view "
+        "or the scene says)",
+        "WAY");
     add("--zoom", zoom, "How much larger (default: 1)", "TIMES");
     add_flag(command, "--orthographic", orthographic, "Without perspective");
     command.get_option("--orthographic")->group(group);
@@ -117,6 +150,7 @@ void ViewArguments::add_to(CLI::App& command) {
 ViewChange ViewArguments::change() const {
     ViewChange change;
     if (view) change.way = view_argument(*view);
+    if (up) change.up = up_argument(*up);
     if (zoom) change.zoom = number_argument("--zoom", *zoom, 0.01F, 1000.0F);
     if (depth_cue) change.depth_cue = number_argument("--depth-cue", *depth_cue, 0.0F, 0.99F);
     change.orthographic = orthographic;

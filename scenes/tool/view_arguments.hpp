@@ -10,12 +10,13 @@ namespace raylane::scenes {
 /// How a scene is to be seen, other than it says itself.
 struct ViewChange {
     std::optional<core::NamedView> way; ///< for a camera that finds its place by it
+    std::optional<core::Vec3f> up;
     std::optional<float> zoom, depth_cue;
     bool orthographic = false;
     bool turning = false; ///< the camera will go around
 
     /// The staging that comes of it, and in `camera` the one that the scene has if it is to keep
-    /// it.
+    /// it. Throws BadInput.
     core::Staging staging(const core::Scene& scene, core::Camera& camera) const;
 };
 
@@ -29,7 +30,7 @@ core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settin
                  const std::optional<core::Frame>& frame = std::nullopt);
 
 struct ViewArguments {
-    Argument view, zoom, depth_cue;
+    Argument view, up, zoom, depth_cue;
     bool orthographic = false;
 
     void add_to(CLI::App& command);
