@@ -1,0 +1,49 @@
+#include "scenes/errors.hpp"
+#include "scenes/format.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/structure/structure_file.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+/// One reader, for any bytes: a scene or all frames, or one complaint that names the file. Anything
+/// else - another exception, what a sanitizer finds, memory, time - is a finding.
+using namespace raylane;
+using scenes::Format;
+
+namespace {
+
+/// What a few bytes ask for much with, rightly, is not what is looked for here.
+bool asks_for_much(std::string_view text) {
+    return text.find("sphereflake") != std::string_view::npos ||
+           text.find("lattice") != std::string_view::npos;
+}
+
+void read(std::string_view text, Format format) {
+    constexpr const char* endings[] = {"json", "nff", "pov", "dat",       "pdb",
+                                       "cif",  "xyz", "gro", "lammpstrj", "lmp"};
+    const std::string name = std::string("a.") + endings[static_cast<int>(format)];
+    scenes::LoadOptions options;
+    options.on_remark = [](const std::string&) {};
+    scenes::parse_scene(name, text, options);
+    if (!scenes::is_structure(format)) return;
+    scenes::InputFile file(name, text);
+    const auto reader = scenes::open_structure(file, format);
+    for (scenes::Structure frame; reader->next(frame);) {
+    }
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    if (asks_for_much(text)) return 0;
+    try {
+        read(text, Format::RAYLANE_FUZZ_FORMAT);
+    } catch (const scenes::BadInput& bad) {
+        const std::string_view message = bad.what();
+        if (message.empty() || message.size() > 100'000) __builtin_trap();
+    } catch (const scenes::SystemRefused&) {
+    }
+    return 0;
+}
