@@ -95,13 +95,22 @@ Frame empty_frame(const Scene& scene, const Staging& staging, const Settings& se
 
 void include_shapes(const Scene& scene, Frame& frame) {
     const Solids& solids = scene.solids();
+    // Of what is made by unions alone, all parts are seen as they are.
+    std::vector<char> is_whole(solids.nodes().size());
+    for (Solids::Index root = 0; root < is_whole.size(); root = solids.node(root).end) {
+        const auto parts = solids.nodes().subspan(root, solids.node(root).end - root);
+        if (std::none_of(parts.begin(), parts.end(), [](const Solids::Node& node) {
+                return node.op == Solids::Op::all || node.reversed;
+            }))
+            std::fill_n(is_whole.begin() + root, parts.size(), 1);
+        else
+            frame.include(solids.bounds(root));
+    }
     for_each_bounded_table(scene.shapes(), [&](const auto& table) {
         for_each_shape(table, [&](const auto& shape, ShapeId id) {
-            if (!solids.has(id)) include_shape(shape, frame);
+            if (!solids.has(id) || is_whole[solids.part_of(id)] != 0) include_shape(shape, frame);
         });
     });
-    for (Solids::Index i = 0; i < solids.nodes().size(); i = solids.node(i).end)
-        frame.include(solids.bounds(i));
 }
 
 View staged(const Scene& scene, const Staging& staging, const Frame& frame) {

@@ -4,6 +4,7 @@
 #include "scenes/structure/bonds.hpp"
 #include "scenes/structure/colors.hpp"
 #include "scenes/structure/displacement.hpp"
+#include "scenes/structure/images.hpp"
 #include "scenes/structure/selection.hpp"
 
 #include <algorithm>
@@ -158,13 +159,8 @@ class Artist {
         if (repeat != std::array{1, 1, 1} && !structure_.cell.any())
             throw BadInput("--repeat", "",
                            "must have a cell to repeat, and " + file_ + " has none");
-        for (int u = 0; u < repeat[0]; ++u)
-            for (int v = 0; v < repeat[1]; ++v)
-                for (int w = 0; w < repeat[2]; ++w)
-                    images_.push_back(
-                        core::convert<float>(static_cast<double>(u) * structure_.cell.edges[0] +
-                                             static_cast<double>(v) * structure_.cell.edges[1] +
-                                             static_cast<double>(w) * structure_.cell.edges[2]));
+        for (const Vec3d& offset : offsets_of_images(structure_.cell, repeat))
+            images_.push_back(core::convert<float>(offset));
     }
 
     float full_radius(AtomIndex atom) const {
@@ -245,12 +241,21 @@ class Artist {
     }
 
     void add_bonds() {
-        const std::vector<Bond> bonds = find_bonds(structure_);
-        if (scale_.style != Style::licorice) find_neighbours(bonds);
+        if (images_.size() == 1 && structure_.bonds.empty()) {
+            add_bonds_of(structure_);
+            return;
+        }
+        add_bonds_of(with_images(structure_, drawing_.repeat));
+    }
+
+    /// Of the structure, or of its images side by side; `all` has the same atoms again and again.
+    void add_bonds_of(const Structure& all) {
+        const std::vector<Bond> bonds = find_bonds(all);
+        if (scale_.style != Style::licorice) find_neighbours(all, bonds);
         for (const Bond& bond : bonds) {
-            if (!is_selected(bond.a) || !is_selected(bond.b)) continue;
-            const Vec3d a = core::convert<double>(structure_.positions[bond.a]);
-            const Vec3d b = core::convert<double>(structure_.positions[bond.b]);
+            if (!is_selected(original(bond.a)) || !is_selected(original(bond.b))) continue;
+            const Vec3d a = core::convert<double>(all.positions[bond.a]);
+            const Vec3d b = core::convert<double>(all.positions[bond.b]);
             if (a == b) continue;
             const int sticks = scale_.style == Style::licorice ? 1 : bond.order;
             const float radius = (scale_.style == Style::licorice ? licorice_stick
@@ -261,7 +266,7 @@ class Artist {
                 add_stick(bond, a, b, radius);
                 continue;
             }
-            const Vec3d side = beside(bond, a, b);
+            const Vec3d side = beside(all, bond, a, b);
             for (int k = 0; k < sticks; ++k) {
                 const double by = (k - 0.5 * (sticks - 1)) * 2.0 * apart / (sticks - 1);
                 add_stick(bond, a + by * side, b + by * side, radius);
@@ -269,34 +274,36 @@ class Artist {
         }
     }
 
+    AtomIndex original(AtomIndex atom) const {
+        return atom % static_cast<AtomIndex>(structure_.size());
+    }
+
     /// In the colours of both atoms, each as far as what is seen of it.
     void add_stick(const Bond& bond, const Vec3d& a, const Vec3d& b, float radius) {
-        const MaterialIndex of_a = palette_.of(color_of_(bond.a));
-        const MaterialIndex of_b = palette_.of(color_of_(bond.b));
+        const AtomPair atoms = {original(bond.a), original(bond.b)};
+        const MaterialIndex of_a = palette_.of(color_of_(atoms[0]));
+        const MaterialIndex of_b = palette_.of(color_of_(atoms[1]));
         const double distance = core::length(b - a);
-        const auto larger = static_cast<double>(radius_of(bond.a) - radius_of(bond.b));
+        const auto larger = static_cast<double>(radius_of(atoms[0]) - radius_of(atoms[1]));
         const double share = std::clamp(0.5 + 0.5 * larger / distance, 0.1, 0.9);
-        for (const Vec3f& image : images_) {
-            const Vec3d by = core::convert<double>(image);
-            const auto add_part = [&](const Vec3d& from, const Vec3d& to, MaterialIndex material) {
-                add(core::CappedCylinder{core::convert<float>(from + by),
-                                         core::convert<float>(to - from), radius},
-                    material, {bond.a, bond.b});
-            };
-            if (of_a == of_b) {
-                add_part(a, b, of_a);
-            } else {
-                const Vec3d middle = a + share * (b - a);
-                add_part(a, middle, of_a);
-                add_part(b, middle, of_b);
-            }
+        const auto add_part = [&](const Vec3d& from, const Vec3d& to, MaterialIndex material) {
+            add(core::CappedCylinder{core::convert<float>(from), core::convert<float>(to - from),
+                                     radius},
+                material, atoms);
+        };
+        if (of_a == of_b) {
+            add_part(a, b, of_a);
+        } else {
+            const Vec3d middle = a + share * (b - a);
+            add_part(a, middle, of_a);
+            add_part(b, middle, of_b);
         }
     }
 
     /// One of the others that an atom is bonded to, for each; itself if there is none.
-    void find_neighbours(const std::vector<Bond>& bonds) {
-        one_.resize(structure_.size());
-        another_.resize(structure_.size());
+    void find_neighbours(const Structure& all, const std::vector<Bond>& bonds) {
+        one_.resize(all.size());
+        another_.resize(all.size());
         for (AtomIndex i = 0; i < one_.size(); ++i)
             one_[i] = another_[i] = i;
         const auto note = [&](AtomIndex of, AtomIndex other) {
@@ -309,7 +316,7 @@ class Artist {
     }
 
     /// Across a bond, of length 1, in the plane of one that is next to it.
-    Vec3d beside(const Bond& bond, const Vec3d& a, const Vec3d& b) const {
+    Vec3d beside(const Structure& all, const Bond& bond, const Vec3d& a, const Vec3d& b) const {
         const Vec3d along = 1.0 / core::length(b - a) * (b - a);
         const auto across = [&](const Vec3d& way) {
             const Vec3d part = way - core::dot(way, along) * along;
@@ -320,8 +327,8 @@ class Artist {
         for (const auto& [end, other] : ends)
             for (const AtomIndex next : {one_[end], another_[end]}) {
                 if (next == end || next == other) continue;
-                const Vec3d way = core::convert<double>(structure_.positions[next]) -
-                                  core::convert<double>(structure_.positions[end]);
+                const Vec3d way = core::convert<double>(all.positions[next]) -
+                                  core::convert<double>(all.positions[end]);
                 if (const Vec3d side = across(way); side != Vec3d(0.0)) return side;
             }
         const Vec3d side = across({1, 0, 0});

@@ -1,10 +1,12 @@
 #include "scenes/structure/gemmi_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <gemmi/cif.hpp>
 #include <gemmi/mmcif.hpp>
 #include <gemmi/pdb.hpp>
 #include <gemmi/smcif.hpp>
+#include <numeric>
 
 namespace raylane::scenes::gemmi_files {
 
@@ -72,6 +74,8 @@ std::vector<Model> models_of(const gemmi::Structure& structure) {
     return models;
 }
 
+using Sites = std::vector<gemmi::SmallStructure::Site>;
+
 /// A site's atom where an operation of symmetry has it. U of CIF is along the reciprocal cell's
 /// edges, of length 1: International Tables D, 4.1.10 (2006).
 Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& cell,
@@ -95,30 +99,163 @@ Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& ce
     return atom;
 }
 
-/// All atoms of a cell: of images that are as near as atoms never are, the first.
+/// Which of the sites belong together, as atoms of a molecule that are bonded: for each the first.
+std::vector<std::size_t> molecules_of(const Sites& sites, const gemmi::UnitCell& cell) {
+    constexpr std::size_t most = 4000; // of more, each is by itself
+    constexpr double tolerance = 0.4;  // angstrom, as bonds have it
+    std::vector<std::size_t> first(sites.size());
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    if (sites.size() > most) return first;
+    std::vector<gemmi::Position> places;
+    for (const auto& site : sites)
+        places.push_back(cell.orthogonalize(site.fract));
+    const auto root = [&](std::size_t i) {
+        while (first[i] != i)
+            i = first[i] = first[first[i]];
+        return i;
+    };
+    for (std::size_t i = 0; i < sites.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            const double reach = static_cast<double>(sites[i].element.covalent_r()) +
+                                 static_cast<double>(sites[j].element.covalent_r()) + tolerance;
+            if (places[i].dist_sq(places[j]) >= reach * reach) continue;
+            const std::size_t a = root(i), b = root(j);
+            first[std::max(a, b)] = std::min(a, b);
+        }
+    for (std::size_t i = 0; i < sites.size(); ++i)
+        first[i] = root(i);
+    return first;
+}
+
+/// All atoms of a cell: of images that are as near as atoms never are, the first. Molecules stay
+/// together, and have their middles in the cell.
 Model model_of(const gemmi::SmallStructure& structure) {
     constexpr double one_place = 0.4 * 0.4; // angstrom^2
+    constexpr double at_edge = 1e-6;        // of a cell: what is rounded is to stay where it is
     const gemmi::UnitCell& cell = structure.cell;
+    const Sites& sites = structure.sites;
     Model model;
     model.title = structure.name;
     model.is_small = true;
     take_cell(cell, model);
+    const std::vector<std::size_t> molecule = molecules_of(sites, cell);
+    std::vector<gemmi::Fractional> middle(sites.size());
+    std::vector<double> size(sites.size());
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        middle[molecule[i]] = gemmi::Fractional(middle[molecule[i]] + sites[i].fract);
+        size[molecule[i]] += 1.0;
+    }
+    std::vector<gemmi::FTransform> operations = {gemmi::FTransform(gemmi::Transform())};
+    operations.insert(operations.end(), cell.images.begin(), cell.images.end());
     Residue all;
-    for (const gemmi::SmallStructure::Site& site : structure.sites) {
-        std::vector<gemmi::Fractional> places = {site.fract};
-        all.atoms.push_back(image_of(site, cell, site.fract, gemmi::Mat33()));
-        for (const gemmi::FTransform& image : cell.images) {
-            const gemmi::Fractional at = image.apply(site.fract);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        const gemmi::Vec3 of_molecule = middle[molecule[i]] / size[molecule[i]];
+        std::vector<gemmi::Fractional> places;
+        for (const gemmi::FTransform& operation : operations) {
+            const gemmi::Fractional moved = operation.apply(gemmi::Fractional(of_molecule));
+            const gemmi::Fractional cells(std::floor(moved.x + at_edge),
+                                          std::floor(moved.y + at_edge),
+                                          std::floor(moved.z + at_edge));
+            const gemmi::Fractional at(operation.apply(sites[i].fract) - cells);
             const auto is_here = [&](const gemmi::Fractional& other) {
                 return cell.distance_sq(at, other) < one_place;
             };
             if (std::any_of(places.begin(), places.end(), is_here)) continue;
             places.push_back(at);
-            all.atoms.push_back(image_of(site, cell, at, image.mat));
+            all.atoms.push_back(image_of(sites[i], cell, at, operation.mat));
         }
     }
     model.chains.push_back({"", {std::move(all)}});
     return model;
+}
+
+/// What the file says itself, or else its space group's.
+void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure) {
+    for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
+        gemmi::cif::Column operations = block.find_values(tag);
+        if (!operations) continue;
+        structure.cell.images.clear();
+        for (const std::string& text : operations) {
+            const gemmi::Op op = gemmi::parse_triplet(gemmi::cif::as_string(text));
+            if (op != gemmi::Op::identity())
+                structure.cell.images.emplace_back(
+                    gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
+        }
+        return;
+    }
+    const gemmi::SpaceGroup* group = structure.find_spacegroup();
+    for (const char* tag : {"_space_group_IT_number", "_symmetry_Int_Tables_number"})
+        if (const std::string* number = block.find_value(tag); number && group == nullptr)
+            group = gemmi::find_spacegroup_by_number(gemmi::cif::as_int(*number, 0));
+    if (group == nullptr && !structure.spacegroup_hm.empty())
+        throw std::runtime_error("its space group \"" + structure.spacegroup_hm +
+                                 "\" is none that is known, and it has no operations of symmetry");
+    structure.cell.set_cell_images_from_spacegroup(group);
+}
+
+/// B of CIF, where U is not.
+void read_aniso_b(gemmi::cif::Block& block, Sites& sites) {
+    for (auto row : block.find("_atom_site_aniso_",
+                               {"label", "B_11", "B_22", "B_33", "B_12", "B_13", "B_23"})) {
+        const auto site = std::find_if(sites.begin(), sites.end(),
+                                       [&](const auto& of) { return of.label == row.str(0); });
+        if (site == sites.end() || site->aniso.nonzero()) continue;
+        const auto u = [&](std::size_t column) {
+            return gemmi::cif::as_number(row[column], 0.0) / gemmi::u_to_b();
+        };
+        site->aniso = {u(1), u(2), u(3), u(4), u(5), u(6)};
+    }
+}
+
+/// Throws for a coordinate that is no number; true if one is not known.
+bool lacks_coordinate(const std::string& text, const std::string& of) {
+    if (gemmi::cif::is_null(text)) return true;
+    if (!std::isfinite(gemmi::cif::as_number(text)))
+        throw std::runtime_error("the coordinates of " + of + " must be numbers, got \"" + text +
+                                 "\"");
+    return false;
+}
+
+/// The structure of a block; without the sites that have no place.
+gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
+    gemmi::SmallStructure structure = gemmi::make_small_structure_from_block(block);
+    if (structure.sites.empty()) return structure;
+    if (!structure.cell.is_crystal())
+        throw std::runtime_error(
+            "must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
+    std::size_t site = 0;
+    Sites placed;
+    for (auto row : block.find("_atom_site_", {"label", "fract_x", "fract_y", "fract_z"})) {
+        const gemmi::SmallStructure::Site& of = structure.sites.at(site++);
+        bool lacks = false;
+        for (std::size_t axis = 1; axis < 4; ++axis)
+            lacks = lacks_coordinate(row[axis], of.label) || lacks;
+        if (!lacks) placed.push_back(of);
+    }
+    structure.sites = std::move(placed);
+    find_operations(block, structure);
+    read_aniso_b(block, structure.sites);
+    return structure;
+}
+
+/// Coordinates have to be numbers; columns that gemmi asks for may have their other names.
+void check_macromolecule(gemmi::cif::Document& document) {
+    for (gemmi::cif::Block& block : document.blocks) {
+        gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
+        if (loop == nullptr) continue;
+        if (loop->find_tag("_atom_site.auth_seq_id") < 0)
+            if (const int label = loop->find_tag("_atom_site.label_seq_id"); label >= 0)
+                loop->tags[static_cast<std::size_t>(label)] = "_atom_site.auth_seq_id";
+        for (const char* column : {"id", "type_symbol", "label_alt_id", "label_asym_id",
+                                   "occupancy", "B_iso_or_equiv", "auth_seq_id"})
+            if (loop->find_tag("_atom_site." + std::string(column)) < 0)
+                throw std::runtime_error("must have a column _atom_site." + std::string(column));
+        for (auto row : block.find("_atom_site.", {"id", "Cartn_x", "Cartn_y", "Cartn_z"}))
+            for (std::size_t axis = 1; axis < 4; ++axis)
+                if (lacks_coordinate(row[axis], "atom " + row[0]))
+                    throw std::runtime_error("the coordinates of atom " + row[0] +
+                                             " must be numbers, got \"" + row[axis] + "\"");
+    }
 }
 
 /// A file of macromolecules has their coordinates, not parts of a cell.
@@ -143,11 +280,13 @@ std::vector<Model> read_cif(std::string_view text, const std::string& name) {
     try {
         gemmi::cif::Document document =
             gemmi::cif::read_memory(text.data(), text.size(), name.c_str());
-        if (!is_small(document)) return models_of(gemmi::make_structure(document));
+        if (!is_small(document)) {
+            check_macromolecule(document);
+            return models_of(gemmi::make_structure(document));
+        }
         std::vector<Model> models;
-        for (const gemmi::cif::Block& block : document.blocks) {
-            gemmi::SmallStructure structure = gemmi::make_small_structure_from_block(block);
-            structure.setup_cell_images();
+        for (gemmi::cif::Block& block : document.blocks) {
+            const gemmi::SmallStructure structure = crystal_of(block);
             if (!structure.sites.empty()) models.push_back(model_of(structure));
         }
         return models;

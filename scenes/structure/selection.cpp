@@ -5,6 +5,7 @@
 #include "scenes/structure/lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <initializer_list>
@@ -62,6 +63,11 @@ Selected atoms_within(const Structure& structure, const Selected& of, float reac
     return result;
 }
 
+/// Words of the language, but for and, or and of.
+constexpr std::array<std::string_view, 16> keywords = {
+    "all",   "none",    "protein", "nucleic", "water", "hetero", "hydrogen", "backbone",
+    "chain", "residue", "element", "name",    "type",  "index",  "within",   "not"};
+
 class Parser {
   public:
     Parser(const Structure& structure, const std::string& option, std::string_view text)
@@ -106,6 +112,8 @@ class Parser {
         advance();
         return true;
     }
+    /// The word that is there, for a message.
+    std::string got() const { return word_.empty() ? "nothing" : '"' + printable(word_) + '"'; }
     std::string_view taken(const char* what) {
         if (word_.empty()) fail(std::string("must be ") + what + ", got nothing");
         const std::string_view word = word_;
@@ -147,13 +155,13 @@ class Parser {
         }
         if (take("(")) {
             Selected result = any();
-            if (!take(")")) fail(R"x(must be ")", got ")x" + printable(word_) + "\"");
+            if (!take(")")) fail(R"x(must be ")", got )x" + got());
             return result;
         }
         if (take("within")) {
             const double reach = number("a distance");
             if (!(reach >= 0.0)) fail("a distance must not be negative");
-            if (!take("of")) fail(R"(must be "of", got ")" + printable(word_) + "\"");
+            if (!take("of")) fail(R"(must be "of", got )" + got());
             return atoms_within(structure_, one(), static_cast<float>(reach));
         }
         return words();
@@ -213,10 +221,16 @@ class Parser {
         });
     }
 
-    /// The words up to one that goes on with the expression; at least one.
+    bool is_in_list() const {
+        return !word_.empty() && word_ != "(" && word_ != ")" && !is_one_of(word_, {"and", "or"}) &&
+               std::none_of(keywords.begin(), keywords.end(),
+                            [&](std::string_view keyword) { return is_same(word_, keyword); });
+    }
+    /// The words up to one of the language; at least one.
     std::vector<std::string_view> list(const char* what) {
-        std::vector<std::string_view> result = {taken(what)};
-        while (!word_.empty() && word_ != ")" && !is_one_of(word_, {"and", "or"}))
+        if (!is_in_list()) fail(std::string("must be ") + what + ", got " + got());
+        std::vector<std::string_view> result;
+        while (is_in_list())
             result.push_back(taken(what));
         return result;
     }
@@ -308,9 +322,7 @@ class Parser {
             structure_.properties.begin(), structure_.properties.end(),
             [&](const AtomProperty& property) { return is_same(property.name, name); });
         if (found == structure_.properties.end()) {
-            std::vector<std::string_view> known = {
-                "all",   "none",    "protein", "nucleic", "water", "hetero", "hydrogen", "backbone",
-                "chain", "residue", "element", "name",    "type",  "index",  "within",   "not"};
+            std::vector<std::string_view> known(keywords.begin(), keywords.end());
             for (const AtomProperty& property : structure_.properties)
                 known.push_back(property.name);
             std::string all;

@@ -6,9 +6,10 @@ namespace raylane::scenes {
 
 namespace {
 
-core::Scene build(core::SceneBuilder& builder, const std::string& file) {
+/// What `make` returns; a value that a scene refuses is the file's.
+auto of_file(const std::string& file, const auto& make) {
     try {
-        return std::move(builder).build();
+        return make();
     } catch (const core::InvalidValue& invalid) {
         throw BadInput(file, "", invalid.what());
     }
@@ -43,24 +44,32 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
                            const std::string& file, core::Workers* workers, DrawingScale* scale) {
     core::SceneBuilder builder;
     builder.workers = workers;
-    const DrawingScale drawn = draw(structure, drawing, file, builder);
-    if (scale != nullptr) *scale = drawn;
-    return build(builder, file);
+    return of_file(file, [&] {
+        const DrawingScale drawn = draw(structure, drawing, file, builder);
+        if (scale != nullptr) *scale = drawn;
+        return std::move(builder).build();
+    });
 }
 
 core::Scene read_structure(InputFile& file, Format format, const Drawing& drawing,
                            core::Workers* workers, Legend* legend) {
     core::SceneBuilder builder;
     builder.workers = workers;
-    {
-        Structure structure;
-        if (!open_structure(file, format)->next(structure))
-            throw BadInput(file.name(), "", "has no atoms");
-        std::vector<AtomPair> atoms;
-        draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms);
-        if (legend != nullptr) *legend = {std::move(structure), std::move(atoms)};
-    } // before the hierarchy takes room
-    return build(builder, file.name());
+    return of_file(file.name(), [&] {
+        {
+            Structure structure;
+            if (!open_structure(file, format)->next(structure))
+                throw BadInput(file.name(), "", "has no atoms");
+            if (structure.size() == 0)
+                throw BadInput(file.name(), "",
+                               "has no atoms in its first frame; if there are others, \"--frames "
+                               "1\" draws the next");
+            std::vector<AtomPair> atoms;
+            draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms);
+            if (legend != nullptr) *legend = {std::move(structure), std::move(atoms)};
+        } // before the hierarchy takes room
+        return std::move(builder).build();
+    });
 }
 
 } // namespace raylane::scenes

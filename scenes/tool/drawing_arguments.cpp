@@ -41,8 +41,10 @@ void DrawingArguments::add_to(CLI::App& command) {
         "(default: element)",
         "BY");
     add("--select", select,
-        "The atoms to draw, such as \"chain A and not water\" or \"within 5 of residue HEM\" "
-        "(default: all)",
+        "The atoms to draw (default: all): all, none, protein, nucleic, water, hetero, hydrogen, "
+        "backbone, chain A B, residue ALA 17 20-30, element C Fe, name CA, type 1, index 1-100, a "
+        "number that the file has for each atom, such as b_factor < 30, within 5 of ..., not ..., "
+        "... and ..., ... or ..., in parentheses if need be",
         "WHICH");
     add("--opacity", opacity,
         "How much atoms and bonds cover of what is behind them, above 0 and up to 1; walls inside "
@@ -80,6 +82,7 @@ Drawing DrawingArguments::drawing() const {
     if (repeat) drawing.repeat = repeat_argument(*repeat);
     drawing.show_cell = cell;
     drawing.ellipsoids = ellipsoids;
+    if (ellipsoids && !style) drawing.style = Style::balls; // of what has none
     return drawing;
 }
 

@@ -74,6 +74,8 @@ std::string text_of(const core::Settings& settings) {
     text += " --filter " + std::string(filters[static_cast<int>(settings.filter)]);
     text += " --light-samples " + std::to_string(settings.light_samples);
     text += " --max-depth " + std::to_string(settings.max_depth);
+    if (settings.max_see_through < core::Settings::see_through_limit)
+        text += " --max-see-through " + std::to_string(settings.max_see_through);
     text += " --min-weight " + to_text(settings.min_weight);
     if (const core::Outline& outline = settings.outline; outline.any())
         text += " --outline " + to_text(outline.width) + " --outline-color " +

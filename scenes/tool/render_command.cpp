@@ -24,8 +24,8 @@ namespace raylane::scenes {
 namespace {
 
 struct RenderArguments {
-    Argument scene, output, size, samples, quality, filter, light_samples, max_depth, min_weight,
-        threads, transfer, stats;
+    Argument scene, output, size, samples, quality, filter, light_samples, max_depth,
+        max_see_through, min_weight, threads, transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
     SceneArguments scene_arguments;
     FrameArguments frames;
@@ -88,6 +88,9 @@ struct Overrides {
         if (arguments.max_depth)
             max_depth =
                 whole_argument("--max-depth", *arguments.max_depth, 0, Settings::depth_limit);
+        if (arguments.max_see_through)
+            max_see_through = whole_argument("--max-see-through", *arguments.max_see_through, 1,
+                                             Settings::see_through_limit);
         if (arguments.min_weight)
             min_weight = number_argument("--min-weight", *arguments.min_weight, 0.0F, 1.0F);
         if (arguments.transfer)
@@ -103,13 +106,14 @@ struct Overrides {
         settings.light_samples = light_samples.value_or(settings.light_samples);
         settings.quality = quality.value_or(grid ? 0.0F : settings.quality);
         settings.max_depth = max_depth.value_or(settings.max_depth);
+        settings.max_see_through = max_see_through.value_or(settings.max_see_through);
         settings.min_weight = min_weight.value_or(settings.min_weight);
         settings.transfer = transfer.value_or(settings.transfer);
         return settings;
     }
 
     std::optional<std::pair<int, int>> size;
-    std::optional<int> grid, light_samples, max_depth;
+    std::optional<int> grid, light_samples, max_depth, max_see_through;
     std::optional<float> quality, min_weight;
     std::optional<core::Transfer> transfer;
     std::optional<core::PixelFilter> filter;
@@ -343,6 +347,10 @@ Command add_render_command(CLI::App& app) {
         "N");
     add("--max-depth", arguments->max_depth,
         "Reflections and refractions one after the other (default: as the scene says)", "N");
+    add("--max-see-through", arguments->max_see_through,
+        "See-through surfaces that are shown one behind the other; further ones are left out "
+        "(default: as the scene says, or all)",
+        "N");
     add("--min-weight", arguments->min_weight,
         "Leave paths of less influence on the pixel (default: as the scene says)", "W");
     add("--threads", arguments->threads, "Threads (default: all processors)", "N");

@@ -26,15 +26,16 @@ std::optional<core::Vec3f> direction_in(const std::string& text) {
 }
 
 core::Vec3f up_argument(const std::string& text) {
-    constexpr std::pair<const char*, core::Vec3f> axes[] = {
-        {"x", {1, 0, 0}}, {"y", {0, 1, 0}}, {"z", {0, 0, 1}}};
+    constexpr std::pair<const char*, core::Vec3f> axes[] = {{"x", {1, 0, 0}},   {"y", {0, 1, 0}},
+                                                            {"z", {0, 0, 1}},   {"-x", {-1, 0, 0}},
+                                                            {"-y", {0, -1, 0}}, {"-z", {0, 0, -1}}};
     for (const auto& [name, axis] : axes)
         if (text == name) return axis;
     const std::optional<core::Vec3f> direction = direction_in(text);
     if (!direction)
         throw BadInput("--up", "",
-                       "must be x, y or z, or a direction such as 0,1,1, got \"" + printable(text) +
-                           "\"");
+                       "must be x, y, z, -x, -y or -z, or a direction such as 0,1,1, got \"" +
+                           printable(text) + "\"");
     return *direction;
 }
 
@@ -90,8 +91,10 @@ core::Staging ViewChange::staging(const core::Scene& scene, core::Camera& camera
         const core::Vec3f along =
             staging.framing ? staging.framing->direction : core::framing_of(camera).direction;
         of_camera = *up;
-        if (core::cross(core::convert<double>(*up), core::convert<double>(along)) ==
-            core::Vec3d(0.0))
+        const auto wide_up = core::convert<double>(*up), forward = core::convert<double>(along);
+        constexpr double least_sine = 1e-5;
+        if (core::length(core::cross(wide_up, forward)) <=
+            least_sine * core::length(wide_up) * core::length(forward))
             throw BadInput("--up", "", "must not be along the view");
     }
     if (staging.framing) {
@@ -135,7 +138,8 @@ void ViewArguments::add_to(CLI::App& command) {
         "in the direction 1,-1,-0.5 (default: as the scene says; atoms: front)",
         "WAY");
     add("--up", up,
-        "What is up in the picture: x, y or z, or a direction such as 0,1,1 (default: as the view "
+        "What is up in the picture: x, y, z, -x, -y or -z, or a direction such as 0,1,1 (default: "
+        "as the view "
         "or the scene says)",
         "WAY");
     add("--zoom", zoom, "How much larger (default: 1)", "TIMES");

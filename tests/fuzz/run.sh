@@ -9,7 +9,8 @@ seconds=${1:-600}
 [ $# -eq 0 ] || shift
 formats=${*:-"cif gro json lammps_data lammps_dump nff pdb pov tachyon xyz"}
 
-[ -e build/fuzz/build.ninja ] || cmake --preset fuzz -GNinja >build/fuzz.log || { cat build/fuzz.log; exit 1; }
+mkdir -p build/fuzz/findings
+[ -e build/fuzz/build.ninja ] || cmake --preset fuzz -GNinja >build/fuzz/configure.log || { cat build/fuzz/configure.log; exit 1; }
 targets=
 for format in $formats; do targets="$targets raylane-fuzz-$format"; done
 # shellcheck disable=SC2086 # a list of words
@@ -25,14 +26,11 @@ seeds() { # format, folder: what it is to begin with
 }
 fuzz() { # format
     folder=build/fuzz/corpus/$1
-    mkdir -p "$folder" "build/fuzz/work/$1" "build/fuzz/findings"
+    mkdir -p "$folder" "build/fuzz/work/$1"
     seeds "$1" "$folder"
-    dictionary=
-    [ ! -e "tests/fuzz/$1.dict" ] || dictionary="-dict=$PWD/tests/fuzz/$1.dict"
     root=$PWD
-    # shellcheck disable=SC2086 # an option, or none
     (cd "build/fuzz/work/$1" && "$root/build/fuzz/bin/raylane-fuzz-$1" -max_total_time="$seconds" \
-        -timeout=20 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 $dictionary \
+        -timeout=100 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 \
         -artifact_prefix="$root/build/fuzz/findings/$1-" "$root/$folder" >"$root/build/fuzz/$1.log" 2>&1)
 }
 report() { # format

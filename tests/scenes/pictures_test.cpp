@@ -16,7 +16,7 @@ namespace {
 
 core::Settings test_settings(const core::Scene& scene) {
 #ifdef RAYLANE_FEW_RAYS
-    constexpr int longest = 64;
+    constexpr int longest = 48;
 #else
     constexpr int longest = 160;
 #endif

@@ -1,5 +1,6 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
+#include "tests/sanitized.hpp"
 #include "tests/simd/picture.hpp"
 
 #include <cmath>
@@ -17,7 +18,7 @@ Scene cloud(Projection projection, bool in_fog, int most) {
     std::mt19937 random(11);
     std::uniform_real_distribution<float> place(-2, 2), fraction(0, 1);
     Builder builder;
-    builder.settings.width = builder.settings.height = 48;
+    builder.settings.width = builder.settings.height = tests::sanitized ? 20 : 48;
     builder.settings.grid = 2;
     builder.settings.max_depth = 3;
     builder.settings.min_weight = 0.001F;

@@ -2,6 +2,7 @@
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
+#include "tests/sanitized.hpp"
 
 #include <cmath>
 
@@ -61,7 +62,7 @@ TEST_CASE("waves that outgrow their queues are divided", "[long]") {
 }
 
 TEST_CASE("a sample that outgrows a queue by itself is followed to its end", "[long]") {
-    const Scene scene = panes(15);
+    const Scene scene = panes(tests::sanitized ? 13 : 15);
     Settings settings = scene.settings();
     settings.width = settings.height = 3;
     const Film expected = simd::render(scene, settings, by(simd::Engine::reference)).film;
@@ -178,9 +179,11 @@ TEST_CASE("scenes may be very large or very small") {
 
 TEST_CASE("the vector engine is what renders, unless told otherwise", "[native]") {
     const Scene scene = panes(9);
-    const auto deferred = [&](const simd::RenderOptions& options) {
-        return simd::render(scene, scene.settings(), options).counters.deferred;
+    const auto deferred = [&](const simd::RenderOptions& options, int size) {
+        Settings settings = scene.settings();
+        settings.width = settings.height = size;
+        return simd::render(scene, settings, options).counters.deferred;
     };
-    CHECK(deferred({}) > 0);
-    CHECK(deferred(by(simd::Engine::reference)) == 0);
+    CHECK(deferred({}, 40) > 0);
+    CHECK(deferred(by(simd::Engine::reference), 4) == 0); // which has no queues
 }

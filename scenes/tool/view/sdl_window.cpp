@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 namespace {
 
@@ -123,17 +124,27 @@ class SdlWindow final : public Window {
     bool is_dragged_ = false;
 };
 
+/// True of what SDL takes where there is no display, unless it is asked for.
+bool shows_nothing(const char* driver) {
+    if (driver == nullptr || std::getenv("SDL_VIDEODRIVER") != nullptr) return false;
+    const std::string_view name = driver;
+    return name == "offscreen" || name == "dummy" || name == "evdev";
+}
+
 } // namespace
 
 extern "C" __attribute__((visibility("default"))) Window*
 raylane_open_window(const char* title, int width, int height, const char** why) {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1"); // which are the tool's own
     SDL_Window* window = nullptr;
-    if (SDL_Init(SDL_INIT_VIDEO) == 0)
+    static std::string reason;
+    const bool is_there = SDL_Init(SDL_INIT_VIDEO) == 0;
+    if (is_there && shows_nothing(SDL_GetCurrentVideoDriver()))
+        SDL_SetError("there is no display");
+    else if (is_there)
         window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width,
                                   height, SDL_WINDOW_RESIZABLE);
     if (window == nullptr) {
-        static std::string reason;
         reason = SDL_GetError();
         SDL_Quit();
         *why = reason.c_str();

@@ -230,64 +230,6 @@ TEST_CASE("places of an atom that exclude each other are one") {
     CHECK(frames(open_pdb, first + second)[0].size() == 1);
 }
 
-TEST_CASE("CIF of a crystal is all that is in its cell") {
-    if (!has_gemmi()) return;
-    const std::string text =
-        "data_salt\n_cell_length_a 5.64\n_cell_length_b 5.64\n_cell_length_c 5.64\n"
-        "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n"
-        "_symmetry_space_group_name_H-M 'F m -3 m'\n"
-        "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
-        "Na1 0 0 0\nCl1 0.5 0.5 0.5\n";
-    const Structure frame = frames(open_cif, text).at(0);
-    CHECK(elements_of(frame) == "Na Na Na Na Cl Cl Cl Cl ");
-    CHECK(frame.cell.edges[0].x == Approx(5.64));
-    CHECK(complaint(open_cif, "data_a\nloop_\n_x\n_y\n1\n").starts_with("a:"));
-    CHECK(complaint(open_cif, "data_a\n_x 1\n") == "a: must have a table _atom_site, got none");
-}
-
-TEST_CASE("a crystal's displacements are along the axes that its positions have") {
-    if (!has_gemmi()) return;
-    // The same in all directions, 0.05 angstrom^2, in a cell that leans: U13 is its cosine's part.
-    // In a cell with a fourfold axis, the image has U11 and U22 in each other's place.
-    const std::string leaning = "data_a\n_cell_length_a 10\n_cell_length_b 8\n_cell_length_c 9\n"
-                                "_cell_angle_alpha 90\n_cell_angle_beta 120\n_cell_angle_gamma 90\n"
-                                "_symmetry_space_group_name_H-M 'P 1'\n";
-    const std::string fourfold = "data_b\n_cell_length_a 10\n_cell_length_b 10\n_cell_length_c 9\n"
-                                 "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n"
-                                 "_symmetry_space_group_name_H-M 'P 4'\n";
-    const std::string sites =
-        "loop_\n_atom_site_label\n_atom_site_type_symbol\n_atom_site_fract_x\n"
-        "_atom_site_fract_y\n_atom_site_fract_z\n"
-        "O1 O 0.1 0.2 0.3\nC2 C 0.4 0.1 0.6\n"
-        "loop_\n_atom_site_aniso_label\n_atom_site_aniso_U_11\n"
-        "_atom_site_aniso_U_22\n_atom_site_aniso_U_33\n_atom_site_aniso_U_12\n"
-        "_atom_site_aniso_U_13\n_atom_site_aniso_U_23\n";
-    const auto check = [](const Anisotropy& of, AtomIndex atom, const std::array<double, 6>& u) {
-        CHECK(of.atom == atom);
-        for (std::size_t k = 0; k < u.size(); ++k) {
-            CAPTURE(k);
-            CHECK(static_cast<double>(of.u[k]) == Approx(u[k]).margin(1e-8));
-        }
-    };
-    // The angle between the reciprocal edges a* and c* is 60 degrees.
-    const Structure one = frames(open_cif, leaning + sites + "C2 0.05 0.05 0.05 0 0.025 0\n").at(0);
-    REQUIRE(one.anisotropies.size() == 1);
-    check(one.anisotropies[0], 1, {0.05, 0.05, 0.05, 0.0, 0.0, 0.0});
-    const Structure turned =
-        frames(open_cif, fourfold + sites + "O1 0.01 0.04 0.02 0.003 0.002 0.001\n").at(0);
-    REQUIRE(turned.anisotropies.size() == 4);
-    int quarter_turns = 0;
-    for (const Anisotropy& of : turned.anisotropies) {
-        const Vec3f at = turned.positions[of.atom];
-        if (std::abs(at.z - 2.7F) > 1e-4F || std::abs(std::abs(at.x) - 2.0F) > 1e-4F) continue;
-        ++quarter_turns;
-        const double way = at.x < 0.0F ? 1.0 : -1.0; // x, y -> -y, x, or y, -x
-        check(of, of.atom, {0.04, 0.01, 0.02, -0.003, -way * 0.001, way * 0.002});
-    }
-    CHECK(quarter_turns == 2);
-    CHECK(turned.names.at(0) == "O1");
-}
-
 TEST_CASE("coordinates are the floats nearest to what the file says") {
     // Just below what is in the middle of two floats, which is the double nearest to it.
     const auto x = [](const std::string& number) {

@@ -202,6 +202,31 @@ TEST_CASE("within finds what all distances do") {
     }
 }
 
+TEST_CASE("lists of a selection end where the language goes on") {
+    const Structure structure = peptide();
+    CHECK(complaint(structure, "chain A an water") ==
+          "--select: column 12: must be \"and\", \"or\" or the end, got \"water\"");
+    CHECK(complaint(structure, "chain A within 3 of water") ==
+          "--select: column 9: must be \"and\", \"or\" or the end, got \"within\"");
+    CHECK(complaint(structure, "chain and water") ==
+          "--select: column 7: must be the name of a chain, got \"and\"");
+    CHECK(complaint(structure, "(chain A") == "--select: column 9: must be \")\", got nothing");
+    CHECK(complaint(structure, "name") ==
+          "--select: column 5: must be the name of an atom, got nothing");
+    CHECK(selected(structure, "not residue ALA HOH") == "00010");
+}
+
+TEST_CASE("atoms that are seen through are seen by the camera of others") {
+    const auto camera_of = [](float opacity) {
+        LoadOptions options;
+        options.drawing.style = Style::balls;
+        options.drawing.opacity = opacity;
+        options.drawing.framing.direction = {-1, -0.5F, 0.3F};
+        return parse_scene("a.xyz", "3\n\nC 0 0 0\nO 1.2 0 0\nN 0 1.3 0.2\n", options).camera();
+    };
+    CHECK(camera_of(0.5F).from == camera_of(1.0F).from);
+}
+
 TEST_CASE("a file of atoms is a scene with a camera that sees them all") {
     LoadOptions options;
     options.drawing.width = 320;

@@ -198,8 +198,12 @@ TEST_CASE("a view is of any scene, and so are lights that come with it") {
           nlohmann::json({0, 0, 1}));
     CHECK(complaint(workshop, {"scene.json", "--view", "top", "--up", "y"}) ==
           "raylane: --up: must not be along the view\n");
+    CHECK(complaint(workshop, {"scene.json", "--view", "1,2,3", "--up", "0.1,0.2,0.3"}) ==
+          "raylane: --up: must not be along the view\n");
+    CHECK(convert({"--up", "-x"})["camera"]["up"] == nlohmann::json({-1, 0, 0}));
     CHECK(complaint(workshop, {"scene.json", "--up", "0,0,0"})
-              .starts_with("raylane: --up: must be x, y or z, or a direction such as 0,1,1"));
+              .starts_with(
+                  "raylane: --up: must be x, y, z, -x, -y or -z, or a direction such as 0,1,1"));
     // A camera that has its place keeps it.
     const auto near = convert({"--zoom", "2"});
     CHECK(near["camera"]["from"][2] == 5);

@@ -1,0 +1,195 @@
+#include "scenes/errors.hpp"
+#include "scenes/structure/readers.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace raylane::scenes;
+using raylane::core::Vec3d;
+using raylane::core::Vec3f;
+
+/// Crystals of small molecules, as CIF has them.
+namespace {
+
+using Open = std::unique_ptr<FrameReader> (*)(InputFile&);
+
+std::vector<Structure> frames(Open open, const std::string& text) {
+    InputFile file("a", text);
+    const std::unique_ptr<FrameReader> reader = open(file);
+    std::vector<Structure> all;
+    for (Structure frame; reader->next(frame);)
+        all.push_back(frame);
+    return all;
+}
+
+std::string complaint(Open open, const std::string& text) {
+    return raylane::tests::message_of<BadInput>([&] { frames(open, text); });
+}
+
+std::string elements_of(const Structure& structure) {
+    std::string text;
+    for (AtomIndex i = 0; i < structure.size(); ++i)
+        text.append(data_of(structure.element(i)).symbol).append(" ");
+    return text;
+}
+
+bool has_gemmi() {
+    InputFile file("a", "x");
+    return raylane::tests::message_of<BadInput>([&] { open_pdb(file); }).find("without gemmi") ==
+           std::string::npos;
+}
+
+const std::string cube = "data_a\n_cell_length_a 10\n_cell_length_b 10\n_cell_length_c 10\n"
+                         "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n";
+
+/// Sites: label, element and coordinates, line by line.
+std::string sites(const std::string& lines) {
+    return "loop_\n_atom_site_label\n_atom_site_type_symbol\n_atom_site_fract_x\n"
+           "_atom_site_fract_y\n_atom_site_fract_z\n" +
+           lines;
+}
+
+/// Positions in angstrom, of whole numbers.
+std::string places_of(const Structure& structure) {
+    std::string text;
+    for (const Vec3f& at : structure.positions) {
+        for (int axis = 0; axis < 3; ++axis)
+            text += std::to_string(std::lround(at[axis])) + " ";
+        text.back() = '\n';
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("CIF of a crystal is all that is in its cell") {
+    if (!has_gemmi()) return;
+    const std::string text =
+        "data_salt\n_cell_length_a 5.64\n_cell_length_b 5.64\n_cell_length_c 5.64\n"
+        "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n"
+        "_symmetry_space_group_name_H-M 'F m -3 m'\n"
+        "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n"
+        "Na1 0 0 0\nCl1 0.5 0.5 0.5\n";
+    const Structure frame = frames(open_cif, text).at(0);
+    CHECK(elements_of(frame) == "Na Na Na Na Cl Cl Cl Cl ");
+    CHECK(frame.cell.edges[0].x == Approx(5.64));
+    CHECK(complaint(open_cif, "data_a\nloop_\n_x\n_y\n1\n").starts_with("a:"));
+    CHECK(complaint(open_cif, "data_a\n_x 1\n") == "a: must have a table _atom_site, got none");
+}
+
+TEST_CASE("a crystal's displacements are along the axes that its positions have") {
+    if (!has_gemmi()) return;
+    // The same in all directions, 0.05 angstrom^2, in a cell that leans: U13 is its cosine's part.
+    // In a cell with a fourfold axis, the image has U11 and U22 in each other's place.
+    const std::string leaning = "data_a\n_cell_length_a 10\n_cell_length_b 8\n_cell_length_c 9\n"
+                                "_cell_angle_alpha 90\n_cell_angle_beta 120\n_cell_angle_gamma 90\n"
+                                "_symmetry_space_group_name_H-M 'P 1'\n";
+    const std::string fourfold = "data_b\n_cell_length_a 10\n_cell_length_b 10\n_cell_length_c 9\n"
+                                 "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n"
+                                 "_symmetry_space_group_name_H-M 'P 4'\n";
+    const std::string sites =
+        "loop_\n_atom_site_label\n_atom_site_type_symbol\n_atom_site_fract_x\n"
+        "_atom_site_fract_y\n_atom_site_fract_z\n"
+        "O1 O 0.1 0.2 0.3\nC2 C 0.4 0.1 0.6\n"
+        "loop_\n_atom_site_aniso_label\n_atom_site_aniso_U_11\n"
+        "_atom_site_aniso_U_22\n_atom_site_aniso_U_33\n_atom_site_aniso_U_12\n"
+        "_atom_site_aniso_U_13\n_atom_site_aniso_U_23\n";
+    const auto check = [](const Anisotropy& of, AtomIndex atom, const std::array<double, 6>& u) {
+        CHECK(of.atom == atom);
+        for (std::size_t k = 0; k < u.size(); ++k) {
+            CAPTURE(k);
+            CHECK(static_cast<double>(of.u[k]) == Approx(u[k]).margin(1e-8));
+        }
+    };
+    // The angle between the reciprocal edges a* and c* is 60 degrees.
+    const Structure one = frames(open_cif, leaning + sites + "C2 0.05 0.05 0.05 0 0.025 0\n").at(0);
+    REQUIRE(one.anisotropies.size() == 1);
+    check(one.anisotropies[0], 1, {0.05, 0.05, 0.05, 0.0, 0.0, 0.0});
+    const Structure turned =
+        frames(open_cif, fourfold + sites + "O1 0.01 0.04 0.02 0.003 0.002 0.001\n").at(0);
+    REQUIRE(turned.anisotropies.size() == 4);
+    int quarter_turns = 0;
+    for (const Anisotropy& of : turned.anisotropies) {
+        const Vec3f at = turned.positions[of.atom];
+        if (std::abs(at.z - 2.7F) > 1e-4F || std::abs(std::abs(at.x) - 2.0F) > 1e-4F) continue;
+        ++quarter_turns;
+        const double way = at.x < 0.0F ? 1.0 : -1.0; // x, y -> -y, x, or y, -x
+        check(of, of.atom, {0.04, 0.01, 0.02, -0.003, -way * 0.001, way * 0.002});
+    }
+    CHECK(quarter_turns == 2);
+    CHECK(turned.names.at(0) == "O1");
+}
+
+TEST_CASE("a crystal's own operations of symmetry count, or those of its space group") {
+    if (!has_gemmi()) return;
+    const auto atoms = [](const std::string& symmetry) {
+        return places_of(frames(open_cif, cube + symmetry + sites("O1 O 0.1 0.2 0.3\n")).at(0));
+    };
+    const std::string inverted = "1 2 3\n9 8 7\n";
+    CHECK(atoms("loop_\n_space_group_symop_operation_xyz\nx,y,z\n-x,-y,-z\n") == inverted);
+    CHECK(atoms("loop_\n_symmetry_equiv_pos_as_xyz\n'x, y, z'\n'-x, -y, -z'\n"
+                "_symmetry_space_group_name_H-M 'P 1'\n") == inverted);
+    CHECK(atoms("_symmetry_space_group_name_H-M 'P -1'\n") == inverted);
+    CHECK(atoms("_symmetry_space_group_name_H-M ?\n_space_group_IT_number 2\n") == inverted);
+    CHECK(atoms("") == "1 2 3\n");
+    const auto error = [](const std::string& symmetry) {
+        return complaint(open_cif, cube + symmetry + sites("O1 O 0.1 0.2 0.3\n"));
+    };
+    CHECK(
+        error("_symmetry_space_group_name_H-M 'P foo'\n") ==
+        "a: its space group \"P foo\" is none that is known, and it has no operations of symmetry");
+    CHECK(error("loop_\n_space_group_symop_operation_xyz\nx,y,z\n-x,-y,-q\n").starts_with("a: "));
+}
+
+TEST_CASE("molecules of a crystal stay together, with their middles in the cell") {
+    if (!has_gemmi()) return;
+    const Structure frame =
+        frames(open_cif, cube + "loop_\n_space_group_symop_operation_xyz\nx,y,z\n-x,-y,-z\n" +
+                             sites("C1 C 0.4 0.1 0.1\nO1 O 0.4 0.1 0.0\nNa Na -0.2 0.5 1.5\n"))
+            .at(0);
+    // Carbon monoxide, whose image's middle is at z = -0.5 without a cell's length.
+    CHECK(places_of(frame) == "4 1 1\n6 9 9\n4 1 0\n6 9 10\n8 5 5\n2 5 5\n");
+}
+
+TEST_CASE("a crystal without a cell, or with places that are none, is said to be") {
+    if (!has_gemmi()) return;
+    CHECK(complaint(open_cif, "data_a\n" + sites("O1 O 0.1 0.2 0.3\n")) ==
+          "a: must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
+    CHECK(complaint(open_cif, cube + sites("O1 O 0.1 q 0.3\n")) ==
+          "a: the coordinates of O1 must be numbers, got \"q\"");
+    CHECK(frames(open_cif, cube + sites("O1 O ? ? ?\nC1 C 0.1 0.2 0.3(1)\n")).at(0).size() == 1);
+}
+
+TEST_CASE("mmCIF without an author's numbers has those of its labels") {
+    if (!has_gemmi()) return;
+    const auto text = [](const std::string& columns, const std::string& values) {
+        return "data_a\nloop_\n_atom_site.id\n_atom_site.type_symbol\n_atom_site.label_atom_id\n"
+               "_atom_site.label_alt_id\n_atom_site.label_comp_id\n_atom_site.label_asym_id\n"
+               "_atom_site.occupancy\n_atom_site.B_iso_or_equiv\n" +
+               columns + "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n" + values;
+    };
+    const Structure frame =
+        frames(open_cif, text("_atom_site.label_seq_id\n", "1 C CA . ALA A 1 20 7 1 2 3\n")).at(0);
+    CHECK(frame.of_residue.at(0).number == 7);
+    CHECK(frame.chains.at(0) == "A");
+    CHECK(complaint(open_cif, text("", "1 C CA . ALA A 1 20 1 2 3\n")) ==
+          "a: must have a column _atom_site.auth_seq_id");
+    CHECK(complaint(open_cif, text("_atom_site.auth_seq_id\n", "1 C CA . ALA A 1 20 7 1 x 3\n")) ==
+          "a: the coordinates of atom 1 must be numbers, got \"x\"");
+}
+
+TEST_CASE("B of a crystal's displacements is U by 8 pi squared") {
+    if (!has_gemmi()) return;
+    const Structure frame =
+        frames(open_cif, cube + sites("O1 O 0.1 0.2 0.3\n") +
+                             "loop_\n_atom_site_aniso_label\n_atom_site_aniso_B_11\n"
+                             "_atom_site_aniso_B_22\n_atom_site_aniso_B_33\n"
+                             "_atom_site_aniso_B_12\n_atom_site_aniso_B_13\n"
+                             "_atom_site_aniso_B_23\nO1 1 2 3 0 0 0\n")
+            .at(0);
+    REQUIRE(frame.anisotropies.size() == 1);
+    CHECK(frame.anisotropies[0].u[2] == Approx(3 / (8 * 9.8696044)));
+}

@@ -1,0 +1,71 @@
+#include "scenes/scene_file.hpp"
+#include "scenes/structure/bonds.hpp"
+#include "scenes/structure/images.hpp"
+#include "tests/catch.hpp"
+
+#include <string>
+
+/// Bonds where a cell ends.
+using namespace raylane::scenes;
+using raylane::core::Vec3d;
+
+namespace {
+
+/// A chain of carbon along x through cells of 3 angstrom, of two atoms each.
+Structure chain() {
+    Structure structure;
+    structure.of_kind = {{"C", element_of("C")}};
+    structure.positions = {{0, 0, 0}, {1.5F, 0, 0}};
+    structure.kinds = {0, 0};
+    structure.cell.edges = {Vec3d(3, 0, 0), Vec3d(0, 9, 0), Vec3d(0, 0, 9)};
+    return structure;
+}
+
+std::string text_of(const std::vector<Bond>& bonds) {
+    std::string text;
+    for (const Bond& bond : bonds)
+        text += std::to_string(bond.a) + "-" + std::to_string(bond.b) + " ";
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("images of a cell are bonded to each other") {
+    CHECK(text_of(find_bonds(with_images(chain(), {1, 1, 1}))) == "0-1 ");
+    CHECK(text_of(find_bonds(with_images(chain(), {3, 1, 1}))) == "0-1 1-2 2-3 3-4 4-5 ");
+    CHECK(text_of(find_bonds(with_images(chain(), {1, 2, 1}))) == "0-1 2-3 ");
+}
+
+TEST_CASE("a file's bonds join the nearest images of their atoms") {
+    Structure structure = chain();
+    structure.has_all_bonds = true;
+    structure.positions[1].x = 2.5F; // half an angstrom to the left of the next cell's first
+    structure.bonds = {{0, 1, 2}};
+    CHECK(text_of(find_bonds(with_images(structure, {1, 1, 1}))).empty());
+    CHECK(text_of(find_bonds(with_images(structure, {3, 1, 1}))) == "1-2 3-4 ");
+    CHECK(find_bonds(with_images(structure, {2, 1, 1})).at(0).order == 2);
+    structure.cell.periodic[0] = false;
+    CHECK(text_of(find_bonds(with_images(structure, {1, 1, 1}))) == "0-1 ");
+    structure.cell = {};
+    CHECK(text_of(find_bonds(with_images(structure, {1, 1, 1}))) == "0-1 ");
+    // A cell that leans by nearly its width.
+    structure = chain();
+    structure.has_all_bonds = true;
+    structure.cell.edges = {Vec3d(3, 0, 0), Vec3d(2.9, 3, 0), Vec3d(0, 0, 9)};
+    structure.positions = {{0.1F, 0.1F, 0}, {2.9F + 0.1F, 2.9F, 0}};
+    structure.bonds = {{0, 1, 1}};
+    CHECK(text_of(find_bonds(with_images(structure, {1, 2, 1}))) == "1-2 ");
+}
+
+TEST_CASE("sticks go on where a cell is repeated") {
+    LoadOptions options;
+    options.drawing.style = Style::sticks;
+    options.drawing.repeat = {2, 1, 1};
+    const std::string text = "2\nLattice=\"3 0 0 0 9 0 0 0 9\" Properties=species:S:1:pos:R:3\n"
+                             "C 0 0 0\nC 1.5 0 0\n";
+    Legend legend;
+    options.legend = &legend;
+    const raylane::core::Scene scene = parse_scene("a.xyz", text, options);
+    CHECK(scene.shape_count() == 4 + 3);
+    CHECK(legend.of(5) == "bond of atom 1, C (C), and atom 2, C (C)");
+}
