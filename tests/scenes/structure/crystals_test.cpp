@@ -114,9 +114,9 @@ TEST_CASE("a crystal's displacements are along the axes that its positions have"
     int quarter_turns = 0;
     for (const Anisotropy& of : turned.anisotropies) {
         const Vec3f at = turned.positions[of.atom];
-        if (std::abs(at.z - 2.7F) > 1e-4F || std::abs(std::abs(at.x) - 2.0F) > 1e-4F) continue;
+        if (std::abs(std::abs(at.x - 5.0F) - 3.0F) > 1e-4F) continue; // at 8 or 2
         ++quarter_turns;
-        const double way = at.x < 0.0F ? 1.0 : -1.0; // x, y -> -y, x, or y, -x
+        const double way = at.x > 5.0F ? 1.0 : -1.0; // x, y -> -y, x, or y, -x
         check(of, of.atom, {0.04, 0.01, 0.02, -0.003, -way * 0.001, way * 0.002});
     }
     CHECK(quarter_turns == 2);

@@ -67,5 +67,6 @@ TEST_CASE("sticks go on where a cell is repeated") {
     options.legend = &legend;
     const raylane::core::Scene scene = parse_scene("a.xyz", text, options);
     CHECK(scene.shape_count() == 4 + 3);
-    CHECK(legend.of(5) == "bond of atom 1, C (C), and atom 2, C (C)");
+    CHECK(legend.of(4) == "bond of atom 1, C (C), and atom 2, C (C)");
+    CHECK(legend.of(5) == "bond of atom 2, C (C), and atom 1, C (C)"); // of the next cell
 }

@@ -167,7 +167,7 @@ TEST_CASE("what selects no atoms in any words is told with its column") {
     CHECK(complaint(all, "chane A").find("did you mean \"chain\"?") != std::string::npos);
     CHECK(complaint(all, "element C and") ==
           "--select: column 14: must be what to select, got nothing");
-    CHECK(complaint(all, "(all") == "--select: column 5: must be \")\", got \"\"");
+    CHECK(complaint(all, "(all") == "--select: column 5: must be \")\", got nothing");
     CHECK(complaint(all, "all all") ==
           "--select: column 5: must be \"and\", \"or\" or the end, got \"all\"");
     CHECK(complaint(all, "within near of all").find("must be a distance, got \"near\"") !=
@@ -280,7 +280,9 @@ TEST_CASE("what cannot be drawn is said in a line") {
           }) == "--repeat: must have a cell to repeat, and a.xyz has none");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.ellipsoids = true; }) ==
           "--ellipsoids: a.xyz has no anisotropic displacements");
-    CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) == "a.xyz: has no atoms");
+    CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) ==
+          "a.xyz: has no atoms in its first frame; if there are others, \"--frames 1\" draws the "
+          "next");
     CHECK(error("a.json", "{}", [](LoadOptions& o) { o.option_for_atoms = "--style"; }) ==
           "--style: goes with a file of atoms, and a.json is a scene");
 }
