@@ -11,12 +11,12 @@ namespace {
 
 /// In how many cells' distance along each edge the nearest image of `b` to `a` is.
 std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& b) {
-    const auto& [u, v, w] = cell.edges;
+    const Vec3d &u = cell.edges[0], &v = cell.edges[1], &w = cell.edges[2];
     const double volume = core::dot(u, core::cross(v, w));
     if (volume == 0.0) return {};
     const std::array<Vec3d, 3> across = {core::cross(v, w), core::cross(w, u), core::cross(u, v)};
     std::array<int, 3> cells{};
-    Vec3d way = b - a;
+    const Vec3d way = b - a;
     for (std::size_t k = 0; k < 3; ++k) {
         const double part = core::dot(way, across[k]) / volume;
         if (!cell.periodic[k] || !(std::abs(part) < 1e6)) continue;
