@@ -10,7 +10,9 @@ seconds=${1:-600}
 formats=${*:-"cif gro json lammps_data lammps_dump nff pdb pov tachyon xyz"}
 
 mkdir -p build/fuzz/findings
-[ -e build/fuzz/build.ninja ] || cmake --preset fuzz -GNinja >build/fuzz/configure.log || { cat build/fuzz/configure.log; exit 1; }
+kernels= # no sanitizer changes them
+[ ! -e build/asan/CMakeCache.txt ] || kernels=-DRAYLANE_KERNELS=$PWD/build/asan
+[ -e build/fuzz/build.ninja ] || cmake --preset fuzz -GNinja $kernels >build/fuzz/configure.log || { cat build/fuzz/configure.log; exit 1; }
 targets=
 for format in $formats; do targets="$targets raylane-fuzz-$format"; done
 # shellcheck disable=SC2086 # a list of words

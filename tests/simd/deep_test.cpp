@@ -52,7 +52,7 @@ Scene hall(int count) {
 
 } // namespace
 
-TEST_CASE("a thousand reflections, and any number of contacts, fit a small stack") {
+TEST_CASE("a thousand reflections, and any number of contacts, fit a small stack", "[native]") {
     if (tests::sanitized) {
         WARN("skipped: a sanitizer's frames are larger");
         return;

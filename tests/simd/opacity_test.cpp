@@ -55,7 +55,8 @@ Scene cloud(Projection projection, bool in_fog, int most) {
 
 } // namespace
 
-TEST_CASE("see-through surfaces are the same picture by both engines and all instruction sets") {
+TEST_CASE("see-through surfaces are the same picture by both engines and all instruction sets",
+          "[native]") {
     for (const Projection projection : {Projection::perspective, Projection::orthographic})
         for (const bool in_fog : {false, true})
             for (const int most : {2, Settings::see_through_limit}) {

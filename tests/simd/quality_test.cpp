@@ -110,7 +110,7 @@ TEST_CASE("a picture has its quality by wider filters, too", "[long]") {
     }
 }
 
-TEST_CASE("a picture of smooth shapes has few samples") {
+TEST_CASE("a picture of smooth shapes has few samples", "[native]") {
     Builder builder;
     builder.settings.width = builder.settings.height = 128;
     builder.camera.from = {0, 0, 6};

@@ -90,7 +90,8 @@ Scene blocks(std::vector<double> wavelengths = {}) {
 
 } // namespace
 
-TEST_CASE("solids of others are the same picture by both engines and all instruction sets") {
+TEST_CASE("solids of others are the same picture by both engines and all instruction sets",
+          "[native]") {
     const Scene scene = blocks();
     const std::vector<Color> vector = picture(scene, simd::Engine::vector);
     const std::vector<Color> reference = picture(scene, simd::Engine::reference);
@@ -103,7 +104,7 @@ TEST_CASE("solids of others are the same picture by both engines and all instruc
         if (simd::is_available(isa)) CHECK(picture(scene, simd::Engine::vector, isa) == vector);
 }
 
-TEST_CASE("a spectrum changes what glass refracts alone") {
+TEST_CASE("a spectrum changes what glass refracts alone", "[native]") {
     const std::vector<Color> white = picture(blocks(), simd::Engine::vector);
     const std::vector<Color> one = picture(blocks({line_d}), simd::Engine::vector);
     const Scene of_many = blocks({430, 500, 560, 620});
@@ -238,7 +239,7 @@ Scene cut_crowd(int way, int place) {
 
 } // namespace
 
-TEST_CASE("a crowd that is cut is the same picture by both engines") {
+TEST_CASE("a crowd that is cut is the same picture by both engines", "[native]") {
     const int way = GENERATE(range(0, 12));
     const int place = GENERATE(range(0, tests::sanitized ? 1 : 3));
     const Scene scene = cut_crowd(way, place);
