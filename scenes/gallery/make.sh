@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes the gallery's pictures, with what POV-Ray and Tachyon show of the same files, and prints the
-# table of times. It wants Debian's pymol, python3-ase, lammps, lammps-examples, povray, tachyon,
-# tachyon-doc and ImageMagick.
+# table of times. It wants Debian's pymol, python3-ase, lammps, lammps-examples, povray,
+# povray-includes, tachyon, tachyon-doc and ImageMagick.
 #
 # usage: scenes/gallery/make.sh RAYLANE [FOLDER]    files and large pictures are left in FOLDER
 set -eu
@@ -22,7 +22,11 @@ quietly() { # command...
 # Files, by the programs that people have them from.
 
 pymol_does() { # commands
-    quietly pymol -cq -d "viewport 800, 600; bg_color white; $1"
+    PATH=/usr/bin:$PATH quietly pymol -cq -d "viewport 800, 600; $1"
+}
+pymol_shows() { # scene for POV-Ray, commands: on a white page, which PyMOL leaves out
+    pymol_does "$2; save $1"
+    echo 'background { color rgb <1, 1, 1> }' >>"$1"
 }
 ase_does() { # commands of Python
     quietly /usr/bin/python3 -c "
@@ -39,25 +43,25 @@ $1"
 if [ ! -e pour.lammpstrj ]; then # LAMMPS' example of grains that are poured, up to the 13,000th step
     sed '/^run/,$d' /usr/share/lammps/examples/pour/in.pour >in.pour
     cat >>in.pour <<'LAMMPS'
-dump grains all custom 13000 pour.lammpstrj id type x y z radius vz
 run 13000
+write_dump all custom pour.lammpstrj id type x y z radius vz
 LAMMPS
     quietly lmp -in in.pour
 fi
 [ -e dna.dat ] || cp /usr/share/doc/tachyon/examples/scenes/dna.dat . # VMD's, with Tachyon
-[ -e surface.pov ] || pymol_does "load /usr/share/pymol/data/demo/pept.pdb; hide all
-show surface; show sticks; set transparency, 0.5; orient; save surface.pov"
+[ -e surface.pov ] || pymol_shows surface.pov "load /usr/share/pymol/data/demo/pept.pdb; hide all
+show surface; show sticks; set transparency, 0.5; orient"
 
 # What their own programs make of them for POV-Ray.
-[ -e 1hpv-spheres.pov ] || pymol_does 'load 1hpv.pdb; hide all; show spheres; save 1hpv-spheres.pov'
-[ -e 1hpv-sticks.pov ] || pymol_does 'load 1hpv.cif; hide all; show sticks, not solvent; util.cbc
-save 1hpv-sticks.pov'
+[ -e 1hpv-spheres.pov ] || pymol_shows 1hpv-spheres.pov 'load 1hpv.pdb; hide all; show spheres'
+[ -e 1hpv-sticks.pov ] ||
+    pymol_shows 1hpv-sticks.pov 'load 1hpv.cif; hide all; show sticks, not solvent; util.cbc'
 [ -e tube.pov ] || ase_does "
 tube = read('tube.xyz')
 write('tube.pov', tube, rotation='60x,30y',
       povray_settings=dict(transparent=False, canvas_width=800, bondatoms=get_bondpairs(tube, 1.1)))"
 [ -e pour.pov ] || ase_does "
-grains = read('pour.lammpstrj', index=1, format='lammps-dump-text')
+grains = read('pour.lammpstrj', format='lammps-dump-text')
 write('pour.pov', grains, rotation='-90x,45y,25x', radii=numpy.full(len(grains), 0.5),
       povray_settings=dict(transparent=False, canvas_width=800))"
 
@@ -72,18 +76,22 @@ seconds() { # command
 }
 row() { # name, arguments of raylane, the other's name and command
     name=$1 ours=$2 rival=$3 theirs=$4
+    rm -f "$name".raylane.* "$name".other.*
     our_seconds=$(seconds "$raylane $ours")
     their_seconds=$(seconds "$theirs")
     for kind in raylane other; do
         from=$name.$kind.png
         [ -e "$from" ] || from=$name.$kind.tga
-        convert "$from" -resize 400x300 -background white -gravity center -extent 400x300 -strip \
-            -colors 64 "$pages/$name.$kind.png"
+        [ -e "$from" ] || fail "$name: there is no picture by $kind"
+        convert "$from" -auto-orient -resize 400x300 -background white -gravity center -extent 400x300 -strip \
+            -colors 256 "$pages/$name.$kind.png"
     done
     printf '| `raylane %s` | %s s | %s | %s s |\n' "$ours" "$our_seconds" "$rival" "$their_seconds"
 }
-povray_draws() { # scene, picture, other arguments
-    echo "povray +I$1 +O$2 +W800 +H600 +WT2 -D +A0.0 +AM1 +R3 $3"
+povray_draws() { # scene, or what says its size as well, and picture
+    size='+W800 +H600'
+    [ "${1%.ini}" = "$1" ] || size=
+    echo "povray $1 +O$2 $size +WT2 -D +A0.0 +AM1 +R3"
 }
 
 row pdb 'render 1hpv.pdb -o pdb.raylane.png --size 800x600' \
@@ -91,9 +99,9 @@ row pdb 'render 1hpv.pdb -o pdb.raylane.png --size 800x600' \
 row cif 'render 1hpv.cif --style licorice --color chain --select "not water" -o cif.raylane.png --size 800x600' \
     'PyMOL, POV-Ray' "$(povray_draws 1hpv-sticks.pov cif.other.png)"
 row xyz 'render tube.xyz --style balls --view corner -o xyz.raylane.png --size 800x600' \
-    'ASE, POV-Ray' "$(povray_draws tube.pov xyz.other.png)"
-row lammps 'render pour.lammpstrj --frames 1 --color vz --view 1,1,-0.7 --up z -o lammps.raylane.png --size 800x600' \
-    'ASE, POV-Ray' "$(povray_draws pour.pov lammps.other.png)"
+    'ASE, POV-Ray' "$(povray_draws tube.ini xyz.other.png)"
+row lammps 'render pour.lammpstrj --color vz --view 1,1,-0.7 --up z -o lammps.raylane.png --size 800x600' \
+    'ASE, POV-Ray' "$(povray_draws pour.ini lammps.other.png)"
 row dat 'tachyon -aasamples 4 -numthreads 2 dna.dat -o dat.raylane.tga' \
     'Tachyon' 'tachyon -aasamples 4 -numthreads 2 dna.dat -o dat.other.tga'
 row pov 'render surface.pov --spp 9 -o pov.raylane.png --size 800x600' \
