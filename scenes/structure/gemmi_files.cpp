@@ -220,7 +220,8 @@ bool lacks_coordinate(const std::string& text, const std::string& of) {
 gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
     gemmi::SmallStructure structure = gemmi::make_small_structure_from_block(block);
     if (structure.sites.empty()) return structure;
-    if (!structure.cell.is_crystal())
+    const gemmi::UnitCell& cell = structure.cell;
+    if (!cell.is_crystal() || !(cell.volume > 0.0 && cell.volume < 1e30))
         throw std::runtime_error(
             "must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
     std::size_t site = 0;

@@ -1,3 +1,4 @@
+#include "core/shapes/checks.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/structure/kind_table.hpp"
 #include "scenes/structure/lines.hpp"
@@ -8,6 +9,7 @@
 #include "scenes/structure/gemmi_files.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -40,8 +42,8 @@ using Orders = std::map<std::pair<int, int>, int>; ///< of bonds, by serial numb
 /// Models, one after the other.
 class ModelReader : public FrameReader {
   public:
-    ModelReader(std::vector<gemmi_files::Model> models, Orders bonds)
-        : models_(std::move(models)), bonds_(std::move(bonds)) {}
+    ModelReader(std::string file, std::vector<gemmi_files::Model> models, Orders bonds)
+        : file_(std::move(file)), models_(std::move(models)), bonds_(std::move(bonds)) {}
 
     bool next(Structure& frame) override {
         if (number_ == models_.size()) return false;
@@ -70,8 +72,8 @@ class ModelReader : public FrameReader {
     }
 
   private:
-    static void add(const gemmi_files::Residue& residue, bool is_small, Structure& frame,
-                    KindTable& kinds, std::unordered_map<int, AtomIndex>& atom_of) {
+    void add(const gemmi_files::Residue& residue, bool is_small, Structure& frame, KindTable& kinds,
+             std::unordered_map<int, AtomIndex>& atom_of) const {
         const auto index = static_cast<std::uint32_t>(frame.of_residue.size());
         if (!is_small)
             frame.of_residue.push_back(
@@ -86,6 +88,11 @@ class ModelReader : public FrameReader {
             if (conformer == '\0') conformer = atom.conformer;
             if (atom.conformer != '\0' && atom.conformer != conformer) continue;
             const auto at = static_cast<AtomIndex>(frame.size());
+            for (const double coordinate : atom.at)
+                if (!(std::abs(coordinate) <= static_cast<double>(core::coordinate_limit)))
+                    throw BadInput(file_, "",
+                                   "the coordinates of " + printable(atom.name) +
+                                       " must be from -1e30 to 1e30");
             const Element element = atom.element > 0 && atom.element < element_count
                                         ? static_cast<Element>(atom.element)
                                         : Element{0};
@@ -106,6 +113,7 @@ class ModelReader : public FrameReader {
         }
     }
 
+    std::string file_;
     std::vector<gemmi_files::Model> models_;
     Orders bonds_;
     std::size_t number_ = 0;
@@ -121,6 +129,11 @@ std::string checked(const InputFile& file, std::string_view text, Orders& bonds)
     std::map<std::pair<int, int>, int> directed;
     for (Lines lines(again); lines.next();) {
         std::string_view line = lines.text();
+        // No record's name, and gemmi shifts these bits about.
+        const std::string_view record = line.substr(0, 6);
+        if (std::any_of(record.begin(), record.end(),
+                        [](char c) { return static_cast<unsigned char>(c) > 127; }))
+            line = {};
         if (line.starts_with("ATOM") || line.starts_with("HETATM")) {
             for (std::size_t at = 30; at < 54; at += 8) {
                 const std::string_view field =
@@ -159,7 +172,7 @@ std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
         std::vector<gemmi_files::Model> models = gemmi_files::read_pdb(text, file.name());
         if (models.empty())
             throw BadInput(file.name(), "", "must have ATOM or HETATM records, got none");
-        return std::make_unique<ModelReader>(std::move(models), std::move(bonds));
+        return std::make_unique<ModelReader>(file.name(), std::move(models), std::move(bonds));
     } catch (const gemmi_files::Refused& refused) {
         fail(file.name(), refused.what());
     }
@@ -171,7 +184,7 @@ std::unique_ptr<FrameReader> open_cif(InputFile& file) {
         std::vector<gemmi_files::Model> models = gemmi_files::read_cif(text, file.name());
         if (models.empty())
             throw BadInput(file.name(), "", "must have a table _atom_site, got none");
-        return std::make_unique<ModelReader>(std::move(models), Orders());
+        return std::make_unique<ModelReader>(file.name(), std::move(models), Orders());
     } catch (const gemmi_files::Refused& refused) {
         fail(file.name(), refused.what());
     }

@@ -172,6 +172,7 @@ class DataReader : public FrameReader {
     }
 
     void read_atoms(Structure& frame, const std::string& remark) {
+        if (frame.size() != 0) lines_.fail("must not be a second section Atoms");
         KindTable kinds(frame.of_kind);
         const AtomStyle* style = nullptr;
         while (next_of_section()) {

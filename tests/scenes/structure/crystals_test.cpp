@@ -158,6 +158,11 @@ TEST_CASE("a crystal without a cell, or with places that are none, is said to be
     if (!has_gemmi()) return;
     CHECK(complaint(open_cif, "data_a\n" + sites("O1 O 0.1 0.2 0.3\n")) ==
           "a: must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
+    std::string damaged = cube + sites("O1 O 0.1 0.2 0.3\n");
+    damaged.replace(damaged.find("_b 10"), 5, "_b 1z");
+    CHECK(complaint(open_cif, damaged).starts_with("a: must have a cell"));
+    CHECK(complaint(open_cif, cube + sites("O1 O 1e30 0.2 0.3\n")) ==
+          "a: the coordinates of O1 must be from -1e30 to 1e30");
     CHECK(complaint(open_cif, cube + sites("O1 O 0.1 q 0.3\n")) ==
           "a: the coordinates of O1 must be numbers, got \"q\"");
     CHECK(frames(open_cif, cube + sites("O1 O ? ? ?\nC1 C 0.1 0.2 0.3(1)\n")).at(0).size() == 1);

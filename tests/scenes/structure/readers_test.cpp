@@ -244,3 +244,12 @@ TEST_CASE("coordinates are the floats nearest to what the file says") {
               .properties.at(0)
               .values.at(0) != 0.0F);
 }
+
+TEST_CASE("what fuzzers found is bad input, or left out") {
+    CHECK(complaint(open_lammps_data, "x\n\n2 atoms\n\nAtoms # full\n\n1 1 1 0 1 2 3\n\n"
+                                      "Atoms # charge\n\n2 1 0 1 2 3\n") ==
+          "a:9: must not be a second section Atoms");
+    if (!has_gemmi()) return;
+    CHECK(frames(open_pdb, "CR\xd7ST2\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N"))
+              .size() == 1);
+}
