@@ -52,8 +52,9 @@ def main():
         dump, picture = f"{folder}/atoms.lammpstrj", f"{folder}/atoms.png"
         write_dump(dump, count)
         size = os.path.getsize(dump)
-        # What one atom of all is drawn of costs no tree: that is the reading alone.
+        # Of one atom of all there is no tree to build: that is the reading, and little else.
         reading, _, _ = min(run([raylane, "render", dump, "-o", picture, "--select", "index 1",
+                                 "--style", "points",
                                  "--size", "16x16", "--spp", "1", "--threads", "1", "--quiet"])
                             for _ in range(3))
         print(f"{count} atoms, {size / 1e6:.0f} MB: read in {reading:.2f} s of one processor, "

@@ -31,40 +31,39 @@ bool underflows(std::string_view number) {
     return leading + exponent < 0;
 }
 
-/// The value of a decimal number such as most files hold: without exponent, digits below 2^24, at
-/// most ten of them behind the point. Digits and power of ten then are floats, and their quotient
-/// is rounded once, so it is what from_chars gives; in a third of the time.
-std::optional<float> short_decimal(std::string_view number) {
+} // namespace
+
+// Digits and power of ten are floats then, and their quotient is rounded once, so it is what
+// from_chars gives.
+std::optional<LeadingNumber> leading_number(std::string_view text) {
     constexpr std::array<float, 11> powers = {1e0F, 1e1F, 1e2F, 1e3F, 1e4F, 1e5F,
                                               1e6F, 1e7F, 1e8F, 1e9F, 1e10F};
     constexpr std::size_t longest = 18; // its digits fit into 64 bits
-    if (number.size() > longest) return std::nullopt;
-    const bool negative = number.starts_with('-');
+    const std::size_t first = text.starts_with('-') ? 1 : 0;
     std::uint64_t digits = 0;
-    std::size_t count = 0;
-    std::size_t behind_point = 0;
-    bool point = false;
-    for (const char c : number.substr(negative ? 1 : 0)) {
+    std::size_t end = first, point = 0; // behind the point; 0: there is none
+    for (; end < text.size(); ++end) {
+        const char c = text[end];
         if (c >= '0' && c <= '9') {
             digits = 10 * digits + static_cast<std::uint64_t>(c - '0');
-            ++count;
-            behind_point += point ? 1 : 0;
-        } else if (c == '.' && !point) {
-            point = true;
+        } else if (c == '.' && point == 0) {
+            point = end + 1;
         } else {
-            return std::nullopt;
+            break;
         }
+        if (end >= longest) return std::nullopt;
     }
+    const std::size_t count = end - first - (point != 0 ? 1 : 0);
+    const std::size_t behind_point = point != 0 ? end - point : 0;
     if (count == 0 || digits > 1 << 24 || behind_point >= powers.size()) return std::nullopt;
     const float value = static_cast<float>(digits) / powers[behind_point];
-    return negative ? -value : value;
+    return LeadingNumber{first == 1 ? -value : value, end};
 }
-
-} // namespace
 
 std::optional<float> to_float(std::string_view word) {
     const std::string_view number = without_plus(word);
-    if (const std::optional<float> value = short_decimal(number)) return value;
+    if (const auto leading = leading_number(number); leading && leading->length == number.size())
+        return leading->value;
     const char* const end = number.data() + number.size();
     float value = 0.0F;
     const auto [stop, error] = std::from_chars(number.data(), end, value);

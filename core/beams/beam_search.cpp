@@ -1,10 +1,14 @@
 #include "core/beams/beam_search.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace raylane::core {
 
 namespace {
+
+/// Blocks whose bounds are held: 3 MB.
+constexpr std::size_t most_held = 8192;
 
 constexpr float far = std::numeric_limits<float>::infinity();
 
@@ -33,12 +37,10 @@ BlockBounds bounds_of_block(const Table<Shape>& table, std::uint32_t index, cons
 } // namespace
 
 BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
+    std::size_t blocks = 0;
     for_each_table(scene.shapes(), [&]<class Shape>(const Table<Shape>& table) {
         if constexpr (is_bounded<Shape>) {
-            auto& bounds = bounds_[static_cast<std::size_t>(kind_of<Shape>)];
-            bounds.reserve(table.blocks().size());
-            for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
-                bounds.push_back(bounds_of_block(table, index, scene.solids()));
+            blocks += table.blocks().size();
         } else {
             for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
                 for_each_in_block(table, index, [&](Place place, ShapeId id) {
@@ -46,7 +48,23 @@ BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
                 });
         }
     });
+    held_.resize(std::bit_ceil(std::min(blocks, most_held)));
     pending_.reserve(512);
+}
+
+const BlockBounds& BeamSearch::bounds_of(const Child& block) {
+    constexpr std::size_t apart = 0x9e37; // of kinds whose indices are alike
+    const std::size_t place = block.index() + apart * static_cast<std::size_t>(block.kind());
+    Held& held = held_[place & (held_.size() - 1)];
+    if (held.any && held.index == block.index() && held.kind == block.kind()) return held.bounds;
+    held.index = block.index();
+    held.kind = block.kind();
+    held.any = true;
+    for_each_bounded_table(scene_.shapes(), [&]<class Shape>(const Table<Shape>& table) {
+        if (kind_of<Shape> == block.kind())
+            held.bounds = bounds_of_block(table, block.index(), scene_.solids());
+    });
+    return held.bounds;
 }
 
 bool BeamSearch::collect(const Beam& beam, double t_most, std::vector<BeamCandidate>& candidates) {
@@ -68,7 +86,7 @@ bool BeamSearch::collect(const Beam& beam, double t_most, std::vector<BeamCandid
                     pending_.push_back(node.children[entry]);
             continue;
         }
-        const BlockBounds& bounds = bounds_[static_cast<std::size_t>(child.kind())][child.index()];
+        const BlockBounds& bounds = bounds_of(child);
         slabs.near(bounds, near);
         for (int lane = 0; lane < block_size; ++lane)
             if (near[lane] < last) add(child, lane, bounds, near[lane], candidates);

@@ -3,7 +3,6 @@
 #include "core/beams/beam.hpp"
 #include "core/scene/scene.hpp"
 
-#include <array>
 #include <vector>
 
 /// What a beam meets: as a ray's search, with answers that hold for all of its rays or for none.
@@ -70,11 +69,21 @@ class BeamSearch {
     Met meet(const BeamCandidate& candidate, const Beam& beam, const BeamCone& cone,
              const Departure& from) const;
 
+    /// Of a block's shapes; until the next call.
+    const BlockBounds& bounds_of(const Child& block);
     void add(const Child& block, int lane, const BlockBounds& all, float near,
              std::vector<BeamCandidate>& candidates) const;
 
     const Scene& scene_;
-    std::array<std::vector<BlockBounds>, kind_count> bounds_; // of blocks, by kind
+    /// Bounds of the blocks that were looked at last, each in the one place where it may be: in a
+    /// scene of millions all of them would take as much memory as the shapes do.
+    struct Held {
+        std::uint32_t index = 0;
+        Kind kind{};
+        bool any = false;
+        BlockBounds bounds;
+    };
+    std::vector<Held> held_; // as many as a power of two
     std::vector<BeamCandidate> unbounded_;
     std::vector<Child> pending_;
     std::vector<Affine> met_; // t of candidates

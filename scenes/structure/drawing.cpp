@@ -1,5 +1,6 @@
 #include "scenes/structure/drawing.hpp"
 
+#include "core/shapes/checks.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/structure/bonds.hpp"
 #include "scenes/structure/colors.hpp"
@@ -34,6 +35,7 @@ class Artist {
 
     DrawingScale draw() {
         if (structure_.size() == 0) throw BadInput(file_, "", "has no atoms");
+        require_places();
         if (drawing_.select != "all") {
             selected_ = select_atoms(structure_, "--select", drawing_.select);
             count_ = static_cast<std::size_t>(std::count(selected_.begin(), selected_.end(), 1));
@@ -57,6 +59,16 @@ class Artist {
 
   private:
     bool is_selected(AtomIndex atom) const { return selected_.empty() || selected_[atom] != 0; }
+
+    /// Readers check what they read, and not what they make of it with the cell.
+    void require_places() const {
+        for (AtomIndex atom = 0; atom < structure_.size(); ++atom)
+            for (int axis = 0; axis < 3; ++axis)
+                if (!(std::abs(structure_.positions[atom][axis]) <= core::coordinate_limit))
+                    throw BadInput(file_, "",
+                                   "atom " + std::to_string(atom + 1) +
+                                       " must have coordinates from -1e30 to 1e30");
+    }
 
     void find_scale() {
         if (drawing_.scale) {

@@ -88,7 +88,7 @@ class ModelReader : public FrameReader {
             if (conformer == '\0') conformer = atom.conformer;
             if (atom.conformer != '\0' && atom.conformer != conformer) continue;
             const auto at = static_cast<AtomIndex>(frame.size());
-            for (const double coordinate : atom.at)
+            for (const double coordinate : atom.at) // may be none of a float's
                 if (!(std::abs(coordinate) <= static_cast<double>(core::coordinate_limit)))
                     throw BadInput(file_, "",
                                    "the coordinates of " + printable(atom.name) +

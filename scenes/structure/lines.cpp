@@ -105,7 +105,15 @@ double Words::number(std::string_view what) {
 }
 
 float Words::coordinate(std::string_view what) {
+    skip_blanks();
     const std::size_t before = position_;
+    if (const auto leading = leading_number(text_.substr(position_)))
+        if (const std::size_t end = position_ + leading->length;
+            end == text_.size() || is_blank(text_[end])) {
+            column_ = position_ + 1;
+            position_ = end;
+            return leading->value;
+        }
     const std::optional<float> nearest = to_float(get(what));
     if (nearest && std::abs(*nearest) <= core::coordinate_limit) return *nearest;
     position_ = before; // with a Fortran exponent, or none

@@ -283,6 +283,10 @@ TEST_CASE("what cannot be drawn is said in a line") {
     CHECK(error("a.xyz", "0\n\n", [](LoadOptions&) {}) ==
           "a.xyz: has no atoms in its first frame; if there are others, \"--frames 1\" draws the "
           "next");
+    CHECK(error("a.dump",
+                "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1e40\n0 1\n0 1\n"
+                "ITEM: ATOMS xs ys zs\n0.5 0 0\n",
+                [](LoadOptions&) {}) == "a.dump: atom 1 must have coordinates from -1e30 to 1e30");
     CHECK(error("a.json", "{}", [](LoadOptions& o) { o.option_for_atoms = "--style"; }) ==
           "--style: goes with a file of atoms, and a.json is a scene");
 }
