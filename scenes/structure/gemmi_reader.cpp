@@ -129,11 +129,6 @@ std::string checked(const InputFile& file, std::string_view text, Orders& bonds)
     std::map<std::pair<int, int>, int> directed;
     for (Lines lines(again); lines.next();) {
         std::string_view line = lines.text();
-        // No record's name, and gemmi shifts these bits about.
-        const std::string_view record = line.substr(0, 6);
-        if (std::any_of(record.begin(), record.end(),
-                        [](char c) { return static_cast<unsigned char>(c) > 127; }))
-            line = {};
         if (line.starts_with("ATOM") || line.starts_with("HETATM")) {
             for (std::size_t at = 30; at < 54; at += 8) {
                 const std::string_view field =
@@ -153,7 +148,10 @@ std::string checked(const InputFile& file, std::string_view text, Orders& bonds)
             for (std::size_t at = 11; at < 31; at += 5)
                 if (const int to = serial(at); to != 0 && to != from) ++directed[{from, to}];
         }
-        result.append(line).append("\n");
+        // No PDB has others, and gemmi shifts their bits into signs.
+        for (const char c : line)
+            result.push_back(static_cast<unsigned char>(c) > 127 ? '?' : c);
+        result.push_back('\n');
     }
     // Each bond is there from both of its ends, a double one twice from each.
     for (const auto& [serials, times] : directed) {
