@@ -59,7 +59,7 @@ show surface; show sticks; set transparency, 0.5; orient"
 [ -e tube.pov ] || ase_does "
 tube = read('tube.xyz')
 write('tube.pov', tube, rotation='60x,30y',
-      povray_settings=dict(transparent=False, canvas_width=800, bondatoms=get_bondpairs(tube, 1.1)))"
+      povray_settings=dict(transparent=False, canvas_width=450, bondatoms=get_bondpairs(tube, 1.1)))"
 [ -e pour.pov ] || ase_does "
 grains = read('pour.lammpstrj', format='lammps-dump-text')
 write('pour.pov', grains, rotation='-90x,45y,25x', radii=numpy.full(len(grains), 0.5),
@@ -86,7 +86,7 @@ row() { # name, arguments of raylane, the other's name and command
         convert "$from" -auto-orient -resize 400x300 -background white -gravity center -extent 400x300 -strip \
             -colors 256 "$pages/$name.$kind.png"
     done
-    printf '| `raylane %s` | %s s | %s | %s s |\n' "$ours" "$our_seconds" "$rival" "$their_seconds"
+    printf "%s: raylane %s s; %s %s s\n" "$name" "$our_seconds" "$rival" "$their_seconds"
 }
 povray_draws() { # scene, or what says its size as well, and picture
     size='+W800 +H600'
