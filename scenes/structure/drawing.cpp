@@ -171,8 +171,12 @@ class Artist {
         if (repeat != std::array{1, 1, 1} && !structure_.cell.any())
             throw BadInput("--repeat", "",
                            "must have a cell to repeat, and " + file_ + " has none");
-        for (const Vec3d& offset : offsets_of_images(structure_.cell, repeat))
+        for (const Vec3d& offset : offsets_of_images(structure_.cell, repeat)) {
+            for (int axis = 0; axis < 3; ++axis)
+                if (!(std::abs(offset[axis]) <= static_cast<double>(core::coordinate_limit)))
+                    throw BadInput(file_, "", "its cell must have edges from -1e30 to 1e30");
             images_.push_back(core::convert<float>(offset));
+        }
     }
 
     float full_radius(AtomIndex atom) const {

@@ -46,12 +46,14 @@ std::array<int, 3> cells_between(const Cell& cell, const Vec3d& a, const Vec3d& 
 
 std::vector<Vec3d> offsets_of_images(const Cell& cell, const std::array<int, 3>& repeat) {
     std::vector<Vec3d> offsets;
+    // An edge that is no number is not asked for where there is one cell along it.
+    const auto along = [&](std::size_t edge, int cells) {
+        return cells == 0 ? Vec3d(0.0) : static_cast<double>(cells) * cell.edges[edge];
+    };
     for (int u = 0; u < repeat[0]; ++u)
         for (int v = 0; v < repeat[1]; ++v)
             for (int w = 0; w < repeat[2]; ++w)
-                offsets.push_back(static_cast<double>(u) * cell.edges[0] +
-                                  static_cast<double>(v) * cell.edges[1] +
-                                  static_cast<double>(w) * cell.edges[2]);
+                offsets.push_back(along(0, u) + along(1, v) + along(2, w));
     return offsets;
 }
 

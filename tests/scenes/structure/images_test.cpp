@@ -1,8 +1,11 @@
+#include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/structure/bonds.hpp"
 #include "scenes/structure/images.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
 
+#include <cmath>
 #include <string>
 
 /// Bonds where a cell ends.
@@ -55,6 +58,21 @@ TEST_CASE("a file's bonds join the nearest images of their atoms") {
     structure.positions = {{0.1F, 0.1F, 0}, {2.9F + 0.1F, 2.9F, 0}};
     structure.bonds = {{0, 1, 1}};
     CHECK(text_of(find_bonds(with_images(structure, {1, 2, 1}))) == "1-2 ");
+}
+
+TEST_CASE("a cell that is no number is not asked for, but to be repeated") {
+    Structure structure = chain();
+    structure.cell.edges[0].x = std::nan("");
+    CHECK(offsets_of_images(structure.cell, {1, 2, 1}).at(1) == Vec3d(0, 9, 0));
+    LoadOptions options;
+    options.drawing.opacity = 0.5F;
+    options.drawing.repeat = {2, 1, 1};
+    const std::string text = "1\nLattice=\"1e31 0 0 0 9 0 0 0 9\" Properties=species:S:1:pos:R:3\n"
+                             "C 0 0 0\n";
+    CHECK(raylane::tests::message_of<BadInput>([&] { parse_scene("a.xyz", text, options); }) ==
+          "a.xyz: its cell must have edges from -1e30 to 1e30");
+    options.drawing.repeat = {1, 1, 1};
+    CHECK(parse_scene("a.xyz", text, options).shape_count() == 1);
 }
 
 TEST_CASE("sticks go on where a cell is repeated") {
