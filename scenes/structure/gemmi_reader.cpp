@@ -148,6 +148,12 @@ std::string checked(const InputFile& file, std::string_view text, Orders& bonds)
             for (std::size_t at = 11; at < 31; at += 5)
                 if (const int to = serial(at); to != 0 && to != from) ++directed[{from, to}];
         }
+        // Of other records nothing is drawn, and gemmi reads beyond the end of some (LINK, "NaN").
+        constexpr std::string_view records[] = {"HEADER", "TITLE",  "CRYST1", "MODEL", "ENDMDL",
+                                                "ATOM",   "HETATM", "ANISOU", "TER",   "END"};
+        if (std::none_of(std::begin(records), std::end(records),
+                         [&](std::string_view record) { return line.starts_with(record); }))
+            line = {};
         // No PDB has others, and gemmi shifts their bits into signs.
         for (const char c : line)
             result.push_back(static_cast<unsigned char>(c) > 127 ? '?' : c);

@@ -250,6 +250,10 @@ TEST_CASE("what fuzzers found is bad input, or left out") {
                                       "Atoms # charge\n\n2 1 0 1 2 3\n") ==
           "a:9: must not be a second section Atoms");
     if (!has_gemmi()) return;
+    CHECK(frames(open_pdb,
+                 "LINK         O   GLY A  49                NA    NA A6001     1555   1555  n\n" +
+                     pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N"))
+              .size() == 1);
     CHECK(frames(open_pdb, "CR\xd7ST2\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N"))
               .size() == 1);
 }
