@@ -140,9 +140,9 @@ std::string checked(const InputFile& file, std::string_view text, Orders& bonds)
             line = line.substr(0, charge);
         } else if (line.starts_with("CONECT")) {
             const auto serial = [&](std::size_t at) {
-                return line.size() > at
-                           ? static_cast<int>(number_in(trimmed(line.substr(at, 5))).value_or(0.0))
-                           : 0;
+                const double number =
+                    line.size() > at ? number_in(trimmed(line.substr(at, 5))).value_or(0.0) : 0.0;
+                return number > 0.0 && number < 1e6 ? static_cast<int>(number) : 0;
             };
             const int from = serial(6);
             for (std::size_t at = 11; at < 31; at += 5)

@@ -254,6 +254,10 @@ TEST_CASE("what fuzzers found is bad input, or left out") {
                  "LINK         O   GLY A  49                NA    NA A6001     1555   1555  n\n" +
                      pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N"))
               .size() == 1);
+    CHECK(frames(open_pdb,
+                 "CONECT 1e99    2\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N"))
+              .at(0)
+              .bonds.empty());
     CHECK(frames(open_pdb, "CR\xd7ST2\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N"))
               .size() == 1);
 }
