@@ -219,7 +219,7 @@ TEST_CASE("a quality counts what is seen of a background") {
             CHECK(1.0F - film.alpha_at(x, y) == Approx(white.at(x, y).x).margin(1e-6));
             partly += film.alpha_at(x, y) > 0.0F && film.alpha_at(x, y) < 1.0F ? 1 : 0;
         }
-    CHECK(partly > film.width() * film.height() / 14);
+    CHECK(partly > 300 * film.width() * film.height() / (64 * 64));
     CHECK(largest_alpha_difference(drawn(scene, by(simd::Engine::reference)), film) < 1e-6);
 }
 
