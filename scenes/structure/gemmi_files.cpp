@@ -207,13 +207,10 @@ void read_aniso_b(gemmi::cif::Block& block, Sites& sites) {
     }
 }
 
-/// Throws for a coordinate that is no number; true if one is not known.
-bool lacks_coordinate(const std::string& text, const std::string& of) {
-    if (gemmi::cif::is_null(text)) return true;
+void require_coordinate(const std::string& text, const std::string& of) {
     if (!std::isfinite(gemmi::cif::as_number(text)))
         throw std::runtime_error("the coordinates of " + of + " must be numbers, got \"" + text +
                                  "\"");
-    return false;
 }
 
 /// The structure of a block; without the sites that have no place.
@@ -230,7 +227,10 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
         const gemmi::SmallStructure::Site& of = structure.sites.at(site++);
         bool lacks = false;
         for (std::size_t axis = 1; axis < 4; ++axis)
-            lacks = lacks_coordinate(row[axis], of.label) || lacks;
+            if (gemmi::cif::is_null(row[axis]))
+                lacks = true;
+            else
+                require_coordinate(row[axis], of.label);
         if (!lacks) placed.push_back(of);
     }
     structure.sites = std::move(placed);
@@ -253,9 +253,7 @@ void check_macromolecule(gemmi::cif::Document& document) {
                 throw std::runtime_error("must have a column _atom_site." + std::string(column));
         for (auto row : block.find("_atom_site.", {"id", "Cartn_x", "Cartn_y", "Cartn_z"}))
             for (std::size_t axis = 1; axis < 4; ++axis)
-                if (lacks_coordinate(row[axis], "atom " + row[0]))
-                    throw std::runtime_error("the coordinates of atom " + row[0] +
-                                             " must be numbers, got \"" + row[axis] + "\"");
+                require_coordinate(row[axis], "atom " + row[0]);
     }
 }
 

@@ -139,8 +139,7 @@ void ViewArguments::add_to(CLI::App& command) {
         "WAY");
     add("--up", up,
         "What is up in the picture: x, y, z, -x, -y or -z, or a direction such as 0,1,1 (default: "
-        "as the view "
-        "or the scene says)",
+        "as the view or the scene says)",
         "WAY");
     add("--zoom", zoom, "How much larger (default: 1)", "TIMES");
     add_flag(command, "--orthographic", orthographic, "Without perspective");

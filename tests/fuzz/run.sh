@@ -28,10 +28,10 @@ seeds() { # format, folder: what it is to begin with
 }
 fuzz() { # format
     folder=build/fuzz/corpus/$1
-    mkdir -p "$folder" "build/fuzz/work/$1"
+    mkdir -p "$folder" "build/fuzz/rooms/$1"
     seeds "$1" "$folder"
     root=$PWD
-    (cd "build/fuzz/work/$1" && "$root/build/fuzz/bin/raylane-fuzz-$1" -max_total_time="$seconds" \
+    (cd "build/fuzz/rooms/$1" && "$root/build/fuzz/bin/raylane-fuzz-$1" -max_total_time="$seconds" \
         -timeout=100 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 \
         -artifact_prefix="$root/build/fuzz/findings/$1-" "$root/$folder" >"$root/build/fuzz/$1.log" 2>&1)
 }

@@ -1,46 +1,19 @@
 #include "scenes/errors.hpp"
 #include "scenes/structure/readers.hpp"
 #include "tests/catch.hpp"
-#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/structure/frames.hpp"
 
 #include <functional>
 #include <string>
 #include <vector>
 
 using namespace raylane::scenes;
+using namespace raylane::tests;
 using raylane::core::Vec3d;
 using raylane::core::Vec3f;
 
 /// Crystals of small molecules, as CIF has them.
 namespace {
-
-using Open = std::unique_ptr<FrameReader> (*)(InputFile&);
-
-std::vector<Structure> frames(Open open, const std::string& text) {
-    InputFile file("a", text);
-    const std::unique_ptr<FrameReader> reader = open(file);
-    std::vector<Structure> all;
-    for (Structure frame; reader->next(frame);)
-        all.push_back(frame);
-    return all;
-}
-
-std::string complaint(Open open, const std::string& text) {
-    return raylane::tests::message_of<BadInput>([&] { frames(open, text); });
-}
-
-std::string elements_of(const Structure& structure) {
-    std::string text;
-    for (AtomIndex i = 0; i < structure.size(); ++i)
-        text.append(data_of(structure.element(i)).symbol).append(" ");
-    return text;
-}
-
-bool has_gemmi() {
-    InputFile file("a", "x");
-    return raylane::tests::message_of<BadInput>([&] { open_pdb(file); }).find("without gemmi") ==
-           std::string::npos;
-}
 
 const std::string cube = "data_a\n_cell_length_a 10\n_cell_length_b 10\n_cell_length_c 10\n"
                          "_cell_angle_alpha 90\n_cell_angle_beta 90\n_cell_angle_gamma 90\n";
