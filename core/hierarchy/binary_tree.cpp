@@ -26,9 +26,8 @@ void drop_duplicates(std::span<Item> items, const Duplicates& duplicates,
 /// Grows parts of the tree that are one task each.
 class PartBuilder {
   public:
-    PartBuilder(std::span<Item> items, const Duplicates& duplicates,
-                std::span<std::uint32_t> positions)
-        : items_(items), duplicates_(duplicates), positions_(positions) {}
+    PartBuilder(std::span<Item> items, const Duplicates& duplicates)
+        : items_(items), duplicates_(duplicates) {}
 
     EntryCosts build(const Range& range, TreePart& part) {
         nodes_.assign(1, {range.box.bounds(), 0, 0, {}, {}});
@@ -41,8 +40,8 @@ class PartBuilder {
     EntryCosts grow(Range range, std::uint32_t node) {
         drop_duplicates(items_, duplicates_, room_, range);
         if (range.size() <= Sweep::most_items)
-            return sweep_.build(items_.subspan(range.first, range.size()), range.first,
-                                positions_.subspan(range.first, range.size()), nodes_, node);
+            return sweep_.build(items_.subspan(range.first, range.size()), range.first, nodes_,
+                                node);
         const Halves halves = split_by_bins(items_, range, alone_);
         const auto left = static_cast<std::uint32_t>(nodes_.size());
         nodes_.push_back({halves.left.box.bounds(), 0, 0, {}, {}});
@@ -56,7 +55,6 @@ class PartBuilder {
 
     std::span<Item> items_;
     const Duplicates& duplicates_;
-    std::span<std::uint32_t> positions_;
     std::vector<BinaryNode> nodes_;
     std::vector<std::uint32_t> room_;
     Sweep sweep_;
@@ -65,9 +63,8 @@ class PartBuilder {
 
 class TreeBuilder {
   public:
-    TreeBuilder(std::span<Item> items, const Duplicates& duplicates,
-                std::span<std::uint32_t> positions, Workers& workers)
-        : items_(items), duplicates_(duplicates), positions_(positions), workers_(workers) {}
+    TreeBuilder(std::span<Item> items, const Duplicates& duplicates, Workers& workers)
+        : items_(items), duplicates_(duplicates), workers_(workers) {}
 
     EntryCosts build(Range range, TreePart& part) {
         if (range.size() > most_in_a_part) {
@@ -77,8 +74,7 @@ class TreeBuilder {
             if (range.size() < before) workers_.placed(before - range.size(), items_.size());
         }
         if (range.size() <= most_in_a_part) {
-            const EntryCosts costs =
-                PartBuilder(items_, duplicates_, positions_).build(range, part);
+            const EntryCosts costs = PartBuilder(items_, duplicates_).build(range, part);
             workers_.placed(range.size(), items_.size());
             return costs;
         }
@@ -95,18 +91,26 @@ class TreeBuilder {
   private:
     std::span<Item> items_;
     const Duplicates& duplicates_;
-    std::span<std::uint32_t> positions_;
     Workers& workers_;
 };
 
 } // namespace
 
+Positions::Positions(BigArray<Item> items) : memory_(std::move(items)) {
+    auto* to = reinterpret_cast<std::byte*>(memory_.data()); // never ahead of what is read
+    for (const Item& item : memory_) {
+        const std::uint32_t position = item.position();
+        std::memcpy(to, &position, sizeof position);
+        to += sizeof position;
+    }
+    memory_.forget_rest(memory_.size() * sizeof(std::uint32_t));
+}
+
 BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers) {
     BinaryTree tree;
-    tree.positions = BigArray<std::uint32_t>(items.size());
     const std::span<Item> all(items.data(), items.size());
-    TreeBuilder(all, duplicates, {tree.positions.data(), tree.positions.size()}, workers)
-        .build(whole_range(all, workers), tree.root);
+    TreeBuilder(all, duplicates, workers).build(whole_range(all, workers), tree.root);
+    tree.positions = Positions(std::move(items));
     return tree;
 }
 

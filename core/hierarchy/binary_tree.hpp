@@ -7,7 +7,9 @@
 #include "core/shapes/big_array.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -47,10 +49,29 @@ struct TreePart {
     Tally left_tally; ///< for whoever walks it first
 };
 
+/// The positions of items that are done with, packed into their own memory.
+class Positions {
+  public:
+    Positions() = default;
+    explicit Positions(BigArray<Item> items);
+
+    std::size_t size() const { return memory_.size(); }
+    std::uint32_t operator[](std::size_t i) const {
+        std::uint32_t position;
+        std::memcpy(&position,
+                    reinterpret_cast<const std::byte*>(memory_.data()) + i * sizeof position,
+                    sizeof position);
+        return position;
+    }
+
+  private:
+    BigArray<Item> memory_;
+};
+
 /// The tree, and the items' positions in the order in which leaves refer to them.
 struct BinaryTree {
     TreePart root;
-    BigArray<std::uint32_t> positions;
+    Positions positions;
 
     const Bounds& bounds() const { return root.nodes.front().bounds; }
 };

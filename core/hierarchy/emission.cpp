@@ -181,10 +181,10 @@ class Emitter {
         constexpr auto ahead = std::size_t{4} * block_size;
         if (at + ahead >= positions_.size()) return;
         const std::uint32_t position = positions_[at + ahead];
-        if (position < list.size()) __builtin_prefetch(&list[position]); // it may be another kind's
+        if (position < list.size()) list.prefetch(position); // it may be another kind's
     }
 
-    const BigArray<std::uint32_t>& positions_;
+    const Positions& positions_;
     const ShapeLists& lists_;
     Workers& workers_;
     BigArray<WideNode> nodes_;

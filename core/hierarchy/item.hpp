@@ -41,12 +41,13 @@ struct alignas(32) Item : Box4 {
             lower[axis] = bounds.lower[axis];
             upper[axis] = bounds.upper[axis];
         }
-        lower[3] = std::bit_cast<float>(position);
+        set_position(position);
         upper[3] = std::bit_cast<float>(about_one | static_cast<std::uint32_t>(kind));
     }
     Item() = default;
 
     std::uint32_t position() const { return std::bit_cast<std::uint32_t>(float(lower[3])); }
+    void set_position(std::uint32_t position) { lower[3] = std::bit_cast<float>(position); }
     Kind kind() const { return static_cast<Kind>(std::bit_cast<std::uint32_t>(float(upper[3]))); }
     /// The fourth component is about 1 where the position is taken for a small number.
     Float4 doubled_center() const { return lower + upper; }

@@ -21,8 +21,7 @@ float unit_of(const Bounds& bounds) {
 
 } // namespace
 
-EntryCosts Sweep::build(std::span<const Item> items, std::size_t first,
-                        std::span<std::uint32_t> positions, std::vector<BinaryNode>& nodes,
+EntryCosts Sweep::build(std::span<Item> items, std::size_t first, std::vector<BinaryNode>& nodes,
                         std::uint32_t root) {
     items_ = items;
     first_ = first;
@@ -40,8 +39,11 @@ EntryCosts Sweep::build(std::span<const Item> items, std::size_t first,
         if (mixed_ || count > block_size) sort(axis, centers);
     }
     const EntryCosts costs = grow(0, count, root);
+    std::array<std::uint32_t, most_items> positions;
     for (int i = 0; i < count; ++i)
         positions[i] = items[order_[0][i]].position();
+    for (int i = 0; i < count; ++i)
+        items[i].set_position(positions[i]);
     return costs;
 }
 

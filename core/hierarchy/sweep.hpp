@@ -19,9 +19,8 @@ class Sweep {
     static constexpr int most_items = 128;
 
     /// Below node `root` of `nodes`, whose bounds are set. `first` is that of the leaves' items,
-    /// and `positions` takes their positions.
-    EntryCosts build(std::span<const Item> items, std::size_t first,
-                     std::span<std::uint32_t> positions, std::vector<BinaryNode>& nodes,
+    /// whose positions are put in the leaves' order: their bounds mean nothing then.
+    EntryCosts build(std::span<Item> items, std::size_t first, std::vector<BinaryNode>& nodes,
                      std::uint32_t root);
 
   private:

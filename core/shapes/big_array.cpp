@@ -33,4 +33,17 @@ void free_big(void* memory, std::size_t bytes) noexcept {
     ::operator delete(memory, alignment_of(bytes));
 }
 
+void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept {
+#ifdef MADV_DONTNEED
+    // Whole huge pages, which begin where such memory begins.
+    const std::size_t first = (used + huge_page - 1) / huge_page * huge_page;
+    const std::size_t last = bytes / huge_page * huge_page;
+    if (bytes >= least_in_huge_pages && first < last)
+        static_cast<void>(
+            ::madvise(static_cast<std::byte*>(memory) + first, last - first, MADV_DONTNEED));
+#else
+    static_cast<void>(memory), static_cast<void>(bytes), static_cast<void>(used);
+#endif
+}
+
 } // namespace raylane::core

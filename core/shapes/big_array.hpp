@@ -12,6 +12,9 @@ namespace raylane::core {
 /// megabytes then seldom wait for an address to be translated. Throws std::bad_alloc.
 void* allocate_big(std::size_t bytes);
 void free_big(void* memory, std::size_t bytes) noexcept;
+/// Lets go of what is behind the first `used` bytes, as far as the system takes back a part: what
+/// it holds is lost, and it may be written again.
+void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept;
 
 /// Plain data of a size that is set once. Its elements begin undefined, so that memory is touched
 /// first by what fills it, which may be many threads, and never twice.
@@ -37,6 +40,9 @@ class BigArray {
     ~BigArray() {
         if (data_ != nullptr) free_big(data_, bytes());
     }
+
+    /// Forgets all but the first `used` bytes.
+    void forget_rest(std::size_t used) { core::forget_rest(data_, bytes(), used); }
 
     bool empty() const { return size_ == 0; }
     std::size_t size() const { return size_; }

@@ -51,36 +51,60 @@ struct Listed {
     ShapeId id;
 };
 
-/// All shapes of one kind, in the order in which they came. There are doubles as soon as one shape
-/// has a number that is no float.
+/// All shapes of one kind, in the order in which they came. There are ids as soon as one does not
+/// follow the one before it, and doubles as soon as one shape has a number that is no float.
 template <class Shape>
 class ShapeList {
   public:
-    std::size_t size() const { return listed_.size(); }
-    const Listed<Shape>& operator[](std::size_t i) const { return listed_[i]; }
+    std::size_t size() const { return shapes_.size(); }
+    Listed<Shape> operator[](std::size_t i) const { return {shapes_[i], id(i)}; }
 
     bool has_doubles() const { return doubles_.size() > 0; }
     /// Exactly the shape.
     InDouble<Shape> exact(std::size_t i) const {
-        return has_doubles() ? doubles_[i] : to_doubles(listed_[i].shape);
+        return has_doubles() ? doubles_[i] : to_doubles(shapes_[i]);
     }
 
     void add(const Shape& shape, ShapeId id) {
-        listed_.add({shape, id});
+        add_id(id);
+        shapes_.add(shape);
         if (has_doubles()) doubles_.add(to_doubles(shape));
     }
     void add(const InDouble<Shape>& shape, ShapeId id) {
         if (!has_doubles()) {
             if (is_in_floats(shape)) return add(to_floats(shape), id);
             for (std::size_t i = 0; i < size(); ++i)
-                doubles_.add(to_doubles(listed_[i].shape));
+                doubles_.add(to_doubles(shapes_[i]));
         }
-        listed_.add({to_floats(shape), id});
+        add_id(id);
+        shapes_.add(to_floats(shape));
         doubles_.add(shape);
     }
 
+    /// Asks for what `[i]` will look at.
+    void prefetch(std::size_t i) const {
+        __builtin_prefetch(&shapes_[i]);
+        if (ids_.size() > 0) __builtin_prefetch(&ids_[i]);
+    }
+
   private:
-    GrowingList<Listed<Shape>> listed_;
+    ShapeId id(std::size_t i) const {
+        return ids_.size() > 0 ? ids_[i] : first_id_ + static_cast<ShapeId>(i);
+    }
+    /// Before the shape itself.
+    void add_id(ShapeId id) {
+        if (size() == 0) first_id_ = id;
+        if (ids_.size() == 0) {
+            if (id == first_id_ + static_cast<ShapeId>(size())) return;
+            for (std::size_t i = 0; i < size(); ++i)
+                ids_.add(first_id_ + static_cast<ShapeId>(i));
+        }
+        ids_.add(id);
+    }
+
+    GrowingList<Shape> shapes_;
+    ShapeId first_id_ = 0;
+    GrowingList<ShapeId> ids_;             // as many, or none
     GrowingList<InDouble<Shape>> doubles_; // as many, or none
 };
 
