@@ -80,6 +80,7 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
         Tracer& tracer = tracers.local();
         const std::uint64_t rays_before = tracer.counters().rays();
         tracer.render(region, rendering.film);
+        if (is_stopped()) return; // before its end, perhaps
         if (scene != nullptr) passes.local().run(region, crop, rendering);
         if (options.layers) note_samples(tracer, region, crop, rendering.layers);
         if (options.progress != nullptr) {
@@ -190,6 +191,10 @@ int tile_of(const core::Settings& settings, const RenderOptions& options) {
                                       : 32;
 }
 
+const std::atomic<bool>* stop_of(const RenderOptions& options) {
+    return options.progress != nullptr ? &options.progress->stop : nullptr;
+}
+
 /// Wavefronts stay where they are made.
 struct MovableWavefront {
     std::unique_ptr<Wavefront> wavefront;
@@ -209,7 +214,8 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
             std::vector<MovableWavefront> tracers;
             tracers.reserve(data.size());
             for (const SceneData& of_one : data)
-                tracers.push_back({std::make_unique<Wavefront>(of_one, settings, tracing)});
+                tracers.push_back(
+                    {std::make_unique<Wavefront>(of_one, settings, tracing, stop_of(options))});
             return Tracer(std::move(tracers), spectrum.shares, settings);
         },
         fitting(tile_of(settings, options), settings), settings, options,
@@ -237,9 +243,10 @@ core::Region drawn_part(const core::Settings& settings, const std::optional<core
 Rendering render_vector(const SceneData& scene, const core::Settings& settings,
                         const RenderOptions& options, const Tracing& tracing) {
     const int tile = tile_of(settings, options);
-    return render_by<Wavefront>([&] { return Wavefront(scene, settings, tracing); },
-                                fitting(tile, settings), settings, options,
-                                FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
+    return render_by<Wavefront>(
+        [&] { return Wavefront(scene, settings, tracing, stop_of(options)); },
+        fitting(tile, settings), settings, options,
+        FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,

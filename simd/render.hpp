@@ -26,7 +26,7 @@ enum class Engine : std::uint8_t {
 struct Progress {
     std::atomic<std::int64_t> pixels = 0;
     std::atomic<std::uint64_t> rays = 0;
-    std::atomic<bool> stop = false; ///< once true, no more tiles are begun
+    std::atomic<bool> stop = false; ///< once true, no tile is begun, and few are finished
 };
 
 struct RenderOptions {

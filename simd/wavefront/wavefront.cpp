@@ -47,8 +47,9 @@ core::Settings without_quality(core::Settings settings) {
 
 } // namespace
 
-Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing)
-    : scene_(scene), settings_(settings), tracing_(tracing),
+Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing,
+                     const std::atomic<bool>* stop)
+    : scene_(scene), settings_(settings), tracing_(tracing), stop_(stop),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_coherence_(camera_rays_.has_lens() ? neighbours : coherence_of(camera_)),
       with_media_(scene.scene().transmissive().any),
@@ -154,6 +155,7 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
         take({x, y, pixel, 0, samples}, add);
     });
     flush(add);
+    if (is_stopped()) return;
     std::size_t pixel = 0;
     for (int y = region.y0; y < region.y1; ++y)
         for (int x = region.x0; x < region.x1; ++x, ++pixel) {
@@ -180,6 +182,7 @@ void Wavefront::render_to_quality(const core::Region& region, core::Film& film) 
             take({x, y, pixel, pixels.taken(pixel), pixels.wanted(pixel)}, add);
         });
         flush(add);
+        if (is_stopped()) return;
     } while (pixels.end_round());
     std::size_t pixel = 0;
     for (int y = region.y0; y < region.y1; ++y)
@@ -218,12 +221,14 @@ void Wavefront::take(Samples samples, const Add& add) {
 template <class Add>
 void Wavefront::flush(const Add& add) {
     if (filled_ == 0) return;
-    start(filled_);
-    trace();
-    std::size_t i = 0;
-    for (const Samples& some : samples_) {
-        add(some, i);
-        i += static_cast<std::size_t>(some.count);
+    if (!is_stopped()) {
+        start(filled_);
+        trace();
+        std::size_t i = 0;
+        for (const Samples& some : samples_) {
+            add(some, i);
+            i += static_cast<std::size_t>(some.count);
+        }
     }
     samples_.clear();
     filled_ = 0;

@@ -1,5 +1,6 @@
 #include "simd/isa.hpp"
 #include "simd/render.hpp"
+#include "simd/wavefront/wavefront.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/sanitized.hpp"
@@ -186,4 +187,26 @@ TEST_CASE("the vector engine is what renders, unless told otherwise", "[native]"
     };
     CHECK(deferred({}) > 0);
     CHECK(deferred(by(simd::Engine::reference)) == 0);
+}
+
+TEST_CASE("a region is left as it is once it is stopped") {
+    const Scene scene = panes(3);
+    const simd::SceneData data(scene);
+    for (const float quality : {0.0F, 30.0F}) {
+        Settings settings = scene.settings();
+        settings.quality = quality;
+        std::atomic<bool> stop = true;
+        simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())}, &stop);
+        const core::Region whole{0, 0, settings.width, settings.height};
+        Film film(settings.width, settings.height);
+        const Film untouched = film;
+        wavefront.render(whole, film);
+        CHECK(film.pixels() == untouched.pixels());
+        CHECK(wavefront.counters().rays() == 0);
+
+        stop = false;
+        wavefront.render(whole, film);
+        CHECK(film.pixels() ==
+              simd::render(scene, settings, by(simd::Engine::vector)).film.pixels());
+    }
 }

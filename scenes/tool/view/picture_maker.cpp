@@ -9,8 +9,9 @@ namespace raylane::scenes {
 
 namespace {
 
-/// Within which there is to be a picture.
-constexpr double soon = 0.04; // seconds
+/// Within which there is to be a picture: as long again is for stopping the one before, and
+/// showing.
+constexpr double soon = 0.02; // seconds
 
 double samples_of(const core::Settings& settings) {
     return static_cast<double>(settings.width) * settings.height * settings.grid * settings.grid;
