@@ -4,14 +4,21 @@
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <malloc.h>
+#include <mutex>
 #include <new>
 #include <random>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#include <utility>
 
-/// In a program of its own: it counts what is asked of the heap.
+/// In a program of its own: it counts what is asked of the heap, without what is given back of
+/// that.
 namespace {
 
 std::atomic<std::size_t> live = 0, peak = 0;
@@ -24,12 +31,41 @@ void* counted(std::size_t bytes, std::size_t alignment) {
     return memory;
 }
 
+/// What was given back to the system of memory that is still there.
+struct GivenBack {
+    const char* first = nullptr;
+    std::size_t bytes = 0;
+};
+std::array<GivenBack, 16> given_back;
+std::mutex giving_back;
+
 void discounted(void* memory) {
-    if (memory != nullptr) live -= ::malloc_usable_size(memory);
+    if (memory != nullptr) {
+        const std::size_t bytes = ::malloc_usable_size(memory);
+        const auto* const first = static_cast<const char*>(memory);
+        live -= bytes;
+        const std::lock_guard lock(giving_back);
+        for (GivenBack& part : given_back)
+            if (part.bytes != 0 && part.first >= first && part.first < first + bytes)
+                live += std::exchange(part.bytes, 0);
+    }
     std::free(memory);
 }
 
 } // namespace
+
+/// In place of the C library's.
+extern "C" int madvise(void* memory, std::size_t bytes, int advice) noexcept {
+    if (advice == MADV_DONTNEED) {
+        const std::lock_guard lock(giving_back);
+        const auto free = std::find_if(given_back.begin(), given_back.end(),
+                                       [](const GivenBack& part) { return part.bytes == 0; });
+        if (free == given_back.end()) std::abort();
+        *free = {static_cast<const char*>(memory), bytes};
+        live -= bytes;
+    }
+    return static_cast<int>(::syscall(SYS_madvise, memory, bytes, advice));
+}
 
 void* operator new(std::size_t bytes) {
     return counted(bytes, alignof(std::max_align_t));
