@@ -3,6 +3,11 @@
 #include "core/reference/counters.hpp"
 #include "simd/trace_kernels.hpp"
 
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
 namespace raylane::simd {
 
 /// Counts of the vector engine's work.
@@ -31,6 +36,13 @@ struct EngineCounters : core::Counters {
         followed += other.followed;
         return *this;
     }
+    EngineCounters& operator-=(const EngineCounters& other) {
+        auto numbers = as_numbers();
+        const auto others = other.as_numbers();
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            numbers[i] -= others[i];
+        return *this = of_numbers(numbers);
+    }
     EngineCounters& operator+=(const TraceCounters& traced) {
         nodes += traced.nodes;
         shapes += traced.shapes;
@@ -39,6 +51,13 @@ struct EngineCounters : core::Counters {
         in_lists += traced.in_lists;
         in_flight += traced.in_flight;
         return *this;
+    }
+
+    /// All of them, in the order in which they are declared.
+    using Numbers = std::array<std::uint64_t, 17>;
+    Numbers as_numbers() const { return std::bit_cast<Numbers>(*this); }
+    static EngineCounters of_numbers(const Numbers& numbers) {
+        return std::bit_cast<EngineCounters>(numbers);
     }
 };
 

@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -74,26 +75,52 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
     tbb::enumerable_thread_specific<Tracer> tracers(make_tracer);
     tbb::enumerable_thread_specific<FirstHitPasses> passes(
         [&] { return FirstHitPasses(*scene, settings, kernels_of(options.isa)); });
-    const auto is_stopped = [&] { return options.progress != nullptr && options.progress->stop; };
+    const auto is_abandoned = [&] {
+        return options.progress != nullptr && options.progress->abandon;
+    };
+    const auto is_stopped = [&] {
+        return is_abandoned() || (options.progress != nullptr && options.progress->stop);
+    };
+    tbb::enumerable_thread_specific<EngineCounters> recalled;
+    std::atomic<bool> complete = true;
     for_each_tile(part, tile, options.threads, [&](const core::Region& region) {
-        if (is_stopped()) return;
+        if (is_stopped()) {
+            complete = false;
+            return;
+        }
+        EngineCounters of_tile;
+        if (options.recall && options.recall({region, rendering.film, rendering.layers, of_tile})) {
+            recalled.local() += of_tile;
+            if (options.progress != nullptr) options.progress->pixels += region.pixels();
+            return;
+        }
         Tracer& tracer = tracers.local();
-        const std::uint64_t rays_before = tracer.counters().rays();
+        EngineCounters before;
+        before += tracer.counters();
         tracer.render(region, rendering.film);
-        if (is_stopped()) return; // before its end, perhaps
+        if (is_abandoned()) { // before its end, perhaps
+            complete = false;
+            return;
+        }
         if (scene != nullptr) passes.local().run(region, crop, rendering);
         if (options.layers) note_samples(tracer, region, crop, rendering.layers);
+        of_tile += tracer.counters();
+        of_tile -= before;
         if (options.progress != nullptr) {
-            options.progress->rays += tracer.counters().rays() - rays_before;
+            options.progress->rays += of_tile.rays();
             options.progress->pixels += region.pixels();
         }
         // Isolated: what it waits for shall not make it draw another tile.
         if (options.after_tile)
-            tbb::this_task_arena::isolate([&] { options.after_tile(region, rendering.film); });
+            tbb::this_task_arena::isolate([&] {
+                options.after_tile({region, rendering.film, rendering.layers, of_tile});
+            });
     });
-    rendering.complete = !is_stopped();
+    rendering.complete = complete;
     for (const Tracer& tracer : tracers)
         rendering.counters += tracer.counters();
+    for (const EngineCounters& counters : recalled)
+        rendering.counters += counters;
     if (options.crop) rendering.film = rendering.film.cropped(crop);
     return rendering;
 }
@@ -153,18 +180,11 @@ struct Spectrum {
     }
 };
 
-/// With a quality, tiles consist of whole squares.
-int fitting(int tile, const core::Settings& settings) {
-    if (settings.quality == 0.0F) return tile;
-    constexpr int square = core::RegionSamples::square_size;
-    return (tile + square - 1) / square * square;
-}
-
 template <class Real>
 Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
                            const RenderOptions& options) {
     using Tracer = core::ReferenceTracer<Real>;
-    const int tile = options.tile != 0 ? options.tile : 16;
+    const int tile = tile_of(settings, options);
     std::optional<SceneData> data;
     if (FirstHitPasses::are_wanted(settings, options)) data.emplace(scene);
     const SceneData* const seen = data ? &*data : nullptr;
@@ -178,21 +198,15 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                                          options.precision);
                 return SpectralTracer<Tracer>(std::move(tracers), spectrum.shares, settings);
             },
-            fitting(tile, settings), settings, options, seen);
+            tile, settings, options, seen);
     }
     return render_by<Tracer>(
-        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); },
-        fitting(tile, settings), settings, options, seen);
+        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); }, tile,
+        settings, options, seen);
 }
 
-int tile_of(const core::Settings& settings, const RenderOptions& options) {
-    return options.tile != 0          ? std::clamp(options.tile, 1, Wavefront::max_region)
-           : settings.quality != 0.0F ? Wavefront::max_region
-                                      : 32;
-}
-
-const std::atomic<bool>* stop_of(const RenderOptions& options) {
-    return options.progress != nullptr ? &options.progress->stop : nullptr;
+const std::atomic<bool>* abandon_of(const RenderOptions& options) {
+    return options.progress != nullptr ? &options.progress->abandon : nullptr;
 }
 
 /// Wavefronts stay where they are made.
@@ -215,10 +229,10 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
             tracers.reserve(data.size());
             for (const SceneData& of_one : data)
                 tracers.push_back(
-                    {std::make_unique<Wavefront>(of_one, settings, tracing, stop_of(options))});
+                    {std::make_unique<Wavefront>(of_one, settings, tracing, abandon_of(options))});
             return Tracer(std::move(tracers), spectrum.shares, settings);
         },
-        fitting(tile_of(settings, options), settings), settings, options,
+        tile_of(settings, options), settings, options,
         FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr);
 }
 
@@ -240,13 +254,23 @@ core::Region drawn_part(const core::Settings& settings, const std::optional<core
         .within(whole);
 }
 
+int tile_of(const core::Settings& settings, const RenderOptions& options) {
+    const bool has_quality = settings.quality != 0.0F;
+    const int tile = options.engine == Engine::reference ? (options.tile != 0 ? options.tile : 16)
+                     : options.tile != 0 ? std::clamp(options.tile, 1, Wavefront::max_region)
+                     : has_quality       ? Wavefront::max_region
+                                         : 32;
+    // With a quality, tiles consist of whole squares.
+    constexpr int square = core::RegionSamples::square_size;
+    return has_quality ? (tile + square - 1) / square * square : tile;
+}
+
 Rendering render_vector(const SceneData& scene, const core::Settings& settings,
                         const RenderOptions& options, const Tracing& tracing) {
     const int tile = tile_of(settings, options);
     return render_by<Wavefront>(
-        [&] { return Wavefront(scene, settings, tracing, stop_of(options)); },
-        fitting(tile, settings), settings, options,
-        FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
+        [&] { return Wavefront(scene, settings, tracing, abandon_of(options)); }, tile, settings,
+        options, FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,

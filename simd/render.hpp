@@ -26,7 +26,24 @@ enum class Engine : std::uint8_t {
 struct Progress {
     std::atomic<std::int64_t> pixels = 0;
     std::atomic<std::uint64_t> rays = 0;
-    std::atomic<bool> stop = false; ///< once true, no tile is begun, and few are finished
+    std::atomic<bool> stop = false;    ///< once true, no more tiles are begun
+    std::atomic<bool> abandon = false; ///< once true, those under way are left, too
+};
+
+/// A part of a picture that has been drawn, or is to be. `film` and `layers` are the picture's, of
+/// which nothing but that part is to be touched; layers are empty if they were not asked for, and
+/// cover the crop.
+struct FinishedTile {
+    const core::Region& region;
+    const core::Film& film;
+    const core::Layers& layers;
+    const EngineCounters& counters; ///< of the tile
+};
+struct TileToFill {
+    const core::Region& region;
+    core::Film& film;
+    core::Layers& layers;
+    EngineCounters& counters; ///< of the tile; 0 to begin with
 };
 
 struct RenderOptions {
@@ -41,10 +58,12 @@ struct RenderOptions {
     std::optional<core::Region> crop;
     bool layers = false; ///< wanted, too
     Progress* progress = nullptr;
-    /// Called behind each tile by the thread that has drawn it, so by several at a time. The film
-    /// is not to be read but in that tile, and has pixels around a crop that is not made of whole
-    /// squares, if there is a quality.
-    std::function<void(const core::Region&, const core::Film&)> after_tile;
+    /// Called before each tile by the thread that is to draw it, so by several at a time: if true,
+    /// it has filled the tile with what this shows, and nothing is drawn.
+    std::function<bool(const TileToFill&)> recall;
+    /// Called behind each tile that has been drawn, likewise. The film has pixels around a crop
+    /// that is not made of whole squares, if there is a quality.
+    std::function<void(const FinishedTile&)> after_tile;
 };
 
 struct Rendering {
@@ -56,6 +75,9 @@ struct Rendering {
 
 /// The part of a picture that is drawn: the crop, or with a quality the whole squares that have it.
 core::Region drawn_part(const core::Settings& settings, const std::optional<core::Region>& crop);
+
+/// Pixels on the side of the tiles that a picture is drawn in.
+int tile_of(const core::Settings& settings, const RenderOptions& options);
 
 /// Renders a picture of settings.width * settings.height pixels, or a part of it, with its outline;
 /// layers and outline have what the camera sees first, exactly, whatever the precision and engine,

@@ -115,15 +115,15 @@ std::optional<Image> render(const Scene& scene, const RenderOptions& options,
     std::mutex calling;
     bool has_ended = false; // by the callback's answer or by what it throws
     inner.progress = &made;
-    inner.after_tile = [&](const core::Region& region, const core::Film& film) {
+    inner.after_tile = [&](const simd::FinishedTile& tile) {
         const std::lock_guard lock(calling);
         if (has_ended) return;
         has_ended = true;
-        has_ended = !progress({made.pixels, total, made.rays, tile_of(film, region)});
-        made.stop = has_ended;
+        has_ended = !progress({made.pixels, total, made.rays, tile_of(tile.film, tile.region)});
+        made.stop = made.abandon = has_ended;
     };
     simd::Rendering rendering = render_with(scene, settings, inner);
-    if (!rendering.complete) return std::nullopt;
+    if (!rendering.complete || has_ended) return std::nullopt;
     return image_of(std::move(rendering));
 }
 

@@ -48,8 +48,8 @@ core::Settings without_quality(core::Settings settings) {
 } // namespace
 
 Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing,
-                     const std::atomic<bool>* stop)
-    : scene_(scene), settings_(settings), tracing_(tracing), stop_(stop),
+                     const std::atomic<bool>* abandon)
+    : scene_(scene), settings_(settings), tracing_(tracing), abandon_(abandon),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_coherence_(camera_rays_.has_lens() ? neighbours : coherence_of(camera_)),
       with_media_(scene.scene().transmissive().any),
@@ -155,7 +155,7 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
         take({x, y, pixel, 0, samples}, add);
     });
     flush(add);
-    if (is_stopped()) return;
+    if (is_abandoned()) return;
     std::size_t pixel = 0;
     for (int y = region.y0; y < region.y1; ++y)
         for (int x = region.x0; x < region.x1; ++x, ++pixel) {
@@ -182,7 +182,7 @@ void Wavefront::render_to_quality(const core::Region& region, core::Film& film) 
             take({x, y, pixel, pixels.taken(pixel), pixels.wanted(pixel)}, add);
         });
         flush(add);
-        if (is_stopped()) return;
+        if (is_abandoned()) return;
     } while (pixels.end_round());
     std::size_t pixel = 0;
     for (int y = region.y0; y < region.y1; ++y)
@@ -221,7 +221,7 @@ void Wavefront::take(Samples samples, const Add& add) {
 template <class Add>
 void Wavefront::flush(const Add& add) {
     if (filled_ == 0) return;
-    if (!is_stopped()) {
+    if (!is_abandoned()) {
         start(filled_);
         trace();
         std::size_t i = 0;

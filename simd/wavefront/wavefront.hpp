@@ -21,9 +21,9 @@ namespace raylane::simd {
 /// order that knows of no other sample, and samples are added in theirs.
 class Wavefront {
   public:
-    /// `stop`: once it is true, the region under way is left as it is.
+    /// `abandon`: once it is true, the region under way is left as it is.
     Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing,
-              const std::atomic<bool>* stop = nullptr);
+              const std::atomic<bool>* abandon = nullptr);
 
     /// With a quality, the region consists of whole squares (core::RegionSamples::square_size).
     void render(const core::Region& region, core::Film& film);
@@ -60,7 +60,7 @@ class Wavefront {
         int depth;
     };
 
-    bool is_stopped() const { return stop_ != nullptr && *stop_; }
+    bool is_abandoned() const { return abandon_ != nullptr && *abandon_; }
     void take_from(Arena& arena);
     void render_grid(const core::Region& region, core::Film& film);
     void render_to_quality(const core::Region& region, core::Film& film);
@@ -100,7 +100,7 @@ class Wavefront {
     const SceneData& scene_;
     core::Settings settings_;
     Tracing tracing_;
-    const std::atomic<bool>* stop_;
+    const std::atomic<bool>* abandon_;
     core::CameraRays<double> camera_rays_;
     CameraView camera_{};
     Coherence camera_coherence_{};

@@ -189,14 +189,14 @@ TEST_CASE("the vector engine is what renders, unless told otherwise", "[native]"
     CHECK(deferred(by(simd::Engine::reference)) == 0);
 }
 
-TEST_CASE("a region is left as it is once it is stopped") {
+TEST_CASE("a region that is abandoned is left as it is") {
     const Scene scene = panes(3);
     const simd::SceneData data(scene);
     for (const float quality : {0.0F, 30.0F}) {
         Settings settings = scene.settings();
         settings.quality = quality;
-        std::atomic<bool> stop = true;
-        simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())}, &stop);
+        std::atomic<bool> abandon = true;
+        simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())}, &abandon);
         const core::Region whole{0, 0, settings.width, settings.height};
         Film film(settings.width, settings.height);
         const Film untouched = film;
@@ -204,7 +204,7 @@ TEST_CASE("a region is left as it is once it is stopped") {
         CHECK(film.pixels() == untouched.pixels());
         CHECK(wavefront.counters().rays() == 0);
 
-        stop = false;
+        abandon = false;
         wavefront.render(whole, film);
         CHECK(film.pixels() ==
               simd::render(scene, settings, by(simd::Engine::vector)).film.pixels());

@@ -35,13 +35,13 @@ PictureMaker::~PictureMaker() {
 void PictureMaker::interrupt() {
     const std::lock_guard lock(mutex_);
     is_interrupted_ = true;
-    progress_.stop = true;
+    progress_.abandon = true;
 }
 
 void PictureMaker::show(core::View view, const core::Settings& settings) {
     const std::lock_guard lock(mutex_);
     is_interrupted_ = true; // at once with the wish: it may not be taken for an earlier one's
-    progress_.stop = true;
+    progress_.abandon = true;
     wish_ = {std::move(view), settings};
     wake_.notify_all();
 }
@@ -77,7 +77,7 @@ void PictureMaker::run(const std::stop_token& stop) {
                 if (!wake_.wait(lock, stop, [&] { return wish_.has_value(); })) return;
                 wish = std::exchange(wish_, std::nullopt);
                 is_interrupted_ = false;
-                progress_.stop = false;
+                progress_.abandon = false;
             }
             const std::lock_guard lock(scene_mutex_);
             const core::Staging staging = scene_.staging();
