@@ -155,7 +155,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::reserve(std::int64_t bytes) {
-    if (temporary_.empty()) return;
+    if (!has_temporary()) return;
     // Claiming room beyond the size does not ask for the limit of the size.
     rlimit limit{};
     if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && static_cast<rlim_t>(bytes) > limit.rlim_cur)
@@ -181,6 +181,12 @@ void AtomicFile::commit() {
     if (keeps_target_) {
         copy_temporary();
         discard_temporary();
+    } else if (unnamed_) {
+        const std::string path = "/proc/self/fd/" + std::to_string(descriptor_);
+        if (make_temporary([&](const char* name) {
+                return ::linkat(AT_FDCWD, path.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+            }) < 0)
+            refuse(errno);
     }
     // Some file systems say only now that there is no room.
     const int closed = ::close(descriptor_);
@@ -201,7 +207,8 @@ void AtomicFile::open_existing(int descriptor) {
 }
 
 void AtomicFile::copy_temporary() const {
-    const int from = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+    const std::string path = unnamed_ ? "/proc/self/fd/" + std::to_string(descriptor_) : temporary_;
+    const int from = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (from < 0) refuse(errno);
     const int to = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
     int error_number = to < 0 ? errno : 0;
@@ -218,7 +225,32 @@ void AtomicFile::copy_temporary() const {
     if (error_number != 0) refuse(error_number);
 }
 
+/// False where the file system, or the system, has no such files, or could not name them later.
+bool AtomicFile::open_unnamed(unsigned mode) {
+#ifdef O_TMPFILE
+    if (::access("/proc/self/fd", X_OK) != 0) return false;
+    const std::filesystem::path folder = target_.parent_path();
+    descriptor_ =
+        ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+    unnamed_ = descriptor_ >= 0;
+#else
+    static_cast<void>(mode);
+#endif
+    return unnamed_;
+}
+
 void AtomicFile::open_temporary(unsigned mode) {
+    if (open_unnamed(mode)) return;
+    descriptor_ = make_temporary([mode](const char* name) {
+        return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    });
+    if (descriptor_ < 0) refuse(errno);
+}
+
+/// Calls make(name), which returns what is negative where it fails, with names that nobody has; and
+/// returns that.
+template <class Make>
+int AtomicFile::make_temporary(const Make& make) {
     // A name of the greatest length has no room for more.
     constexpr std::size_t longest_part = 200;
     std::string name = ".";
@@ -227,15 +259,20 @@ void AtomicFile::open_temporary(unsigned mode) {
     while (true) {
         temporary_ = start + random_suffix();
         const SignalsHeld until_known;
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (descriptor_ >= 0) return replace_known(nullptr, temporary_.c_str());
+        if (const int made = make(temporary_.c_str()); made >= 0) {
+            replace_known(nullptr, temporary_.c_str());
+            unnamed_ = false;
+            return made;
+        }
         const int error_number = errno;
         temporary_.clear(); // of somebody else, or nothing
-        if (error_number != EEXIST) refuse(error_number);
+        errno = error_number;
+        if (error_number != EEXIST) return -1;
     }
 }
 
 void AtomicFile::discard_temporary() {
+    unnamed_ = false;
     if (temporary_.empty()) return;
     ::unlink(temporary_.c_str());
     replace_known(temporary_.c_str(), nullptr);

@@ -9,8 +9,9 @@
 namespace raylane::scenes {
 
 /// A file that appears whole or not at all: written to a temporary beside it, which takes its name
-/// when all went well. What is no regular file (a pipe, a device), or open already ("-", standard
-/// output; /dev/stdout, /proc/self/fd/3), is written directly, from where it stands.
+/// when all went well, and has none before where the system can do that: then nothing is left of it
+/// however the process ends. What is no regular file (a pipe, a device), or open already ("-",
+/// standard output; /dev/stdout, /proc/self/fd/3), is written directly, from where it stands.
 ///
 /// All that can be known is checked at construction, so before the work whose result is to be
 /// written. Functions throw SystemRefused; the temporary is gone when the object is, and a signal
@@ -35,6 +36,10 @@ class AtomicFile {
   private:
     void open_existing(int descriptor);
     void open_temporary(unsigned mode);
+    bool open_unnamed(unsigned mode);
+    template <class Make>
+    int make_temporary(const Make& make);
+    bool has_temporary() const { return unnamed_ || !temporary_.empty(); }
     void copy_temporary() const;
     void discard_temporary();
     void flush();
@@ -42,7 +47,8 @@ class AtomicFile {
 
     std::string name_;
     std::filesystem::path target_;
-    std::string temporary_;     // empty: the target itself is written
+    std::string temporary_;     // its name, once it has one
+    bool unnamed_ = false;      // it has none; where there is none at all, the target is written
     bool keeps_target_ = false; // its content alone is replaced
     int descriptor_ = -1;
     std::vector<char> buffer_;

@@ -186,8 +186,7 @@ void write_shape(Object& object, const core::EllipsoidOf<double>& s) {
     object.vectors("axes", {s.axis_u, s.axis_v, s.axis_w});
 }
 
-void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) {
-    const core::Settings& settings = scene.settings();
+void write_settings(Object& root, TextFile& file, const core::Settings& settings) {
     root.key("image");
     {
         Object image(file);
@@ -225,6 +224,9 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         object.vector("color", outline.color);
         object.number("creases", outline.creases);
     }
+}
+
+void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) {
     root.key("camera");
     {
         const core::Camera& camera = scene.camera();
@@ -344,14 +346,7 @@ void write_solid(TextFile& file, const core::Solid& solid) {
     file << "]";
 }
 
-} // namespace
-
-void write_json(TextFile& file, const core::Scene& scene) {
-    Object root(file, ",\n");
-    file << "\n";
-    write_surroundings(root, file, scene);
-    write_lights(root, file, scene);
-
+void write_materials(Object& root, TextFile& file, const core::Scene& scene) {
     root.key("materials") << "{";
     const char* separator = "\n";
     for (std::size_t i = 0; i < scene.materials().size(); ++i) {
@@ -359,8 +354,19 @@ void write_json(TextFile& file, const core::Scene& scene) {
         write_material(file, scene.materials()[i]);
     }
     file << "}";
+}
+
+} // namespace
+
+void write_json(TextFile& file, const core::Scene& scene) {
+    Object root(file, ",\n");
+    file << "\n";
+    write_settings(root, file, scene.settings());
+    write_surroundings(root, file, scene);
+    write_lights(root, file, scene);
+    write_materials(root, file, scene);
     root.key("objects") << "[";
-    separator = "\n";
+    const char* separator = "\n";
     for_each_by_id(
         scene,
         [&]<class Shape>(const Shape& shape, core::ShapeId id) {
@@ -374,6 +380,23 @@ void write_json(TextFile& file, const core::Scene& scene) {
             file << std::exchange(separator, ",\n");
             write_solid(file, solid);
         });
+    file << "\n]";
+}
+
+void write_json_without_shapes(TextFile& file, const core::Scene& scene) {
+    Object root(file, ",\n");
+    file << "\n";
+    write_surroundings(root, file, scene);
+    write_lights(root, file, scene);
+    write_materials(root, file, scene);
+    root.key("objects") << "[";
+    const char* separator = "\n";
+    for (core::ShapeId id = 0; scene.solids().any() && id < scene.shape_count(); ++id) {
+        if (!scene.solids().has(id) || scene.solids().solid_of(id) != id) continue;
+        file << std::exchange(separator, ",\n");
+        write_solid(
+            file, core::description_of(scene, scene.solids().root_of(scene.solids().part_of(id))));
+    }
     file << "\n]";
 }
 

@@ -5,16 +5,22 @@
 #include "scenes/number.hpp"
 
 #include <charconv>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace raylane::scenes {
 
-/// Text on its way to a file. Floats and doubles are written so that they are read as
-/// the same ones.
+/// Text on its way to a file, or whatever takes it piece by piece. Floats and doubles are written
+/// so that they are read as the same ones.
 class TextFile {
   public:
-    explicit TextFile(AtomicFile& file) : file_(file) {}
+    using Take = std::function<void(std::string_view)>;
+
+    explicit TextFile(Take take) : take_(std::move(take)) {}
+    explicit TextFile(AtomicFile& file)
+        : TextFile([&file](std::string_view text) { file.write(text); }) {}
 
     TextFile& operator<<(std::string_view text) {
         text_ += text;
@@ -37,12 +43,12 @@ class TextFile {
     }
 
     void flush() {
-        file_.write(text_);
+        take_(text_);
         text_.clear();
     }
 
   private:
-    AtomicFile& file_;
+    Take take_;
     std::string text_;
 };
 

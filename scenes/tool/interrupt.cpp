@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstring>
 #include <unistd.h>
 
 namespace raylane::scenes {
@@ -13,16 +14,30 @@ namespace {
 std::atomic<bool> ending = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
 
-/// Only calls that POSIX lists as safe in a signal handler.
+// In what follows, only calls that POSIX lists as safe in a signal handler.
+
+void say(const char* text) {
+    if (::isatty(STDERR_FILENO) != 1) return;
+    const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
+    static_cast<void>(written);
+}
+
 extern "C" void end_process(int signal) {
     ending = true;
     remove_temporaries();
-    if (::isatty(STDERR_FILENO) == 1) {
-        // The prompt shall not follow a progress bar.
-        const auto written = ::write(STDERR_FILENO, "\n", 1);
-        static_cast<void>(written);
-    }
+    say("\n"); // the prompt shall not follow a progress bar
     ::_exit(128 + signal);
+}
+
+std::atomic<std::atomic<bool>*> stop = nullptr;
+std::atomic<int> stopped_by = 0;
+
+extern "C" void stop_first(int signal) {
+    std::atomic<bool>* const flag = stop;
+    if (flag == nullptr || stopped_by != 0) return end_process(signal);
+    stopped_by = signal;
+    *flag = true;
+    say("\nraylane: finishing what is under way; once more to end at once\n");
 }
 
 void on(int signal, void (*handler)(int)) {
@@ -42,9 +57,23 @@ bool is_ignored(int signal) {
 
 void catch_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2})
-        if (!is_ignored(signal)) on(signal, end_process);
+        if (!is_ignored(signal))
+            on(signal, signal == SIGINT || signal == SIGTERM ? stop_first : end_process);
     on(SIGPIPE, SIG_IGN);
     on(SIGXFSZ, SIG_IGN);
+}
+
+StopOnSignal::StopOnSignal(std::atomic<bool>& flag) {
+    stopped_by = 0;
+    stop = &flag;
+}
+
+StopOnSignal::~StopOnSignal() {
+    stop = nullptr;
+}
+
+int StopOnSignal::signal() {
+    return stopped_by;
 }
 
 bool is_ending() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 /// Ctrl-C and its kin, which may come at any moment.
 namespace raylane::scenes {
 
@@ -7,6 +9,19 @@ namespace raylane::scenes {
 /// on, remove the temporaries and end it at once, with 128 + the signal's number; and writes to
 /// closed pipes and beyond file size limits fail rather than kill.
 void catch_signals();
+
+/// While it lives, the first SIGINT or SIGTERM does not end the process but sets `stop`; the second
+/// does. One at a time.
+class StopOnSignal {
+  public:
+    explicit StopOnSignal(std::atomic<bool>& stop);
+    ~StopOnSignal();
+    StopOnSignal(const StopOnSignal&) = delete;
+    StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+    /// The one that has come; 0: none.
+    static int signal();
+};
 
 /// True if a signal is ending the process at this moment, in another thread: nothing shall be shown
 /// any more.

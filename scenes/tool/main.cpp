@@ -4,6 +4,7 @@
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/interrupt.hpp"
+#include "scenes/tool/journal/resumable.hpp"
 #include "scenes/tool/usage.hpp"
 
 #include <array>
@@ -74,6 +75,9 @@ int complain_about_exception() {
         return complain(error.what(), bad_input);
     } catch (const core::InvalidValue& error) {
         return complain(error.what(), bad_input);
+    } catch (const Stopped& stopped) {
+        complain(stopped.what(), refused);
+        return 128 + stopped.signal;
     } catch (const std::bad_alloc&) {
         return complain("not enough memory", refused);
     } catch (const std::exception& error) {

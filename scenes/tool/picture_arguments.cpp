@@ -178,9 +178,12 @@ PictureOptions PictureChoice::options(const std::string& scene, const core::Sett
         options.texts.emplace_back(
             "Title", printable(std::filesystem::path(scene).filename().string(), 4096));
     options.texts.emplace_back("Software", "raylane " RAYLANE_VERSION);
-    options.texts.emplace_back("Comment", text_of(settings) +
-                                              (crop ? " --crop " + text_of(*crop) : "") + others);
+    options.texts.emplace_back("Comment", text(settings) + others);
     return options;
+}
+
+std::string PictureChoice::text(const core::Settings& settings) const {
+    return text_of(settings) + (crop ? " --crop " + text_of(*crop) : "");
 }
 
 } // namespace raylane::scenes

@@ -34,6 +34,9 @@ struct PictureChoice {
     PictureOptions options(const std::string& scene, const core::Settings& settings,
                            const std::string& others) const;
 
+    /// The settings and crop as options of the tool.
+    std::string text(const core::Settings& settings) const;
+
     bool layers, alpha;
     int bits = 0;
     std::optional<core::Region> crop;

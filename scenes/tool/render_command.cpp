@@ -6,6 +6,7 @@
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/film_strip.hpp"
 #include "scenes/tool/film_strip_arguments.hpp"
+#include "scenes/tool/journal/resumable.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/output_name.hpp"
 #include "scenes/tool/picture_arguments.hpp"
@@ -27,6 +28,7 @@ struct RenderArguments {
     Argument scene, output, size, samples, quality, filter, light_samples, max_depth,
         max_see_through, min_weight, threads, transfer, stats;
     Argument engine = "vector", isa, tile, precision = "exact";
+    bool no_resume = false;
     SceneArguments scene_arguments;
     FrameArguments frames;
     PictureArguments picture;
@@ -237,6 +239,14 @@ int render(const RenderArguments& arguments) {
         picture.apply_to(options, settings);
         options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     };
+    const auto resumable = [&](const std::string& name, const core::Scene& scene,
+                               const core::Settings& settings) {
+        return ResumableRendering(name, !arguments.no_resume, scene, settings, options,
+                                  picture.text(settings) + " --engine " + *arguments.engine +
+                                      " --precision " +
+                                      std::string(core::name_of(options.precision)),
+                                  verbosity);
+    };
     const auto write = [&](OutputFile& output, const simd::Rendering& rendering,
                            const core::Settings& settings) {
         output.commit(rendering.film,
@@ -259,8 +269,9 @@ int render(const RenderArguments& arguments) {
             OutputFile output(name, exr_of);
             const core::Settings settings = settings_of(scene.settings());
             prepare(scene, settings);
-            options.progress = &progress;
-            write(output, simd::render(scene, settings, options), settings);
+            ResumableRendering drawing = resumable(name, scene, settings);
+            write(output, drawing.draw(progress), settings);
+            drawing.finished();
         };
         draw(*strip);
         return 0;
@@ -282,15 +293,16 @@ int render(const RenderArguments& arguments) {
     times.load = stopwatch.lap();
 
     simd::Progress progress;
-    options.progress = &progress;
+    ResumableRendering drawing = resumable(files.output, scene, settings);
     const simd::Rendering rendering = [&] {
         const ProgressBar bar(verbosity, progress,
                               simd::drawn_part(settings, options.crop).pixels());
-        return simd::render(scene, settings, options);
+        return drawing.draw(progress);
     }();
     times.render = stopwatch.lap();
 
     write(output, rendering, settings);
+    drawing.finished();
     times.write = stopwatch.lap();
 
     if (stats) {
@@ -372,6 +384,9 @@ Command add_render_command(CLI::App& app) {
         "srgb|linear");
     add("--stats", arguments->stats,
         "Write figures about the rendering as JSON; - is standard output", "FILE");
+    add_flag(*command, "--no-resume", arguments->no_resume,
+             "Do not go on with what an earlier rendering has left in FILE.part when it was ended, "
+             "and leave nothing to go on with");
     arguments->picture.add_to(*command);
     arguments->frames.add_to(*command);
     arguments->scene_arguments.add_to(*command, true);

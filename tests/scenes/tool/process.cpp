@@ -106,6 +106,20 @@ void Process::send(int signal) const {
     checked(::kill(child_, signal), "kill");
 }
 
+int Process::unnamed_files_in(const std::filesystem::path& directory) const {
+    const std::string start = std::filesystem::canonical(directory).string() + "/";
+    int count = 0;
+    std::error_code gone; // it may close them at any time
+    for (std::filesystem::directory_iterator file("/proc/" + std::to_string(child_) + "/fd", gone),
+         end;
+         !gone && file != end; file.increment(gone)) {
+        const std::string path = std::filesystem::read_symlink(file->path(), gone).string();
+        if (path.starts_with(start) && path.ends_with(" (deleted)")) ++count;
+        gone.clear();
+    }
+    return count;
+}
+
 Outcome Process::wait() {
     collect(std::chrono::steady_clock::now() + patience);
     int status = 0;

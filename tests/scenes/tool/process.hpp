@@ -36,6 +36,8 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     void send(int signal) const;
+    /// How many files without a name it has open in a directory.
+    int unnamed_files_in(const std::filesystem::path& directory) const;
     /// Takes what it writes until it ends, and kills it where that takes minutes.
     Outcome wait();
 

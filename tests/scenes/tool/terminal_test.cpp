@@ -101,12 +101,12 @@ TEST_CASE("the prompt stands on a line of its own after an interruption") {
     const Workshop workshop;
     Process process = workshop.start(
         joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
-    REQUIRE(workshop.wait_for_files(1));
+    REQUIRE(workshop.wait_for_files(process, 1));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    process.send(SIGINT);
+    process.send(SIGHUP);
     const Outcome outcome = process.wait();
     CAPTURE(outcome.err);
-    CHECK(outcome.code == 128 + SIGINT);
+    CHECK(outcome.code == 128 + SIGHUP);
     CHECK(outcome.err.ends_with("\r\n"));
     CHECK(workshop.is_output_empty());
 }

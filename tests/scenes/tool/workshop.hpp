@@ -21,6 +21,8 @@ inline const std::string ball = R"({
 
 /// Options that make a picture of any scene take hours.
 inline const std::vector<std::string> hours = {"--size", "4000x4000", "--spp", "65536"};
+/// The same, in tiles that take a moment.
+inline const std::vector<std::string> minutes = {"--size", "16000x16000", "--spp", "16"};
 
 inline std::vector<std::string> joined(std::vector<std::string> a,
                                        const std::vector<std::string>& b) {
@@ -51,11 +53,13 @@ class Workshop {
     }
     std::vector<std::string> names() const { return directory_.names(); }
     bool is_output_empty() const { return std::filesystem::is_empty(output()); }
-    /// Until as many files as that have come out, temporaries included. False if that takes a
-    /// minute.
-    bool wait_for_files(int count) const {
+    /// Until as many files as that have come out, temporaries included, also those without a name.
+    /// False if that takes a minute.
+    bool wait_for_files(const Process& process, int count) const {
         const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-        while (std::distance(std::filesystem::directory_iterator(output()), {}) != count) {
+        while (std::distance(std::filesystem::directory_iterator(output()), {}) +
+                   process.unnamed_files_in(output()) !=
+               count) {
             if (std::chrono::steady_clock::now() > end) return false;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }

@@ -1,0 +1,247 @@
+#include "scenes/tool/journal/journal.hpp"
+
+#include "scenes/errors.hpp"
+#include "scenes/library/raylane/version.h"
+#include "scenes/tool/journal/fingerprint.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <string_view>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+constexpr std::string_view magic = "raylane journal ";
+
+/// Before each tile's bytes; a checksum of both is behind them.
+struct RecordHead {
+    std::uint32_t number;
+    std::uint32_t bytes;
+};
+
+constexpr std::size_t bytes_around = sizeof(RecordHead) + sizeof(std::uint64_t);
+
+std::string head_of(const JournalSubject& subject) {
+    return std::string(magic) + RAYLANE_VERSION "\nscene " + subject.scene + "\noptions " +
+           subject.options + "\n\n";
+}
+
+/// As many bytes as there are from a place on, at most `most`.
+std::string read_at(int descriptor, std::int64_t place, std::size_t most) {
+    std::string bytes(most, '\0');
+    std::size_t have = 0;
+    while (have < most) {
+        const ssize_t count = ::pread(descriptor, bytes.data() + have, most - have,
+                                      place + static_cast<std::int64_t>(have));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        have += static_cast<std::size_t>(count);
+    }
+    bytes.resize(have);
+    return bytes;
+}
+
+bool write_at(int descriptor, std::int64_t place, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::pwrite(descriptor, bytes.data(), bytes.size(), place);
+        if (count < 0 && errno != EINTR) return false;
+        if (count <= 0) continue;
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+        place += count;
+    }
+    return true;
+}
+
+/// So that the file's name survives, too.
+void sync_folder_of(const std::filesystem::path& path) {
+    const std::filesystem::path folder = path.parent_path();
+    const int descriptor =
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) return;
+    static_cast<void>(::fsync(descriptor));
+    ::close(descriptor);
+}
+
+std::string record_of(std::size_t number, std::string_view bytes) {
+    const RecordHead head{static_cast<std::uint32_t>(number),
+                          static_cast<std::uint32_t>(bytes.size())};
+    std::string record(reinterpret_cast<const char*>(&head), sizeof head);
+    record += bytes;
+    const std::uint64_t checksum = checksum_of(record);
+    record.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+    return record;
+}
+
+} // namespace
+
+Journal::Journal(std::filesystem::path path, const JournalSubject& subject, TileRecords records)
+    : path_(std::move(path)), records_(records), head_(head_of(subject)),
+      places_(records_.count(), -1) {
+    open();
+}
+
+Journal::~Journal() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+/// Looks at what there is of a file, and takes it if it is ours.
+void Journal::open() {
+    const int descriptor = ::open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (descriptor < 0) {
+        if (errno != ENOENT) found_ = Found::none_of_ours;
+        return;
+    }
+    struct stat status {};
+    const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    const std::string head = is_file ? read_at(descriptor, 0, head_.size()) : "";
+    const std::size_t known = std::min(head.size(), magic.size());
+    if (!is_file || head.compare(0, known, magic, 0, known) != 0)
+        found_ = Found::none_of_ours;
+    else if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+        found_ = Found::in_use;
+    if (found_ != Found::nothing) {
+        ::close(descriptor);
+        return;
+    }
+    descriptor_ = descriptor;
+    read(head);
+}
+
+void Journal::read(const std::string& head) {
+    if (head == head_) {
+        found_ = Found::same;
+        end_ = static_cast<std::int64_t>(head_.size());
+        for (;;) {
+            RecordHead record{};
+            const std::string start = read_at(descriptor_, end_, sizeof record);
+            if (start.size() < sizeof record) break;
+            std::memcpy(&record, start.data(), sizeof record);
+            if (record.number >= places_.size() || record.bytes != records_.bytes(record.number))
+                break;
+            const std::string all = read_at(descriptor_, end_, bytes_around + record.bytes);
+            if (all.size() < bytes_around + record.bytes) break;
+            const std::span<const char> summed(all.data(), sizeof record + record.bytes);
+            std::uint64_t checksum;
+            std::memcpy(&checksum, summed.data() + summed.size(), sizeof checksum);
+            if (checksum != checksum_of(summed)) break;
+            places_[record.number] = end_ + static_cast<std::int64_t>(sizeof record);
+            end_ += static_cast<std::int64_t>(all.size());
+        }
+        // What is behind it was being written when its process ended.
+        if (::ftruncate(descriptor_, end_) != 0)
+            problem_ = SystemRefused(path_.string(), "write", errno).what();
+        return;
+    }
+    // It may have ended within its head, and have been of anything.
+    const std::size_t scene = head_.find("options ");
+    found_ = head.empty()                                                  ? Found::nothing
+             : head.compare(0, scene, head_, 0, scene) == 0                ? Found::other_options
+             : head.starts_with(std::string(magic) + RAYLANE_VERSION "\n") ? Found::other_scene
+                                                                           : Found::other_options;
+    begin();
+}
+
+std::int64_t Journal::found_pixels() const {
+    std::int64_t pixels = 0;
+    for (std::size_t number = 0; number < places_.size(); ++number)
+        if (places_[number] >= 0) pixels += records_.tile(number).pixels();
+    return pixels;
+}
+
+bool Journal::recall(const simd::TileToFill& tile) {
+    const std::size_t number = records_.number_of(tile.region);
+    if (places_[number] < 0) return false;
+    const std::string bytes = read_at(descriptor_, places_[number], records_.bytes(number));
+    if (bytes.size() < records_.bytes(number)) return false;
+    records_.fill(tile, bytes);
+    return true;
+}
+
+void Journal::note(const simd::FinishedTile& tile) {
+    if (found_ == Found::none_of_ours || found_ == Found::in_use) return;
+    std::string bytes;
+    records_.append(tile, bytes);
+    const std::string record = record_of(records_.number_of(tile.region), bytes);
+    const auto now = std::chrono::steady_clock::now();
+    const auto seconds_since = [&](auto then) {
+        return std::chrono::duration<double>(now - then).count();
+    };
+    {
+        const std::lock_guard lock(mutex_);
+        if (!problem_.empty()) return;
+        if (descriptor_ < 0) {
+            waiting_ += record;
+            if (seconds_since(start_) >= begin_seconds) begin();
+        } else {
+            write(record);
+        }
+        if (!is_writable() || seconds_since(synced_) < sync_seconds) return;
+        synced_ = now;
+    }
+    static_cast<void>(::fdatasync(descriptor_)); // others may go on
+}
+
+/// Makes the file, or empties it, and writes what has been waiting.
+void Journal::begin() {
+    const bool is_new = descriptor_ < 0;
+    if (is_new) {
+        descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ < 0) {
+            problem_ = SystemRefused(path_.string(), "write", errno).what();
+            return;
+        }
+        static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
+    } else if (::ftruncate(descriptor_, 0) != 0) {
+        problem_ = SystemRefused(path_.string(), "write", errno).what();
+        return;
+    }
+    end_ = 0;
+    write(head_);
+    if (!waiting_.empty()) write(std::exchange(waiting_, {}));
+    if (is_new) sync_folder_of(path_);
+}
+
+/// All of it or nothing.
+void Journal::write(const std::string& bytes) {
+    if (!problem_.empty()) return;
+    if (write_at(descriptor_, end_, bytes)) {
+        end_ += static_cast<std::int64_t>(bytes.size());
+        return;
+    }
+    problem_ = SystemRefused(path_.string(), "write", errno).what();
+    static_cast<void>(::ftruncate(descriptor_, end_));
+}
+
+bool Journal::keep() {
+    if (found_ == Found::none_of_ours || found_ == Found::in_use) return false;
+    const std::lock_guard lock(mutex_);
+    if (descriptor_ < 0) begin();
+    if (descriptor_ >= 0) static_cast<void>(::fsync(descriptor_));
+    return problem_.empty();
+}
+
+void Journal::replace_by(const std::filesystem::path& picture) {
+    const std::lock_guard lock(mutex_);
+    if (descriptor_ < 0) return;
+    const int written = ::open(picture.c_str(), O_RDONLY | O_CLOEXEC);
+    if (written >= 0) {
+        static_cast<void>(::fsync(written));
+        ::close(written);
+    }
+    sync_folder_of(picture);
+    ::unlink(path_.c_str());
+}
+
+std::string Journal::problem() {
+    const std::lock_guard lock(mutex_);
+    return problem_;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "scenes/tool/journal/tile_records.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace raylane::scenes {
+
+/// What a journal is of; only the same goes on with it.
+struct JournalSubject {
+    std::string scene;   ///< fingerprint_of
+    std::string options; ///< one line: all that the picture depends on beside the scene
+};
+
+/// The finished tiles of a picture that is being drawn, in a file beside it, from which another
+/// process can go on when this one ends before its time, however that be. Each tile is written as
+/// it comes, with a checksum, and at most the tiles under way are lost with the process; what is
+/// lost with the power are the last `sync_seconds`. There is no file as long as the picture takes
+/// less than `begin_seconds`.
+///
+/// To be used by one process at a time, which the file's lock sees to. Nothing that goes wrong with
+/// the file ends the drawing: problem() tells it.
+class Journal {
+  public:
+    static constexpr double begin_seconds = 2.0, sync_seconds = 3.0;
+
+    /// What there was of a file.
+    enum class Found : std::uint8_t {
+        nothing,
+        same,          ///< goes on with it
+        other_scene,   ///< begins anew, as with the next ones
+        other_options, ///< or another version's
+        none_of_ours,  ///< leaves it alone, and keeps no journal
+        in_use,        ///< likewise
+    };
+
+    Journal(std::filesystem::path path, const JournalSubject& subject, TileRecords records);
+    ~Journal();
+    Journal(const Journal&) = delete;
+    Journal& operator=(const Journal&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    Found found() const { return found_; }
+    /// Pixels of the tiles that were found.
+    std::int64_t found_pixels() const;
+
+    /// For simd::RenderOptions: by several threads.
+    bool recall(const simd::TileToFill& tile);
+    void note(const simd::FinishedTile& tile);
+
+    /// Writes what is not written yet, for the drawing ends before its time. False if it could not.
+    bool keep();
+    /// There is a picture, in this file: removes the journal, once that is sure to survive it.
+    void replace_by(const std::filesystem::path& picture);
+    /// What the system said where it would not write; empty as long as all is well. One line.
+    std::string problem();
+
+  private:
+    void open();
+    void read(const std::string& head);
+    void begin();
+    void write(const std::string& bytes);
+    void sync_now_and_then();
+    bool is_writable() const { return descriptor_ >= 0 && problem_.empty(); }
+
+    std::filesystem::path path_;
+    TileRecords records_;
+    std::string head_;
+    Found found_ = Found::nothing;
+    std::vector<std::int64_t> places_; // of the tiles' bytes in the file; -1: not there
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+
+    std::mutex mutex_; // of what follows
+    int descriptor_ = -1;
+    std::string waiting_; // records, as long as there is no file
+    std::int64_t end_ = 0;
+    std::string problem_;
+    std::chrono::steady_clock::time_point synced_ = start_;
+};
+
+} // namespace raylane::scenes

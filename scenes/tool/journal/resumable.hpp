@@ -1,0 +1,48 @@
+#pragma once
+
+#include "scenes/tool/journal/journal.hpp"
+#include "scenes/tool/verbosity.hpp"
+#include "simd/render.hpp"
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace raylane::scenes {
+
+/// A signal has ended the drawing of a picture, of which a journal is kept. Exit code 128 + signal.
+struct Stopped : std::exception {
+    int signal;
+    std::string text; ///< how to go on, or why that cannot be
+    Stopped(int signal_, std::string text_) : signal(signal_), text(std::move(text_)) {}
+    const char* what() const noexcept override { return text.c_str(); }
+};
+
+/// The drawing of a picture that goes on where an earlier process was ended, if that has left a
+/// journal beside the output of the same scene and options; and that leaves one.
+class ResumableRendering {
+  public:
+    /// For a picture that is written to `output`: "-" and what is no regular file have no journal,
+    /// and so if it is not `wanted`. Says on standard error what there was.
+    ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
+                       const core::Settings& settings, simd::RenderOptions options,
+                       const std::string& options_text, Verbosity verbosity);
+
+    /// Throws Stopped.
+    simd::Rendering draw(simd::Progress& progress);
+    /// The picture has been written.
+    void finished();
+
+  private:
+    void say_found(const core::Settings& settings) const;
+
+    std::string output_;
+    const core::Scene& scene_;
+    core::Settings settings_;
+    simd::RenderOptions options_;
+    Verbosity verbosity_;
+    std::unique_ptr<Journal> journal_; // null: none
+};
+
+} // namespace raylane::scenes

@@ -1,0 +1,153 @@
+#include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/journal/journal.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/json_scenes.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <atomic>
+
+using namespace raylane;
+using scenes::Journal;
+using scenes::TileRecords;
+using tests::scene_of;
+
+namespace {
+
+const std::string text = R"({
+    "image": {"width": 20, "height": 12},
+    "sampling": {"grid": 2},
+    "camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+    "background": [0, 0, 0.5],
+    "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
+    "materials": {"red": {"color": [1, 0, 0], "reflectivity": 0.5}},
+    "objects": [{"type": "sphere", "material": "red", "center": [0, 0, 0], "radius": 1},
+                {"type": "plane", "material": "red", "point": [0, -1, 0], "normal": [0, 1, 0]}]
+})";
+
+bool same(const core::Layers& a, const core::Layers& b) {
+    return a.depth == b.depth && a.normal == b.normal && a.shape == b.shape &&
+           a.material == b.material && a.samples == b.samples;
+}
+
+/// A rendering with a journal.
+struct Drawing {
+    const core::Scene& scene;
+    core::Settings settings;
+    simd::RenderOptions options{};
+    std::filesystem::path path;
+
+    simd::Rendering draw(Journal* journal, int tiles_before_it_stops = 0) const {
+        simd::RenderOptions with = options;
+        simd::Progress progress;
+        with.progress = &progress;
+        int tiles = 0;
+        if (journal != nullptr) {
+            with.recall = [&](const simd::TileToFill& tile) { return journal->recall(tile); };
+            with.after_tile = [&](const simd::FinishedTile& tile) {
+                journal->note(tile);
+                if (++tiles == tiles_before_it_stops) progress.stop = true;
+            };
+        }
+        return simd::render(scene, settings, with);
+    }
+    scenes::JournalSubject subject() const { return {scenes::fingerprint_of(scene), "options"}; }
+    TileRecords records() const { return {settings, options}; }
+};
+
+} // namespace
+
+TEST_CASE("a journal that ends at any byte gives the picture its bits, and so does a damaged one") {
+    const core::Scene scene = scene_of(text);
+    const tests::TemporaryDirectory directory;
+    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture.part"};
+    drawing.options.threads = 1;
+    drawing.options.tile = 8;
+    drawing.options.layers = true;
+    drawing.settings.alpha = true;
+    const simd::Rendering whole = drawing.draw(nullptr);
+    {
+        Journal journal(drawing.path, drawing.subject(), drawing.records());
+        CHECK(journal.found() == Journal::Found::nothing);
+        CHECK(!drawing.draw(&journal, 4).complete);
+        CHECK(journal.keep());
+    }
+    const std::string content = tests::content_of(drawing.path);
+    const auto goes_on = [&](const std::string& with, std::int64_t most_pixels) {
+        directory.write("picture.part", with);
+        Journal journal(drawing.path, drawing.subject(), drawing.records());
+        CHECK(journal.found_pixels() <= most_pixels);
+        const simd::Rendering rendering = drawing.draw(&journal);
+        REQUIRE(rendering.complete);
+        REQUIRE(rendering.film.pixels() == whole.film.pixels());
+        REQUIRE(rendering.film.alphas() == whole.film.alphas());
+        REQUIRE(same(rendering.layers, whole.layers));
+        REQUIRE(rendering.counters.as_numbers() == whole.counters.as_numbers());
+        return journal.found_pixels();
+    };
+    CHECK(goes_on(content, 240) == 8 * 8 + 8 * 8 + 4 * 8 + 8 * 4);
+    std::int64_t before = 0;
+    for (std::size_t end = 0; end < content.size(); end += 7) {
+        CAPTURE(end);
+        const std::int64_t pixels = goes_on(content.substr(0, end), 240);
+        REQUIRE(pixels >= before);
+        before = pixels;
+        std::string damaged = content;
+        damaged[end] ^= 0x10;
+        if (end < 16) continue; // it is none of ours then
+        static_cast<void>(goes_on(damaged, 240));
+    }
+}
+
+TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
+    const core::Scene scene = scene_of(text);
+    const tests::TemporaryDirectory directory;
+    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture.part"};
+    drawing.options.tile = 8;
+    {
+        Journal journal(drawing.path, drawing.subject(), drawing.records());
+        static_cast<void>(drawing.draw(&journal));
+        CHECK(journal.keep());
+        CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
+              Journal::Found::in_use);
+    }
+    const std::string content = tests::content_of(drawing.path);
+    const auto found = [&](const scenes::JournalSubject& subject) {
+        directory.write("picture.part", content);
+        return Journal(drawing.path, subject, drawing.records()).found();
+    };
+    CHECK(found(drawing.subject()) == Journal::Found::same);
+    CHECK(found({drawing.subject().scene, "others"}) == Journal::Found::other_options);
+    CHECK(found({"0", "options"}) == Journal::Found::other_scene);
+    for (const char* content_of_another : {"mine", "raylane journey", "\x89PNG"}) {
+        directory.write("picture.part", content_of_another);
+        CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
+              Journal::Found::none_of_ours);
+        CHECK(tests::content_of(drawing.path) == content_of_another);
+    }
+}
+
+TEST_CASE("scenes that show something else have other fingerprints") {
+    const std::string own = scenes::fingerprint_of(scene_of(text));
+    CHECK(own.size() == 32);
+    CHECK(scenes::fingerprint_of(scene_of(text)) == own);
+    for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+             {"[0, 0, 5]", "[0, 0, 5.5]"},
+             {"0.5]", "0.25]"},
+             {"[-1, -2, -3]", "[-1, -2, -4]"},
+             {"[1, 0, 0]", "[1, 0, 0.1]"},
+             {"\"reflectivity\": 0.5", "\"reflectivity\": 0.6"},
+             {"\"radius\": 1", "\"radius\": 1.0000001"},
+             {"\"radius\": 1", "\"radius\": 1.00000000001"},
+             {"\"type\": \"sphere\"", "\"type\": \"sphere\", \"material\": {}, \"radius\": 1, "
+                                      "\"center\": [0, 0, 0]}, {\"type\": \"sphere\""},
+             {"\"point\": [0, -1, 0]", "\"point\": [0, -1.5, 0]"}}) {
+        CAPTURE(from, to);
+        std::string other = text;
+        other.replace(other.find(from), from.size(), to);
+        CHECK(scenes::fingerprint_of(scene_of(other)) != own);
+    }
+    // The settings are told by themselves.
+    std::string larger = text;
+    larger.replace(larger.find("20"), 2, "30");
+    CHECK(scenes::fingerprint_of(scene_of(larger)) == own);
+}
