@@ -5,13 +5,11 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/film_strip.hpp"
-#include "scenes/tool/film_strip_arguments.hpp"
 #include "scenes/tool/journal/resumable.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/output_name.hpp"
-#include "scenes/tool/picture_arguments.hpp"
 #include "scenes/tool/progress_bar.hpp"
-#include "scenes/tool/scene_arguments.hpp"
+#include "scenes/tool/render_arguments.hpp"
 #include "simd/render.hpp"
 
 #include <nlohmann/json.hpp>
@@ -23,16 +21,6 @@
 namespace raylane::scenes {
 
 namespace {
-
-struct RenderArguments {
-    Argument scene, output, size, samples, quality, filter, light_samples, max_depth,
-        max_see_through, min_weight, threads, transfer, stats;
-    Argument engine = "vector", isa, tile, precision = "exact";
-    bool no_resume = false;
-    SceneArguments scene_arguments;
-    FrameArguments frames;
-    PictureArguments picture;
-};
 
 class Stopwatch {
   public:
@@ -67,94 +55,6 @@ struct Files {
     std::string scene, output;
     std::optional<std::string> stats;
 };
-
-/// Parsed before the scene is loaded, so that a mistake shows at once.
-struct Overrides {
-    explicit Overrides(const RenderArguments& arguments) {
-        using core::Settings;
-        if (arguments.size) size = size_argument("--size", *arguments.size);
-        if (arguments.samples)
-            grid = square_argument("--spp", *arguments.samples, Settings::max_grid);
-        if (arguments.quality)
-            quality = number_argument("--quality", *arguments.quality, 10.0F, 80.0F);
-        if (quality && grid) throw BadInput("--quality", "", "goes without --spp");
-        if (arguments.filter)
-            filter = choice_argument<core::PixelFilter>(
-                "--filter", *arguments.filter,
-                {{"box", core::PixelFilter::box},
-                 {"gaussian", core::PixelFilter::gaussian},
-                 {"blackman-harris", core::PixelFilter::blackman_harris}});
-        if (arguments.light_samples)
-            light_samples = whole_argument("--light-samples", *arguments.light_samples, 1,
-                                           Settings::max_light_samples);
-        if (arguments.max_depth)
-            max_depth =
-                whole_argument("--max-depth", *arguments.max_depth, 0, Settings::depth_limit);
-        if (arguments.max_see_through)
-            max_see_through = whole_argument("--max-see-through", *arguments.max_see_through, 1,
-                                             Settings::see_through_limit);
-        if (arguments.min_weight)
-            min_weight = number_argument("--min-weight", *arguments.min_weight, 0.0F, 1.0F);
-        if (arguments.transfer)
-            transfer = choice_argument<core::Transfer>(
-                "--transfer", *arguments.transfer,
-                {{"srgb", core::Transfer::srgb}, {"linear", core::Transfer::linear}});
-    }
-
-    core::Settings applied_to(core::Settings settings) const {
-        if (size) std::tie(settings.width, settings.height) = *size;
-        settings.grid = grid.value_or(settings.grid);
-        settings.filter = filter.value_or(settings.filter);
-        settings.light_samples = light_samples.value_or(settings.light_samples);
-        settings.quality = quality.value_or(grid ? 0.0F : settings.quality);
-        settings.max_depth = max_depth.value_or(settings.max_depth);
-        settings.max_see_through = max_see_through.value_or(settings.max_see_through);
-        settings.min_weight = min_weight.value_or(settings.min_weight);
-        settings.transfer = transfer.value_or(settings.transfer);
-        return settings;
-    }
-
-    std::optional<std::pair<int, int>> size;
-    std::optional<int> grid, light_samples, max_depth, max_see_through;
-    std::optional<float> quality, min_weight;
-    std::optional<core::Transfer> transfer;
-    std::optional<core::PixelFilter> filter;
-};
-
-simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
-    std::vector<std::pair<std::string_view, simd::Isa>> choices;
-    std::string available;
-    for (const simd::Isa isa : simd::all_isas) {
-        choices.emplace_back(simd::name_of(isa), isa);
-        if (simd::is_available(isa))
-            available += (available.empty() ? "" : ", ") + std::string(simd::name_of(isa));
-    }
-    const auto isa = choice_argument<simd::Isa>("--isa", text, choices);
-    if (engine != simd::Engine::vector) throw BadInput("--isa", "", "goes with --engine vector");
-    if (!simd::is_available(isa))
-        throw BadInput("--isa", "", "this processor has no " + text + ", but " + available);
-    return isa;
-}
-
-/// None: auto, which wants to see the scene.
-std::optional<core::Precision> precision_argument(const std::string& text) {
-    std::vector<std::pair<std::string_view, std::optional<core::Precision>>> choices;
-    for (const core::Precision precision : core::all_precisions)
-        choices.emplace_back(core::name_of(precision), precision);
-    choices.emplace_back("auto", std::nullopt);
-    return choice_argument<std::optional<core::Precision>>("--precision", text, choices);
-}
-
-simd::RenderOptions options_of(const RenderArguments& arguments) {
-    simd::RenderOptions options;
-    options.engine = choice_argument<simd::Engine>(
-        "--engine", *arguments.engine,
-        {{"vector", simd::Engine::vector}, {"reference", simd::Engine::reference}});
-    if (arguments.isa) options.isa = isa_argument(*arguments.isa, options.engine);
-    if (arguments.tile) options.tile = whole_argument("--tile", *arguments.tile, 8, 64);
-    options.threads = threads_argument(arguments.threads);
-    return options;
-}
 
 std::string isa_in_use(const std::string& engine) {
     return engine == "vector" ? std::string(simd::name_of(simd::best_isa())) : "none";
@@ -330,66 +230,7 @@ int render(const RenderArguments& arguments) {
 Command add_render_command(CLI::App& app) {
     CLI::App* command = app.add_subcommand("render", "Draw the picture of a scene");
     auto arguments = std::make_shared<RenderArguments>();
-    const auto add = [&](const char* names, Argument& value, const char* help, const char* type) {
-        add_option(*command, names, value, help, type);
-    };
-    add_positional(
-        *command, "SCENE", arguments->scene,
-        "A scene in JSON, NFF, POV-Ray's language or Tachyon's, or atoms in PDB, mmCIF, CIF, XYZ, "
-        "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
-    add("-o,--output", arguments->output,
-        "The picture: .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, or - for a PNG to standard "
-        "output "
-        "(default: the scene's name, .png)",
-        "FILE");
-    add("--size", arguments->size, "Pixels (default: as the scene says)", "WxH");
-    add("--spp", arguments->samples,
-        "Samples per pixel, a square number (default: as the scene says)", "N");
-    add("--quality", arguments->quality,
-        "Decibels (PSNR) that the picture is to have against a converged one, 10 to 80, instead of "
-        "--spp; 40 is good print (default: as the scene says)",
-        "DB");
-    add("--filter", arguments->filter,
-        "What of its surroundings a pixel shows: box (its own square), gaussian or "
-        "blackman-harris, which reach 1.5 pixels far and are smoother (default: as the scene says)",
-        "box|gaussian|blackman-harris");
-    add("--light-samples", arguments->light_samples,
-        "Rays to each light with a size, from each point that a sample sees (default: as the scene "
-        "says)",
-        "N");
-    add("--max-depth", arguments->max_depth,
-        "Reflections and refractions one after the other (default: as the scene says)", "N");
-    add("--max-see-through", arguments->max_see_through,
-        "See-through surfaces that are shown one behind the other; further ones are left out "
-        "(default: as the scene says, or all)",
-        "N");
-    add("--min-weight", arguments->min_weight,
-        "Leave paths of less influence on the pixel (default: as the scene says)", "W");
-    add("--threads", arguments->threads, "Threads (default: all processors)", "N");
-    add("--engine", arguments->engine,
-        "What traces: vector, or reference, which is slow and written to be read (default: vector)",
-        "vector|reference");
-    add("--isa", arguments->isa, "The vector engine's instructions (default: the best there are)",
-        "portable|sse4.2|avx2|avx512");
-    add("--tile", arguments->tile,
-        "Pixels on the side of the squares that threads work on, 8 to 64; changes no exact picture",
-        "N");
-    add("--precision", arguments->precision,
-        "What decides where rays hit: fast (textbook formulas in float), robust (the best in "
-        "float), exact (certified, as real numbers would have it), double (robust's "
-        "formulas in double), or auto: the cheapest of these that cannot be told from exact by "
-        "eye (default: exact)",
-        "fast|robust|exact|double|auto");
-    add("--transfer", arguments->transfer, "From light to PNG (default: as the scene says)",
-        "srgb|linear");
-    add("--stats", arguments->stats,
-        "Write figures about the rendering as JSON; - is standard output", "FILE");
-    add_flag(*command, "--no-resume", arguments->no_resume,
-             "Do not go on with what an earlier rendering has left in FILE.part when it was ended, "
-             "and leave nothing to go on with");
-    arguments->picture.add_to(*command);
-    arguments->frames.add_to(*command);
-    arguments->scene_arguments.add_to(*command, true);
+    arguments->add_to(*command);
     command->footer("Example: raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");
     return {command, [arguments] { return render(*arguments); }};

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "scenes/tool/film_strip_arguments.hpp"
+#include "scenes/tool/picture_arguments.hpp"
+#include "scenes/tool/scene_arguments.hpp"
+#include "simd/render.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace raylane::scenes {
+
+/// How a scene is drawn, as the command line says it.
+struct RenderArguments {
+    Argument scene, output, size, samples, quality, filter, light_samples, max_depth,
+        max_see_through, min_weight, threads, transfer, stats;
+    Argument engine = "vector", isa, tile, precision = "exact";
+    bool no_resume = false;
+    SceneArguments scene_arguments;
+    FrameArguments frames;
+    PictureArguments picture;
+
+    void add_to(CLI::App& command);
+};
+
+/// What of it takes the place of a scene's own settings. Parsed before the scene is loaded, so that
+/// a mistake shows at once.
+struct Overrides {
+    /// Throws BadInput.
+    explicit Overrides(const RenderArguments& arguments);
+
+    core::Settings applied_to(core::Settings settings) const;
+
+    std::optional<std::pair<int, int>> size;
+    std::optional<int> grid, light_samples, max_depth, max_see_through;
+    std::optional<float> quality, min_weight;
+    std::optional<core::Transfer> transfer;
+    std::optional<core::PixelFilter> filter;
+};
+
+/// None: auto, which wants to see the scene. Throws BadInput.
+std::optional<core::Precision> precision_argument(const std::string& text);
+
+/// Engine, instruction set, tiles and threads. Throws BadInput.
+simd::RenderOptions options_of(const RenderArguments& arguments);
+
+} // namespace raylane::scenes
