@@ -121,7 +121,7 @@ void remove_temporaries() noexcept {
         if (const char* path = slot.load(); path != nullptr) ::unlink(path);
 }
 
-AtomicFile::AtomicFile(const std::filesystem::path& path)
+AtomicFile::AtomicFile(const std::filesystem::path& path, Temporary temporary)
     : name_(path == "-" ? "standard output" : path.string()) {
     buffer_.reserve(buffer_size);
     Target target = followed(path);
@@ -140,12 +140,12 @@ AtomicFile::AtomicFile(const std::filesystem::path& path)
         return;
     }
     if (!exists) {
-        open_temporary(0666);
+        open_temporary(0666, temporary);
         return;
     }
     // Renaming would replace a file that its owner protected.
     if (::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) refuse(errno);
-    open_temporary(status.st_mode & permission_bits);
+    open_temporary(status.st_mode & permission_bits, temporary);
     keeps_target_ = !take_over(descriptor_, status);
 }
 
@@ -239,8 +239,8 @@ bool AtomicFile::open_unnamed(unsigned mode) {
     return unnamed_;
 }
 
-void AtomicFile::open_temporary(unsigned mode) {
-    if (open_unnamed(mode)) return;
+void AtomicFile::open_temporary(unsigned mode, Temporary temporary) {
+    if (temporary == Temporary::unnamed_if_possible && open_unnamed(mode)) return;
     descriptor_ = make_temporary([mode](const char* name) {
         return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     });

@@ -18,9 +18,14 @@ namespace raylane::scenes {
 /// handler can remove it by remove_temporaries().
 class AtomicFile {
   public:
+    /// Whether its temporary has a name from the start, as it must where the system has no files
+    /// without one (on some network file systems, say).
+    enum class Temporary : std::uint8_t { unnamed_if_possible, named };
+
     /// A symbolic link is followed: what it leads to is replaced, and keeps its permissions and
     /// owner. Where they can only be kept by not replacing it, it is overwritten in commit().
-    explicit AtomicFile(const std::filesystem::path& path);
+    explicit AtomicFile(const std::filesystem::path& path,
+                        Temporary temporary = Temporary::unnamed_if_possible);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
@@ -35,7 +40,7 @@ class AtomicFile {
 
   private:
     void open_existing(int descriptor);
-    void open_temporary(unsigned mode);
+    void open_temporary(unsigned mode, Temporary temporary);
     bool open_unnamed(unsigned mode);
     template <class Make>
     int make_temporary(const Make& make);

@@ -6,6 +6,7 @@
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <functional>
 #include <memory>
@@ -86,10 +87,8 @@ TEST_CASE("an output file appears whole or not at all") {
     {
         const scenes::OutputFile file(path);
         CHECK(content_of(path) == "old");
-        const std::vector<std::string> names = directory.names();
-        REQUIRE(names.size() == 2);
-        CHECK(names[0].starts_with(".out.png."));
-        CHECK(names[1] == "out.png");
+        // Nothing else is to be seen of it, so nothing is left if the process is killed.
+        CHECK(directory.names() == std::vector<std::string>{"out.png"});
     }
     CHECK(content_of(path) == "old");
     CHECK(directory.file_count() == 1);
@@ -102,12 +101,32 @@ TEST_CASE("an output file appears whole or not at all") {
     CHECK(is_picture(longest));
 }
 
-TEST_CASE("all temporaries can be removed at once") {
+TEST_CASE("where files must have names, a temporary stands beside the output") {
+    const TemporaryDirectory directory;
+    const auto path = directory.write("out.png", "old");
+    for (const char* content : {"", "new", "newer"}) {
+        scenes::AtomicFile file(path, scenes::AtomicFile::Temporary::named);
+        const std::vector<std::string> names = directory.names();
+        REQUIRE(names.size() == 2);
+        CHECK(names[0].starts_with(".out.png."));
+        CHECK(names[1] == "out.png");
+        file.write({content, std::strlen(content)});
+        if (*content == '\0') continue;
+        file.commit();
+        CHECK(content_of(path) == content);
+        CHECK(directory.file_count() == 1);
+    }
+    CHECK(content_of(path) == "newer");
+}
+
+TEST_CASE("all temporaries with names can be removed at once") {
+    constexpr auto named = scenes::AtomicFile::Temporary::named;
     const TemporaryDirectory directory;
     {
         scenes::OutputFile done(directory.path() / "done.png");
         done.commit(core::Film(4, 4), core::Transfer::srgb);
-        const scenes::AtomicFile one(directory.path() / "one"), two(directory.path() / "two");
+        const scenes::AtomicFile one(directory.path() / "one", named);
+        const scenes::AtomicFile two(directory.path() / "two", named);
         const scenes::AtomicFile device("/dev/null");
         CHECK(directory.file_count() == 3);
         scenes::remove_temporaries();
@@ -120,10 +139,10 @@ TEST_CASE("all temporaries can be removed at once") {
     for (int i = 0; i < 3; ++i) {
         std::vector<std::unique_ptr<scenes::AtomicFile>> files;
         for (int k = 0; k < 20; ++k)
-            files.push_back(std::make_unique<scenes::AtomicFile>(directory.path() / "many"));
+            files.push_back(std::make_unique<scenes::AtomicFile>(directory.path() / "many", named));
     }
     CHECK(directory.file_count() == 2);
-    const scenes::AtomicFile last(directory.path() / "last");
+    const scenes::AtomicFile last(directory.path() / "last", named);
     CHECK(directory.file_count() == 3);
     scenes::remove_temporaries();
     CHECK(directory.file_count() == 2);
