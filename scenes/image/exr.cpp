@@ -158,6 +158,18 @@ std::string all_of(ByteSource& source) {
     return bytes;
 }
 
+/// As add_attributes has written them, in capitals.
+void read_texts(const Imf::Header& header, Image& image) {
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
+        std::string name = attribute.name();
+        if (text == nullptr || name.empty()) continue;
+        if (name == "comments") name = "comment";
+        if (name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
+        image.texts.emplace_back(name, text->value());
+    }
+}
+
 /// What the display window shows, of a file that may have more or less.
 void read_pixels(Imf::InputFile& file, Image& image) {
     const Imath::Box2i shown = file.header().displayWindow(), there = file.header().dataWindow();
@@ -244,6 +256,7 @@ void read_exr(ByteSource& source, Image& image) {
         image.width = static_cast<int>(width);
         image.height = static_cast<int>(height);
         read_pixels(file, image);
+        read_texts(file.header(), image);
     } catch (const MalformedPicture& malformed) {
         if (*malformed.what() != '\0') throw;
         throw damaged("EXR");

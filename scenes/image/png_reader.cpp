@@ -60,8 +60,20 @@ class PngReading {
             for (int pass = 0; pass < passes; ++pass)
                 for (png_uint_32 y = 0; y < height; ++y)
                     png_read_row(png_, reinterpret_cast<png_bytep>(rows[y]), nullptr);
-            png_read_end(png_, nullptr);
+            png_read_end(png_, info_);
         });
+    }
+    /// Those that have been read.
+    std::vector<std::pair<std::string, std::string>> texts() {
+        png_textp first = nullptr;
+        const int count = png_get_text(png_, info_, &first, nullptr);
+        std::vector<std::pair<std::string, std::string>> texts;
+        for (int i = 0; i < count; ++i)
+            texts.emplace_back(first[i].key,
+                               std::string(first[i].text, first[i].compression > 0
+                                                              ? first[i].itxt_length
+                                                              : first[i].text_length));
+        return texts;
     }
 
     png_uint_32 width = 0, height = 0;
@@ -150,6 +162,7 @@ void read_png(ByteSource& source, Image& image) {
     else
         read_codes<std::uint8_t>(reading, image);
     if (source.get() >= 0) throw damaged("PNG");
+    image.texts = reading.texts();
 }
 
 } // namespace raylane::scenes

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -17,6 +19,8 @@ struct Image {
     Components rgb;   ///< width * height * 3, rows from the top down
     Components alpha; ///< width * height, or nothing: 1
     std::string name; ///< of its file, for messages
+    /// What PNG or EXR say beside the pixels, as PictureOptions has it.
+    std::vector<std::pair<std::string, std::string>> texts{};
 };
 
 /// Reads a PNG, EXR, HDR or PFM picture; the content tells which. Grey becomes RGB. Throws BadInput

@@ -16,7 +16,7 @@ namespace raylane::scenes {
 /// What the program ends with, and when.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 4> exit_codes = {
     {{"0", "done"},
-     {"1", "a comparison that differs"},
+     {"1", "a comparison that differs, or a picture that is not what it says"},
      {"2", "bad input or usage"},
      {"3", "the system refused"}}};
 
@@ -44,6 +44,7 @@ Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_compare_command(CLI::App& app);
 Command add_convert_command(CLI::App& app);
+Command add_verify_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
 Command add_manual_command(CLI::App& app);
 Command add_completion_command(CLI::App& app);

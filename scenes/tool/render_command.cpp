@@ -5,6 +5,7 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/film_strip.hpp"
+#include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/journal/resumable.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/output_name.hpp"
@@ -69,7 +70,8 @@ double samples_per_pixel(const core::Settings& settings, const simd::RenderOptio
 
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
                                 const core::Settings& settings, const simd::RenderOptions& options,
-                                const simd::EngineCounters& counters, const Times& times) {
+                                const simd::EngineCounters& counters, const Times& times,
+                                const std::string& fingerprint, const core::Film& film) {
     const auto count = static_cast<double>(counters.rays());
     return {{"version", RAYLANE_VERSION},
             {"scene", printable(*arguments.scene, 4096)},
@@ -83,6 +85,8 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"samples_per_pixel", samples_per_pixel(settings, options, counters)},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
+            {"scene_fingerprint", fingerprint},
+            {"pixels_fingerprint", fingerprint_of(film)},
             {"shapes", scene.shape_count()},
             {"scene_bytes", scene.bytes()},
             {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},
@@ -108,11 +112,14 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
 }
 
 /// What else would draw the picture again, for the picture to say.
-std::string text_of(const SceneArguments& scene_arguments, core::Precision precision) {
+std::string text_of(const RenderArguments& arguments, core::Precision precision,
+                    core::Transfer transfer) {
     std::string text;
+    if (*arguments.engine != "vector") text += " --engine " + *arguments.engine;
+    if (transfer != core::Transfer::srgb) text += " --transfer linear";
     if (precision != core::Precision::exact)
         text += " --precision " + std::string(core::name_of(precision));
-    for (const auto& [name, value] : scene_arguments.given()) {
+    for (const auto& [name, value] : arguments.scene_arguments.given()) {
         text += " " + name;
         if (value.empty()) continue;
         const bool is_word = value.find(' ') == std::string::npos;
@@ -140,19 +147,20 @@ int render(const RenderArguments& arguments) {
         options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     };
     const auto resumable = [&](const std::string& name, const core::Scene& scene,
-                               const core::Settings& settings) {
-        return ResumableRendering(name, !arguments.no_resume, scene, settings, options,
+                               const core::Settings& settings, const std::string& fingerprint) {
+        return ResumableRendering(name, !arguments.no_resume, scene, fingerprint, settings, options,
                                   picture.text(settings) + " --engine " + *arguments.engine +
                                       " --precision " +
                                       std::string(core::name_of(options.precision)),
                                   verbosity);
     };
     const auto write = [&](OutputFile& output, const simd::Rendering& rendering,
-                           const core::Settings& settings) {
-        output.commit(rendering.film,
-                      picture.options(files.scene, settings,
-                                      text_of(arguments.scene_arguments, options.precision)),
-                      picture.layers ? &rendering.layers : nullptr);
+                           const core::Settings& settings, const std::string& fingerprint) {
+        PictureOptions how = picture.options(
+            files.scene, settings, text_of(arguments, options.precision, settings.transfer));
+        how.texts.emplace_back("Scene", fingerprint);
+        how.texts.emplace_back("Pixels", fingerprint_of(rendering.film));
+        output.commit(rendering.film, how, picture.layers ? &rendering.layers : nullptr);
     };
     if (std::optional<FilmStrip> strip =
             film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
@@ -169,8 +177,9 @@ int render(const RenderArguments& arguments) {
             OutputFile output(name, exr_of);
             const core::Settings settings = settings_of(scene.settings());
             prepare(scene, settings);
-            ResumableRendering drawing = resumable(name, scene, settings);
-            write(output, drawing.draw(progress), settings);
+            const std::string fingerprint = fingerprint_of(scene);
+            ResumableRendering drawing = resumable(name, scene, settings, fingerprint);
+            write(output, drawing.draw(progress), settings, fingerprint);
             drawing.finished();
         };
         draw(*strip);
@@ -193,7 +202,8 @@ int render(const RenderArguments& arguments) {
     times.load = stopwatch.lap();
 
     simd::Progress progress;
-    ResumableRendering drawing = resumable(files.output, scene, settings);
+    const std::string fingerprint = fingerprint_of(scene);
+    ResumableRendering drawing = resumable(files.output, scene, settings, fingerprint);
     const simd::Rendering rendering = [&] {
         const ProgressBar bar(verbosity, progress,
                               simd::drawn_part(settings, options.crop).pixels());
@@ -201,13 +211,15 @@ int render(const RenderArguments& arguments) {
     }();
     times.render = stopwatch.lap();
 
-    write(output, rendering, settings);
+    write(output, rendering, settings, fingerprint);
     drawing.finished();
     times.write = stopwatch.lap();
 
     if (stats) {
-        const std::string text =
-            stats_of(arguments, scene, settings, options, rendering.counters, times).dump(2) + "\n";
+        const std::string text = stats_of(arguments, scene, settings, options, rendering.counters,
+                                          times, fingerprint, rendering.film)
+                                     .dump(2) +
+                                 "\n";
         stats->write(text);
         stats->commit();
     }

@@ -2,7 +2,6 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/tool/interrupt.hpp"
-#include "scenes/tool/journal/fingerprint.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -29,9 +28,9 @@ int percent(std::int64_t pixels, const core::Settings& settings,
 } // namespace
 
 ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
-                                       const core::Scene& scene, const core::Settings& settings,
-                                       simd::RenderOptions options, const std::string& options_text,
-                                       Verbosity verbosity)
+                                       const core::Scene& scene, const std::string& fingerprint,
+                                       const core::Settings& settings, simd::RenderOptions options,
+                                       const std::string& options_text, Verbosity verbosity)
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
       verbosity_(verbosity) {
     if (!wanted || !may_have_journal(output)) return;
@@ -40,9 +39,9 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
     text += settings.samples == core::SamplePattern::regular ? " regular" : " stratified";
     if (options_.precision != core::Precision::exact)
         text += " --isa " + std::string(simd::name_of(options_.isa));
-    journal_ = std::make_unique<Journal>(output + ".part",
-                                         JournalSubject{fingerprint_of(scene), std::move(text)},
-                                         TileRecords(settings, options_));
+    journal_ =
+        std::make_unique<Journal>(output + ".part", JournalSubject{fingerprint, std::move(text)},
+                                  TileRecords(settings, options_));
     say_found(settings);
 }
 

@@ -26,8 +26,9 @@ class ResumableRendering {
     /// For a picture that is written to `output`: "-" and what is no regular file have no journal,
     /// and so if it is not `wanted`. Says on standard error what there was.
     ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
-                       const core::Settings& settings, simd::RenderOptions options,
-                       const std::string& options_text, Verbosity verbosity);
+                       const std::string& fingerprint, const core::Settings& settings,
+                       simd::RenderOptions options, const std::string& options_text,
+                       Verbosity verbosity);
 
     /// Throws Stopped.
     simd::Rendering draw(simd::Progress& progress);

@@ -1,0 +1,257 @@
+#include "core/scene/transfer.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/image/reader.hpp"
+#include "scenes/number.hpp"
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/command.hpp"
+#include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/loading.hpp"
+#include "scenes/tool/progress_bar.hpp"
+#include "scenes/tool/render_arguments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <random>
+#include <unordered_set>
+
+namespace raylane::scenes {
+
+namespace {
+
+struct VerifyArguments {
+    Argument picture, scene, pixels = "1000", seed, threads;
+    bool whole = false;
+    VerbosityArguments verbosity;
+};
+
+/// What a picture says of itself under a name.
+const std::string& text_in(const Image& image, const std::string& name) {
+    const auto text = std::find_if(image.texts.begin(), image.texts.end(),
+                                   [&](const auto& t) { return t.first == name; });
+    if (text == image.texts.end())
+        throw BadInput(image.name, "",
+                       "must be a PNG or EXR that raylane has drawn, which says by which scene "
+                       "and options: it has no " +
+                           name);
+    return text->second;
+}
+
+/// The options that a picture was drawn with, as render understands them.
+RenderArguments arguments_of(const Image& image, const std::string& scene) {
+    RenderArguments arguments;
+    CLI::App command;
+    arguments.add_to(command);
+    try {
+        command.parse(text_in(image, "Comment"));
+    } catch (const CLI::RequiredError&) { // the scene comes from elsewhere
+    } catch (const CLI::ParseError&) {
+        throw BadInput(image.name, "", "has a Comment that is no list of render's options");
+    }
+    arguments.scene = scene;
+    return arguments;
+}
+
+/// A pixel's components as a picture would have them: codes divided by the largest, or floats.
+class AsWritten {
+  public:
+    AsWritten(const Image& image, core::Transfer transfer)
+        : is_float_(image.linear_float), encode_(transfer), has_alpha_(image.alpha.size() > 0) {}
+
+    std::array<float, 4> operator()(const core::Color& color, float alpha) const {
+        std::array<float, 4> all{};
+        for (int channel = 0; channel < 3; ++channel) {
+            // PNG's colours are not multiplied by alpha.
+            const float component = is_float_      ? color[channel]
+                                    : alpha > 0.0F ? color[channel] / alpha
+                                                   : 0.0F;
+            all[channel] = is_float_ ? component : code(encode_(component));
+        }
+        all[3] = !has_alpha_ ? 1.0F
+                 : is_float_ ? alpha
+                             : code(core::encode(alpha, core::Transfer::linear));
+        return all;
+    }
+
+    /// By how much two components may differ that are the same but for rounding: one code of 8
+    /// bits, or what halves and twice as many steps of rounding are off by.
+    float step(float component) const {
+        return is_float_ ? 0x1p-9F * std::max(std::abs(component), 0x1p-14F) : 1.0F / 255.0F;
+    }
+
+  private:
+    static float code(std::uint8_t byte) { return static_cast<float>(byte) / 255.0F; }
+
+    bool is_float_;
+    core::Encoder encode_;
+    bool has_alpha_;
+};
+
+struct Verdict {
+    std::size_t same = 0, within_a_step = 0, differing = 0;
+    int x = 0, y = 0; ///< of the first that differs
+};
+
+class Verifier {
+  public:
+    explicit Verifier(const VerifyArguments& arguments)
+        : verbosity_(arguments.verbosity.verbosity()),
+          count_(whole_argument("--pixels", *arguments.pixels, 1, 100'000'000)),
+          seed_(arguments.seed ? static_cast<unsigned>(
+                                     whole_argument("--seed", *arguments.seed, 0, 2'147'483'647))
+                               : std::random_device()()),
+          threads_(threads_argument(arguments.threads)),
+          image_(read_image(file_argument("PICTURE", *arguments.picture))),
+          render_(arguments_of(image_, file_argument("SCENE", *arguments.scene))),
+          picture_(render_.picture), scene_(seen_scene()) {
+        options_ = options_of(render_);
+        picture_.apply_to(options_, settings_);
+        options_.threads = threads_;
+        part_ = options_.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
+        if (part_.x1 - part_.x0 != image_.width || part_.y1 - part_.y0 != image_.height)
+            throw BadInput(image_.name, "", "has another size than its Comment says");
+    }
+
+    bool scene_is_the_same() const { return fingerprint_of(scene_) == text_in(image_, "Scene"); }
+
+    /// Draws some pixels by the reference, and compares.
+    Verdict sample() {
+        const std::vector<std::size_t> chosen = choose();
+        simd::RenderOptions options = options_;
+        options.engine = simd::Engine::reference;
+        options.precision = core::Precision::exact;
+        options.tile = 0;
+        const int tile = simd::tile_of(settings_, options);
+        const core::Region drawn = simd::drawn_part(settings_, options.crop);
+        const int columns = (drawn.x1 - drawn.x0 + tile - 1) / tile;
+        const auto tile_number = [&](int x, int y) {
+            return (y - drawn.y0) / tile * columns + (x - drawn.x0) / tile;
+        };
+        std::unordered_set<int> wanted;
+        for (const std::size_t pixel : chosen)
+            wanted.insert(tile_number(x_of(pixel), y_of(pixel)));
+        options.recall = [&](const simd::TileToFill& other) {
+            return !wanted.contains(tile_number(other.region.x0, other.region.y0));
+        };
+        const core::Film film = draw(options).film;
+
+        Verdict verdict;
+        const AsWritten as_written(image_, settings_.transfer);
+        for (const std::size_t pixel : chosen) {
+            const int x = x_of(pixel) - part_.x0, y = y_of(pixel) - part_.y0;
+            const std::array<float, 4> expected = as_written(film.at(x, y), film.alpha_at(x, y));
+            bool is_same = true, is_near = true;
+            for (std::size_t channel = 0; channel < expected.size(); ++channel) {
+                const float there = channel < 3               ? image_.rgb[3 * pixel + channel]
+                                    : image_.alpha.size() > 0 ? image_.alpha[pixel]
+                                                              : 1.0F;
+                const float off = std::abs(there - expected[channel]);
+                is_same = is_same && off <= 0.5F * as_written.step(expected[channel]);
+                is_near = is_near && off <= 1.5F * as_written.step(expected[channel]);
+            }
+            if (is_near) {
+                ++(is_same ? verdict.same : verdict.within_a_step);
+            } else if (verdict.differing++ == 0) {
+                verdict.x = x;
+                verdict.y = y;
+            }
+        }
+        return verdict;
+    }
+
+    /// Draws all of it again, as it was drawn: true if all of its bits are those that it had.
+    bool has_its_bits() { return fingerprint_of(draw(options_).film) == text_in(image_, "Pixels"); }
+
+  private:
+    core::Scene seen_scene() {
+        const LoadOptions load_options = render_.scene_arguments.load_options(true);
+        core::Scene scene = load_with_progress(*render_.scene, load_options, verbosity_, threads_);
+        settings_ = Overrides(render_).applied_to(scene.settings());
+        picture_.apply_to(settings_);
+        return seen(std::move(scene), render_.scene_arguments.view.change(), settings_);
+    }
+
+    simd::Rendering draw(simd::RenderOptions options) const {
+        simd::Progress progress;
+        options.progress = &progress;
+        const ProgressBar bar(verbosity_, progress,
+                              simd::drawn_part(settings_, options.crop).pixels());
+        return simd::render(scene_, settings_, options);
+    }
+
+    /// Different ones.
+    std::vector<std::size_t> choose() const {
+        const auto all =
+            static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height);
+        std::vector<std::size_t> pixels(all);
+        for (std::size_t i = 0; i < all; ++i)
+            pixels[i] = i;
+        std::mt19937_64 random(seed_);
+        const std::size_t count = std::min(all, static_cast<std::size_t>(count_));
+        for (std::size_t i = 0; i < count; ++i)
+            std::swap(pixels[i], pixels[i + random() % (all - i)]);
+        pixels.resize(count);
+        return pixels;
+    }
+    int x_of(std::size_t pixel) const {
+        return part_.x0 + static_cast<int>(pixel % static_cast<std::size_t>(image_.width));
+    }
+    int y_of(std::size_t pixel) const {
+        return part_.y0 + static_cast<int>(pixel / static_cast<std::size_t>(image_.width));
+    }
+
+    Verbosity verbosity_;
+    int count_;
+    unsigned seed_;
+    int threads_;
+    Image image_;
+    RenderArguments render_;
+    PictureChoice picture_;
+    core::Settings settings_; // before the scene, which sets it
+    core::Scene scene_;
+    simd::RenderOptions options_;
+    core::Region part_{};
+};
+
+int verify(const VerifyArguments& arguments) {
+    Verifier verifier(arguments);
+    const bool is_same_scene = verifier.scene_is_the_same();
+    std::printf("scene      %s\n", is_same_scene ? "the one that the picture names"
+                                                 : "another one than the picture names");
+    const Verdict verdict = verifier.sample();
+    std::printf("pixels     %zu drawn again by the reference: %zu the same, %zu within a step, %zu "
+                "others\n",
+                verdict.same + verdict.within_a_step + verdict.differing, verdict.same,
+                verdict.within_a_step, verdict.differing);
+    if (verdict.differing > 0) std::printf("first      at pixel %d, %d\n", verdict.x, verdict.y);
+    bool has_its_bits = true;
+    if (arguments.whole) {
+        has_its_bits = verifier.has_its_bits();
+        std::printf("all bits   %s\n",
+                    has_its_bits ? "drawn again as they were" : "others than the picture had");
+    }
+    return is_same_scene && verdict.differing == 0 && has_its_bits ? 0 : 1;
+}
+
+} // namespace
+
+Command add_verify_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "verify", "Draw random pixels of a picture again, by the scalar reference with exact "
+                  "numbers, and say whether they are what it shows; exit code 1 if not");
+    auto arguments = std::make_shared<VerifyArguments>();
+    add_positional(*command, "PICTURE", arguments->picture,
+                   "A PNG or EXR that raylane has drawn, which says with which options");
+    add_positional(*command, "SCENE", arguments->scene, "What it was drawn of");
+    add_option(*command, "--pixels", arguments->pixels, "How many (default: 1000)", "N");
+    add_option(*command, "--seed", arguments->seed, "Which; without it, others each time", "N");
+    add_flag(*command, "--whole", arguments->whole,
+             "Draw all of it again as well, and compare its bits before they were written");
+    add_option(*command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    arguments->verbosity.add_to(*command);
+    command->footer("Example: raylane verify birthday.png scenes/birthday.json");
+    return {command, [arguments] { return verify(*arguments); }};
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,135 @@
+#include "core/scene/transfer.hpp"
+#include "scenes/image/exr.hpp"
+#include "scenes/image/reader.hpp"
+#include "scenes/image/writer.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+using namespace raylane;
+using namespace raylane::tests;
+
+namespace {
+
+using Options = std::vector<std::string>;
+
+Outcome verify(const Workshop& workshop, const std::string& picture, const Options& options = {}) {
+    return workshop.run(joined({"verify", picture, "scene.json", "--quiet"}, options));
+}
+
+constexpr const char* right = "scene      the one that the picture names\n"
+                              "pixels     192 drawn again by the reference: 192 the same, 0 within "
+                              "a step, 0 others\n";
+
+/// Writes a picture again with one pixel turned over, and what it says of itself.
+void turn_one_over(const std::filesystem::path& path) {
+    const scenes::Image image = scenes::read_image(path);
+    core::Film film(image.width, image.height);
+    for (int i = 0; i < image.width * image.height; ++i)
+        for (int channel = 0; channel < 3; ++channel)
+            film.at(i % image.width, i / image.width)[channel] =
+                core::decode_srgb(static_cast<std::uint8_t>(
+                    255.0F * image.rgb[static_cast<std::size_t>(3 * i + channel)] + 0.5F));
+    core::Color& one = film.at(3, 4);
+    one = core::Color(1.0F) - one;
+    scenes::PictureOptions options;
+    options.texts = image.texts;
+    scenes::OutputFile(path).commit(film, options);
+}
+
+} // namespace
+
+TEST_CASE("a picture is what its scene and its options draw, pixel by pixel") {
+    const Workshop workshop;
+    for (const Options& options : {Options{},
+                                   {"--spp", "9", "--max-depth", "2"},
+                                   {"--transfer", "linear", "--bits", "16"},
+                                   {"--alpha"},
+                                   {"--outline", "1.5", "--outline-color", "#ff0000"},
+                                   {"--view", "top", "--depth-cue", "0.5"},
+                                   {"--quality", "35"},
+                                   {"--engine", "reference"}}) {
+        CAPTURE(options);
+        REQUIRE(workshop.render("a.png", options).code == 0);
+        const Outcome outcome = verify(workshop, "a.png");
+        CHECK(outcome.out == right);
+        CHECK(outcome.code == 0);
+        CHECK(verify(workshop, "a.png", {"--whole"}).out ==
+              right + std::string("all bits   drawn again as they were\n"));
+    }
+    REQUIRE(workshop.render("a.png", {"--crop", "3,4,5x6"}).code == 0);
+    CHECK(verify(workshop, "a.png", {"--pixels", "7"}).out.find("7 the same") != std::string::npos);
+    if (!scenes::has_exr()) return;
+    for (const Options& options : {Options{}, {"--bits", "32", "--layers"}, {"--alpha"}}) {
+        CAPTURE(options);
+        REQUIRE(workshop.render("a.exr", options).code == 0);
+        CHECK(verify(workshop, "a.exr").out == right);
+    }
+}
+
+TEST_CASE("a picture that is not what it says is told from one that is") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png").code == 0);
+    turn_one_over(workshop.path() / "a.png");
+    const Outcome changed = verify(workshop, "a.png");
+    CHECK(changed.code == 1);
+    CHECK(changed.out == "scene      the one that the picture names\n"
+                         "pixels     192 drawn again by the reference: 191 the same, 0 within a "
+                         "step, 1 others\n"
+                         "first      at pixel 3, 4\n");
+
+    REQUIRE(workshop.render("a.png").code == 0);
+    std::string scene = ball;
+    scene.replace(scene.find("0.5]"), 4, "0.4]");
+    workshop.write("scene.json", scene);
+    const Outcome other = verify(workshop, "a.png", {"--whole"});
+    CHECK(other.code == 1);
+    CHECK(other.out.starts_with("scene      another one than the picture names\n"));
+    CHECK(other.out.ends_with("all bits   others than the picture had\n"));
+}
+
+TEST_CASE("which pixels are drawn again is chance, or told by a seed") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png").code == 0);
+    turn_one_over(workshop.path() / "a.png");
+    int found = 0;
+    for (int i = 0; i < 20; ++i) {
+        const Outcome outcome =
+            verify(workshop, "a.png", {"--pixels", "96", "--seed", std::to_string(i)});
+        CHECK(outcome.out ==
+              verify(workshop, "a.png", {"--pixels", "96", "--seed", std::to_string(i)}).out);
+        found += outcome.code;
+    }
+    CHECK(found > 2);
+    CHECK(found < 18);
+}
+
+TEST_CASE("pictures that say nothing of themselves are refused in one line") {
+    const Workshop workshop;
+    const auto refused = [&](const std::string& name, const std::string& with) {
+        const Outcome outcome = verify(workshop, name);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(is_one_line(outcome.err));
+        CAPTURE(outcome.err);
+        CHECK(outcome.err.find(with) != std::string::npos);
+    };
+    REQUIRE(workshop.render("a.pfm").code == 0);
+    refused("a.pfm", "a.pfm: must be a PNG or EXR that raylane has drawn, which says by which "
+                     "scene and options: it has no Comment");
+    refused("none.png", "none.png: no such file");
+    const auto with_comment = [&](const std::string& comment) {
+        scenes::PictureOptions options;
+        options.texts = {{"Comment", comment}, {"Scene", "0"}};
+        scenes::OutputFile(workshop.path() / "b.png").commit(core::Film(16, 12), options);
+    };
+    with_comment("made by hand");
+    refused("b.png", "b.png: has a Comment that is no list of render's options");
+    with_comment("--help");
+    refused("b.png", "b.png: has a Comment that is no list of render's options");
+    with_comment("--size 60000x60000");
+    refused("b.png", "b.png: has another size than its Comment says");
+    with_comment("--spp 7");
+    refused("b.png", "--spp: must be");
+    CHECK(verify(workshop, "b.png", {"--pixels", "0"}).err.find("--pixels: must be") !=
+          std::string::npos);
+}
