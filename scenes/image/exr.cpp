@@ -15,6 +15,10 @@ std::string exr_of(const core::Film&, const core::Layers*, const PictureOptions&
     throw BadInput("OpenEXR", "", "is not there: raylane was built without libopenexr-dev");
 }
 
+ExrPicture read_own_exr(const std::filesystem::path& path) {
+    throw BadInput(path.string(), "", "cannot be read: raylane was built without libopenexr-dev");
+}
+
 void read_exr(ByteSource&, Image&) {
     throw MalformedPicture("must be a PNG, HDR or PFM picture, for raylane was built without "
                            "libopenexr-dev, got an EXR");
@@ -159,15 +163,17 @@ std::string all_of(ByteSource& source) {
 }
 
 /// As add_attributes has written them, in capitals.
-void read_texts(const Imf::Header& header, Image& image) {
+std::vector<std::pair<std::string, std::string>> texts_of(const Imf::Header& header) {
+    std::vector<std::pair<std::string, std::string>> texts;
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
         const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
         std::string name = attribute.name();
         if (text == nullptr || name.empty()) continue;
         if (name == "comments") name = "comment";
         if (name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
-        image.texts.emplace_back(name, text->value());
+        texts.emplace_back(name, text->value());
     }
+    return texts;
 }
 
 /// What the display window shows, of a file that may have more or less.
@@ -214,10 +220,83 @@ void read_pixels(Imf::InputFile& file, Image& image) {
     image.alpha = Components(std::move(alpha));
 }
 
+/// Into arrays of a picture's size.
+class ChannelReader {
+  public:
+    ChannelReader(Imf::InputFile& file, int width) : file_(file), width_(width) {}
+
+    bool has(const char* name) const {
+        return file_.header().channels().findChannel(name) != nullptr;
+    }
+    void add(const char* name, Imf::PixelType type, void* first, std::size_t step) {
+        buffer_.insert(name, Imf::Slice(type, static_cast<char*>(first), step,
+                                        step * static_cast<std::size_t>(width_)));
+    }
+    void read(int height) {
+        file_.setFrameBuffer(buffer_);
+        file_.readPixels(0, height - 1);
+    }
+
+  private:
+    Imf::InputFile& file_;
+    int width_;
+    Imf::FrameBuffer buffer_;
+};
+
+ExrPicture read_own(Imf::InputFile& file) {
+    const Imath::Box2i shown = file.header().displayWindow();
+    if (file.header().dataWindow() != shown || shown.min != Imath::V2i(0, 0) || !file.isComplete())
+        throw damaged("EXR");
+    const int width = shown.max.x + 1, height = shown.max.y + 1;
+    check_size(width, height);
+    ChannelReader reader(file, width);
+    ExrPicture picture;
+    picture.film = core::Film(width, height, reader.has("A"));
+    const char* const colors[] = {"R", "G", "B"};
+    for (int channel = 0; channel < 3; ++channel)
+        reader.add(colors[channel], Imf::FLOAT, &picture.film.at(0, 0)[channel],
+                   sizeof(core::Color));
+    if (picture.film.has_alpha())
+        reader.add("A", Imf::FLOAT, &picture.film.alpha_at(0, 0), sizeof(float));
+    if (reader.has("id.shape")) {
+        core::Layers& layers = picture.layers.emplace(width, height);
+        reader.add("Z", Imf::FLOAT, layers.depth.data(), sizeof(float));
+        const char* const axes[] = {"N.X", "N.Y", "N.Z"};
+        for (int axis = 0; axis < 3; ++axis)
+            reader.add(axes[axis], Imf::FLOAT, &layers.normal.front()[axis], sizeof(core::Vec3f));
+        reader.add("id.shape", Imf::UINT, layers.shape.data(), sizeof(core::ShapeId));
+        reader.add("id.material", Imf::UINT, layers.material.data(), sizeof(core::MaterialIndex));
+        reader.add("samples", Imf::UINT, layers.samples.data(), sizeof(std::uint32_t));
+    }
+    reader.read(height);
+    picture.texts = texts_of(file.header());
+    return picture;
+}
+
 } // namespace
 
 bool has_exr() {
     return true;
+}
+
+ExrPicture read_own_exr(const std::filesystem::path& path) {
+    InputFile input(path);
+    try {
+        ByteSource source(input);
+        MemoryIn in(all_of(source));
+        constexpr int no_threads = 0, most = core::Settings::max_size;
+        Imf::Header::setMaxImageSize(most, most); // before it makes room for so many rows
+        Imf::InputFile file(in, no_threads);
+        return read_own(file);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const BadInput&) {
+        throw;
+    } catch (const SystemRefused&) {
+        throw;
+    } catch (const std::exception&) {
+        throw BadInput(path.string(), "", "must be an EXR that raylane has drawn");
+    }
 }
 
 std::string exr_of(const core::Film& film, const core::Layers* layers,
@@ -256,7 +335,7 @@ void read_exr(ByteSource& source, Image& image) {
         image.width = static_cast<int>(width);
         image.height = static_cast<int>(height);
         read_pixels(file, image);
-        read_texts(file.header(), image);
+        image.texts = texts_of(file.header());
     } catch (const MalformedPicture& malformed) {
         if (*malformed.what() != '\0') throw;
         throw damaged("EXR");

@@ -6,6 +6,12 @@
 #include "scenes/image/picture_options.hpp"
 #include "scenes/image/reader.hpp"
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace raylane::scenes {
 
 /// OpenEXR, by its library, which raylane may have been built without.
@@ -17,6 +23,16 @@ bool has_exr();
 /// 4294967295. Throws std::bad_alloc.
 std::string exr_of(const core::Film& film, const core::Layers* layers,
                    const PictureOptions& options);
+
+/// All that exr_of has written, but what the options say beside the texts.
+struct ExrPicture {
+    core::Film film{1, 1};
+    std::optional<core::Layers> layers;
+    std::vector<std::pair<std::string, std::string>> texts;
+};
+
+/// Throws BadInput for a file that is none of ours, and SystemRefused.
+ExrPicture read_own_exr(const std::filesystem::path& path);
 
 /// R, G and B, or Y alone, and A, of what the display window shows; what the file does not have of
 /// that is 0. Throws MalformedPicture and std::bad_alloc.

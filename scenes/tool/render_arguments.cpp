@@ -84,6 +84,11 @@ void RenderArguments::add_to(CLI::App& command) {
     add_flag(command, "--no-resume", no_resume,
              "Do not go on with what an earlier rendering has left in FILE.part when it was ended, "
              "and leave nothing to go on with");
+    add("--part", part,
+        "Draw this part of the picture's tiles alone, for N processes or machines to draw one "
+        "each, "
+        "into an EXR that merge puts together with the others",
+        "K/N");
     picture.add_to(command);
     frames.add_to(command);
     scene_arguments.add_to(command, true);
@@ -136,6 +141,16 @@ std::optional<core::Precision> precision_argument(const std::string& text) {
         choices.emplace_back(core::name_of(precision), precision);
     choices.emplace_back("auto", std::nullopt);
     return choice_argument<std::optional<core::Precision>>("--precision", text, choices);
+}
+
+std::optional<PicturePart> part_argument(const Argument& text) {
+    if (!text) return std::nullopt;
+    const std::optional<PicturePart> part = picture_part_of(*text);
+    if (!part)
+        throw BadInput("--part", "",
+                       "must be K/N, from 1/N to N/N, such as 3/16, got \"" + printable(*text) +
+                           "\"");
+    return part;
 }
 
 simd::RenderOptions options_of(const RenderArguments& arguments) {

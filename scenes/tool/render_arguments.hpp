@@ -2,6 +2,7 @@
 
 #include "scenes/tool/film_strip_arguments.hpp"
 #include "scenes/tool/picture_arguments.hpp"
+#include "scenes/tool/picture_part.hpp"
 #include "scenes/tool/scene_arguments.hpp"
 #include "simd/render.hpp"
 
@@ -14,7 +15,7 @@ namespace raylane::scenes {
 /// How a scene is drawn, as the command line says it.
 struct RenderArguments {
     Argument scene, output, size, samples, quality, filter, light_samples, max_depth,
-        max_see_through, min_weight, threads, transfer, stats;
+        max_see_through, min_weight, threads, transfer, stats, part;
     Argument engine = "vector", isa, tile, precision = "exact";
     bool no_resume = false;
     SceneArguments scene_arguments;
@@ -41,6 +42,9 @@ struct Overrides {
 
 /// None: auto, which wants to see the scene. Throws BadInput.
 std::optional<core::Precision> precision_argument(const std::string& text);
+
+/// Throws BadInput.
+std::optional<PicturePart> part_argument(const Argument& text);
 
 /// Engine, instruction set, tiles and threads. Throws BadInput.
 simd::RenderOptions options_of(const RenderArguments& arguments);

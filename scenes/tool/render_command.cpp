@@ -128,12 +128,23 @@ std::string text_of(const RenderArguments& arguments, core::Precision precision,
     return text;
 }
 
+/// Parts have the floats that the whole would have had.
+void require_fit(const std::optional<PicturePart>& part, const PictureChoice& picture,
+                 PictureFormat format) {
+    if (!part) return;
+    if (format != PictureFormat::exr)
+        throw BadInput("--part", "", "goes with an output that ends in .exr");
+    if (picture.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
+}
+
 int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
     const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
-    const PictureChoice picture(arguments.picture);
+    PictureChoice picture(arguments.picture);
+    const std::optional<PicturePart> part_of_tiles = part_argument(arguments.part);
+    if (part_of_tiles && picture.bits == 0) picture.bits = 32;
     const LoadOptions load_options = arguments.scene_arguments.load_options(true);
     const ViewChange change = arguments.scene_arguments.view.change();
     const auto settings_of = [&](const core::Settings& own) {
@@ -152,12 +163,15 @@ int render(const RenderArguments& arguments) {
                                   picture.text(settings) + " --engine " + *arguments.engine +
                                       " --precision " +
                                       std::string(core::name_of(options.precision)),
-                                  verbosity);
+                                  part_of_tiles, verbosity);
     };
     const auto write = [&](OutputFile& output, const simd::Rendering& rendering,
                            const core::Settings& settings, const std::string& fingerprint) {
         PictureOptions how = picture.options(
             files.scene, settings, text_of(arguments, options.precision, settings.transfer));
+        if (part_of_tiles)
+            how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +
+                                               std::to_string(simd::tile_of(settings, options)));
         how.texts.emplace_back("Scene", fingerprint);
         how.texts.emplace_back("Pixels", fingerprint_of(rendering.film));
         output.commit(rendering.film, how, picture.layers ? &rendering.layers : nullptr);
@@ -169,6 +183,7 @@ int render(const RenderArguments& arguments) {
             throw BadInput("--stats", "", "goes without --frames, --turn and several values");
         {
             const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
+            require_fit(part_of_tiles, picture, writable.format());
             picture.require_fit(writable.format());
         }
         strip->settings = settings_of;
@@ -186,6 +201,7 @@ int render(const RenderArguments& arguments) {
         return 0;
     }
     OutputFile output(files.output, exr_of);
+    require_fit(part_of_tiles, picture, output.format());
     picture.require_fit(output.format());
     std::optional<AtomicFile> stats;
     if (files.stats) stats.emplace(*files.stats);

@@ -6,6 +6,7 @@
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/loading.hpp"
+#include "scenes/tool/picture_texts.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/render_arguments.hpp"
 
@@ -25,33 +26,6 @@ struct VerifyArguments {
     bool whole = false;
     VerbosityArguments verbosity;
 };
-
-/// What a picture says of itself under a name.
-const std::string& text_in(const Image& image, const std::string& name) {
-    const auto text = std::find_if(image.texts.begin(), image.texts.end(),
-                                   [&](const auto& t) { return t.first == name; });
-    if (text == image.texts.end())
-        throw BadInput(image.name, "",
-                       "must be a PNG or EXR that raylane has drawn, which says by which scene "
-                       "and options: it has no " +
-                           name);
-    return text->second;
-}
-
-/// The options that a picture was drawn with, as render understands them.
-RenderArguments arguments_of(const Image& image, const std::string& scene) {
-    RenderArguments arguments;
-    CLI::App command;
-    arguments.add_to(command);
-    try {
-        command.parse(text_in(image, "Comment"));
-    } catch (const CLI::RequiredError&) { // the scene comes from elsewhere
-    } catch (const CLI::ParseError&) {
-        throw BadInput(image.name, "", "has a Comment that is no list of render's options");
-    }
-    arguments.scene = scene;
-    return arguments;
-}
 
 /// A pixel's components as a picture would have them: codes divided by the largest, or floats.
 class AsWritten {
@@ -103,8 +77,11 @@ class Verifier {
                                : std::random_device()()),
           threads_(threads_argument(arguments.threads)),
           image_(read_image(file_argument("PICTURE", *arguments.picture))),
-          render_(arguments_of(image_, file_argument("SCENE", *arguments.scene))),
+          render_(
+              arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
           picture_(render_.picture), scene_(seen_scene()) {
+        if (has_text(image_.texts, "Part"))
+            throw BadInput(image_.name, "", "is a part of a picture, to be merged first");
         options_ = options_of(render_);
         picture_.apply_to(options_, settings_);
         options_.threads = threads_;
@@ -113,7 +90,9 @@ class Verifier {
             throw BadInput(image_.name, "", "has another size than its Comment says");
     }
 
-    bool scene_is_the_same() const { return fingerprint_of(scene_) == text_in(image_, "Scene"); }
+    bool scene_is_the_same() const {
+        return fingerprint_of(scene_) == text_in(image_.name, image_.texts, "Scene");
+    }
 
     /// Draws some pixels by the reference, and compares.
     Verdict sample() {
@@ -161,7 +140,9 @@ class Verifier {
     }
 
     /// Draws all of it again, as it was drawn: true if all of its bits are those that it had.
-    bool has_its_bits() { return fingerprint_of(draw(options_).film) == text_in(image_, "Pixels"); }
+    bool has_its_bits() {
+        return fingerprint_of(draw(options_).film) == text_in(image_.name, image_.texts, "Pixels");
+    }
 
   private:
     core::Scene seen_scene() {

@@ -3,9 +3,10 @@
 #include "scenes/errors.hpp"
 #include "scenes/tool/interrupt.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 namespace raylane::scenes {
@@ -19,33 +20,28 @@ bool may_have_journal(const std::string& output) {
            std::filesystem::is_regular_file(output, unknown);
 }
 
-int percent(std::int64_t pixels, const core::Settings& settings,
-            const simd::RenderOptions& options) {
-    const std::int64_t all = simd::drawn_part(settings, options.crop).pixels();
-    return static_cast<int>(100 * pixels / all);
-}
-
 } // namespace
 
 ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
                                        const core::Scene& scene, const std::string& fingerprint,
                                        const core::Settings& settings, simd::RenderOptions options,
-                                       const std::string& options_text, Verbosity verbosity)
+                                       const std::string& options_text,
+                                       const std::optional<PicturePart>& part, Verbosity verbosity)
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
-      verbosity_(verbosity) {
+      tiles_(settings, options_), part_(part), verbosity_(verbosity) {
     if (!wanted || !may_have_journal(output)) return;
     std::string text =
         options_text + " --tile " + std::to_string(simd::tile_of(settings, options_));
     text += settings.samples == core::SamplePattern::regular ? " regular" : " stratified";
+    if (part_) text += " --part " + part_->text();
     if (options_.precision != core::Precision::exact)
         text += " --isa " + std::string(simd::name_of(options_.isa));
-    journal_ =
-        std::make_unique<Journal>(output + ".part", JournalSubject{fingerprint, std::move(text)},
-                                  TileRecords(settings, options_));
-    say_found(settings);
+    journal_ = std::make_unique<Journal>(output + ".part",
+                                         JournalSubject{fingerprint, std::move(text)}, tiles_);
+    say_found();
 }
 
-void ResumableRendering::say_found(const core::Settings& settings) const {
+void ResumableRendering::say_found() const {
     const auto say = [&](const std::string& what) {
         if (verbosity_ == Verbosity::quiet) return;
         std::fprintf(stderr, "raylane: %s: %s\n",
@@ -55,8 +51,7 @@ void ResumableRendering::say_found(const core::Settings& settings) const {
     case Journal::Found::nothing:
         return;
     case Journal::Found::same:
-        return say("goes on at " +
-                   std::to_string(percent(journal_->found_pixels(), settings, options_)) + " %");
+        return say("goes on at " + std::to_string(percent(journal_->found_pixels())) + " %");
     case Journal::Found::other_scene:
         return say("is of another scene, and begun anew");
     case Journal::Found::other_options:
@@ -68,10 +63,29 @@ void ResumableRendering::say_found(const core::Settings& settings) const {
     }
 }
 
+bool ResumableRendering::is_others(const core::Region& tile) const {
+    return part_ && !part_->has(tiles_.number_of(tile));
+}
+
+/// Of what is to be drawn.
+int ResumableRendering::percent(std::int64_t pixels) const {
+    std::int64_t all = 0;
+    for (std::size_t number = 0; number < tiles_.count(); ++number)
+        if (!is_others(tiles_.tile(number))) all += tiles_.tile(number).pixels();
+    return static_cast<int>(100 * pixels / std::max<std::int64_t>(1, all));
+}
+
 simd::Rendering ResumableRendering::draw(simd::Progress& progress) {
     options_.progress = &progress;
+    std::atomic<std::int64_t> pixels_of_others = 0;
+    options_.recall = [&](const simd::TileToFill& tile) {
+        if (is_others(tile.region)) {
+            pixels_of_others += tile.region.pixels();
+            return true; // it stays black
+        }
+        return journal_ && journal_->recall(tile);
+    };
     if (!journal_) return simd::render(scene_, settings_, options_);
-    options_.recall = [this](const simd::TileToFill& tile) { return journal_->recall(tile); };
     options_.after_tile = [this](const simd::FinishedTile& tile) { journal_->note(tile); };
     std::optional<StopOnSignal> stop_on_signal(progress.stop);
     simd::Rendering rendering = simd::render(scene_, settings_, options_);
@@ -80,8 +94,8 @@ simd::Rendering ResumableRendering::draw(simd::Progress& progress) {
             std::fprintf(stderr, "raylane: %s\n", problem.c_str());
         return rendering;
     }
-    const std::string done =
-        "stopped at " + std::to_string(percent(progress.pixels, settings_, options_)) + " %";
+    const std::int64_t drawn = progress.pixels - pixels_of_others;
+    const std::string done = "stopped at " + std::to_string(percent(drawn)) + " %";
     throw Stopped(StopOnSignal::signal(),
                   journal_->keep() ? done + "; the same command goes on with " +
                                          printable(journal_->path().string(), 4096)

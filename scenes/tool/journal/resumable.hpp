@@ -1,11 +1,13 @@
 #pragma once
 
 #include "scenes/tool/journal/journal.hpp"
+#include "scenes/tool/picture_part.hpp"
 #include "scenes/tool/verbosity.hpp"
 #include "simd/render.hpp"
 
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -28,7 +30,7 @@ class ResumableRendering {
     ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
                        const std::string& fingerprint, const core::Settings& settings,
                        simd::RenderOptions options, const std::string& options_text,
-                       Verbosity verbosity);
+                       const std::optional<PicturePart>& part, Verbosity verbosity);
 
     /// Throws Stopped.
     simd::Rendering draw(simd::Progress& progress);
@@ -36,12 +38,16 @@ class ResumableRendering {
     void finished();
 
   private:
-    void say_found(const core::Settings& settings) const;
+    void say_found() const;
+    bool is_others(const core::Region& tile) const;
+    int percent(std::int64_t pixels) const;
 
     std::string output_;
     const core::Scene& scene_;
     core::Settings settings_;
     simd::RenderOptions options_;
+    TileRecords tiles_;
+    std::optional<PicturePart> part_;
     Verbosity verbosity_;
     std::unique_ptr<Journal> journal_; // null: none
 };

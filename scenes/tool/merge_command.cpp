@@ -1,0 +1,177 @@
+#include "scenes/errors.hpp"
+#include "scenes/image/exr.hpp"
+#include "scenes/image/writer.hpp"
+#include "scenes/number.hpp"
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/command.hpp"
+#include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/journal/tile_records.hpp"
+#include "scenes/tool/picture_texts.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace raylane::scenes {
+
+namespace {
+
+struct MergeArguments {
+    std::vector<std::string> parts;
+    Argument output, bits, dpi;
+};
+
+/// Puts together what the parts of one picture have drawn, one after the other.
+class Merger {
+  public:
+    void add(const std::string& name) {
+        ExrPicture picture = read_own_exr(name);
+        const PicturePart part = part_of(name, picture.texts);
+        if (!first_) begin(name, picture);
+        const ExrPicture& first = *first_;
+        for (const char* key : {"Scene", "Comment", "Software"})
+            if (text_in(name, picture.texts, key) != text_in(first_name_, first.texts, key))
+                throw BadInput(name, "",
+                               std::string("is of another picture than ") + first_name_ + ": its " +
+                                   key + " differs");
+        if (part.count != has_.size() || tile_of(picture.texts) != tile_of(first.texts) ||
+            picture.film.width() != first.film.width() ||
+            picture.film.height() != first.film.height() ||
+            picture.film.has_alpha() != first.film.has_alpha() ||
+            picture.layers.has_value() != first.layers.has_value())
+            throw BadInput(name, "", "is a part of another division than " + first_name_);
+        if (has_[part.number - 1])
+            throw BadInput(name, "", "is part " + part.text() + " once more");
+        has_[part.number - 1] = true;
+        for (std::size_t number = 0; number < tiles_->count(); ++number)
+            if (part.has(number)) copy(picture, tiles_->tile(number).within(crop_));
+    }
+
+    /// The whole. Throws BadInput if it is not.
+    ExrPicture take() {
+        std::string missing;
+        for (std::size_t i = 0; i < has_.size(); ++i)
+            if (!has_[i]) missing += (missing.empty() ? "" : ", ") + std::to_string(i + 1);
+        if (!missing.empty())
+            throw BadInput("PARTS", "",
+                           "must be all " + std::to_string(has_.size()) +
+                               ", but there is no part " + printable(missing, 200));
+        // In the order in which render writes them.
+        PictureTexts texts;
+        for (const char* key : {"Title", "Software", "Comment", "Scene"})
+            if (has_text(first_->texts, key))
+                texts.emplace_back(key, text_in(first_name_, first_->texts, key));
+        texts.emplace_back("Pixels", fingerprint_of(first_->film));
+        first_->texts = std::move(texts);
+        return *std::move(first_);
+    }
+    core::Transfer transfer() const { return settings_.transfer; }
+
+  private:
+    static PicturePart part_of(const std::string& name, const PictureTexts& texts) {
+        if (!has_text(texts, "Part"))
+            throw BadInput(name, "", "must be what render --part has drawn");
+        const std::string& text = text_in(name, texts, "Part");
+        const std::optional<PicturePart> part = picture_part_of(text.substr(0, text.find(' ')));
+        if (!part || tile_of(texts) == 0) throw BadInput(name, "", "says which part it is in vain");
+        return *part;
+    }
+    /// Pixels on a side; 0: it does not say.
+    static int tile_of(const PictureTexts& texts) {
+        const std::string& text = text_in("", texts, "Part");
+        const int side = to_int(text.substr(text.rfind(' ') + 1)).value_or(0);
+        return side >= 8 && side <= 64 ? side : 0;
+    }
+
+    void begin(const std::string& name, const ExrPicture& picture) {
+        const RenderArguments arguments = arguments_of(name, picture.texts, name);
+        settings_ = Overrides(arguments).applied_to({});
+        const PictureChoice choice(arguments.picture);
+        choice.apply_to(settings_);
+        simd::RenderOptions options = options_of(arguments);
+        choice.apply_to(options, settings_);
+        options.tile = tile_of(picture.texts);
+        options.layers = picture.layers.has_value();
+        crop_ = options.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
+        if (crop_.x1 - crop_.x0 != picture.film.width() ||
+            crop_.y1 - crop_.y0 != picture.film.height())
+            throw BadInput(name, "", "has another size than its Comment says");
+        tiles_.emplace(settings_, options);
+        has_.assign(part_of(name, picture.texts).count, false);
+        first_ = picture;
+        first_name_ = name;
+    }
+
+    void copy(const ExrPicture& from, const core::Region& tile) {
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x) {
+                const int column = x - crop_.x0, row = y - crop_.y0;
+                first_->film.at(column, row) = from.film.at(column, row);
+                if (from.film.has_alpha())
+                    first_->film.alpha_at(column, row) = from.film.alpha_at(column, row);
+                if (!from.layers) continue;
+                const std::size_t i = from.layers->index(column, row);
+                core::Layers& layers = *first_->layers;
+                layers.depth[i] = from.layers->depth[i];
+                layers.normal[i] = from.layers->normal[i];
+                layers.shape[i] = from.layers->shape[i];
+                layers.material[i] = from.layers->material[i];
+                layers.samples[i] = from.layers->samples[i];
+            }
+    }
+
+    std::optional<ExrPicture> first_; // and what has been put into it
+    std::string first_name_;
+    core::Settings settings_;
+    core::Region crop_{};
+    std::optional<TileRecords> tiles_;
+    std::vector<bool> has_;
+};
+
+int merge(const MergeArguments& arguments) {
+    const std::string& name = file_argument("--output", *arguments.output);
+    for (const std::string& part : arguments.parts)
+        require_other_file("--output", name, "PARTS", part);
+    PictureArguments how;
+    how.bits = arguments.bits;
+    how.dpi = arguments.dpi;
+    const PictureChoice choice(how);
+    OutputFile output(name, exr_of);
+    choice.require_fit(output.format());
+    Merger merger;
+    for (const std::string& part : arguments.parts)
+        merger.add(file_argument("PARTS", part));
+    const core::Transfer transfer = merger.transfer();
+    const ExrPicture picture = merger.take();
+    const bool is_exr = output.format() == PictureFormat::exr;
+    output.commit(picture.film, {transfer, choice.bits, choice.dpi, picture.texts},
+                  is_exr && picture.layers ? &*picture.layers : nullptr);
+    return 0;
+}
+
+} // namespace
+
+Command add_merge_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand(
+        "merge",
+        "Put the parts of a picture together that render --part has drawn: the same bits as "
+        "if it had been drawn at once");
+    auto arguments = std::make_shared<MergeArguments>();
+    command->add_option("PARTS", arguments->parts, "All parts of one picture, in any order")
+        ->required()
+        ->type_name("");
+    add_option(*command, "-o,--output", arguments->output, "The picture, as render writes it",
+               "FILE")
+        ->required();
+    add_option(*command, "--bits", arguments->bits,
+               "Of a component: 8 or 16 in PNG (default: 8), 16 (halves) or 32 (floats) in EXR "
+               "(default: 16)",
+               "N");
+    add_option(*command, "--dpi", arguments->dpi,
+               "Pixels per inch that PNG or EXR tells who prints it", "N");
+    command->footer("Example: raylane merge part-*.exr -o out.png");
+    return {command, [arguments] { return merge(*arguments); }};
+}
+
+} // namespace raylane::scenes
