@@ -98,9 +98,7 @@ TEST_CASE("a rendering that is stopped begins no more tiles") {
     options.tile = 16;
     options.progress = &progress;
     int tiles = 0;
-    options.after_tile = [&](const simd::FinishedTile&) {
-        progress.stop = ++tiles == 3;
-    };
+    options.after_tile = [&](const simd::FinishedTile&) { progress.stop = ++tiles == 3; };
     CHECK(!simd::render(scene, scene.settings(), options).complete);
     CHECK(tiles == 3);
     CHECK(progress.pixels <= 3 * 16 * 16);
