@@ -383,6 +383,11 @@ void write_json(TextFile& file, const core::Scene& scene) {
     file << "\n]";
 }
 
+void write_json_settings(TextFile& file, const core::Settings& settings) {
+    Object root(file);
+    write_settings(root, file, settings);
+}
+
 void write_json_without_shapes(TextFile& file, const core::Scene& scene) {
     Object root(file, ",\n");
     file << "\n";

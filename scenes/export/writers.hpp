@@ -14,6 +14,8 @@ namespace raylane::scenes {
 using Differences = std::set<std::string>;
 
 void write_json(TextFile& file, const core::Scene& scene);
+/// Settings alone, in one line.
+void write_json_settings(TextFile& file, const core::Settings& settings);
 /// All but its settings and the shapes that are no solids, likewise.
 void write_json_without_shapes(TextFile& file, const core::Scene& scene);
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);

@@ -3,6 +3,15 @@
 #include "scenes/errors.hpp"
 #include "scenes/image/float_pictures.hpp"
 
+namespace raylane::scenes {
+
+ExrPicture read_own_exr(const std::filesystem::path& path) {
+    InputFile file(path);
+    return read_own_exr(file);
+}
+
+} // namespace raylane::scenes
+
 #ifndef RAYLANE_WITH_OPENEXR
 
 namespace raylane::scenes {
@@ -15,8 +24,8 @@ std::string exr_of(const core::Film&, const core::Layers*, const PictureOptions&
     throw BadInput("OpenEXR", "", "is not there: raylane was built without libopenexr-dev");
 }
 
-ExrPicture read_own_exr(const std::filesystem::path& path) {
-    throw BadInput(path.string(), "", "cannot be read: raylane was built without libopenexr-dev");
+ExrPicture read_own_exr(InputFile& file) {
+    throw BadInput(file.name(), "", "cannot be read: raylane was built without libopenexr-dev");
 }
 
 void read_exr(ByteSource&, Image&) {
@@ -279,8 +288,7 @@ bool has_exr() {
     return true;
 }
 
-ExrPicture read_own_exr(const std::filesystem::path& path) {
-    InputFile input(path);
+ExrPicture read_own_exr(InputFile& input) {
     try {
         ByteSource source(input);
         MemoryIn in(all_of(source));
@@ -295,7 +303,7 @@ ExrPicture read_own_exr(const std::filesystem::path& path) {
     } catch (const SystemRefused&) {
         throw;
     } catch (const std::exception&) {
-        throw BadInput(path.string(), "", "must be an EXR that raylane has drawn");
+        throw BadInput(input.name(), "", "must be an EXR that raylane has drawn");
     }
 }
 

@@ -33,6 +33,7 @@ struct ExrPicture {
 
 /// Throws BadInput for a file that is none of ours, and SystemRefused.
 ExrPicture read_own_exr(const std::filesystem::path& path);
+ExrPicture read_own_exr(InputFile& file);
 
 /// R, G and B, or Y alone, and A, of what the display window shows; what the file does not have of
 /// that is 0. Throws MalformedPicture and std::bad_alloc.

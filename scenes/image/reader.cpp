@@ -39,6 +39,10 @@ Image decoded(InputFile& file) {
 
 Image read_image(const std::filesystem::path& path) {
     InputFile file(path);
+    return read_image(file);
+}
+
+Image read_image(InputFile& file) {
     try {
         return decoded(file);
     } catch (const MalformedPicture& malformed) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/image/components.hpp"
+#include "scenes/input_file.hpp"
 
 #include <filesystem>
 #include <string>
@@ -26,5 +27,6 @@ struct Image {
 /// Reads a PNG, EXR, HDR or PFM picture; the content tells which. Grey becomes RGB. Throws BadInput
 /// for anything else and for what is malformed or absurdly large, and SystemRefused.
 Image read_image(const std::filesystem::path& path);
+Image read_image(InputFile& file);
 
 } // namespace raylane::scenes

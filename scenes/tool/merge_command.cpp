@@ -28,6 +28,8 @@ class Merger {
     void add(const std::string& name) {
         ExrPicture picture = read_own_exr(name);
         const PicturePart part = part_of(name, picture.texts);
+        if (text_in(name, picture.texts, "Pixels") != fingerprint_of(picture.film))
+            throw BadInput(name, "", "has other pixels than it says that it was drawn with");
         if (!first_) begin(name, picture);
         const ExrPicture& first = *first_;
         for (const char* key : {"Scene", "Comment", "Software"})

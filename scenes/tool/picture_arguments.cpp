@@ -5,6 +5,7 @@
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/arguments.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
@@ -64,8 +65,8 @@ std::string text_of(const core::Color& color) {
     return text;
 }
 
-/// The settings as options of the tool.
-std::string text_of(const core::Settings& settings) {
+/// The settings as options of the tool, for a scene that has these of its own.
+std::string text_of(const core::Settings& settings, const core::Settings& own) {
     static constexpr const char* filters[] = {"box", "gaussian", "blackman-harris"};
     std::string text =
         "--size " + std::to_string(settings.width) + "x" + std::to_string(settings.height);
@@ -74,12 +75,19 @@ std::string text_of(const core::Settings& settings) {
     text += " --filter " + std::string(filters[static_cast<int>(settings.filter)]);
     text += " --light-samples " + std::to_string(settings.light_samples);
     text += " --max-depth " + std::to_string(settings.max_depth);
-    if (settings.max_see_through < core::Settings::see_through_limit)
+    if (std::min(settings.max_see_through, own.max_see_through) < core::Settings::see_through_limit)
         text += " --max-see-through " + std::to_string(settings.max_see_through);
     text += " --min-weight " + to_text(settings.min_weight);
-    if (const core::Outline& outline = settings.outline; outline.any())
-        text += " --outline " + to_text(outline.width) + " --outline-color " +
-                text_of(outline.color) + " --outline-creases " + to_text(outline.creases);
+    if (settings.transfer != core::Transfer::srgb || own.transfer != core::Transfer::srgb)
+        text +=
+            settings.transfer == core::Transfer::srgb ? " --transfer srgb" : " --transfer linear";
+    const core::Outline &outline = settings.outline, &own_outline = own.outline;
+    if (outline.any() || own_outline.any()) text += " --outline " + to_text(outline.width);
+    // A scene may have colours in between.
+    if (outline.any() && outline.color != own_outline.color)
+        text += " --outline-color " + text_of(outline.color);
+    if (outline.any() && outline.creases != own_outline.creases)
+        text += " --outline-creases " + to_text(outline.creases);
     if (settings.alpha) text += " --alpha";
     return text;
 }
@@ -172,18 +180,18 @@ void PictureChoice::apply_to(simd::RenderOptions& options, const core::Settings&
 }
 
 PictureOptions PictureChoice::options(const std::string& scene, const core::Settings& settings,
-                                      const std::string& others) const {
+                                      const core::Settings& own, const std::string& others) const {
     PictureOptions options{settings.transfer, bits, dpi, {}};
     if (scene != "-")
         options.texts.emplace_back(
             "Title", printable(std::filesystem::path(scene).filename().string(), 4096));
     options.texts.emplace_back("Software", "raylane " RAYLANE_VERSION);
-    options.texts.emplace_back("Comment", text(settings) + others);
+    options.texts.emplace_back("Comment", text(settings, own) + others);
     return options;
 }
 
-std::string PictureChoice::text(const core::Settings& settings) const {
-    return text_of(settings) + (crop ? " --crop " + text_of(*crop) : "");
+std::string PictureChoice::text(const core::Settings& settings, const core::Settings& own) const {
+    return text_of(settings, own) + (crop ? " --crop " + text_of(*crop) : "");
 }
 
 } // namespace raylane::scenes

@@ -32,10 +32,10 @@ struct PictureChoice {
     /// How the file has a picture of the scene with this name, of which it says what would draw it
     /// again: these options, and `others` (" --style sticks").
     PictureOptions options(const std::string& scene, const core::Settings& settings,
-                           const std::string& others) const;
+                           const core::Settings& own, const std::string& others) const;
 
-    /// The settings and crop as options of the tool.
-    std::string text(const core::Settings& settings) const;
+    /// The settings and crop as options of the tool, for a scene that has `own` settings.
+    std::string text(const core::Settings& settings, const core::Settings& own) const;
 
     bool layers, alpha;
     int bits = 0;

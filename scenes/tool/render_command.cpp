@@ -111,19 +111,26 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"left_to_the_reference", {{"rays", counters.doubtful}, {"paths", counters.followed}}}};
 }
 
+/// Of options in a picture: selections may be long.
+constexpr std::size_t longest_text = std::size_t{1} << 20;
+
 /// What else would draw the picture again, for the picture to say.
-std::string text_of(const RenderArguments& arguments, core::Precision precision,
-                    core::Transfer transfer) {
+std::string text_of(const RenderArguments& arguments, const simd::RenderOptions& options,
+                    const core::Settings& settings) {
     std::string text;
     if (*arguments.engine != "vector") text += " --engine " + *arguments.engine;
-    if (transfer != core::Transfer::srgb) text += " --transfer linear";
-    if (precision != core::Precision::exact)
-        text += " --precision " + std::string(core::name_of(precision));
+    if (options.precision != core::Precision::exact) {
+        text += " --precision " + std::string(core::name_of(options.precision)) + " --tile " +
+                std::to_string(simd::tile_of(settings, options));
+        if (*arguments.engine == "vector")
+            text += " --isa " + std::string(simd::name_of(options.isa));
+    }
     for (const auto& [name, value] : arguments.scene_arguments.given()) {
         text += " " + name;
         if (value.empty()) continue;
         const bool is_word = value.find(' ') == std::string::npos;
-        text += is_word ? " " + printable(value, 4096) : " \"" + printable(value, 4096) + '"';
+        text += is_word ? " " + printable(value, longest_text)
+                        : " \"" + printable(value, longest_text) + '"';
     }
     return text;
 }
@@ -160,15 +167,17 @@ int render(const RenderArguments& arguments) {
     const auto resumable = [&](const std::string& name, const core::Scene& scene,
                                const core::Settings& settings, const std::string& fingerprint) {
         return ResumableRendering(name, !arguments.no_resume, scene, fingerprint, settings, options,
-                                  picture.text(settings) + " --engine " + *arguments.engine +
-                                      " --precision " +
+                                  " --engine " + *arguments.engine + " --precision " +
                                       std::string(core::name_of(options.precision)),
                                   part_of_tiles, verbosity);
     };
+    bool is_of_a_film = false;
     const auto write = [&](OutputFile& output, const simd::Rendering& rendering,
-                           const core::Settings& settings, const std::string& fingerprint) {
-        PictureOptions how = picture.options(
-            files.scene, settings, text_of(arguments, options.precision, settings.transfer));
+                           const core::Settings& settings, const core::Settings& own,
+                           const std::string& fingerprint) {
+        PictureOptions how =
+            picture.options(files.scene, settings, own, text_of(arguments, options, settings));
+        if (is_of_a_film) how.texts.emplace_back("Film", "one of several pictures");
         if (part_of_tiles)
             how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +
                                                std::to_string(simd::tile_of(settings, options)));
@@ -186,6 +195,7 @@ int render(const RenderArguments& arguments) {
             require_fit(part_of_tiles, picture, writable.format());
             picture.require_fit(writable.format());
         }
+        is_of_a_film = true;
         strip->settings = settings_of;
         strip->draw = [&](const core::Scene& scene, const std::string& name,
                           simd::Progress& progress) {
@@ -194,8 +204,9 @@ int render(const RenderArguments& arguments) {
             prepare(scene, settings);
             const std::string fingerprint = fingerprint_of(scene);
             ResumableRendering drawing = resumable(name, scene, settings, fingerprint);
-            write(output, drawing.draw(progress), settings, fingerprint);
+            write(output, drawing.draw(progress), settings, scene.settings(), fingerprint);
             drawing.finished();
+            drawing.end_if_signalled();
         };
         draw(*strip);
         return 0;
@@ -227,7 +238,7 @@ int render(const RenderArguments& arguments) {
     }();
     times.render = stopwatch.lap();
 
-    write(output, rendering, settings, fingerprint);
+    write(output, rendering, settings, scene.settings(), fingerprint);
     drawing.finished();
     times.write = stopwatch.lap();
 
@@ -239,6 +250,7 @@ int render(const RenderArguments& arguments) {
         stats->write(text);
         stats->commit();
     }
+    drawing.end_if_signalled();
     if (verbosity == Verbosity::verbose)
         std::fprintf(stderr, "%s engine, %s, %s precision, %d threads\n", arguments.engine->c_str(),
                      arguments.isa.value_or(isa_in_use(*arguments.engine)).c_str(),

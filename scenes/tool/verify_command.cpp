@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <unordered_set>
 
@@ -48,6 +49,12 @@ class AsWritten {
         return all;
     }
 
+    /// The bits, or what halves have no number for.
+    bool is_same(float there, float expected) const {
+        constexpr float largest_half = 65504.0F;
+        return there == expected ||
+               (is_float_ && std::isinf(there) && std::abs(expected) > largest_half);
+    }
     /// By how much two components may differ that are the same but for rounding: one code of 8
     /// bits, or what halves and twice as many steps of rounding are off by.
     float step(float component) const {
@@ -82,7 +89,12 @@ class Verifier {
           picture_(render_.picture), scene_(seen_scene()) {
         if (has_text(image_.texts, "Part"))
             throw BadInput(image_.name, "", "is a part of a picture, to be merged first");
+        if (has_text(image_.texts, "Film"))
+            throw BadInput(image_.name, "",
+                           "is one of several pictures, which cannot be drawn again alone");
         options_ = options_of(render_);
+        options_.precision =
+            precision_argument(*render_.precision).value_or(core::Precision::exact);
         picture_.apply_to(options_, settings_);
         options_.threads = threads_;
         part_ = options_.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});
@@ -115,9 +127,25 @@ class Verifier {
         };
         const core::Film film = draw(options).film;
 
+        return compared(film, chosen);
+    }
+
+    /// Draws all of it again, as it was drawn: true if all of its bits are those that it had, and
+    /// all that the file shows is made of these.
+    bool has_its_bits() {
+        const core::Film film = draw(options_).film;
+        std::vector<std::size_t> all(film.pixels().size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        return fingerprint_of(film) == text_in(image_.name, image_.texts, "Pixels") &&
+               compared(film, all).same == all.size();
+    }
+
+  private:
+    /// Some pixels of the picture with those of a film.
+    Verdict compared(const core::Film& film, const std::vector<std::size_t>& pixels) const {
         Verdict verdict;
         const AsWritten as_written(image_, settings_.transfer);
-        for (const std::size_t pixel : chosen) {
+        for (const std::size_t pixel : pixels) {
             const int x = x_of(pixel) - part_.x0, y = y_of(pixel) - part_.y0;
             const std::array<float, 4> expected = as_written(film.at(x, y), film.alpha_at(x, y));
             bool is_same = true, is_near = true;
@@ -125,6 +153,7 @@ class Verifier {
                 const float there = channel < 3               ? image_.rgb[3 * pixel + channel]
                                     : image_.alpha.size() > 0 ? image_.alpha[pixel]
                                                               : 1.0F;
+                if (as_written.is_same(there, expected[channel])) continue;
                 const float off = std::abs(there - expected[channel]);
                 is_same = is_same && off <= 0.5F * as_written.step(expected[channel]);
                 is_near = is_near && off <= 1.5F * as_written.step(expected[channel]);
@@ -139,12 +168,6 @@ class Verifier {
         return verdict;
     }
 
-    /// Draws all of it again, as it was drawn: true if all of its bits are those that it had.
-    bool has_its_bits() {
-        return fingerprint_of(draw(options_).film) == text_in(image_.name, image_.texts, "Pixels");
-    }
-
-  private:
     core::Scene seen_scene() {
         const LoadOptions load_options = render_.scene_arguments.load_options(true);
         core::Scene scene = load_with_progress(*render_.scene, load_options, verbosity_, threads_);

@@ -7,7 +7,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-600}
 [ $# -eq 0 ] || shift
-formats=${*:-"cif gro json lammps_data lammps_dump nff pdb pov tachyon xyz"}
+formats=${*:-"cif gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz"}
 
 mkdir -p build/fuzz/findings
 kernels= # no sanitizer changes them

@@ -59,7 +59,7 @@ struct Drawing {
 TEST_CASE("a journal that ends at any byte gives the picture its bits, and so does a damaged one") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
-    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture.part"};
+    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
     drawing.options.threads = 1;
     drawing.options.tile = 8;
     drawing.options.layers = true;
@@ -71,7 +71,7 @@ TEST_CASE("a journal that ends at any byte gives the picture its bits, and so do
         CHECK(!drawing.draw(&journal, 4).complete);
         CHECK(journal.keep());
     }
-    const std::string content = tests::content_of(drawing.path);
+    const std::string content = tests::content_of(drawing.path.string() + ".part");
     const auto goes_on = [&](const std::string& with, std::int64_t most_pixels) {
         directory.write("picture.part", with);
         Journal journal(drawing.path, drawing.subject(), drawing.records());
@@ -101,7 +101,7 @@ TEST_CASE("a journal that ends at any byte gives the picture its bits, and so do
 TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
-    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture.part"};
+    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
     drawing.options.tile = 8;
     {
         Journal journal(drawing.path, drawing.subject(), drawing.records());
@@ -110,7 +110,7 @@ TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
         CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
               Journal::Found::in_use);
     }
-    const std::string content = tests::content_of(drawing.path);
+    const std::string content = tests::content_of(drawing.path.string() + ".part");
     const auto found = [&](const scenes::JournalSubject& subject) {
         directory.write("picture.part", content);
         return Journal(drawing.path, subject, drawing.records()).found();
@@ -118,11 +118,11 @@ TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
     CHECK(found(drawing.subject()) == Journal::Found::same);
     CHECK(found({drawing.subject().scene, "others"}) == Journal::Found::other_options);
     CHECK(found({"0", "options"}) == Journal::Found::other_scene);
-    for (const char* content_of_another : {"mine", "raylane journey", "\x89PNG"}) {
+    for (const char* content_of_another : {"", "mine", "raylane", "raylane journey", "\x89PNG"}) {
         directory.write("picture.part", content_of_another);
         CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
               Journal::Found::none_of_ours);
-        CHECK(tests::content_of(drawing.path) == content_of_another);
+        CHECK(tests::content_of(drawing.path.string() + ".part") == content_of_another);
     }
 }
 

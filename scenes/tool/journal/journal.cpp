@@ -69,6 +69,15 @@ void sync_folder_of(const std::filesystem::path& path) {
     ::close(descriptor);
 }
 
+/// False if another process has it. File systems without locks have none for anybody.
+bool take_lock(int descriptor) {
+    int result;
+    do {
+        result = ::flock(descriptor, LOCK_EX | LOCK_NB);
+    } while (result != 0 && errno == EINTR);
+    return result == 0 || errno != EWOULDBLOCK;
+}
+
 std::string record_of(std::size_t number, std::string_view bytes) {
     const RecordHead head{static_cast<std::uint32_t>(number),
                           static_cast<std::uint32_t>(bytes.size())};
@@ -81,9 +90,10 @@ std::string record_of(std::size_t number, std::string_view bytes) {
 
 } // namespace
 
-Journal::Journal(std::filesystem::path path, const JournalSubject& subject, TileRecords records)
-    : path_(std::move(path)), records_(records), head_(head_of(subject)),
-      places_(records_.count(), -1) {
+Journal::Journal(const std::filesystem::path& picture, const JournalSubject& subject,
+                 TileRecords records)
+    : picture_(picture), path_(picture.string() + ".part"), records_(records),
+      head_(head_of(subject)), places_(records_.count(), -1) {
     open();
 }
 
@@ -99,22 +109,23 @@ void Journal::open() {
         return;
     }
     struct stat status {};
-    const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+    const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
+                         status.st_uid == ::geteuid(); // others may write what they like
     const std::string head = is_file ? read_at(descriptor, 0, head_.size()) : "";
-    const std::size_t known = std::min(head.size(), magic.size());
-    if (!is_file || head.compare(0, known, magic, 0, known) != 0)
+    if (!head.starts_with(magic))
         found_ = Found::none_of_ours;
-    else if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    else if (!take_lock(descriptor))
         found_ = Found::in_use;
     if (found_ != Found::nothing) {
         ::close(descriptor);
         return;
     }
     descriptor_ = descriptor;
-    read(head);
+    is_ours_ = read(head);
 }
 
-void Journal::read(const std::string& head) {
+/// True if it is of this picture.
+bool Journal::read(const std::string& head) {
     if (head == head_) {
         found_ = Found::same;
         end_ = static_cast<std::int64_t>(head_.size());
@@ -135,17 +146,14 @@ void Journal::read(const std::string& head) {
             end_ += static_cast<std::int64_t>(all.size());
         }
         // What is behind it was being written when its process ended.
-        if (::ftruncate(descriptor_, end_) != 0)
-            problem_ = SystemRefused(path_.string(), "write", errno).what();
-        return;
+        if (::ftruncate(descriptor_, end_) != 0) fail();
+        return true;
     }
-    // It may have ended within its head, and have been of anything.
-    const std::size_t scene = head_.find("options ");
-    found_ = head.empty()                                                  ? Found::nothing
-             : head.compare(0, scene, head_, 0, scene) == 0                ? Found::other_options
-             : head.starts_with(std::string(magic) + RAYLANE_VERSION "\n") ? Found::other_scene
-                                                                           : Found::other_options;
-    begin();
+    const std::size_t options = head_.find("options ");
+    const bool is_of_version = head.starts_with(std::string(magic) + RAYLANE_VERSION "\n");
+    const bool is_of_scene = head.compare(0, options, head_, 0, options) == 0;
+    found_ = is_of_version && !is_of_scene ? Found::other_scene : Found::other_options;
+    return false;
 }
 
 std::int64_t Journal::found_pixels() const {
@@ -176,7 +184,7 @@ void Journal::note(const simd::FinishedTile& tile) {
     {
         const std::lock_guard lock(mutex_);
         if (!problem_.empty()) return;
-        if (descriptor_ < 0) {
+        if (!is_ours_) {
             waiting_ += record;
             if (seconds_since(start_) >= begin_seconds) begin();
         } else {
@@ -190,22 +198,45 @@ void Journal::note(const simd::FinishedTile& tile) {
 
 /// Makes the file, or empties it, and writes what has been waiting.
 void Journal::begin() {
-    const bool is_new = descriptor_ < 0;
-    if (is_new) {
-        descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) {
-            problem_ = SystemRefused(path_.string(), "write", errno).what();
-            return;
-        }
-        static_cast<void>(::flock(descriptor_, LOCK_EX | LOCK_NB));
-    } else if (::ftruncate(descriptor_, 0) != 0) {
-        problem_ = SystemRefused(path_.string(), "write", errno).what();
-        return;
-    }
+    if (descriptor_ < 0 && !make()) return fail();
+    if (::ftruncate(descriptor_, 0) != 0) return fail();
+    is_ours_ = true;
     end_ = 0;
     write(head_);
     if (!waiting_.empty()) write(std::exchange(waiting_, {}));
-    if (is_new) sync_folder_of(path_);
+}
+
+/// With the head in it before it has a name, where the system can do that: so no file is there that
+/// is not known for what it is. As private as the picture that is there.
+bool Journal::make() {
+    struct stat picture {};
+    const bool is_there = ::stat(picture_.c_str(), &picture) == 0;
+    const mode_t mode = is_there ? picture.st_mode & 0666 : 0666;
+    const std::filesystem::path folder = path_.parent_path();
+    int made = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+    if (made >= 0) {
+        const std::string own = "/proc/self/fd/" + std::to_string(made);
+        const bool done =
+            write_at(made, 0, head_) && ::fsync(made) == 0 && take_lock(made) &&
+            ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+        const int error_number = errno;
+        if (!done) ::close(made);
+        if (!done && error_number != ENOENT) { // or else there is no /proc
+            errno = error_number;
+            return false;
+        }
+        if (!done) made = -1;
+    }
+    if (made < 0) made = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (made < 0) return false;
+    descriptor_ = made;
+    static_cast<void>(take_lock(made));
+    sync_folder_of(path_);
+    return true;
+}
+
+void Journal::fail() {
+    problem_ = SystemRefused(path_.string(), "write", errno).what();
 }
 
 /// All of it or nothing.
@@ -215,27 +246,36 @@ void Journal::write(const std::string& bytes) {
         end_ += static_cast<std::int64_t>(bytes.size());
         return;
     }
-    problem_ = SystemRefused(path_.string(), "write", errno).what();
+    fail();
     static_cast<void>(::ftruncate(descriptor_, end_));
 }
 
 bool Journal::keep() {
     if (found_ == Found::none_of_ours || found_ == Found::in_use) return false;
     const std::lock_guard lock(mutex_);
-    if (descriptor_ < 0) begin();
-    if (descriptor_ >= 0) static_cast<void>(::fsync(descriptor_));
-    return problem_.empty();
+    if (!is_ours_ && !waiting_.empty()) begin();
+    if (is_ours_) static_cast<void>(::fsync(descriptor_));
+    return is_ours_ && problem_.empty();
 }
 
-void Journal::replace_by(const std::filesystem::path& picture) {
+/// Somebody may have put another file in its place.
+bool Journal::is_still_there() const {
+    struct stat own {
+    }, there{};
+    return ::fstat(descriptor_, &own) == 0 && ::lstat(path_.c_str(), &there) == 0 &&
+           own.st_dev == there.st_dev && own.st_ino == there.st_ino;
+}
+
+void Journal::remove() {
     const std::lock_guard lock(mutex_);
-    if (descriptor_ < 0) return;
-    const int written = ::open(picture.c_str(), O_RDONLY | O_CLOEXEC);
-    if (written >= 0) {
-        static_cast<void>(::fsync(written));
-        ::close(written);
-    }
-    sync_folder_of(picture);
+    if (!is_ours_ || !is_still_there()) return;
+    std::error_code unknown;
+    const std::filesystem::path target = std::filesystem::canonical(picture_, unknown);
+    const int written = ::open(target.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool is_safe = written >= 0 && (::fsync(written) == 0 || errno == EINVAL);
+    if (written >= 0) ::close(written);
+    if (!is_safe) return;
+    sync_folder_of(target);
     ::unlink(path_.c_str());
 }
 

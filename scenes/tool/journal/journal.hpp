@@ -21,7 +21,8 @@ struct JournalSubject {
 /// process can go on when this one ends before its time, however that be. Each tile is written as
 /// it comes, with a checksum, and at most the tiles under way are lost with the process; what is
 /// lost with the power are the last `sync_seconds`. There is no file as long as the picture takes
-/// less than `begin_seconds`.
+/// less than `begin_seconds`; so long what is there of another picture stays, and so it does if
+/// this one is done sooner.
 ///
 /// To be used by one process at a time, which the file's lock sees to. Nothing that goes wrong with
 /// the file ends the drawing: problem() tells it.
@@ -33,13 +34,15 @@ class Journal {
     enum class Found : std::uint8_t {
         nothing,
         same,          ///< goes on with it
-        other_scene,   ///< begins anew, as with the next ones
+        other_scene,   ///< stays until another journal takes its place; so do the next ones
         other_options, ///< or another version's
         none_of_ours,  ///< leaves it alone, and keeps no journal
         in_use,        ///< likewise
     };
 
-    Journal(std::filesystem::path path, const JournalSubject& subject, TileRecords records);
+    /// Of the picture that is to be in a file, beside that: its name with ".part" behind.
+    Journal(const std::filesystem::path& picture, const JournalSubject& subject,
+            TileRecords records);
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
@@ -55,20 +58,23 @@ class Journal {
 
     /// Writes what is not written yet, for the drawing ends before its time. False if it could not.
     bool keep();
-    /// There is a picture, in this file: removes the journal, once that is sure to survive it.
-    void replace_by(const std::filesystem::path& picture);
+    /// The picture is there: removes the journal, once that is sure to survive it.
+    void remove();
     /// What the system said where it would not write; empty as long as all is well. One line.
     std::string problem();
 
   private:
     void open();
-    void read(const std::string& head);
+    bool read(const std::string& head);
     void begin();
+    bool make();
+    bool is_still_there() const;
+    void fail();
     void write(const std::string& bytes);
     void sync_now_and_then();
     bool is_writable() const { return descriptor_ >= 0 && problem_.empty(); }
 
-    std::filesystem::path path_;
+    std::filesystem::path picture_, path_;
     TileRecords records_;
     std::string head_;
     Found found_ = Found::nothing;
@@ -77,7 +83,8 @@ class Journal {
 
     std::mutex mutex_; // of what follows
     int descriptor_ = -1;
-    std::string waiting_; // records, as long as there is no file
+    bool is_ours_ = false; // this picture's tiles are in it
+    std::string waiting_;  // records, as long as there is no file
     std::int64_t end_ = 0;
     std::string problem_;
     std::chrono::steady_clock::time_point synced_ = start_;

@@ -1,6 +1,7 @@
 #include "scenes/tool/journal/resumable.hpp"
 
 #include "scenes/errors.hpp"
+#include "scenes/export/writers.hpp"
 #include "scenes/tool/interrupt.hpp"
 
 #include <algorithm>
@@ -16,8 +17,12 @@ namespace {
 bool may_have_journal(const std::string& output) {
     if (output == "-") return false;
     std::error_code unknown;
-    return !std::filesystem::exists(output, unknown) ||
-           std::filesystem::is_regular_file(output, unknown);
+    if (!std::filesystem::exists(output, unknown)) return true;
+    // A link may lead to a stream that happens to be a file.
+    const std::string target = std::filesystem::canonical(output, unknown).string();
+    return std::filesystem::is_regular_file(output, unknown) && !target.starts_with("/proc/") &&
+           std::filesystem::read_symlink(output, unknown).string().find("/dev/") ==
+               std::string::npos;
 }
 
 } // namespace
@@ -30,14 +35,20 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
       tiles_(settings, options_), part_(part), verbosity_(verbosity) {
     if (!wanted || !may_have_journal(output)) return;
-    std::string text =
-        options_text + " --tile " + std::to_string(simd::tile_of(settings, options_));
-    text += settings.samples == core::SamplePattern::regular ? " regular" : " stratified";
+    std::string text;
+    TextFile settings_text([&](std::string_view piece) { text += piece; });
+    write_json_settings(settings_text, settings);
+    settings_text.flush();
+    text += options_text + " --tile " + std::to_string(simd::tile_of(settings, options_));
+    if (const std::optional<core::Region>& crop = options_.crop)
+        for (const int edge : {crop->x0, crop->y0, crop->x1, crop->y1})
+            text += " " + std::to_string(edge);
+    if (options_.layers) text += " --layers";
     if (part_) text += " --part " + part_->text();
     if (options_.precision != core::Precision::exact)
         text += " --isa " + std::string(simd::name_of(options_.isa));
-    journal_ = std::make_unique<Journal>(output + ".part",
-                                         JournalSubject{fingerprint, std::move(text)}, tiles_);
+    journal_ =
+        std::make_unique<Journal>(output, JournalSubject{fingerprint, std::move(text)}, tiles_);
     say_found();
 }
 
@@ -53,9 +64,9 @@ void ResumableRendering::say_found() const {
     case Journal::Found::same:
         return say("goes on at " + std::to_string(percent(journal_->found_pixels())) + " %");
     case Journal::Found::other_scene:
-        return say("is of another scene, and begun anew");
+        return say("is of another scene, and not gone on with");
     case Journal::Found::other_options:
-        return say("is of other options or another version, and begun anew");
+        return say("is of other options or another version, and not gone on with");
     case Journal::Found::none_of_ours:
         return say("is none of raylane's, so the picture is drawn without a journal");
     case Journal::Found::in_use:
@@ -104,7 +115,13 @@ simd::Rendering ResumableRendering::draw(simd::Progress& progress) {
 }
 
 void ResumableRendering::finished() {
-    if (journal_) journal_->replace_by(output_);
+    if (journal_) journal_->remove();
+}
+
+void ResumableRendering::end_if_signalled() const {
+    if (journal_ && StopOnSignal::signal() != 0)
+        throw Stopped(StopOnSignal::signal(),
+                      "stopped, and " + printable(output_, 4096) + " is whole");
 }
 
 } // namespace raylane::scenes

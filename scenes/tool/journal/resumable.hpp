@@ -36,6 +36,8 @@ class ResumableRendering {
     simd::Rendering draw(simd::Progress& progress);
     /// The picture has been written.
     void finished();
+    /// Behind that: throws Stopped if a signal has come while the last tiles were drawn.
+    void end_if_signalled() const;
 
   private:
     void say_found() const;

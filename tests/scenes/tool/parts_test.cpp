@@ -1,4 +1,5 @@
 #include "scenes/image/exr.hpp"
+#include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
@@ -86,6 +87,17 @@ TEST_CASE("parts that make no whole are refused in one line") {
     REQUIRE(workshop.render("part-2.exr").code == 0);
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: must be what render --part has drawn\n");
+    {
+        scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "part-1.exr");
+        picture.film.at(3, 4) += core::Color(1.0F);
+        scenes::PictureOptions options;
+        options.bits = 32;
+        options.texts = picture.texts;
+        scenes::OutputFile(workshop.path() / "part-2.exr", scenes::exr_of)
+            .commit(picture.film, options);
+        CHECK(refusal(merged({2, 3}, "out/a.png")) ==
+              "raylane: part-2.exr: has other pixels than it says that it was drawn with\n");
+    }
     workshop.write("part-2.exr", "mine");
     CHECK(refusal(merged({1, 2, 3}, "out/a.png")) ==
           "raylane: part-2.exr: must be an EXR that raylane has drawn\n");

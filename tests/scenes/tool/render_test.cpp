@@ -141,6 +141,8 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "samples_per_pixel",
                                            "max_depth",
                                            "min_weight",
+                                           "scene_fingerprint",
+                                           "pixels_fingerprint",
                                            "shapes",
                                            "scene_bytes",
                                            "seconds",

@@ -39,14 +39,20 @@ bool has_journal(const Workshop& workshop) {
     return std::filesystem::exists(workshop.output() / "picture.png.part");
 }
 
-/// Interrupted in the middle, by SIGINT.
-void interrupt(const Workshop& workshop) {
-    Process process = workshop.start(drawing());
-    REQUIRE(workshop.wait_for_files(process, 1));
-    std::this_thread::sleep_for(milliseconds(300));
-    process.send(SIGINT);
-    REQUIRE(process.wait().code == 128 + SIGINT);
-    REQUIRE(has_journal(workshop));
+/// A rendering that a signal ended in its middle, how long that may be: there is a journal.
+Outcome interrupt(const Workshop& workshop, int signal = SIGINT) {
+    double wait = 100.0;
+    for (int i = 0; i < 20; ++i) {
+        Process process = workshop.start(drawing());
+        std::this_thread::sleep_for(milliseconds(static_cast<int>(wait)));
+        process.send(signal);
+        Outcome outcome = process.wait();
+        if (has_journal(workshop)) return outcome;
+        // Before the first tile, or behind the last.
+        wait *= outcome.err.find("is whole") == std::string::npos && outcome.code != 0 ? 1.5 : 0.7;
+    }
+    FAIL("never in its middle");
+    return {};
 }
 
 } // namespace
@@ -55,18 +61,12 @@ TEST_CASE("the first SIGINT or SIGTERM finishes what is under way, and the pictu
     const Workshop workshop;
     const std::string expected = whole(workshop);
     for (const int signal : {SIGINT, SIGTERM}) {
-        Process process = workshop.start(drawing());
-        REQUIRE(workshop.wait_for_files(process, 1));
-        std::this_thread::sleep_for(milliseconds(300));
-        process.send(signal);
-        const Outcome stopped = process.wait();
+        const Outcome stopped = interrupt(workshop, signal);
         CHECK(stopped.code == 128 + signal);
         CHECK(stopped.exited);
         CHECK(is_one_line(stopped.err));
         CHECK(stopped.err.starts_with("raylane: stopped at "));
         CHECK(stopped.err.ends_with(" %; the same command goes on with out/picture.png.part\n"));
-        CHECK(workshop.wait_for_files(process, 1));
-
         const Outcome resumed = workshop.run(drawing());
         CHECK(resumed.code == 0);
         CHECK(resumed.err.starts_with("raylane: out/picture.png.part: goes on at "));
@@ -94,7 +94,8 @@ TEST_CASE("the second signal ends a rendering at once, and what it had is not lo
 TEST_CASE("a rendering that is killed fifty times at any moment has the same bits in the end") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
-    interrupt(workshop); // now each tile is in the journal as soon as it is drawn
+    static_cast<void>(
+        interrupt(workshop)); // now each tile is in the journal as soon as it is drawn
     std::mt19937 random(7);
     int killed = 0;
     for (int i = 0; i < 50; ++i) {
@@ -102,7 +103,7 @@ TEST_CASE("a rendering that is killed fifty times at any moment has the same bit
         std::this_thread::sleep_for(milliseconds(random() % 60));
         process.send(SIGKILL);
         killed += process.wait().exited ? 0 : 1;
-        if (!has_journal(workshop)) interrupt(workshop); // it was done
+        if (!has_journal(workshop)) static_cast<void>(interrupt(workshop)); // it was done
     }
     CHECK(killed > 25);
     CHECK(workshop.run(drawing()).code == 0);
@@ -111,28 +112,28 @@ TEST_CASE("a rendering that is killed fifty times at any moment has the same bit
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
 }
 
-TEST_CASE("a journal of another scene or other options is said to be one, and is begun anew") {
+TEST_CASE(
+    "a journal of another scene or other options is said to be one, and its picture begun anew") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
-    interrupt(workshop);
-    const auto begun_anew = [&](const Options& options, const std::string& what) {
+    static_cast<void>(interrupt(workshop));
+    const auto told = [&](const Options& options, const std::string& what) {
         const std::string journal = content_of(workshop.output() / "picture.png.part");
         const Outcome outcome = workshop.run(drawing(options));
         CHECK(outcome.code == 0);
-        CHECK(outcome.err == "raylane: out/picture.png.part: is of " + what + ", and begun anew\n");
-        CHECK(!has_journal(workshop));
+        CHECK(outcome.err ==
+              "raylane: out/picture.png.part: is of " + what + ", and not gone on with\n");
         workshop.write("out/picture.png.part", journal);
     };
-    begun_anew({"--max-depth", "1"}, "other options or another version");
-    begun_anew({"--alpha"}, "other options or another version");
-    begun_anew({"--crop", "0,0,100x100"}, "other options or another version");
-    begun_anew({"--engine", "reference", "--crop", "0,0,10x10"},
-               "other options or another version");
+    told({"--max-depth", "1"}, "other options or another version");
+    told({"--alpha"}, "other options or another version");
+    told({"--crop", "0,0,100x100"}, "other options or another version");
+    told({"--engine", "reference", "--crop", "0,0,10x10"}, "other options or another version");
     const std::string scene = content_of(workshop.path() / "scene.json");
     std::string other = scene;
     other.replace(other.find("0.5]"), 4, "0.4]");
     workshop.write("scene.json", other);
-    begun_anew({}, "another scene");
+    told({}, "another scene");
     workshop.write("scene.json", scene);
     CHECK(workshop.run(drawing()).err.starts_with("raylane: out/picture.png.part: goes on at "));
     CHECK(picture_of(workshop) == expected);
@@ -149,7 +150,7 @@ TEST_CASE("a file that is none of raylane's is left alone, and so is a journal i
     const std::string expected = picture_of(workshop);
     std::filesystem::remove(workshop.output() / "picture.png.part");
 
-    interrupt(workshop);
+    static_cast<void>(interrupt(workshop));
     Process first = workshop.start(drawing());
     std::this_thread::sleep_for(milliseconds(100));
     const Outcome second = workshop.run(drawing());
@@ -163,7 +164,7 @@ TEST_CASE("a file that is none of raylane's is left alone, and so is a journal i
 TEST_CASE("where there is no room for a journal, the picture is drawn all the same") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
-    interrupt(workshop);
+    static_cast<void>(interrupt(workshop));
     const auto had = std::filesystem::file_size(workshop.output() / "picture.png.part");
     Setup limited;
     limited.in_child = [had] {
@@ -175,5 +176,60 @@ TEST_CASE("where there is no room for a journal, the picture is drawn all the sa
     CHECK(outcome.err.find("raylane: out/picture.png.part: cannot write: File too large\n") !=
           std::string::npos);
     CHECK(picture_of(workshop) == expected);
+    CHECK(!has_journal(workshop));
+}
+
+TEST_CASE("a signal while the last tile is drawn ends the program behind the whole picture") {
+    const Workshop workshop;
+    const Options one_tile = {"--size", "32x32", "--spp", sanitized ? "1024" : "16384"};
+    const Options drawing = joined({"render", "scene.json", "-o", "out/picture.png"}, one_tile);
+    REQUIRE(workshop.run(drawing).code == 0);
+    const std::string expected = picture_of(workshop);
+    std::filesystem::remove(workshop.output() / "picture.png");
+    Process process = workshop.start(drawing);
+    REQUIRE(workshop.wait_for_files(process, 1));
+    std::this_thread::sleep_for(milliseconds(50));
+    process.send(SIGTERM);
+    const Outcome outcome = process.wait();
+    CHECK(outcome.code == 128 + SIGTERM);
+    CHECK(outcome.err == "raylane: stopped, and out/picture.png is whole\n");
+    CHECK(picture_of(workshop) == expected);
+    CHECK(!has_journal(workshop));
+
+    // So is the first of a film, and there is no second.
+    Process film = workshop.start(
+        joined({"render", "scene.json", "-o", "out/f-%d.png", "--turn", "90/4"}, one_tile));
+    REQUIRE(workshop.wait_for_files(film, 2));
+    std::this_thread::sleep_for(milliseconds(50));
+    film.send(SIGTERM);
+    CHECK(film.wait().code == 128 + SIGTERM);
+    CHECK(std::filesystem::exists(workshop.output() / "f-0.png"));
+    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 2);
+}
+
+TEST_CASE("settings of a scene that no option could tell are told apart") {
+    std::string scene = ball;
+    const auto with_outline = [&](const char* color) {
+        std::string text = scene;
+        return text.insert(1, std::string(R"("outline": {"width": 3, "color": )") + color + "},");
+    };
+    const Workshop workshop(with_outline("[9, 0.3, 0.1]"));
+    static_cast<void>(interrupt(workshop));
+    workshop.write("scene.json", with_outline("[1, 0.3, 0.1]"));
+    CHECK(workshop.run(drawing()).err == "raylane: out/picture.png.part: is of other options or "
+                                         "another version, and not gone on with\n");
+    const std::string picture = picture_of(workshop);
+    CHECK(workshop.run(drawing({"--no-resume"})).code == 0);
+    CHECK(picture_of(workshop) == picture);
+}
+
+TEST_CASE("a journal is as private as the picture that is there") {
+    const Workshop workshop;
+    workshop.write("out/picture.png", "old");
+    const auto mode = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
+    std::filesystem::permissions(workshop.output() / "picture.png", mode);
+    static_cast<void>(interrupt(workshop));
+    CHECK(std::filesystem::status(workshop.output() / "picture.png.part").permissions() == mode);
+    CHECK(workshop.run(drawing()).code == 0);
     CHECK(!has_journal(workshop));
 }

@@ -56,7 +56,7 @@ TEST_CASE(
         Process process(joined({"render", "scene.json", "-o", "out/picture.png", "-v"}, hours),
                         setup);
         std::this_thread::sleep_for(std::chrono::milliseconds(3900));
-        process.send(SIGINT);
+        process.send(SIGHUP);
         const std::string said = process.wait().err;
         CHECK(said.find("] ") != std::string::npos);
         CHECK(said.find('\x1B') == std::string::npos);

@@ -87,6 +87,45 @@ TEST_CASE("a picture that is not what it says is told from one that is") {
     CHECK(other.out.ends_with("all bits   others than the picture had\n"));
 }
 
+TEST_CASE("what takes a scene's own settings away is said in the picture, and so is a precision") {
+    std::string scene = ball;
+    scene.insert(1, R"("outline": {"width": 2, "color": [0.2003, 0.5, 7]},
+                       "limits": {"max_see_through": 1},)");
+    scene.insert(scene.find(R"("height": 12)"), R"("transfer": "linear", )");
+    const Workshop workshop(scene);
+    for (const Options& options : {Options{},
+                                   {"--outline", "0"},
+                                   {"--transfer", "srgb"},
+                                   {"--outline-color", "#00ff00"},
+                                   {"--max-see-through", "1000"},
+                                   {"--precision", "double"},
+                                   {"--precision", "robust"}}) {
+        CAPTURE(options);
+        REQUIRE(workshop.render("a.png", options).code == 0);
+        const Outcome outcome = verify(workshop, "a.png", {"--whole"});
+        CHECK(outcome.out.ends_with("all bits   drawn again as they were\n"));
+        if (options.empty() || options[0] != "--precision") CHECK(outcome.code == 0);
+    }
+    if (!scenes::has_exr()) return;
+    REQUIRE(workshop.render("a.exr").code == 0);
+    CHECK(verify(workshop, "a.exr").code == 0);
+}
+
+TEST_CASE("the whole of a picture is looked at, whichever pixels are chosen") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png").code == 0);
+    turn_one_over(workshop.path() / "a.png");
+    int found = 0;
+    for (int seed = 0; seed < 4; ++seed) {
+        const Outcome outcome =
+            verify(workshop, "a.png", {"--whole", "--pixels", "2", "--seed", std::to_string(seed)});
+        CHECK(outcome.code == 1);
+        CHECK(outcome.out.ends_with("all bits   others than the picture had\n"));
+        found += outcome.out.find("2 the same") != std::string::npos ? 1 : 0;
+    }
+    CHECK(found > 0);
+}
+
 TEST_CASE("which pixels are drawn again is chance, or told by a seed") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
@@ -122,11 +161,13 @@ TEST_CASE("pictures that say nothing of themselves are refused in one line") {
         options.texts = {{"Comment", comment}, {"Scene", "0"}};
         scenes::OutputFile(workshop.path() / "b.png").commit(core::Film(16, 12), options);
     };
+    REQUIRE(workshop.render("f%d.png", {"--turn", "90/2"}).code == 0);
+    refused("f1.png", "f1.png: is one of several pictures, which cannot be drawn again alone");
     with_comment("made by hand");
     refused("b.png", "b.png: has a Comment that is no list of render's options");
     with_comment("--help");
     refused("b.png", "b.png: has a Comment that is no list of render's options");
-    with_comment("--size 60000x60000");
+    with_comment("--size 5000x5000");
     refused("b.png", "b.png: has another size than its Comment says");
     with_comment("--spp 7");
     refused("b.png", "--spp: must be");

@@ -22,7 +22,7 @@ inline const std::string ball = R"({
 /// Options that make a picture of any scene take hours.
 inline const std::vector<std::string> hours = {"--size", "4000x4000", "--spp", "65536"};
 /// The same, in tiles that take a moment.
-inline const std::vector<std::string> minutes = {"--size", "16000x16000", "--spp", "16"};
+inline const std::vector<std::string> minutes = {"--size", "4000x4000", "--spp", "256"};
 
 inline std::vector<std::string> joined(std::vector<std::string> a,
                                        const std::vector<std::string>& b) {
