@@ -68,6 +68,7 @@ class PngReading {
         png_textp first = nullptr;
         const int count = png_get_text(png_, info_, &first, nullptr);
         std::vector<std::pair<std::string, std::string>> texts;
+        texts.reserve(static_cast<std::size_t>(count));
         for (int i = 0; i < count; ++i)
             texts.emplace_back(first[i].key,
                                std::string(first[i].text, first[i].compression > 0
