@@ -5,6 +5,7 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/journal/tile_records.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/picture_texts.hpp"
 #include "scenes/tool/progress_bar.hpp"
@@ -69,6 +70,17 @@ class AsWritten {
     bool has_alpha_;
 };
 
+/// Read, and refused, before the scene.
+Image whole_picture(const std::string& name) {
+    Image image = read_image(name);
+    if (has_text(image.texts, "Part"))
+        throw BadInput(image.name, "", "is a part of a picture, to be merged first");
+    if (has_text(image.texts, "Film"))
+        throw BadInput(image.name, "",
+                       "is one of several pictures, which cannot be drawn again alone");
+    return image;
+}
+
 struct Verdict {
     std::size_t same = 0, within_a_step = 0, differing = 0;
     int x = 0, y = 0; ///< of the first that differs
@@ -83,15 +95,10 @@ class Verifier {
                                      whole_argument("--seed", *arguments.seed, 0, 2'147'483'647))
                                : std::random_device()()),
           threads_(threads_argument(arguments.threads)),
-          image_(read_image(file_argument("PICTURE", *arguments.picture))),
+          image_(whole_picture(file_argument("PICTURE", *arguments.picture))),
           render_(
               arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
           picture_(render_.picture), scene_(seen_scene()) {
-        if (has_text(image_.texts, "Part"))
-            throw BadInput(image_.name, "", "is a part of a picture, to be merged first");
-        if (has_text(image_.texts, "Film"))
-            throw BadInput(image_.name, "",
-                           "is one of several pictures, which cannot be drawn again alone");
         options_ = options_of(render_);
         options_.precision =
             precision_argument(*render_.precision).value_or(core::Precision::exact);
@@ -113,31 +120,24 @@ class Verifier {
         options.engine = simd::Engine::reference;
         options.precision = core::Precision::exact;
         options.tile = 0;
-        const int tile = simd::tile_of(settings_, options);
-        const core::Region drawn = simd::drawn_part(settings_, options.crop);
-        const int columns = (drawn.x1 - drawn.x0 + tile - 1) / tile;
-        const auto tile_number = [&](int x, int y) {
-            return (y - drawn.y0) / tile * columns + (x - drawn.x0) / tile;
-        };
-        std::unordered_set<int> wanted;
-        for (const std::size_t pixel : chosen)
-            wanted.insert(tile_number(x_of(pixel), y_of(pixel)));
+        const TileRecords tiles(settings_, options);
+        std::unordered_set<std::size_t> wanted;
+        for (const std::size_t pixel : chosen) {
+            const int x = x_of(pixel), y = y_of(pixel);
+            wanted.insert(tiles.number_of({x, y, x + 1, y + 1}));
+        }
         options.recall = [&](const simd::TileToFill& other) {
-            return !wanted.contains(tile_number(other.region.x0, other.region.y0));
+            return !wanted.contains(tiles.number_of(other.region));
         };
-        const core::Film film = draw(options).film;
-
-        return compared(film, chosen);
+        return compared(draw(options).film, chosen);
     }
 
     /// Draws all of it again, as it was drawn: true if all of its bits are those that it had, and
     /// all that the file shows is made of these.
     bool has_its_bits() {
         const core::Film film = draw(options_).film;
-        std::vector<std::size_t> all(film.pixels().size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
         return fingerprint_of(film) == text_in(image_.name, image_.texts, "Pixels") &&
-               compared(film, all).same == all.size();
+               compared(film, all_pixels()).same == film.pixels().size();
     }
 
   private:
@@ -184,14 +184,17 @@ class Verifier {
         return simd::render(scene_, settings_, options);
     }
 
+    std::vector<std::size_t> all_pixels() const {
+        std::vector<std::size_t> all(static_cast<std::size_t>(image_.width) *
+                                     static_cast<std::size_t>(image_.height));
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        return all;
+    }
     /// Different ones.
     std::vector<std::size_t> choose() const {
-        const auto all =
-            static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height);
-        std::vector<std::size_t> pixels(all);
-        for (std::size_t i = 0; i < all; ++i)
-            pixels[i] = i;
+        std::vector<std::size_t> pixels = all_pixels();
         std::mt19937_64 random(seed_);
+        const std::size_t all = pixels.size();
         const std::size_t count = std::min(all, static_cast<std::size_t>(count_));
         for (std::size_t i = 0; i < count; ++i)
             std::swap(pixels[i], pixels[i + random() % (all - i)]);

@@ -173,7 +173,7 @@ bool Journal::recall(const simd::TileToFill& tile) {
 }
 
 void Journal::note(const simd::FinishedTile& tile) {
-    if (found_ == Found::none_of_ours || found_ == Found::in_use) return;
+    if (is_left_alone()) return;
     std::string bytes;
     records_.append(tile, bytes);
     const std::string record = record_of(records_.number_of(tile.region), bytes);
@@ -251,11 +251,11 @@ void Journal::write(const std::string& bytes) {
 }
 
 bool Journal::keep() {
-    if (found_ == Found::none_of_ours || found_ == Found::in_use) return false;
+    if (is_left_alone()) return false;
     const std::lock_guard lock(mutex_);
     if (!is_ours_ && !waiting_.empty()) begin();
     if (is_ours_) static_cast<void>(::fsync(descriptor_));
-    return is_ours_ && problem_.empty();
+    return is_writable();
 }
 
 /// Somebody may have put another file in its place.

@@ -72,7 +72,8 @@ class Journal {
     void fail();
     void write(const std::string& bytes);
     void sync_now_and_then();
-    bool is_writable() const { return descriptor_ >= 0 && problem_.empty(); }
+    bool is_writable() const { return is_ours_ && problem_.empty(); }
+    bool is_left_alone() const { return found_ == Found::none_of_ours || found_ == Found::in_use; }
 
     std::filesystem::path picture_, path_;
     TileRecords records_;

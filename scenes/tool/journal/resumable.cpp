@@ -98,7 +98,7 @@ simd::Rendering ResumableRendering::draw(simd::Progress& progress) {
     };
     if (!journal_) return simd::render(scene_, settings_, options_);
     options_.after_tile = [this](const simd::FinishedTile& tile) { journal_->note(tile); };
-    std::optional<StopOnSignal> stop_on_signal(progress.stop);
+    const StopOnSignal stop_on_signal(progress.stop);
     simd::Rendering rendering = simd::render(scene_, settings_, options_);
     if (rendering.complete) {
         if (const std::string problem = journal_->problem(); !problem.empty())
