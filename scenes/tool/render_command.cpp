@@ -71,7 +71,8 @@ double samples_per_pixel(const core::Settings& settings, const simd::RenderOptio
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
                                 const core::Settings& settings, const simd::RenderOptions& options,
                                 const simd::EngineCounters& counters, const Times& times,
-                                const std::string& fingerprint, const core::Film& film) {
+                                const std::string& scene_fingerprint,
+                                const std::string& pixels_fingerprint) {
     const auto count = static_cast<double>(counters.rays());
     return {{"version", RAYLANE_VERSION},
             {"scene", printable(*arguments.scene, 4096)},
@@ -85,8 +86,8 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"samples_per_pixel", samples_per_pixel(settings, options, counters)},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
-            {"scene_fingerprint", fingerprint},
-            {"pixels_fingerprint", fingerprint_of(film)},
+            {"scene_fingerprint", scene_fingerprint},
+            {"pixels_fingerprint", pixels_fingerprint},
             {"shapes", scene.shape_count()},
             {"scene_bytes", scene.bytes()},
             {"seconds", {{"load", times.load}, {"render", times.render}, {"write", times.write}}},
@@ -167,8 +168,6 @@ int render(const RenderArguments& arguments) {
     const auto resumable = [&](const std::string& name, const core::Scene& scene,
                                const core::Settings& settings, const std::string& fingerprint) {
         return ResumableRendering(name, !arguments.no_resume, scene, fingerprint, settings, options,
-                                  " --engine " + *arguments.engine + " --precision " +
-                                      std::string(core::name_of(options.precision)),
                                   part_of_tiles, verbosity);
     };
     bool is_of_a_film = false;
@@ -182,8 +181,10 @@ int render(const RenderArguments& arguments) {
             how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +
                                                std::to_string(simd::tile_of(settings, options)));
         how.texts.emplace_back("Scene", fingerprint);
-        how.texts.emplace_back("Pixels", fingerprint_of(rendering.film));
+        std::string pixels = fingerprint_of(rendering.film);
+        how.texts.emplace_back("Pixels", pixels);
         output.commit(rendering.film, how, picture.layers ? &rendering.layers : nullptr);
+        return pixels;
     };
     if (std::optional<FilmStrip> strip =
             film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
@@ -238,13 +239,13 @@ int render(const RenderArguments& arguments) {
     }();
     times.render = stopwatch.lap();
 
-    write(output, rendering, settings, scene.settings(), fingerprint);
+    const std::string pixels = write(output, rendering, settings, scene.settings(), fingerprint);
     drawing.finished();
     times.write = stopwatch.lap();
 
     if (stats) {
         const std::string text = stats_of(arguments, scene, settings, options, rendering.counters,
-                                          times, fingerprint, rendering.film)
+                                          times, fingerprint, pixels)
                                      .dump(2) +
                                  "\n";
         stats->write(text);

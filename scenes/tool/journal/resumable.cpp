@@ -30,7 +30,6 @@ bool may_have_journal(const std::string& output) {
 ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
                                        const core::Scene& scene, const std::string& fingerprint,
                                        const core::Settings& settings, simd::RenderOptions options,
-                                       const std::string& options_text,
                                        const std::optional<PicturePart>& part, Verbosity verbosity)
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
       tiles_(settings, options_), part_(part), verbosity_(verbosity) {
@@ -39,7 +38,9 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
     TextFile settings_text([&](std::string_view piece) { text += piece; });
     write_json_settings(settings_text, settings);
     settings_text.flush();
-    text += options_text + " --tile " + std::to_string(simd::tile_of(settings, options_));
+    text += options_.engine == simd::Engine::vector ? " vector" : " reference";
+    text += " --precision " + std::string(core::name_of(options_.precision)) + " --tile " +
+            std::to_string(simd::tile_of(settings, options_));
     if (const std::optional<core::Region>& crop = options_.crop)
         for (const int edge : {crop->x0, crop->y0, crop->x1, crop->y1})
             text += " " + std::to_string(edge);

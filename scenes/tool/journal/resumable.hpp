@@ -29,8 +29,8 @@ class ResumableRendering {
     /// and so if it is not `wanted`. Says on standard error what there was.
     ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
                        const std::string& fingerprint, const core::Settings& settings,
-                       simd::RenderOptions options, const std::string& options_text,
-                       const std::optional<PicturePart>& part, Verbosity verbosity);
+                       simd::RenderOptions options, const std::optional<PicturePart>& part,
+                       Verbosity verbosity);
 
     /// Throws Stopped.
     simd::Rendering draw(simd::Progress& progress);
