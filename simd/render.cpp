@@ -5,7 +5,6 @@
 #include "core/scene/validate.hpp"
 #include "simd/layers/layers.hpp"
 #include "simd/layers/outlines.hpp"
-#include "simd/tiles.hpp"
 #include "simd/wavefront/wavefront.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -65,11 +64,10 @@ void note_samples(const Tracer& tracer, const core::Region& tile, const core::Re
 
 /// `scene`: null if nothing is made of first hits.
 template <class Tracer>
-Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
-                    const core::Settings& settings, const RenderOptions& options,
-                    const SceneData* scene) {
-    const core::Region part = drawn_part(settings, options.crop);
-    const core::Region crop = options.crop.value_or(part);
+Rendering render_by(const std::function<Tracer()>& make_tracer, const core::Settings& settings,
+                    const RenderOptions& options, const SceneData* scene) {
+    const TileGrid grid = grid_of(settings, options);
+    const core::Region part = grid.part(), crop = options.crop.value_or(part);
     Rendering rendering{core::Film(part, settings.alpha), {}, {}};
     if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
     tbb::enumerable_thread_specific<Tracer> tracers(make_tracer);
@@ -83,7 +81,7 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
     };
     tbb::enumerable_thread_specific<EngineCounters> recalled;
     std::atomic<bool> complete = true;
-    for_each_tile(part, tile, options.threads, [&](const core::Region& region) {
+    const auto draw = [&](const core::Region& region) {
         if (is_stopped()) {
             complete = false;
             return;
@@ -115,7 +113,8 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, int tile,
             tbb::this_task_arena::isolate([&] {
                 options.after_tile({region, rendering.film, rendering.layers, of_tile});
             });
-    });
+    };
+    for_each_tile(grid, options.threads, draw, options.tiles);
     rendering.complete = complete;
     for (const Tracer& tracer : tracers)
         rendering.counters += tracer.counters();
@@ -184,7 +183,6 @@ template <class Real>
 Rendering render_reference(const core::Scene& scene, const core::Settings& settings,
                            const RenderOptions& options) {
     using Tracer = core::ReferenceTracer<Real>;
-    const int tile = tile_of(settings, options);
     std::optional<SceneData> data;
     if (FirstHitPasses::are_wanted(settings, options)) data.emplace(scene);
     const SceneData* const seen = data ? &*data : nullptr;
@@ -198,10 +196,10 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
                                          options.precision);
                 return SpectralTracer<Tracer>(std::move(tracers), spectrum.shares, settings);
             },
-            tile, settings, options, seen);
+            settings, options, seen);
     }
     return render_by<Tracer>(
-        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); }, tile,
+        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); },
         settings, options, seen);
 }
 
@@ -232,8 +230,7 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
                     {std::make_unique<Wavefront>(of_one, settings, tracing, abandon_of(options))});
             return Tracer(std::move(tracers), spectrum.shares, settings);
         },
-        tile_of(settings, options), settings, options,
-        FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr);
+        settings, options, FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr);
 }
 
 void require_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
@@ -265,12 +262,15 @@ int tile_of(const core::Settings& settings, const RenderOptions& options) {
     return has_quality ? (tile + square - 1) / square * square : tile;
 }
 
+TileGrid grid_of(const core::Settings& settings, const RenderOptions& options) {
+    return {drawn_part(settings, options.crop), tile_of(settings, options)};
+}
+
 Rendering render_vector(const SceneData& scene, const core::Settings& settings,
                         const RenderOptions& options, const Tracing& tracing) {
-    const int tile = tile_of(settings, options);
     return render_by<Wavefront>(
-        [&] { return Wavefront(scene, settings, tracing, abandon_of(options)); }, tile, settings,
-        options, FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
+        [&] { return Wavefront(scene, settings, tracing, abandon_of(options)); }, settings, options,
+        FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,

@@ -6,6 +6,7 @@
 #include "core/shapes/precision.hpp"
 #include "simd/engine_counters.hpp"
 #include "simd/isa.hpp"
+#include "simd/tiles.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -64,6 +65,8 @@ struct RenderOptions {
     /// Called behind each tile that has been drawn, likewise. The film has pixels around a crop
     /// that is not made of whole squares, if there is a quality.
     std::function<void(const FinishedTile&)> after_tile;
+    /// Of grid_of this rendering: those of which the picture consists here. Null: all.
+    TileSource* tiles = nullptr;
 };
 
 struct Rendering {
@@ -78,6 +81,8 @@ core::Region drawn_part(const core::Settings& settings, const std::optional<core
 
 /// Pixels on the side of the tiles that a picture is drawn in.
 int tile_of(const core::Settings& settings, const RenderOptions& options);
+/// These tiles.
+TileGrid grid_of(const core::Settings& settings, const RenderOptions& options);
 
 /// Renders a picture of settings.width * settings.height pixels, or a part of it, with its outline;
 /// layers and outline have what the camera sees first, exactly, whatever the precision and engine,

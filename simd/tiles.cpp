@@ -1,20 +1,39 @@
 #include "simd/tiles.hpp"
 
-#include <algorithm>
-
 namespace raylane::simd {
 
-void for_each_tile(const core::Region& part, int tile_size, int threads,
-                   const std::function<void(const core::Region&)>& visit) {
-    const int columns = (part.x1 - part.x0 + tile_size - 1) / tile_size;
-    const int rows = (part.y1 - part.y0 + tile_size - 1) / tile_size;
+TileGrid::TileGrid(const core::Region& part, int size)
+    : part_(part), size_(static_cast<std::size_t>(size)),
+      columns_((static_cast<std::size_t>(part.x1 - part.x0) + size_ - 1) / size_),
+      rows_((static_cast<std::size_t>(part.y1 - part.y0) + size_ - 1) / size_) {}
+
+core::Region TileGrid::tile(std::size_t number) const {
+    const int size = static_cast<int>(size_);
+    const int x = part_.x0 + static_cast<int>(number % columns_) * size;
+    const int y = part_.y0 + static_cast<int>(number / columns_) * size;
+    return core::Region{x, y, x + size, y + size}.within(part_);
+}
+
+std::size_t TileGrid::number_of(const core::Region& tile) const {
+    return static_cast<std::size_t>(tile.y0 - part_.y0) / size_ * columns_ +
+           static_cast<std::size_t>(tile.x0 - part_.x0) / size_;
+}
+
+void for_each_tile(const TileGrid& grid, int threads,
+                   const std::function<void(const core::Region&)>& visit, TileSource* source) {
     on_threads(threads, [&] {
-        const std::size_t count = static_cast<std::size_t>(columns) * static_cast<unsigned>(rows);
-        parallel_for(count, [&](std::size_t number) {
-            const int tile = static_cast<int>(number);
-            const int x = part.x0 + tile % columns * tile_size,
-                      y = part.y0 + tile / columns * tile_size;
-            visit({x, y, std::min(x + tile_size, part.x1), std::min(y + tile_size, part.y1)});
+        if (source == nullptr)
+            return parallel_for(grid.count(),
+                                [&](std::size_t number) { visit(grid.tile(number)); });
+        const int count = threads > 0 ? threads : default_threads();
+        parallel_for(static_cast<std::size_t>(count), [&](std::size_t) {
+            try {
+                while (const std::optional<std::size_t> number = source->next())
+                    visit(grid.tile(*number));
+            } catch (...) {
+                source->cancel();
+                throw;
+            }
         });
     });
 }

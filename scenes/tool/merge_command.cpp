@@ -5,7 +5,6 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
-#include "scenes/tool/journal/tile_records.hpp"
 #include "scenes/tool/picture_texts.hpp"
 
 #include <memory>
@@ -46,8 +45,8 @@ class Merger {
         if (has_[part.number - 1])
             throw BadInput(name, "", "is part " + part.text() + " once more");
         has_[part.number - 1] = true;
-        for (std::size_t number = 0; number < tiles_->count(); ++number)
-            if (part.has(number)) copy(picture, tiles_->tile(number).within(crop_));
+        for (std::size_t number = 0; number < grid_->count(); ++number)
+            if (part.has(number)) copy(picture, grid_->tile(number).within(crop_));
     }
 
     /// The whole. Throws BadInput if it is not.
@@ -99,7 +98,7 @@ class Merger {
         if (crop_.x1 - crop_.x0 != picture.film.width() ||
             crop_.y1 - crop_.y0 != picture.film.height())
             throw BadInput(name, "", "has another size than its Comment says");
-        tiles_.emplace(settings_, options);
+        grid_.emplace(simd::grid_of(settings_, options));
         has_.assign(part_of(name, picture.texts).count, false);
         first_ = picture;
         first_name_ = name;
@@ -127,7 +126,7 @@ class Merger {
     std::string first_name_;
     core::Settings settings_;
     core::Region crop_{};
-    std::optional<TileRecords> tiles_;
+    std::optional<simd::TileGrid> grid_;
     std::vector<bool> has_;
 };
 

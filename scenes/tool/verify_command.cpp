@@ -5,7 +5,6 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
-#include "scenes/tool/journal/tile_records.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/picture_texts.hpp"
 #include "scenes/tool/progress_bar.hpp"
@@ -120,7 +119,7 @@ class Verifier {
         options.engine = simd::Engine::reference;
         options.precision = core::Precision::exact;
         options.tile = 0;
-        const TileRecords tiles(settings_, options);
+        const simd::TileGrid tiles = simd::grid_of(settings_, options);
         std::unordered_set<std::size_t> wanted;
         for (const std::size_t pixel : chosen) {
             const int x = x_of(pixel), y = y_of(pixel);

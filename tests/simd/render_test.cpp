@@ -29,7 +29,7 @@ TEST_CASE("every pixel is in one tile") {
     for (const int width : {1, 15, 16, 17, 100})
         for (const int height : {1, 16, 33}) {
             std::vector<std::atomic<int>> visits(static_cast<std::size_t>(width) * height);
-            simd::for_each_tile({0, 0, width, height}, 16, 2, [&](const Region& region) {
+            simd::for_each_tile({{0, 0, width, height}, 16}, 2, [&](const Region& region) {
                 for (int y = region.y0; y < region.y1; ++y)
                     for (int x = region.x0; x < region.x1; ++x)
                         ++visits[static_cast<std::size_t>(y) * width + x];
@@ -40,9 +40,37 @@ TEST_CASE("every pixel is in one tile") {
 }
 
 TEST_CASE("what a tile throws comes out of the loop") {
-    CHECK_THROWS_AS(simd::for_each_tile({0, 0, 100, 100}, 16, 2,
-                                        [](const Region&) { throw std::runtime_error("tile"); }),
-                    std::runtime_error);
+    const auto fail = [](const Region&) { throw std::runtime_error("tile"); };
+    CHECK_THROWS_AS(simd::for_each_tile({{0, 0, 100, 100}, 16}, 2, fail), std::runtime_error);
+}
+
+TEST_CASE("a source says which tiles are visited, and is told when there is no use in more") {
+    struct Source : simd::TileSource {
+        std::atomic<std::size_t> taken = 0;
+        std::atomic<bool> is_cancelled = false;
+        std::optional<std::size_t> next() override {
+            const std::size_t number = 2 * taken++;
+            if (number >= 49 || is_cancelled) return std::nullopt;
+            return number;
+        }
+        void cancel() override { is_cancelled = true; }
+    };
+    const simd::TileGrid grid({3, 5, 103, 105}, 16);
+    REQUIRE(grid.count() == 49);
+    for (std::size_t number = 0; number < grid.count(); ++number)
+        CHECK(grid.number_of(grid.tile(number)) == number);
+    Source source;
+    std::array<std::atomic<int>, 49> visits{};
+    simd::for_each_tile(
+        grid, 3, [&](const Region& region) { ++visits[grid.number_of(region)]; }, &source);
+    for (std::size_t number = 0; number < grid.count(); ++number)
+        CHECK(visits[number] == (number % 2 == 0 ? 1 : 0));
+    CHECK_FALSE(source.is_cancelled);
+
+    Source broken;
+    const auto fail = [](const Region&) { throw std::runtime_error("tile"); };
+    CHECK_THROWS_AS(simd::for_each_tile(grid, 3, fail, &broken), std::runtime_error);
+    CHECK(broken.is_cancelled);
 }
 
 TEST_CASE("a picture does not depend on the number of threads") {

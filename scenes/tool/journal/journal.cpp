@@ -93,7 +93,7 @@ std::string record_of(std::size_t number, std::string_view bytes) {
 Journal::Journal(const std::filesystem::path& picture, const JournalSubject& subject,
                  TileRecords records)
     : picture_(picture), path_(picture.string() + ".part"), records_(records),
-      head_(head_of(subject)), places_(records_.count(), -1) {
+      head_(head_of(subject)), places_(records_.grid().count(), -1) {
     open();
 }
 
@@ -159,12 +159,12 @@ bool Journal::read(const std::string& head) {
 std::int64_t Journal::found_pixels() const {
     std::int64_t pixels = 0;
     for (std::size_t number = 0; number < places_.size(); ++number)
-        if (places_[number] >= 0) pixels += records_.tile(number).pixels();
+        if (places_[number] >= 0) pixels += records_.grid().tile(number).pixels();
     return pixels;
 }
 
 bool Journal::recall(const simd::TileToFill& tile) {
-    const std::size_t number = records_.number_of(tile.region);
+    const std::size_t number = records_.grid().number_of(tile.region);
     if (places_[number] < 0) return false;
     const std::string bytes = read_at(descriptor_, places_[number], records_.bytes(number));
     if (bytes.size() < records_.bytes(number)) return false;
@@ -176,7 +176,7 @@ void Journal::note(const simd::FinishedTile& tile) {
     if (is_left_alone()) return;
     std::string bytes;
     records_.append(tile, bytes);
-    const std::string record = record_of(records_.number_of(tile.region), bytes);
+    const std::string record = record_of(records_.grid().number_of(tile.region), bytes);
     const auto now = std::chrono::steady_clock::now();
     const auto seconds_since = [&](auto then) {
         return std::chrono::duration<double>(now - then).count();

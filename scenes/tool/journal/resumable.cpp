@@ -32,7 +32,7 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
                                        const core::Settings& settings, simd::RenderOptions options,
                                        const std::optional<PicturePart>& part, Verbosity verbosity)
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
-      tiles_(settings, options_), part_(part), verbosity_(verbosity) {
+      grid_(simd::grid_of(settings, options_)), part_(part), verbosity_(verbosity) {
     if (!wanted || !may_have_journal(output)) return;
     std::string text;
     TextFile settings_text([&](std::string_view piece) { text += piece; });
@@ -48,8 +48,8 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
     if (part_) text += " --part " + part_->text();
     if (options_.precision != core::Precision::exact)
         text += " --isa " + std::string(simd::name_of(options_.isa));
-    journal_ =
-        std::make_unique<Journal>(output, JournalSubject{fingerprint, std::move(text)}, tiles_);
+    journal_ = std::make_unique<Journal>(output, JournalSubject{fingerprint, std::move(text)},
+                                         TileRecords(settings, options_));
     say_found();
 }
 
@@ -76,14 +76,14 @@ void ResumableRendering::say_found() const {
 }
 
 bool ResumableRendering::is_others(const core::Region& tile) const {
-    return part_ && !part_->has(tiles_.number_of(tile));
+    return part_ && !part_->has(grid_.number_of(tile));
 }
 
 /// Of what is to be drawn.
 int ResumableRendering::percent(std::int64_t pixels) const {
     std::int64_t all = 0;
-    for (std::size_t number = 0; number < tiles_.count(); ++number)
-        if (!is_others(tiles_.tile(number))) all += tiles_.tile(number).pixels();
+    for (std::size_t number = 0; number < grid_.count(); ++number)
+        if (!is_others(grid_.tile(number))) all += grid_.tile(number).pixels();
     return static_cast<int>(100 * pixels / std::max<std::int64_t>(1, all));
 }
 

@@ -48,7 +48,7 @@ class ResumableRendering {
     const core::Scene& scene_;
     core::Settings settings_;
     simd::RenderOptions options_;
-    TileRecords tiles_;
+    simd::TileGrid grid_;
     std::optional<PicturePart> part_;
     Verbosity verbosity_;
     std::unique_ptr<Journal> journal_; // null: none

@@ -70,26 +70,11 @@ constexpr std::size_t bytes_of_layers =
 } // namespace
 
 TileRecords::TileRecords(const core::Settings& settings, const simd::RenderOptions& options)
-    : part_(simd::drawn_part(settings, options.crop)), crop_(options.crop.value_or(part_)),
-      size_(static_cast<std::size_t>(simd::tile_of(settings, options))),
-      columns_((static_cast<std::size_t>(part_.x1 - part_.x0) + size_ - 1) / size_),
-      rows_((static_cast<std::size_t>(part_.y1 - part_.y0) + size_ - 1) / size_),
+    : grid_(simd::grid_of(settings, options)), crop_(options.crop.value_or(grid_.part())),
       alpha_(settings.alpha), layers_(options.layers) {}
 
-std::size_t TileRecords::number_of(const core::Region& tile) const {
-    return static_cast<std::size_t>(tile.y0 - part_.y0) / size_ * columns_ +
-           static_cast<std::size_t>(tile.x0 - part_.x0) / size_;
-}
-
-core::Region TileRecords::tile(std::size_t number) const {
-    const int size = static_cast<int>(size_);
-    const int x = part_.x0 + static_cast<int>(number % columns_) * size;
-    const int y = part_.y0 + static_cast<int>(number / columns_) * size;
-    return core::Region{x, y, x + size, y + size}.within(part_);
-}
-
 std::size_t TileRecords::bytes(std::size_t number) const {
-    const core::Region region = tile(number), part = region.within(crop_);
+    const core::Region region = grid_.tile(number), part = region.within(crop_);
     std::size_t bytes = sizeof(Counts) + static_cast<std::size_t>(region.pixels()) *
                                              (alpha_ ? 4 : 3) * sizeof(float);
     if (layers_ && part.x0 < part.x1 && part.y0 < part.y1)
