@@ -46,6 +46,7 @@ Command add_compare_command(CLI::App& app);
 Command add_convert_command(CLI::App& app);
 Command add_merge_command(CLI::App& app);
 Command add_verify_command(CLI::App& app);
+Command add_trace_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
 Command add_manual_command(CLI::App& app);
 Command add_completion_command(CLI::App& app);

@@ -34,22 +34,28 @@ class Stage {
         return is_still() && strip_.turn ? strip_.turn->count : strip_.source->count();
     }
 
+    /// True if there were any, whoever draws them.
+    bool has_any() const { return made_ > 0; }
+
     std::optional<Picture> next() {
-        if (is_still() && made_ > 0) {
-            if (made_ >= count()) return std::nullopt;
-            number_ = made_;
-        } else {
-            const std::optional<std::size_t> number = strip_.source->next();
-            if (!number) return std::nullopt;
-            number_ = *number;
+        for (;;) {
+            if (is_still() && made_ > 0) {
+                if (made_ >= count()) return std::nullopt;
+                number_ = made_;
+            } else {
+                const std::optional<std::size_t> number = strip_.source->next();
+                if (!number) return std::nullopt;
+                number_ = *number;
+            }
+            const std::size_t place = made_++;
+            const bool is_ours = place % strip_.share.of == strip_.share.number;
+            Picture picture{strip_.name(is_still() && strip_.turn ? place : number_), std::nullopt};
+            if (is_ours && is_wanted(picture.name)) picture.scene = scene(place);
+            // The others need to know what the first one is like.
+            else if (place == 0 && strip_.fit_to == FitTo::first && !is_still())
+                static_cast<void>(scene(place));
+            if (is_ours) return picture;
         }
-        const std::size_t place = made_++;
-        Picture picture{strip_.name(is_still() && strip_.turn ? place : number_), std::nullopt};
-        if (is_wanted(picture.name)) picture.scene = scene(place);
-        // The others need to know what the first one is like.
-        else if (place == 0 && strip_.fit_to == FitTo::first && !is_still())
-            static_cast<void>(scene(place));
-        return picture;
     }
 
     /// A scene that has been drawn, for the next picture to be made of if that is the same one.
@@ -163,7 +169,8 @@ class StripProgress {
 
 void draw(const FilmStrip& strip) {
     Stage stage(strip);
-    StripProgress progress(stage.count());
+    const auto [number, of] = strip.share;
+    StripProgress progress((stage.count() + of - 1 - number) / of);
     const auto start = std::chrono::steady_clock::now();
     std::size_t pictures = 0;
     {
@@ -186,7 +193,8 @@ void draw(const FilmStrip& strip) {
             picture = next.valid() ? next.get() : stage.next();
         }
     }
-    if (pictures == 0) throw BadInput("--frames", "", "must be of at least one picture, got none");
+    if (!stage.has_any())
+        throw BadInput("--frames", "", "must be of at least one picture, got none");
     const std::size_t kept = progress.kept_count();
     if (strip.verbosity == Verbosity::verbose ||
         (strip.verbosity == Verbosity::normal && is_terminal()))

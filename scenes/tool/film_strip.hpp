@@ -21,6 +21,11 @@ struct FilmStrip {
     FitTo fit_to = FitTo::first;
     std::optional<Turn> turn;
     bool overwrites = true; ///< files that are there already
+    /// Of several processes that draw them, this one's number, from 0, and how many: they take
+    /// turns.
+    struct {
+        std::size_t number = 0, of = 1;
+    } share;
     Verbosity verbosity = Verbosity::normal;
     /// What a scene's settings become.
     std::function<core::Settings(const core::Settings&)> settings;

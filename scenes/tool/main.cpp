@@ -1,10 +1,10 @@
-#include "core/shapes/invalid_value.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/failure.hpp"
 #include "scenes/tool/interrupt.hpp"
-#include "scenes/tool/journal/resumable.hpp"
+#include "scenes/tool/ranks/ranks.hpp"
 #include "scenes/tool/usage.hpp"
 
 #include <array>
@@ -12,7 +12,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <sstream>
 #include <string_view>
 #include <unistd.h>
@@ -21,10 +20,9 @@ namespace raylane::scenes {
 
 namespace {
 
-enum ExitCode { done = 0, bad_input = 2, refused = 3 };
-
 /// Each line of the message on one of its own. Takes no memory: that may be what there is none of.
-int complain(std::string_view message, ExitCode code) {
+int complain(std::string_view message, int code) {
+    if (message.empty() || first_rank_says_the_same()) return code;
     while (true) {
         const std::string_view line = message.substr(0, message.find('\n'));
         std::fprintf(stderr, "raylane: %.*s\n", static_cast<int>(line.size()), line.data());
@@ -47,11 +45,11 @@ int run(int argc, const char* const* argv) {
     app.footer("Example: raylane render scenes/birthday.json -o birthday.png\n" +
                exit_codes_text());
     app.require_subcommand(1);
-    const std::array<Command, 10> commands = {
-        add_render_command(app),    add_info_command(app),    add_compare_command(app),
-        add_convert_command(app),   add_tachyon_command(app), add_merge_command(app),
-        add_verify_command(app),    add_view_command(app),    add_manual_command(app),
-        add_completion_command(app)};
+    const std::array<Command, 11> commands = {
+        add_render_command(app),  add_info_command(app),      add_compare_command(app),
+        add_convert_command(app), add_tachyon_command(app),   add_trace_command(app),
+        add_merge_command(app),   add_verify_command(app),    add_view_command(app),
+        add_manual_command(app),  add_completion_command(app)};
     name_commands(app);
     try {
         app.parse(argc, argv);
@@ -70,20 +68,8 @@ int run(int argc, const char* const* argv) {
 
 /// Complains of the exception that is being handled, for main and the handler below.
 int complain_about_exception() {
-    try {
-        throw;
-    } catch (const BadInput& error) {
-        return complain(error.what(), bad_input);
-    } catch (const core::InvalidValue& error) {
-        return complain(error.what(), bad_input);
-    } catch (const Stopped& stopped) {
-        complain(stopped.what(), refused);
-        return 128 + stopped.signal;
-    } catch (const std::bad_alloc&) {
-        return complain("not enough memory", refused);
-    } catch (const std::exception& error) {
-        return complain(error.what(), refused);
-    }
+    const Failure failure = failure_being_handled();
+    return complain(failure.text, failure.code);
 }
 
 /// Several threads may fail at once: the first complains and ends the program, the others wait for

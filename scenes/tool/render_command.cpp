@@ -10,6 +10,7 @@
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/output_name.hpp"
 #include "scenes/tool/progress_bar.hpp"
+#include "scenes/tool/ranks/job.hpp"
 #include "scenes/tool/render_arguments.hpp"
 #include "simd/render.hpp"
 
@@ -145,9 +146,8 @@ void require_fit(const std::optional<PicturePart>& part, const PictureChoice& pi
     if (picture.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
 }
 
-int render(const RenderArguments& arguments) {
+int render(RenderArguments arguments) {
     const Overrides overrides(arguments);
-    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
     PictureChoice picture(arguments.picture);
@@ -161,16 +161,23 @@ int render(const RenderArguments& arguments) {
         return settings;
     };
     const Files files(arguments);
+    static_cast<void>(arguments.scene_arguments.verbosity.verbosity());
+
+    Job job;
+    if (!job.is_first()) arguments.scene_arguments.verbosity = {.quiet = true, .verbose = false};
+    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
+    if (!arguments.threads) options.threads = job.share_of_threads(options.threads);
     const auto prepare = [&](const core::Scene& scene, const core::Settings& settings) {
         picture.apply_to(options, settings);
         options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     };
+    bool is_of_a_film = false;
     const auto resumable = [&](const std::string& name, const core::Scene& scene,
                                const core::Settings& settings, const std::string& fingerprint) {
-        return ResumableRendering(name, !arguments.no_resume, scene, fingerprint, settings, options,
+        const bool is_resumable = !arguments.no_resume && (is_of_a_film || job.is_first());
+        return ResumableRendering(name, is_resumable, scene, fingerprint, settings, options,
                                   part_of_tiles, verbosity);
     };
-    bool is_of_a_film = false;
     const auto write = [&](OutputFile& output, const simd::Rendering& rendering,
                            const core::Settings& settings, const core::Settings& own,
                            const std::string& fingerprint) {
@@ -186,17 +193,20 @@ int render(const RenderArguments& arguments) {
         output.commit(rendering.film, how, picture.layers ? &rendering.layers : nullptr);
         return pixels;
     };
-    if (std::optional<FilmStrip> strip =
-            film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
-                          arguments.output, options.threads)) {
+    std::optional<FilmStrip> strip;
+    job.together([&] {
+        strip = film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
+                              arguments.output, options.threads);
+        if (!strip) return;
         if (files.stats)
             throw BadInput("--stats", "", "goes without --frames, --turn and several values");
-        {
-            const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
-            require_fit(part_of_tiles, picture, writable.format());
-            picture.require_fit(writable.format());
-        }
+        const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
+        require_fit(part_of_tiles, picture, writable.format());
+        picture.require_fit(writable.format());
+    });
+    if (strip) {
         is_of_a_film = true;
+        strip->share = {static_cast<std::size_t>(job.rank()), static_cast<std::size_t>(job.size())};
         strip->settings = settings_of;
         strip->draw = [&](const core::Scene& scene, const std::string& name,
                           simd::Progress& progress) {
@@ -209,37 +219,47 @@ int render(const RenderArguments& arguments) {
             drawing.finished();
             drawing.end_if_signalled();
         };
-        draw(*strip);
+        job.together([&] { draw(*strip); });
         return 0;
     }
-    OutputFile output(files.output, exr_of);
-    require_fit(part_of_tiles, picture, output.format());
-    picture.require_fit(output.format());
+    std::optional<OutputFile> output;
     std::optional<AtomicFile> stats;
-    if (files.stats) stats.emplace(*files.stats);
-
+    std::optional<core::Scene> loaded;
+    std::string fingerprint;
+    core::Settings settings;
     Stopwatch stopwatch;
-    core::Scene loaded = load_with_progress(files.scene, load_options, verbosity, options.threads);
-    const core::Settings settings = settings_of(loaded.settings());
-    const core::Scene scene = seen(std::move(loaded), change, settings);
-    prepare(scene, settings);
+    job.together([&] {
+        if (job.is_first()) {
+            output.emplace(files.output, exr_of);
+            require_fit(part_of_tiles, picture, output->format());
+            picture.require_fit(output->format());
+            if (files.stats) stats.emplace(*files.stats);
+        }
+        loaded = load_with_progress(files.scene, load_options, verbosity, options.threads);
+        settings = settings_of(loaded->settings());
+        loaded = seen(*std::move(loaded), change, settings);
+        prepare(*loaded, settings);
+        fingerprint = fingerprint_of(*loaded);
+    });
+    const core::Scene& scene = *loaded;
+    job.require_same(fingerprint + text_of(arguments, options, settings), "the scene");
     const core::Region part =
         options.crop.value_or(core::Region{0, 0, settings.width, settings.height});
-    output.reserve(part.x1 - part.x0, part.y1 - part.y0);
+    if (output) output->reserve(part.x1 - part.x0, part.y1 - part.y0);
     Times times{};
     times.load = stopwatch.lap();
 
     simd::Progress progress;
-    const std::string fingerprint = fingerprint_of(scene);
     ResumableRendering drawing = resumable(files.output, scene, settings, fingerprint);
     const simd::Rendering rendering = [&] {
         const ProgressBar bar(verbosity, progress,
                               simd::drawn_part(settings, options.crop).pixels());
-        return drawing.draw(progress);
+        return drawing.draw(progress, &job);
     }();
+    if (!job.is_first()) return 0;
     times.render = stopwatch.lap();
 
-    const std::string pixels = write(output, rendering, settings, scene.settings(), fingerprint);
+    const std::string pixels = write(*output, rendering, settings, scene.settings(), fingerprint);
     drawing.finished();
     times.write = stopwatch.lap();
 

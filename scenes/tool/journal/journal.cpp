@@ -176,7 +176,12 @@ void Journal::note(const simd::FinishedTile& tile) {
     if (is_left_alone()) return;
     std::string bytes;
     records_.append(tile, bytes);
-    const std::string record = record_of(records_.grid().number_of(tile.region), bytes);
+    note(records_.grid().number_of(tile.region), bytes);
+}
+
+void Journal::note(std::size_t number, std::string_view bytes) {
+    if (is_left_alone()) return;
+    const std::string record = record_of(number, bytes);
     const auto now = std::chrono::steady_clock::now();
     const auto seconds_since = [&](auto then) {
         return std::chrono::duration<double>(now - then).count();

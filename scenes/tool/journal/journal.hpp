@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace raylane::scenes {
@@ -52,9 +53,14 @@ class Journal {
     /// Pixels of the tiles that were found.
     std::int64_t found_pixels() const;
 
+    /// True if a tile was found.
+    bool has(std::size_t number) const { return places_[number] >= 0; }
+
     /// For simd::RenderOptions: by several threads.
     bool recall(const simd::TileToFill& tile);
     void note(const simd::FinishedTile& tile);
+    /// The same of a tile of which the bytes are there.
+    void note(std::size_t number, std::string_view bytes);
 
     /// Writes what is not written yet, for the drawing ends before its time. False if it could not.
     bool keep();

@@ -3,9 +3,11 @@
 #include "scenes/errors.hpp"
 #include "scenes/export/writers.hpp"
 #include "scenes/tool/interrupt.hpp"
+#include "scenes/tool/ranks/ranked_tiles.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -75,24 +77,39 @@ void ResumableRendering::say_found() const {
     }
 }
 
-bool ResumableRendering::is_others(const core::Region& tile) const {
-    return part_ && !part_->has(grid_.number_of(tile));
+bool ResumableRendering::is_others(std::size_t tile) const {
+    return part_ && !part_->has(tile);
+}
+
+std::int64_t ResumableRendering::pixels_of_others() const {
+    std::int64_t pixels = 0;
+    for (std::size_t number = 0; number < grid_.count(); ++number)
+        if (is_others(number)) pixels += grid_.tile(number).pixels();
+    return pixels;
 }
 
 /// Of what is to be drawn.
 int ResumableRendering::percent(std::int64_t pixels) const {
-    std::int64_t all = 0;
-    for (std::size_t number = 0; number < grid_.count(); ++number)
-        if (!is_others(grid_.tile(number))) all += grid_.tile(number).pixels();
+    const std::int64_t all = grid_.part().pixels() - pixels_of_others();
     return static_cast<int>(100 * pixels / std::max<std::int64_t>(1, all));
 }
 
-simd::Rendering ResumableRendering::draw(simd::Progress& progress) {
+simd::Rendering ResumableRendering::draw(simd::Progress& progress, Job* job) {
     options_.progress = &progress;
-    std::atomic<std::int64_t> pixels_of_others = 0;
+    const bool is_shared = job != nullptr && job->ranks() != nullptr;
+    simd::Rendering rendering = is_shared ? draw_among(*job, progress) : draw_alone(progress);
+    if (!rendering.complete) stopped();
+    if (!journal_) return rendering;
+    if (const std::string problem = journal_->problem(); !problem.empty())
+        std::fprintf(stderr, "raylane: %s\n", problem.c_str());
+    return rendering;
+}
+
+simd::Rendering ResumableRendering::draw_alone(simd::Progress& progress) {
+    std::atomic<std::int64_t> left_out = 0;
     options_.recall = [&](const simd::TileToFill& tile) {
-        if (is_others(tile.region)) {
-            pixels_of_others += tile.region.pixels();
+        if (is_others(grid_.number_of(tile.region))) {
+            left_out += tile.region.pixels();
             return true; // it stays black
         }
         return journal_ && journal_->recall(tile);
@@ -101,18 +118,54 @@ simd::Rendering ResumableRendering::draw(simd::Progress& progress) {
     options_.after_tile = [this](const simd::FinishedTile& tile) { journal_->note(tile); };
     const StopOnSignal stop_on_signal(progress.stop);
     simd::Rendering rendering = simd::render(scene_, settings_, options_);
-    if (rendering.complete) {
-        if (const std::string problem = journal_->problem(); !problem.empty())
-            std::fprintf(stderr, "raylane: %s\n", problem.c_str());
-        return rendering;
+    drawn_ = progress.pixels - left_out;
+    return rendering;
+}
+
+simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progress) {
+    RankedTiles::Tiles tiles;
+    for (std::size_t number = 0; job.is_first() && number < grid_.count(); ++number)
+        if (!is_others(number))
+            (journal_ && journal_->has(number) ? tiles.to_visit : tiles.to_draw)
+                .push_back(static_cast<std::uint32_t>(number));
+    progress.pixels = pixels_of_others();
+    const StopOnSignal stop_on_signal(progress.stop);
+    const TileRecords records(settings_, options_);
+    RankedTiles ranked(*job.ranks(), std::move(tiles), records, options_.threads, progress.stop);
+    options_.tiles = &ranked;
+    options_.recall = [&](const simd::TileToFill& tile) {
+        if (!ranked.recall(tile)) return journal_ && journal_->recall(tile);
+        progress.rays += tile.counters.rays();
+        if (journal_) journal_->note({tile.region, tile.film, tile.layers, tile.counters});
+        return true;
+    };
+    options_.after_tile = [&](const simd::FinishedTile& tile) {
+        ranked.note(tile);
+        if (journal_) journal_->note(tile);
+    };
+    simd::Rendering rendering = simd::render(scene_, settings_, options_);
+    for (const auto& [number, bytes] : ranked.finish()) {
+        if (journal_) journal_->note(number, bytes);
+        progress.pixels += grid_.tile(number).pixels();
+        rendering.complete = false;
     }
-    const std::int64_t drawn = progress.pixels - pixels_of_others;
-    const std::string done = "stopped at " + std::to_string(percent(drawn)) + " %";
-    throw Stopped(StopOnSignal::signal(),
-                  journal_->keep() ? done + "; the same command goes on with " +
-                                         printable(journal_->path().string(), 4096)
-                  : journal_->problem().empty() ? done + ", without a journal to go on with"
-                                                : done + "; " + journal_->problem());
+    drawn_ = progress.pixels - pixels_of_others();
+    job.part();
+    if (job.is_first())
+        rendering.complete = rendering.complete && progress.pixels == grid_.part().pixels();
+    else if (StopOnSignal::signal() != 0)
+        throw RankFailed(128 + StopOnSignal::signal(), "");
+    return rendering;
+}
+
+void ResumableRendering::stopped() const {
+    const std::string done = "stopped at " + std::to_string(percent(drawn_)) + " %";
+    const int signal = StopOnSignal::signal() != 0 ? StopOnSignal::signal() : SIGTERM;
+    if (!journal_) throw Stopped(signal, done);
+    throw Stopped(signal, journal_->keep() ? done + "; the same command goes on with " +
+                                                 printable(journal_->path().string(), 4096)
+                          : journal_->problem().empty() ? done + ", without a journal to go on with"
+                                                        : done + "; " + journal_->problem());
 }
 
 void ResumableRendering::finished() {

@@ -2,6 +2,7 @@
 
 #include "scenes/tool/journal/journal.hpp"
 #include "scenes/tool/picture_part.hpp"
+#include "scenes/tool/ranks/job.hpp"
 #include "scenes/tool/verbosity.hpp"
 #include "simd/render.hpp"
 
@@ -32,8 +33,9 @@ class ResumableRendering {
                        simd::RenderOptions options, const std::optional<PicturePart>& part,
                        Verbosity verbosity);
 
-    /// Throws Stopped.
-    simd::Rendering draw(simd::Progress& progress);
+    /// Throws Stopped. With a job of several ranks, together, which part then: rank 0 has the
+    /// picture.
+    simd::Rendering draw(simd::Progress& progress, Job* job = nullptr);
     /// The picture has been written.
     void finished();
     /// Behind that: throws Stopped if a signal has come while the last tiles were drawn.
@@ -41,7 +43,11 @@ class ResumableRendering {
 
   private:
     void say_found() const;
-    bool is_others(const core::Region& tile) const;
+    bool is_others(std::size_t tile) const;
+    simd::Rendering draw_alone(simd::Progress& progress);
+    simd::Rendering draw_among(Job& job, simd::Progress& progress);
+    [[noreturn]] void stopped() const;
+    std::int64_t pixels_of_others() const;
     int percent(std::int64_t pixels) const;
 
     std::string output_;
@@ -52,6 +58,7 @@ class ResumableRendering {
     std::optional<PicturePart> part_;
     Verbosity verbosity_;
     std::unique_ptr<Journal> journal_; // null: none
+    std::int64_t drawn_ = 0;           // pixels, with those that were found
 };
 
 } // namespace raylane::scenes

@@ -1,0 +1,68 @@
+#!/bin/sh
+# Draws a picture, or the frames of a film, by an array of jobs of Slurm's, on hosts that see the same
+# folder:
+#
+#   slurm.sh N SCENE OUTPUT [OPTIONS...]            one picture in N parts, put together at the end
+#   slurm.sh N --frames SCENE OUT-%05d.png [OPTIONS...]  frames, every N-th by each job
+#
+# OPTIONS are render's; those of sbatch come by its own variables, such as SBATCH_PARTITION,
+# SBATCH_TIMELIMIT. A job that Slurm is about to end, or that a host's failure has ended, begins again
+# where it was. RAYLANE names the program if it is not in PATH. Prints the number of the last job.
+set -eu
+
+raylane=${RAYLANE:-raylane}
+
+# In an array's job: what it draws, and once more if that was ended before it was done.
+if [ -n "${SLURM_ARRAY_TASK_ID:-}" ] && [ -n "${RAYLANE_FARM:-}" ]; then
+    count=$1 what=$2 scene=$3 output=$4
+    shift 4
+    if [ "$what" = frames ]; then
+        set -- --frames "$((SLURM_ARRAY_TASK_ID - 1))::$count" -o "$output" "$@"
+    else
+        set -- --part "$SLURM_ARRAY_TASK_ID/$count" -o "$output.parts/$SLURM_ARRAY_TASK_ID.exr" "$@"
+    fi
+    code=0
+    srun --ntasks=1 --kill-on-bad-exit=0 "$raylane" render "$scene" "$@" || code=$?
+    if [ "$code" -eq 143 ]; then # SIGTERM
+        scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
+    fi
+    exit "$code"
+fi
+
+# Behind all parts.
+if [ "${RAYLANE_FARM:-}" = merge ]; then
+    "$raylane" merge "$2".parts/*.exr -o "$2"
+    rm -r "$2.parts"
+    exit
+fi
+
+usage() {
+    sed -n '2,11s/^# \{0,1\}//p' "$0" >&2
+    exit 2
+}
+[ $# -ge 3 ] || usage
+case $1 in
+'' | *[!0-9]* | 0*) usage ;;
+esac
+count=$1
+shift
+what=parts
+if [ "$1" = --frames ]; then
+    what=frames
+    shift
+fi
+[ $# -ge 2 ] || usage
+scene=$1 output=$2
+shift 2
+[ "$what" = frames ] || mkdir -p "$output.parts"
+submit() {
+    sbatch --parsable --job-name="raylane $output" --output=/dev/null --error="$output.%j.log" "$@"
+}
+jobs=$(RAYLANE_FARM=draw RAYLANE=$raylane submit --array="1-$count" --requeue --signal=TERM@60 \
+    --open-mode=append "$0" "$count" "$what" "$scene" "$output" "$@")
+[ "$what" = parts ] || {
+    echo "${jobs%%;*}"
+    exit
+}
+last=$(RAYLANE_FARM=merge RAYLANE=$raylane submit --dependency="afterok:${jobs%%;*}" "$0" merge "$output")
+echo "${last%%;*}"

@@ -1,0 +1,99 @@
+#include "scenes/tool/ranks/job.hpp"
+
+#include "scenes/tool/failure.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace raylane::scenes {
+
+namespace {
+
+std::string host_name() {
+    char name[256] = "";
+    static_cast<void>(::gethostname(name, sizeof name - 1));
+    return name;
+}
+
+/// Without a processor for it, unlike MPI itself.
+void wait_for_all(Ranks& ranks) {
+    while (!ranks.all_are_here())
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+std::vector<std::string> gathered(Ranks& ranks, const std::string& text) {
+    wait_for_all(ranks);
+    const char* all = nullptr;
+    const std::size_t* counts = nullptr;
+    ranks.gather(text.data(), text.size(), all, counts);
+    std::vector<std::string> texts;
+    for (int rank = 0; rank < ranks.size(); ++rank) {
+        texts.emplace_back(all, counts[rank]);
+        all += counts[rank];
+    }
+    return texts;
+}
+
+} // namespace
+
+Job::Job() : ranks_(join_ranks()) {
+    if (!ranks_) return;
+    rank_ = ranks_->rank();
+    size_ = ranks_->size();
+}
+
+Job::~Job() {
+    // The others know nothing of it, and would be waited for; the process's end will be their own.
+    if (std::uncaught_exceptions() > exceptions_ && !fails_together_)
+        static_cast<void>(ranks_.release());
+    part();
+}
+
+void Job::part() {
+    if (!ranks_) return;
+    wait_for_all(*ranks_);
+    ranks_.reset();
+}
+
+void Job::together(const std::function<void()>& work) {
+    if (!ranks_) return work();
+    std::exception_ptr own;
+    std::string report;
+    try {
+        work();
+    } catch (...) {
+        own = std::current_exception();
+        const Failure failure = failure_being_handled();
+        report = static_cast<char>(failure.code);
+        report += failure.text;
+        if (!is_first()) report += " (rank " + std::to_string(rank()) + ", " + host_name() + ")";
+    }
+    const std::vector<std::string> reports = gathered(*ranks_, report);
+    const auto failed = std::find_if(reports.begin(), reports.end(),
+                                     [](const std::string& text) { return !text.empty(); });
+    if (failed == reports.end()) return;
+    fails_together_ = true;
+    if (is_first() && own) std::rethrow_exception(own);
+    const int code = static_cast<unsigned char>(failed->front());
+    throw RankFailed(code, is_first() ? failed->substr(1) : "");
+}
+
+void Job::require_same(const std::string& text, const std::string& what) {
+    if (!ranks_) return;
+    const std::vector<std::string> texts = gathered(*ranks_, text);
+    together([&] {
+        if (text != texts.front()) throw RankFailed(3, what + " is another one than rank 0's");
+    });
+}
+
+int Job::share_of_threads(int threads) const {
+    const bool is_bound = threads < static_cast<int>(std::thread::hardware_concurrency());
+    if (!ranks_ || is_bound) return threads;
+    return std::max(1, threads / ranks_->size_of_host());
+}
+
+} // namespace raylane::scenes

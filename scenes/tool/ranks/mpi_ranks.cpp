@@ -1,0 +1,157 @@
+#include "scenes/tool/ranks/ranks.hpp"
+
+// Its C++ bindings have been withdrawn.
+#define OMPI_SKIP_MPICXX 1
+#define MPICH_SKIP_MPICXX 1
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <mpi.h>
+#include <numeric>
+#include <vector>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// Counts of MPI are ints: longer messages are sent in pieces of this many bytes.
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+
+class MpiRanks : public Ranks {
+  public:
+    MpiRanks() {
+        MPI_Comm_dup(MPI_COMM_WORLD, &all_);
+        MPI_Comm_rank(all_, &rank_);
+        MPI_Comm_size(all_, &size_);
+        MPI_Comm host;
+        MPI_Comm_split_type(all_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &host);
+        MPI_Comm_rank(host, &rank_on_host_);
+        MPI_Comm_size(host, &size_of_host_);
+        MPI_Comm_free(&host);
+        MPI_Win_allocate(rank_ == 0 ? sizeof *counter_ : 0, sizeof *counter_, MPI_INFO_NULL, all_,
+                         static_cast<void*>(&counter_), &window_);
+        MPI_Win_lock_all(0, window_);
+    }
+
+    ~MpiRanks() override {
+        MPI_Win_unlock_all(window_);
+        MPI_Win_free(&window_);
+        MPI_Comm_free(&all_);
+        MPI_Finalize();
+    }
+
+    int rank() const override { return rank_; }
+    int size() const override { return size_; }
+    int rank_on_host() const override { return rank_on_host_; }
+    int size_of_host() const override { return size_of_host_; }
+
+    void gather(const void* bytes, std::size_t count, const char*& all,
+                const std::size_t*& counts) override {
+        std::vector<int> lengths(static_cast<std::size_t>(size_));
+        const int length = static_cast<int>(count);
+        MPI_Allgather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, all_);
+        std::vector<int> places(lengths.size());
+        std::exclusive_scan(lengths.begin(), lengths.end(), places.begin(), 0);
+        gathered_.resize(static_cast<std::size_t>(places.back()) +
+                         static_cast<std::size_t>(lengths.back()));
+        MPI_Allgatherv(bytes, length, MPI_BYTE, gathered_.data(), lengths.data(), places.data(),
+                       MPI_BYTE, all_);
+        counts_.assign(lengths.begin(), lengths.end());
+        all = gathered_.data();
+        counts = counts_.data();
+    }
+
+    void broadcast(void* bytes, std::size_t count) override {
+        auto* at = static_cast<char*>(bytes);
+        while (count > 0) {
+            const std::size_t piece = std::min(count, most_bytes);
+            MPI_Bcast(at, static_cast<int>(piece), MPI_BYTE, 0, all_);
+            at += piece;
+            count -= piece;
+        }
+    }
+
+    bool all_are_here() override {
+        if (!waits_) MPI_Ibarrier(all_, &barrier_);
+        int done = 0;
+        MPI_Test(&barrier_, &done, MPI_STATUS_IGNORE);
+        waits_ = done == 0;
+        return !waits_;
+    }
+
+    void reset_counter() override {
+        MPI_Barrier(all_);
+        if (rank_ == 0) {
+            const std::uint64_t zero = 0;
+            std::uint64_t before = 0;
+            MPI_Fetch_and_op(&zero, &before, MPI_UINT64_T, 0, 0, MPI_REPLACE, window_);
+            MPI_Win_flush(0, window_);
+        }
+        MPI_Barrier(all_);
+    }
+
+    std::uint64_t add_to_counter(std::uint64_t count) override {
+        std::uint64_t before = 0;
+        MPI_Fetch_and_op(&count, &before, MPI_UINT64_T, 0, 0, MPI_SUM, window_);
+        MPI_Win_flush(0, window_);
+        return before;
+    }
+
+    void send(const void* bytes, std::size_t count) override {
+        const auto* at = static_cast<const char*>(bytes);
+        MPI_Isend(at, static_cast<int>(count), MPI_BYTE, 0, tag, all_, &sending_);
+    }
+
+    bool sent() override {
+        int done = 0;
+        MPI_Test(&sending_, &done, MPI_STATUS_IGNORE);
+        return done != 0;
+    }
+
+    bool has_message(std::size_t& count) override {
+        int is_there = 0;
+        MPI_Status status;
+        MPI_Improbe(MPI_ANY_SOURCE, tag, all_, &is_there, &message_, &status);
+        if (is_there == 0) return false;
+        MPI_Get_count(&status, MPI_BYTE, &length_);
+        count = static_cast<std::size_t>(length_);
+        return true;
+    }
+
+    void receive(void* bytes) override {
+        MPI_Mrecv(bytes, length_, MPI_BYTE, &message_, MPI_STATUS_IGNORE);
+    }
+
+    [[noreturn]] void abort(int code) override {
+        MPI_Abort(all_, code);
+        std::_Exit(code);
+    }
+
+  private:
+    static constexpr int tag = 1;
+
+    MPI_Comm all_ = MPI_COMM_NULL;
+    int rank_ = 0, size_ = 1, rank_on_host_ = 0, size_of_host_ = 1;
+    MPI_Win window_ = MPI_WIN_NULL;
+    std::uint64_t* counter_ = nullptr; // at rank 0
+    MPI_Request barrier_ = MPI_REQUEST_NULL, sending_ = MPI_REQUEST_NULL;
+    bool waits_ = false;
+    MPI_Message message_ = MPI_MESSAGE_NULL;
+    int length_ = 0;
+    std::vector<char> gathered_;
+    std::vector<std::size_t> counts_;
+};
+
+} // namespace
+
+extern "C" [[gnu::visibility("default")]] Ranks* raylane_join_ranks(const char** why) {
+    int provided = MPI_THREAD_SINGLE;
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
+        provided < MPI_THREAD_SERIALIZED) {
+        *why = "this MPI cannot be called by several threads in turn";
+        return nullptr;
+    }
+    return new MpiRanks;
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,69 @@
+#include "scenes/tool/ranks/ranked_tiles.hpp"
+
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// All together: rank 0's.
+std::vector<std::uint32_t> shared(Ranks& ranks, std::vector<std::uint32_t> numbers) {
+    std::uint64_t count = numbers.size();
+    ranks.broadcast(&count, sizeof count);
+    numbers.resize(count);
+    ranks.broadcast(numbers.data(), count * sizeof(std::uint32_t));
+    return numbers;
+}
+
+} // namespace
+
+RankedTiles::RankedTiles(Ranks& ranks, Tiles tiles, const TileRecords& records, int threads,
+                         std::atomic<bool>& stop)
+    : ranks_(ranks), tiles_{shared(ranks, std::move(tiles.to_draw)), std::move(tiles.to_visit)},
+      records_(records), work_(ranks, tiles_.to_draw.size(), threads, stop) {}
+
+std::optional<std::size_t> RankedTiles::next() {
+    if (ranks_.rank() == 0) {
+        const std::lock_guard lock(mutex_);
+        if (visited_ < tiles_.to_visit.size()) return tiles_.to_visit[visited_++];
+    }
+    std::optional<SharedWork::Piece> piece = work_.next();
+    if (!piece) return std::nullopt;
+    const std::size_t tile = tiles_.to_draw[piece->number];
+    const std::lock_guard lock(mutex_);
+    if (piece->is_done)
+        drawn_elsewhere_.emplace(tile, std::move(piece->bytes));
+    else if (ranks_.rank() != 0)
+        pieces_.emplace(tile, piece->number);
+    return tile;
+}
+
+bool RankedTiles::recall(const simd::TileToFill& tile) {
+    std::unique_lock lock(mutex_);
+    auto found = drawn_elsewhere_.extract(records_.grid().number_of(tile.region));
+    lock.unlock();
+    if (found.empty()) return false;
+    records_.fill(tile, found.mapped());
+    return true;
+}
+
+void RankedTiles::note(const simd::FinishedTile& tile) {
+    if (ranks_.rank() == 0) return;
+    std::unique_lock lock(mutex_);
+    const auto piece = pieces_.extract(records_.grid().number_of(tile.region));
+    lock.unlock();
+    std::string bytes;
+    records_.append(tile, bytes);
+    work_.done(piece.mapped(), bytes);
+}
+
+std::vector<std::pair<std::size_t, std::string>> RankedTiles::finish() {
+    std::vector<std::pair<std::size_t, std::string>> late;
+    for (SharedWork::Piece& piece : work_.finish())
+        late.emplace_back(tiles_.to_draw[piece.number], std::move(piece.bytes));
+    for (auto& [tile, bytes] : drawn_elsewhere_)
+        late.emplace_back(tile, std::move(bytes));
+    return late;
+}
+
+} // namespace raylane::scenes

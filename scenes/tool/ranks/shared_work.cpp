@@ -1,0 +1,222 @@
+#include "scenes/tool/ranks/shared_work.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+using std::chrono_literals::operator""us;
+using std::chrono_literals::operator""ms;
+
+/// Before the bytes of a piece in a message. Pieces with these numbers have none: the ranks are to
+/// stop; this rank has sent all.
+struct PieceHead {
+    std::uint64_t number;
+    std::uint64_t bytes;
+};
+constexpr std::uint64_t stop_number = ~std::uint64_t{0}, end_number = stop_number - 1;
+constexpr std::uint64_t beyond_all = std::uint64_t{1} << 60;
+
+/// A message gets no more pieces.
+constexpr std::size_t long_message = std::size_t{1} << 24;
+
+constexpr double seconds_at_once = 0.1;
+
+std::string piece_of(std::uint64_t number, std::string_view bytes) {
+    const PieceHead head{number, bytes.size()};
+    std::string piece(reinterpret_cast<const char*>(&head), sizeof head);
+    return piece += bytes;
+}
+
+double seconds(std::chrono::steady_clock::duration duration) {
+    return std::chrono::duration<double>(duration).count();
+}
+
+} // namespace
+
+SharedWork::SharedWork(Ranks& ranks, std::size_t count, int threads, std::atomic<bool>& stop)
+    : ranks_(ranks), count_(count), threads_(threads), stop_(stop),
+      // Where hosts share no memory, the counter waits for rank 0 to look.
+      pause_(ranks.size_of_host() == ranks.size() ? Clock::duration(1ms) : Clock::duration(100us)) {
+    ranks_.reset_counter();
+    thread_ = std::thread([this] { run(); });
+}
+
+SharedWork::~SharedWork() {
+    cancel();
+    if (thread_.joinable()) thread_.join();
+}
+
+std::optional<SharedWork::Piece> SharedWork::next() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        if (is_over_ || stop_) return std::nullopt;
+        if (!received_.empty()) {
+            Piece piece = std::move(received_.front());
+            received_.pop_front();
+            return piece;
+        }
+        if (!taken_.empty()) {
+            const std::size_t number = taken_.front();
+            taken_.pop_front();
+            ++begun_;
+            if (is_short()) wake_.notify_one();
+            return Piece{number, false, {}};
+        }
+        if (is_exhausted() && (!is_first() || here_ + there_ == count_)) {
+            more_.notify_all(); // nobody else has a reason to wait
+            return std::nullopt;
+        }
+        ++waiting_;
+        wake_.notify_one();
+        more_.wait_for(lock, 50ms); // by then somebody may have set stop_
+        --waiting_;
+    }
+}
+
+void SharedWork::done(std::size_t number, std::string_view bytes) {
+    if (is_first()) return;
+    std::string piece = piece_of(number, bytes);
+    const std::lock_guard lock(mutex_);
+    outbox_.push_back(std::move(piece));
+    wake_.notify_one();
+}
+
+void SharedWork::cancel() {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+    more_.notify_all();
+    wake_.notify_one();
+}
+
+std::deque<SharedWork::Piece> SharedWork::finish() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_finishing_ = true;
+        wake_.notify_one();
+    }
+    thread_.join();
+    return std::move(received_);
+}
+
+double SharedWork::pieces_per_second() const {
+    return static_cast<double>(begun_) / std::max(1e-6, seconds(Clock::now() - start_));
+}
+
+/// True if more pieces are to be asked for.
+bool SharedWork::is_short() const {
+    if (is_exhausted() || stop_) return false;
+    if (waiting_ > 0 && taken_.empty()) return true;
+    return static_cast<double>(taken_.size()) < 2.0 * latency_ * pieces_per_second();
+}
+
+std::size_t SharedWork::chunk() const {
+    if (begun_ == 0) return static_cast<std::size_t>(threads_);
+    const std::size_t fair = (count_ - counter_) / (8 * static_cast<std::size_t>(ranks_.size()));
+    const double soon = pieces_per_second() * seconds_at_once;
+    const std::size_t least = std::max<std::size_t>(
+        1, static_cast<std::size_t>(std::ceil(latency_ * pieces_per_second())));
+    return std::max(least, std::min(fair, static_cast<std::size_t>(soon)));
+}
+
+void SharedWork::take(std::unique_lock<std::mutex>& lock) {
+    const std::size_t wanted = chunk();
+    lock.unlock();
+    const Clock::time_point before = Clock::now();
+    const std::uint64_t first = ranks_.add_to_counter(wanted);
+    const double latency = seconds(Clock::now() - before);
+    lock.lock();
+    latency_ = latency_ == 0.0 ? latency : 0.75 * latency_ + 0.25 * latency;
+    const std::size_t end = std::min<std::uint64_t>(count_, first + wanted);
+    for (std::size_t number = first; number < end; ++number) {
+        taken_.push_back(number);
+        ++here_;
+    }
+    counter_ = std::max<std::size_t>(counter_, std::min<std::uint64_t>(count_, first + wanted));
+    more_.notify_all();
+}
+
+/// At rank 0: true if something has come.
+bool SharedWork::receive() {
+    std::size_t bytes = 0;
+    if (!ranks_.has_message(bytes)) return false;
+    std::string message(bytes, '\0');
+    ranks_.receive(message.data());
+    const std::lock_guard lock(mutex_);
+    for (std::size_t at = 0; at < message.size();) {
+        PieceHead head{};
+        std::memcpy(&head, message.data() + at, sizeof head);
+        at += sizeof head;
+        if (head.number == stop_number) {
+            stop_ = true;
+        } else if (head.number == end_number) {
+            ++ended_;
+        } else {
+            received_.push_back({head.number, true, message.substr(at, head.bytes)});
+            ++there_;
+        }
+        at += head.bytes;
+    }
+    more_.notify_all();
+    return true;
+}
+
+/// True if there is something that is not sent yet.
+bool SharedWork::send(std::unique_lock<std::mutex>& lock) {
+    if (is_sending_) {
+        lock.unlock();
+        is_sending_ = !ranks_.sent();
+        lock.lock();
+    }
+    if (is_sending_) return true;
+    if (outbox_.empty() && is_finishing_ && !std::exchange(has_ended_, true))
+        outbox_.push_back(piece_of(end_number, {}));
+    if (outbox_.empty()) return false;
+    for (sending_.clear(); !outbox_.empty() && sending_.size() < long_message; outbox_.pop_front())
+        sending_ += outbox_.front();
+    is_sending_ = true;
+    lock.unlock();
+    ranks_.send(sending_.data(), sending_.size());
+    lock.lock();
+    return true;
+}
+
+/// What has been told to one rank is told to all: by rank 0, which leaves no pieces.
+void SharedWork::spread_stop(std::unique_lock<std::mutex>& lock) {
+    has_spread_ = true;
+    if (!is_first()) return outbox_.push_back(piece_of(stop_number, {}));
+    lock.unlock();
+    ranks_.add_to_counter(beyond_all);
+    lock.lock();
+}
+
+void SharedWork::run() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        if (is_over_ && !is_finishing_) return;
+        if (stop_ && !has_spread_) spread_stop(lock);
+        while (is_short())
+            take(lock);
+        bool is_busy = false;
+        if (is_first()) {
+            lock.unlock();
+            while (receive())
+                is_busy = true;
+            lock.lock();
+            if (is_finishing_ && ended_ == ranks_.size() - 1) return;
+        } else {
+            is_busy = send(lock);
+            if (is_finishing_ && !is_busy) return;
+        }
+        const bool looks = is_first() || is_busy;
+        wake_.wait_for(lock, looks ? pause_ : Clock::duration(50ms), [&] {
+            return is_short() || is_over_ || (!is_sending_ && (is_finishing_ || !outbox_.empty()));
+        });
+    }
+}
+
+} // namespace raylane::scenes

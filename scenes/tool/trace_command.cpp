@@ -1,0 +1,237 @@
+#include "scenes/tool/arguments.hpp"
+#include "scenes/tool/command.hpp"
+#include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/loading.hpp"
+#include "scenes/tool/output_name.hpp"
+#include "scenes/tool/progress_bar.hpp"
+#include "scenes/tool/ranks/job.hpp"
+#include "scenes/tool/ranks/shared_work.hpp"
+#include "scenes/tool/render_arguments.hpp"
+#include "scenes/tool/scene_arguments.hpp"
+#include "scenes/tool/trace/ordered_output.hpp"
+#include "scenes/tool/trace/ray_file.hpp"
+#include "simd/stream_tracer.hpp"
+#include "simd/threads.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <functional>
+#include <memory>
+
+namespace raylane::scenes {
+
+namespace {
+
+struct TraceArguments {
+    Argument scene, rays, output, threads, precision = "exact";
+    bool occluded = false;
+    SceneArguments scene_arguments;
+};
+
+/// Answers rays of a file, piece by piece.
+class Answers {
+  public:
+    static constexpr std::size_t piece_rays = std::size_t{1} << 16;
+
+    Answers(const core::Scene& scene, const RayFile& rays, core::Precision precision, bool occluded)
+        : rays_(rays), occluded_(occluded), tracer_(scene, 1, simd::best_isa(), precision) {}
+
+    std::size_t pieces() const { return (rays_.count() + piece_rays - 1) / piece_rays; }
+    std::size_t count_in(std::size_t piece) const {
+        return std::min<std::uint64_t>(piece_rays, rays_.count() - piece * piece_rays);
+    }
+    /// Of an element of the output, for npy_head.
+    std::string type() const {
+        if (occluded_) return "'|b1'";
+        return std::string("[('t', '") + (rays_.has_doubles() ? "<f8" : "<f4") +
+               "'), ('normal', '<f4', (3,)), ('shape', '<u4'), ('entering', '|u1'), "
+               "('face', '|u1')]";
+    }
+    /// The elements of a piece. By several threads.
+    std::string of(std::size_t piece) const {
+        return rays_.has_doubles() ? of_numbers<double>(piece) : of_numbers<float>(piece);
+    }
+
+  private:
+    template <class Real>
+    std::string of_numbers(std::size_t piece) const {
+        const std::size_t count = count_in(piece);
+        std::vector<Real> numbers;
+        rays_.read(piece * piece_rays, count, numbers);
+        const auto column = [&](std::size_t k) { return numbers.data() + k * count; };
+        simd::RayStream<Real> stream;
+        stream.count = count;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            stream.origin[axis] = column(axis);
+            stream.direction[axis] = column(3 + axis);
+        }
+        if (rays_.columns() == 8) {
+            stream.t_min = column(6);
+            stream.t_max = column(7);
+        }
+        if (occluded_) {
+            std::string bytes(count, '\0');
+            tracer_.occluded(stream, reinterpret_cast<std::uint8_t*>(bytes.data()));
+            return bytes;
+        }
+        std::vector<Real> t(count);
+        std::vector<float> normal[3];
+        std::vector<core::ShapeId> shape(count);
+        std::vector<std::uint8_t> entering(count), face(count);
+        simd::HitStream hits;
+        if constexpr (sizeof(Real) == sizeof(double))
+            hits.t_double = t.data();
+        else
+            hits.t = t.data();
+        for (int axis = 0; axis < 3; ++axis) {
+            normal[axis].resize(count);
+            hits.normal[axis] = normal[axis].data();
+        }
+        hits.shape = shape.data();
+        hits.entering = entering.data();
+        hits.face = face.data();
+        tracer_.nearest(stream, hits);
+        std::string bytes;
+        bytes.reserve(count * (sizeof(Real) + 3 * sizeof(float) + sizeof(core::ShapeId) + 2));
+        const auto append = [&](const auto& value) {
+            bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            append(t[i]);
+            for (const auto& component : normal)
+                append(component[i]);
+            append(shape[i]);
+            append(entering[i]);
+            append(face[i]);
+        }
+        return bytes;
+    }
+
+    const RayFile& rays_;
+    bool occluded_;
+    simd::StreamTracer tracer_;
+};
+
+/// Answers all pieces, on so many threads here and with the other ranks; `add` gets them, in any
+/// order, at rank 0. `traced` counts its rays.
+void answer_all(const Answers& answers, Job& job, int threads, std::atomic<std::uint64_t>& traced,
+                const std::function<void(std::size_t, std::string)>& add) {
+    std::atomic<bool> stop = false;
+    std::optional<SharedWork> shared;
+    if (job.ranks() != nullptr) shared.emplace(*job.ranks(), answers.pieces(), threads, stop);
+    std::atomic<std::size_t> taken = 0;
+    const auto next = [&]() -> std::optional<SharedWork::Piece> {
+        if (stop) return std::nullopt;
+        if (shared) return shared->next();
+        const std::size_t number = taken++;
+        if (number >= answers.pieces()) return std::nullopt;
+        return SharedWork::Piece{number, false, {}};
+    };
+    const auto answer_some = [&](std::size_t) {
+        try {
+            while (std::optional<SharedWork::Piece> piece = next()) {
+                const std::size_t number = piece->number;
+                if (!piece->is_done) piece->bytes = answers.of(number);
+                traced += answers.count_in(number);
+                if (job.is_first())
+                    add(number, std::move(piece->bytes));
+                else
+                    shared->done(number, piece->bytes);
+            }
+        } catch (...) {
+            stop = true;
+            if (shared) shared->cancel();
+            throw;
+        }
+    };
+    simd::on_threads(threads,
+                     [&] { simd::parallel_for(static_cast<std::size_t>(threads), answer_some); });
+    if (shared) shared->finish();
+}
+
+int trace(TraceArguments arguments) {
+    const core::Precision precision =
+        precision_argument(*arguments.precision).value_or(core::Precision::exact);
+    int threads = threads_argument(arguments.threads);
+    const LoadOptions load_options = arguments.scene_arguments.load_options();
+    const std::string scene_file = file_argument("SCENE", *arguments.scene);
+    const std::string ray_file = file_argument("RAYS", *arguments.rays);
+    const std::string output = arguments.output ? file_argument("--output", *arguments.output)
+                                                : default_output(ray_file, "-hits.npy");
+    require_other_file("--output", output, "SCENE", scene_file);
+    require_other_file("--output", output, "RAYS", ray_file);
+
+    Job job;
+    if (!job.is_first()) arguments.scene_arguments.verbosity = {.quiet = true, .verbose = false};
+    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
+    if (!arguments.threads) threads = job.share_of_threads(threads);
+    std::optional<RayFile> rays;
+    std::optional<AtomicFile> file;
+    std::optional<core::Scene> scene;
+    std::optional<Answers> answers;
+    std::string fingerprint;
+    job.together([&] {
+        rays.emplace(ray_file);
+        if (job.is_first()) file.emplace(output);
+        scene = load_with_progress(scene_file, load_options, verbosity, threads);
+        answers.emplace(*scene, *rays, precision, arguments.occluded);
+        fingerprint = fingerprint_of(*scene);
+        if (file) file->write(npy_head(answers->type(), rays->count()));
+    });
+    job.require_same(fingerprint, "the scene");
+    job.require_same(answers->type() + std::to_string(rays->count()), "the file of rays");
+
+    std::optional<OrderedOutput> ordered;
+    if (file) ordered.emplace(*file);
+    std::atomic<std::uint64_t> traced = 0;
+    const auto start = std::chrono::steady_clock::now();
+    const auto text = [&] {
+        const double seconds = seconds_since(start), done = static_cast<double>(traced);
+        const double part = done / static_cast<double>(std::max<std::uint64_t>(1, rays->count()));
+        return bar_text(part) + "  " + with_prefix(done / seconds) + "rays/s  " +
+               (done > 0.0 ? duration_text(seconds * (1.0 - part) / part) + " left" : "");
+    };
+    {
+        const ProgressLine line(verbosity, text);
+        answer_all(*answers, job, threads, traced, [&](std::size_t number, std::string bytes) {
+            ordered->add(number, std::move(bytes));
+        });
+    }
+    job.part();
+    if (!file) return 0;
+    file->commit();
+    if (verbosity == Verbosity::verbose || (verbosity == Verbosity::normal && is_terminal())) {
+        const double seconds = seconds_since(start);
+        std::fprintf(stderr, "%s: %s rays in %s, %srays/s\n", printable(output, 4096).c_str(),
+                     std::to_string(rays->count()).c_str(), duration_text(seconds).c_str(),
+                     with_prefix(static_cast<double>(rays->count()) / seconds).c_str());
+    }
+    return 0;
+}
+
+} // namespace
+
+Command add_trace_command(CLI::App& app) {
+    CLI::App* command = app.add_subcommand("trace", "Find what rays of a file hit in a scene");
+    auto arguments = std::make_shared<TraceArguments>();
+    add_positional(*command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
+    add_positional(*command, "RAYS", arguments->rays,
+                   "Rays in NumPy's format (.npy): an array of float32 or float64 with a shape of "
+                   "(n, 6), origins and directions, or (n, 8), with t_min and t_max");
+    add_option(*command, "-o,--output", arguments->output,
+               "What they hit, in NumPy's format, an element for each ray: t, normal, shape, "
+               "entering and face (default: RAYS-hits.npy)",
+               "FILE");
+    add_flag(*command, "--occluded", arguments->occluded,
+             "Say of each ray whether it hits anything, and no more");
+    add_option(*command, "--precision", arguments->precision,
+               "What decides where rays hit, as render has it (default: exact)",
+               "fast|robust|exact|double|auto");
+    add_option(*command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    arguments->scene_arguments.add_to(*command);
+    command->footer("Example: raylane trace scenes/birthday.json rays.npy -o hits.npy");
+    return {command, [arguments] { return trace(*arguments); }};
+}
+
+} // namespace raylane::scenes

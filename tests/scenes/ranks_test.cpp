@@ -1,0 +1,199 @@
+#include "scenes/tool/ranks/ranked_tiles.hpp"
+#include "tests/catch.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+using namespace raylane;
+using scenes::SharedWork;
+
+namespace {
+
+/// What threads share that play the ranks of a job.
+struct Room {
+    explicit Room(int count) : size(count) {}
+
+    const int size;
+    std::atomic<std::uint64_t> counter = 0;
+    std::mutex mutex; // of what follows
+    std::condition_variable changed;
+    std::deque<std::string> messages;
+    std::string broadcasted;
+    int here = 0, round = 0;
+
+    void wait_for_all() {
+        std::unique_lock lock(mutex);
+        const int mine = round;
+        if (++here == size) {
+            here = 0;
+            ++round;
+            changed.notify_all();
+        } else {
+            changed.wait(lock, [&] { return round != mine; });
+        }
+    }
+};
+
+class ThreadRanks : public scenes::Ranks {
+  public:
+    ThreadRanks(Room& room, int rank) : room_(room), rank_(rank) {}
+
+    int rank() const override { return rank_; }
+    int size() const override { return room_.size; }
+    int rank_on_host() const override { return rank_; }
+    int size_of_host() const override { return room_.size; }
+    void gather(const void*, std::size_t, const char*&, const std::size_t*&) override {
+        FAIL("not asked for");
+    }
+    void broadcast(void* bytes, std::size_t count) override {
+        if (rank_ == 0) room_.broadcasted.assign(static_cast<const char*>(bytes), count);
+        room_.wait_for_all();
+        std::copy_n(room_.broadcasted.data(), count, static_cast<char*>(bytes));
+        room_.wait_for_all();
+    }
+    bool all_are_here() override { return true; }
+    void reset_counter() override {
+        room_.wait_for_all();
+        room_.counter = 0;
+        room_.wait_for_all();
+    }
+    std::uint64_t add_to_counter(std::uint64_t count) override {
+        return room_.counter.fetch_add(count);
+    }
+    void send(const void* bytes, std::size_t count) override {
+        const std::lock_guard lock(room_.mutex);
+        room_.messages.emplace_back(static_cast<const char*>(bytes), count);
+    }
+    bool sent() override { return true; }
+    bool has_message(std::size_t& count) override {
+        const std::lock_guard lock(room_.mutex);
+        if (room_.messages.empty()) return false;
+        count = room_.messages.front().size();
+        return true;
+    }
+    void receive(void* bytes) override {
+        const std::lock_guard lock(room_.mutex);
+        std::copy(room_.messages.front().begin(), room_.messages.front().end(),
+                  static_cast<char*>(bytes));
+        room_.messages.pop_front();
+    }
+    [[noreturn]] void abort(int code) override { std::exit(code); }
+
+  private:
+    Room& room_;
+    int rank_;
+};
+
+/// Calls as_rank(ranks) for each of so many ranks, all at a time.
+void as_ranks(int count, const std::function<void(ThreadRanks&)>& as_rank) {
+    Room room(count);
+    std::vector<std::thread> ranks;
+    for (int rank = 0; rank < count; ++rank)
+        ranks.emplace_back([&room, &as_rank, rank] {
+            ThreadRanks own(room, rank);
+            as_rank(own);
+        });
+    for (std::thread& rank : ranks)
+        rank.join();
+}
+
+std::string result_of(std::size_t piece) {
+    return std::string(piece % 1000, static_cast<char>('a' + piece % 26));
+}
+
+/// On so many threads: what next() gives, as long as it gives anything.
+void for_each_piece(SharedWork& work, int threads,
+                    const std::function<void(SharedWork::Piece)>& visit) {
+    std::vector<std::thread> all;
+    for (int thread = 0; thread < threads; ++thread)
+        all.emplace_back([&] {
+            while (std::optional<SharedWork::Piece> piece = work.next())
+                visit(*std::move(piece));
+        });
+    for (std::thread& thread : all)
+        thread.join();
+}
+
+} // namespace
+
+TEST_CASE("ranks do each piece of their work once, and the first one gets all of it") {
+    for (const int ranks : {1, 2, 5})
+        for (const std::size_t count : {0, 1, 7, 3000}) {
+            CAPTURE(ranks, count);
+            std::vector<std::atomic<int>> done(count);
+            std::vector<std::atomic<int>> arrived(count);
+            std::atomic<int> wrong = 0, left = 0;
+            as_ranks(ranks, [&](ThreadRanks& own) {
+                std::atomic<bool> stop = false;
+                SharedWork work(own, count, 2, stop);
+                for_each_piece(work, 2, [&](const SharedWork::Piece& piece) {
+                    if (piece.is_done) {
+                        if (piece.bytes != result_of(piece.number)) ++wrong;
+                    } else {
+                        ++done[piece.number];
+                        if (piece.number % 500 == 0)
+                            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                        work.done(piece.number, result_of(piece.number));
+                    }
+                    if (own.rank() == 0) ++arrived[piece.number];
+                });
+                left += static_cast<int>(work.finish().size());
+            });
+            const auto is_one = [](const auto& number) { return number == 1; };
+            CHECK(std::all_of(done.begin(), done.end(), is_one));
+            CHECK(std::all_of(arrived.begin(), arrived.end(), is_one));
+            CHECK(wrong == 0);
+            CHECK(left == 0);
+        }
+}
+
+TEST_CASE("if one rank is told to stop, all do, and what has been done arrives") {
+    for (const int who : {0, 1, 2}) {
+        constexpr std::size_t count = 100'000'000;
+        std::mutex mutex;
+        std::set<std::size_t> done, arrived;
+        std::atomic<int> stopped_first = 0;
+        as_ranks(3, [&](ThreadRanks& own) {
+            std::atomic<bool> stop = false;
+            SharedWork work(own, count, 2, stop);
+            for_each_piece(work, 2, [&](const SharedWork::Piece& piece) {
+                if (!piece.is_done) work.done(piece.number, {});
+                std::this_thread::sleep_for(std::chrono::microseconds(100));
+                const std::lock_guard lock(mutex);
+                if (!piece.is_done) done.insert(piece.number);
+                if (own.rank() == 0) arrived.insert(piece.number);
+                if (own.rank() == who && done.size() > 300) stop = true;
+            });
+            const auto late = work.finish();
+            const std::lock_guard lock(mutex);
+            for (const SharedWork::Piece& piece : late)
+                arrived.insert(piece.number);
+            if (own.rank() == 0) stopped_first = stop ? 1 : 0;
+        });
+        CHECK(done.size() < count / 1000);
+        CHECK(arrived == done);
+        CHECK(stopped_first == 1);
+    }
+}
+
+TEST_CASE("a thread that fails leaves none waiting") {
+    as_ranks(2, [](ThreadRanks& own) {
+        std::atomic<bool> stop = false;
+        SharedWork work(own, 1000, 2, stop);
+        if (own.rank() == 0) {
+            for_each_piece(work, 2, [&](const SharedWork::Piece&) { work.cancel(); });
+        } else {
+            while (work.next()) {
+            } // never done: rank 0 would wait for it
+        }
+    });
+    SUCCEED();
+}
