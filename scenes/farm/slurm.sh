@@ -2,8 +2,10 @@
 # Draws a picture, or the frames of a film, by an array of jobs of Slurm's, on hosts that see the same
 # folder:
 #
-#   slurm.sh N SCENE OUTPUT [OPTIONS...]            one picture in N parts, put together at the end
-#   slurm.sh N --frames SCENE OUT-%05d.png [OPTIONS...]  frames, every N-th by each job
+#   slurm.sh N SCENE OUTPUT [OPTIONS...]
+#       one picture in N parts, which are put together at the end
+#   slurm.sh N --film SCENE OUTPUT-%05d.png --frames 0:100 [OPTIONS...]
+#       several pictures, by --frames, --turn or --set, of which each job draws every N-th
 #
 # OPTIONS are render's; those of sbatch come by its own variables, such as SBATCH_PARTITION,
 # SBATCH_TIMELIMIT. A job that Slurm is about to end, or that a host's failure has ended, begins again
@@ -16,13 +18,10 @@ raylane=${RAYLANE:-raylane}
 if [ -n "${SLURM_ARRAY_TASK_ID:-}" ] && [ -n "${RAYLANE_FARM:-}" ]; then
     count=$1 what=$2 scene=$3 output=$4
     shift 4
-    if [ "$what" = frames ]; then
-        set -- --frames "$((SLURM_ARRAY_TASK_ID - 1))::$count" -o "$output" "$@"
-    else
-        set -- --part "$SLURM_ARRAY_TASK_ID/$count" -o "$output.parts/$SLURM_ARRAY_TASK_ID.exr" "$@"
-    fi
+    [ "$what" = film ] || output=$output.parts/$SLURM_ARRAY_TASK_ID.exr
     code=0
-    srun --ntasks=1 --kill-on-bad-exit=0 "$raylane" render "$scene" "$@" || code=$?
+    srun --ntasks=1 --kill-on-bad-exit=0 "$raylane" render "$scene" -o "$output" \
+        --part "$SLURM_ARRAY_TASK_ID/$count" "$@" || code=$?
     if [ "$code" -eq 143 ]; then # SIGTERM
         scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
     fi
@@ -37,7 +36,7 @@ if [ "${RAYLANE_FARM:-}" = merge ]; then
 fi
 
 usage() {
-    sed -n '2,11s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,14s/^# \{0,1\}//p' "$0" >&2
     exit 2
 }
 [ $# -ge 3 ] || usage
@@ -47,14 +46,14 @@ esac
 count=$1
 shift
 what=parts
-if [ "$1" = --frames ]; then
-    what=frames
+if [ "$1" = --film ]; then
+    what=film
     shift
 fi
 [ $# -ge 2 ] || usage
 scene=$1 output=$2
 shift 2
-[ "$what" = frames ] || mkdir -p "$output.parts"
+[ "$what" = film ] || mkdir -p "$output.parts"
 submit() {
     sbatch --parsable --job-name="raylane $output" --output=/dev/null --error="$output.%j.log" "$@"
 }

@@ -23,7 +23,7 @@ struct FilmStrip {
     bool overwrites = true; ///< files that are there already
     /// Of several processes that draw them, this one's number, from 0, and how many: they take
     /// turns.
-    struct {
+    struct Share {
         std::size_t number = 0, of = 1;
     } share;
     Verbosity verbosity = Verbosity::normal;

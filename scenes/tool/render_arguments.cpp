@@ -86,8 +86,9 @@ void RenderArguments::add_to(CLI::App& command) {
              "and leave nothing to go on with");
     add("--part", part,
         "Draw this part of the picture's tiles alone, for N processes or machines to draw one "
-        "each, "
-        "into an EXR that merge puts together with the others",
+        "each, into an EXR that merge puts together with the others; of several pictures every "
+        "N-th, "
+        "from the K-th on",
         "K/N");
     picture.add_to(command);
     frames.add_to(command);

@@ -146,13 +146,19 @@ void require_fit(const std::optional<PicturePart>& part, const PictureChoice& pi
     if (picture.bits != 32) throw BadInput("--part", "", "goes with --bits 32");
 }
 
+/// Of the pictures of a film: a part's ranks take turns as the parts do.
+FilmStrip::Share share_of(const Job& job, const PicturePart& part) {
+    return {part.number - 1 + part.count * static_cast<std::size_t>(job.rank()),
+            part.count * static_cast<std::size_t>(job.size())};
+}
+
 int render(RenderArguments arguments) {
     const Overrides overrides(arguments);
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
     PictureChoice picture(arguments.picture);
-    const std::optional<PicturePart> part_of_tiles = part_argument(arguments.part);
-    if (part_of_tiles && picture.bits == 0) picture.bits = 32;
+    const std::optional<PicturePart> part_asked = part_argument(arguments.part);
+    std::optional<PicturePart> part_of_tiles;
     const LoadOptions load_options = arguments.scene_arguments.load_options(true);
     const ViewChange change = arguments.scene_arguments.view.change();
     const auto settings_of = [&](const core::Settings& own) {
@@ -201,12 +207,11 @@ int render(RenderArguments arguments) {
         if (files.stats)
             throw BadInput("--stats", "", "goes without --frames, --turn and several values");
         const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
-        require_fit(part_of_tiles, picture, writable.format());
         picture.require_fit(writable.format());
     });
     if (strip) {
         is_of_a_film = true;
-        strip->share = {static_cast<std::size_t>(job.rank()), static_cast<std::size_t>(job.size())};
+        strip->share = share_of(job, part_asked.value_or(PicturePart{1, 1}));
         strip->settings = settings_of;
         strip->draw = [&](const core::Scene& scene, const std::string& name,
                           simd::Progress& progress) {
@@ -222,6 +227,8 @@ int render(RenderArguments arguments) {
         job.together([&] { draw(*strip); });
         return 0;
     }
+    part_of_tiles = part_asked;
+    if (part_of_tiles && picture.bits == 0) picture.bits = 32;
     std::optional<OutputFile> output;
     std::optional<AtomicFile> stats;
     std::optional<core::Scene> loaded;
