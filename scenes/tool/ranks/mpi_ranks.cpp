@@ -5,7 +5,6 @@
 #define MPICH_SKIP_MPICXX 1
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 #include <mpi.h>
 #include <numeric>
 #include <vector>
@@ -145,6 +144,10 @@ class MpiRanks : public Ranks {
 } // namespace
 
 extern "C" [[gnu::visibility("default")]] Ranks* raylane_join_ranks(const char** why) {
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION < 5
+    // Of its ways to reach another host's memory it takes one that TCP cannot do, and fails.
+    ::setenv("OMPI_MCA_osc", "^rdma", 0);
+#endif
     int provided = MPI_THREAD_SINGLE;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS ||
         provided < MPI_THREAD_SERIALIZED) {
