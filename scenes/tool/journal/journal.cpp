@@ -252,7 +252,8 @@ void Journal::write(const std::string& bytes) {
         return;
     }
     fail();
-    static_cast<void>(::ftruncate(descriptor_, end_));
+    [[maybe_unused]] const int shortened =
+        ::ftruncate(descriptor_, end_); // or it has half a record
 }
 
 bool Journal::keep() {
