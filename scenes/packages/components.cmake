@@ -1,0 +1,74 @@
+# What raylane may be made of beside itself: for each component of others' its name, version as found here,
+# licence, where it comes from, the shared libraries that it is (a regular expression of their names, or
+# none), and which of raylane's binaries have its headers compiled in. sbom.cmake makes the list of it.
+set(components "")
+function(component id version licence origin libraries) # binaries...
+  list(JOIN ARGN "," binaries)
+  list(APPEND components "${id}~${version}~${licence}~${origin}~${libraries}~${binaries}")
+  set(components ${components} PARENT_SCOPE)
+endfunction()
+# The value of a macro that names a version, as a header defines it.
+function(macro_of file name result)
+  file(STRINGS ${file} line REGEX "define[ \t]+${name}[ \t]" LIMIT_COUNT 1)
+  string(REGEX REPLACE ".*${name}[ \t]+\"?([0-9.]+).*" "\\1" value "${line}")
+  set(${result} "${value}" PARENT_SCOPE)
+endfunction()
+
+find_package(TBB 2021 REQUIRED)
+find_package(xsimd REQUIRED)
+find_package(glm REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
+component(oneTBB "${TBB_VERSION}" Apache-2.0 github/oneapi-src/oneTBB "libtbb[.]" raylane libraylane)
+component(libpng "${PNG_VERSION_STRING}" libpng-2.0 github/pnggroup/libpng "libpng[0-9]*[.]" raylane libraylane)
+component(zlib "${ZLIB_VERSION_STRING}" Zlib github/madler/zlib "libz[.]" raylane libraylane)
+component(xsimd "${xsimd_VERSION}" BSD-3-Clause github/xtensor-stack/xsimd "" raylane libraylane)
+component(GLM "${glm_VERSION}" MIT github/g-truc/glm "" raylane libraylane)
+component(nlohmann-json "${nlohmann_json_VERSION}" MIT github/nlohmann/json "" raylane libraylane)
+component(CLI11 "${CLI11_VERSION}" BSD-3-Clause github/CLIUtils/CLI11 "" raylane)
+
+file(STRINGS ${STB_INCLUDE_DIR}/stb_image_write.h version REGEX "v[0-9.]+" LIMIT_COUNT 1)
+string(REGEX MATCH "[0-9][0-9.]+" version "${version}")
+component(stb-image-write "${version}" "MIT OR Unlicense" github/nothings/stb "" raylane libraylane)
+
+set(version "")
+foreach(part MAJOR MINOR RELEASE)
+  macro_of(${XXHASH_INCLUDE_DIR}/xxhash.h XXH_VERSION_${part} number)
+  list(APPEND version ${number})
+endforeach()
+list(JOIN version "." version)
+component(xxHash "${version}" BSD-2-Clause github/Cyan4973/xxHash "libxxhash[.]" raylane)
+
+if(GEMMI_INCLUDE_DIR AND PEGTL_INCLUDE_DIR)
+  macro_of(${GEMMI_INCLUDE_DIR}/gemmi/version.hpp GEMMI_VERSION version)
+  component(gemmi "${version}" "(MPL-2.0 OR LGPL-3.0-only) AND (Apache-2.0 OR MIT)" # its fast_float
+            github/project-gemmi/gemmi "libgemmi" raylane libraylane)
+  macro_of(${PEGTL_INCLUDE_DIR}/tao/pegtl/version.hpp TAO_PEGTL_VERSION version)
+  component(PEGTL "${version}" MIT github/taocpp/PEGTL "" raylane libraylane)
+endif()
+set(CMAKE_MESSAGE_LOG_LEVEL ERROR) # as scenes/CMakeLists.txt has it
+find_package(OpenEXR 3.1 CONFIG QUIET)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
+if(OpenEXR_FOUND)
+  component(OpenEXR "${OpenEXR_VERSION}" BSD-3-Clause github/AcademySoftwareFoundation/openexr
+            "lib(OpenEXR|Iex|IlmThread)" raylane)
+  component(Imath "${Imath_VERSION}" BSD-3-Clause github/AcademySoftwareFoundation/Imath "libImath" raylane)
+endif()
+if(TARGET raylane-window)
+  find_package(SDL2 QUIET)
+  component(SDL2 "${SDL2_VERSION}" Zlib github/libsdl-org/SDL "libSDL2" raylane-window)
+endif()
+
+# The compiler's and the system's own.
+execute_process(COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -E -dM -x c++ -include cstddef /dev/null
+                OUTPUT_VARIABLE macros ERROR_QUIET)
+foreach(name __GLIBC__ __GLIBC_MINOR__ _GLIBCXX_RELEASE)
+  string(REGEX MATCH "define ${name} ([0-9]+)" ignored "${macros}")
+  set(${name} "${CMAKE_MATCH_1}")
+endforeach()
+component(GCC-runtime "${_GLIBCXX_RELEASE}" "GPL-3.0-or-later WITH GCC-exception-3.1" generic/gcc
+          "lib(stdc[+][+]|gcc_s|atomic|[alt]san|ubsan)[.]" raylane libraylane raylane-window)
+component(glibc "${__GLIBC__}.${__GLIBC_MINOR__}" LGPL-2.1-or-later generic/glibc
+          "(lib(c|m|dl|pthread|rt)[.]|ld-linux)" raylane libraylane raylane-window)
