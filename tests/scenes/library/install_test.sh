@@ -58,6 +58,9 @@ else
     echo "the shared library exports what its headers declare, and nothing else"
     shared=$(find "$prefix" -name libraylane.so)
     [ -n "$shared" ] || fail "no library"
+    version=$(sed -n 's/^#define RAYLANE_VERSION "\(.*\)"/\1/p' "$prefix/include/raylane/version.h")
+    case $version in 0.*) abi=${version%.*} ;; *) abi=${version%%.*} ;; esac
+    readelf -dW "$shared" | grep -qF "Library soname: [libraylane.so.$abi]" || fail "no soname of version $abi"
     exported=$(nm -DC --defined-only "$shared" | cut -d' ' -f3-)
     others=$(echo "$exported" |
         grep -vE '^(((typeinfo|typeinfo name|vtable) for|unsigned int) )?raylane(_|::)' || true)
