@@ -1,22 +1,25 @@
 #!/bin/sh
-# Every reader under libFuzzer with sanitizers, two at a time. Fails, with the input, if one of them
-# finds anything. Inputs that were of use are kept in build/fuzz/corpus, for the next time.
+# The fuzzers, two at a time, with sanitizers: each reader by its format, "picture" for images, "calls",
+# "solids" and "engines" for the library's answers, "c" for its interface for C. Fails, with the input,
+# if one of them finds anything. Inputs that were of use are kept in build/fuzz/corpus, for the next time.
 #
-#   tests/fuzz/run.sh [SECONDS [FORMAT...]]    default: ten minutes each, all of them
+#   tests/fuzz/run.sh [SECONDS [FUZZER...]]    default: ten minutes each, all of them
+#   BUILD=build/asan tests/fuzz/run.sh 30      those of another build, which has RAYLANE_FUZZERS
 set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-600}
 [ $# -eq 0 ] || shift
-formats=${*:-"cif gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz"}
+formats=${*:-"cif gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz calls solids engines c"}
+build=${BUILD:-build/fuzz}
 
 mkdir -p build/fuzz/findings
 kernels= # no sanitizer changes them
 [ ! -e build/asan/CMakeCache.txt ] || kernels=-DRAYLANE_KERNELS=$PWD/build/asan
-[ -e build/fuzz/build.ninja ] || cmake --preset fuzz -GNinja $kernels >build/fuzz/configure.log || { cat build/fuzz/configure.log; exit 1; }
+[ -e "$build/build.ninja" ] || cmake --preset fuzz -GNinja $kernels >build/fuzz/configure.log || { cat build/fuzz/configure.log; exit 1; }
 targets=
 for format in $formats; do targets="$targets raylane-fuzz-$format"; done
 # shellcheck disable=SC2086 # a list of words
-cmake --build build/fuzz --target $targets
+cmake --build "$build" --target $targets
 
 seeds() { # format, folder: what it is to begin with
     case $1 in
@@ -24,15 +27,20 @@ seeds() { # format, folder: what it is to begin with
     pov) cp tests/scenes/pov/*.pov "$2" ;;
     tachyon) cp tests/scenes/tachyon/data/*.dat "$2" ;;
     esac
-    cp tests/fuzz/seeds/"$1".* "$2" 2>/dev/null || true
+    [ -e "tests/fuzz/seeds/$1.hex" ] || cp tests/fuzz/seeds/"$1".* "$2" 2>/dev/null || true
+    [ ! -e "tests/fuzz/seeds/$1.hex" ] || # lines of bytes
+        perl -ne 'BEGIN { $to = shift } chomp; open(F, ">", "$to/seed.$.") or die; print F pack("H*", $_)' \
+            "$2" <"tests/fuzz/seeds/$1.hex"
 }
 fuzz() { # format
     folder=build/fuzz/corpus/$1
     mkdir -p "$folder" "build/fuzz/rooms/$1"
     seeds "$1" "$folder"
     root=$PWD
-    (cd "build/fuzz/rooms/$1" && "$root/build/fuzz/bin/raylane-fuzz-$1" -max_total_time="$seconds" \
-        -timeout=100 -rss_limit_mb=4096 -max_len=20000 -print_final_stats=1 \
+    length=20000
+    case $1 in calls | solids | engines | c) length=1000 ;; esac
+    (cd "build/fuzz/rooms/$1" && "$root/$build/bin/raylane-fuzz-$1" -max_total_time="$seconds" \
+        -timeout=100 -rss_limit_mb=4096 -max_len=$length -print_final_stats=1 \
         -artifact_prefix="$root/build/fuzz/findings/$1-" "$root/$folder" >"$root/build/fuzz/$1.log" 2>&1)
 }
 report() { # format

@@ -1,13 +1,10 @@
 #include "tests/catch.hpp"
 #include "tests/meetings/gathering.hpp"
-#include "tests/scenes/library/exam.hpp"
+#include "tests/scenes/library/exam_in_double.hpp"
 #include "tests/simd/rounds.hpp"
 
 #include <bit>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
-#include <string>
 #include <variant>
 
 /// Rays and shapes in double, asked of the library, against the oracle.
@@ -17,42 +14,6 @@ using core::Vec3d;
 using meetings::Way;
 
 namespace {
-
-constexpr double endless = std::numeric_limits<double>::infinity();
-
-/// Rays in double with arrays of their own.
-struct DoubleRays {
-    std::vector<double> origin[3], direction[3], t_min, t_max;
-
-    void add(const core::Ray<double>& ray, double after, double most) {
-        for (int axis = 0; axis < 3; ++axis) {
-            origin[axis].push_back(ray.origin[axis]);
-            direction[axis].push_back(ray.direction[axis]);
-        }
-        t_min.push_back(after);
-        t_max.push_back(most);
-    }
-    std::size_t size() const { return t_min.size(); }
-    DoubleRaySpan span() const {
-        return {origin[0],    origin[1],    origin[2], direction[0],
-                direction[1], direction[2], t_min,     t_max};
-    }
-};
-
-struct Answers {
-    explicit Answers(const Tracer& tracer, const DoubleRays& rays)
-        : hits(rays.size()), t_double(rays.size(), -1.0), blocked(rays.size(), 77) {
-        HitSpan span = hits.span();
-        span.t_double = t_double;
-        tracer.intersect(rays.span(), span);
-        tracer.occluded(rays.span(), blocked);
-        tracer.crossings(rays.span(), rows);
-    }
-    Hits hits;
-    std::vector<double> t_double;
-    std::vector<std::uint8_t> blocked;
-    CrossingRows rows;
-};
 
 /// A ray beside one in float, as doubles can be: by some of their ulps, or by what no float has. As
 /// small as it may be, it is no smaller than floats are, so that it still is one.
@@ -80,125 +41,11 @@ core::Ray<double> beside(const core::Ray<float>& ray, Random& random) {
     return result;
 }
 
-/// Order of a crossing's true t and a double.
-int compare(const oracle::Hit& hit, double t) {
-    if (t == endless) return -1;
-    const int order = oracle::compare_digits(hit.t, oracle::Number(t));
-    return order != 0 ? order : oracle::sign_at(hit.root, oracle::Exact(-t), oracle::Exact(1));
-}
-
-struct Question {
-    std::size_t sight;
-    double t_min, t_max;
-};
-
-struct Faults {
-    long rays = 0, hits = 0, shape = 0, t = 0, t_double = 0, normal = 0, side = 0, occlusion = 0,
-         crossings = 0;
-    std::string first; ///< what was asked and expected, in numbers
-    long all() const { return shape + t + t_double + normal + side + occlusion + crossings; }
-};
-
-template <oracle::Variant Any>
-std::string described(const Question& question, const DoubleRays& rays, std::size_t i,
-                      const oracle::Found* truth, const std::vector<Any>& shapes) {
-    std::ostringstream out;
-    out << std::setprecision(17) << shapes.size() << " shapes; ray";
-    for (int axis = 0; axis < 3; ++axis)
-        out << ' ' << rays.origin[axis][i];
-    out << " towards";
-    for (int axis = 0; axis < 3; ++axis)
-        out << ' ' << rays.direction[axis][i];
-    out << ", t from " << question.t_min << " to " << question.t_max;
-    if (truth != nullptr) out << "; shape " << truth->shape << " at " << truth->t;
-    for (std::size_t id = 0; id < shapes.size(); ++id) {
-        if (shapes.size() > 40 && (truth == nullptr || id != truth->shape)) continue;
-        out << "; shape " << id << ", kind " << shapes[id].index() << ':';
-        std::visit(
-            [&](const auto& shape) {
-                for (const auto value : core::numbers_of(shape))
-                    out << ' ' << value;
-            },
-            shapes[id]);
-    }
-    return out.str();
-}
-
-/// Rays without limits, and with these at crossings and next to them.
-template <oracle::Variant Any>
-void ask(const std::vector<Any>& all, const std::vector<core::Ray<double>>& rays, Faults& faults) {
-    const std::vector<Any> shapes = valid(all);
-    const oracle::Neighbours neighbours(shapes);
-    const std::vector<char> counts = which_count(shapes);
-    const Tracer tracer(scene_of(shapes), {.threads = 1});
-    std::vector<oracle::Sight> sights;
-    std::vector<Question> questions;
-    DoubleRays asked;
-    const auto add = [&](const core::Ray<double>& ray, double t_min, double t_max) {
-        asked.add(ray, t_min, t_max);
-        questions.push_back({sights.size() - 1, t_min, t_max});
-    };
-    for (const core::Ray<double>& ray : rays) {
-        sights.emplace_back(shapes, neighbours, ray, [](ShapeId, bool) { return true; });
-        add(ray, 0.0, endless);
-        int count = 0;
-        for (const oracle::Found& found : sights.back().all()) {
-            if (++count > 3) break;
-            const double t = oracle::rounded_to_double(found.hit.root, found.hit.t);
-            for (const double limit : {std::nextafter(t, 0.0), t, std::nextafter(t, endless)}) {
-                add(ray, limit, endless);
-                add(ray, 0.0, limit);
-            }
-        }
-    }
-    const Answers answers(tracer, asked);
-    const long known = faults.all();
-    const oracle::Found* before = nullptr;
-    for (std::size_t i = 0; i < questions.size(); ++i) {
-        const Question& question = questions[i];
-        oracle::Sight& sight = sights[question.sight];
-        const oracle::Found* truth = nullptr;
-        for (const oracle::Found& found : sight.all()) {
-            if (compare(found.hit, question.t_min) <= 0) continue;
-            if (compare(found.hit, question.t_max) <= 0) truth = &found;
-            break;
-        }
-        ++faults.rays;
-        if (faults.all() > known && faults.first.empty())
-            faults.first = described(questions[i - 1], asked, i - 1, before, shapes);
-        before = truth;
-        const auto is_between = [&](const oracle::Found& found) {
-            return counts[found.shape] != 0 && compare(found.hit, question.t_min) > 0 &&
-                   compare(found.hit, question.t_max) <= 0;
-        };
-        faults.crossings += is_right(answers.rows, i, sight, is_between) ? 0 : 1;
-        const Hits& hits = answers.hits;
-        faults.occlusion += answers.blocked[i] != (truth != nullptr ? 1 : 0) ? 1 : 0;
-        if (truth == nullptr) {
-            faults.shape += hits.is_none(i) && answers.t_double[i] == endless ? 0 : 1;
-            continue;
-        }
-        ++faults.hits;
-        if (hits.shape[i] != truth->shape) {
-            ++faults.shape;
-            continue;
-        }
-        faults.t += hits.t[i] != truth->t ? 1 : 0;
-        faults.t_double +=
-            answers.t_double[i] != oracle::rounded_to_double(truth->hit.root, truth->hit.t) ? 1 : 0;
-        faults.side += hits.entering[i] != (truth->hit.entering ? 1 : 0) ? 1 : 0;
-        faults.normal += core::Vec3f(hits.nx[i], hits.ny[i], hits.nz[i]) !=
-                                 sight.normal_of(*truth, shapes[truth->shape])
-                             ? 1
-                             : 0;
-    }
-}
-
 } // namespace
 
 TEST_CASE("rays in double are taken for exactly their doubles", "[meetings]") {
     Random random(seed(20261124));
-    Faults faults;
+    DoubleFaults faults;
     for (const Way way : meetings::all_ways)
         for (int round = 0; round < rounds(1, 1); ++round)
             for (int kind = 0; kind < core::kind_count; ++kind) {
@@ -222,7 +69,7 @@ TEST_CASE("rays in double answer as rays in float do where they are the same") {
     DoubleRays rays;
     for (std::size_t i = 0; i < all.rays.size(); ++i)
         rays.add(all.rays.ray(i), 0.0, endless);
-    const Answers answers(tracer, rays);
+    const DoubleAnswers answers(tracer, rays);
     const Hits hits = intersect(tracer, all.rays);
     CHECK(answers.hits == hits);
     CHECK(answers.blocked == occluded(tracer, all.rays));
@@ -253,7 +100,7 @@ TEST_CASE("doubles outside of the range of floats are none") {
     add({0, 0, -2}, {0, 0, endless});
     add({0, std::nan(""), -2}, {0, 0, 1});
     add({0, 0, -2}, {0, 0, 0});
-    const Answers answers(tracer, rays);
+    const DoubleAnswers answers(tracer, rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         CAPTURE(i);
         CHECK((answers.hits.shape[i] == 0) == (i < found));
@@ -304,7 +151,7 @@ core::InDouble<Shape> changed(const Shape& shape, Change change) {
     return result;
 }
 
-void ask(const meetings::Meeting& meeting, Change change, Faults& faults) {
+void ask(const meetings::Meeting& meeting, Change change, DoubleFaults& faults) {
     std::vector<AnyShapeInDouble> shapes;
     for (const tests::AnyShape& any : meeting.shapes)
         shapes.push_back(std::visit(
@@ -323,7 +170,7 @@ void ask(const meetings::Meeting& meeting, Change change, Faults& faults) {
 TEST_CASE("shapes in double are taken for exactly their doubles", "[meetings]") {
     Random random(seed(20261125));
     for (const Change change : all_changes) {
-        Faults faults;
+        DoubleFaults faults;
         for (const Way way : meetings::all_ways)
             for (int kind = 0; kind < core::kind_count; ++kind) {
                 const int other = random.integer(0, core::kind_count - 1);

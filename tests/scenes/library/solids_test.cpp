@@ -1,13 +1,10 @@
-#include "core/shapes/side.hpp"
 #include "tests/catch.hpp"
-#include "tests/oracle/solid.hpp"
 #include "tests/ray_sets.hpp"
 #include "tests/sanitized.hpp"
-#include "tests/scenes/library/in_library.hpp"
-#include "tests/scenes/library/ray_arrays.hpp"
+#include "tests/scenes/library/solid_exam.hpp"
 #include "tests/simd/rounds.hpp"
 
-#include <sstream>
+#include <cmath>
 
 /// Solids that are made of others, held to the oracle.
 using namespace raylane;
@@ -131,163 +128,26 @@ Expression any_cut_crowd(Random& random, bool lattice) {
     return both;
 }
 
-raylane::Solid solid_of(const Expression& expression) {
-    if (expression.op == Op::part)
-        return std::visit(
-            []<class Shape>(const Shape& shape) {
-                return raylane::Solid(std::bit_cast<typename InLibrary<Shape>::Type>(shape));
-            },
-            expression.shape);
-    std::vector<raylane::Solid> parts;
-    for (const Expression& part : expression.of)
-        parts.push_back(solid_of(part));
-    const std::vector<raylane::Solid> others(parts.begin() + 1, parts.end());
-    switch (expression.op) {
-    case Op::unite:
-        return union_of(parts);
-    case Op::intersect:
-        return intersection_of(parts);
-    case Op::subtract:
-        return difference_of(parts[0], others);
-    default:
-        return clipped(parts[0], others);
-    }
-}
-
-template <class Visit>
-void each_shape(const Expression& expression, const Visit& visit) {
-    if (expression.op == Op::part) visit(expression.shape);
-    for (const Expression& part : expression.of)
-        each_shape(part, visit);
-}
-
-/// True also where a line lies in faces.
-bool is_on(const AnyShapeInDouble& any, const core::Vec3d& point) {
-    return std::visit(
-        [&]<class Shape>(const Shape& shape) {
-            if constexpr (core::has_inside<Shape>)
-                return core::side_of(shape, point) == core::Side::surface;
-            else
-                return false;
-        },
-        any);
-}
-
-struct Wrong {
-    long rows = 0, hits = 0, blocked = 0, sides = 0, asked = 0, surfaces = 0;
-    std::string first, of;
-
-    void blame(long& kind, const std::string& what) {
-        if (++kind == 1) first += what + "\n";
-    }
-};
-
-std::string described(const Expression& expression) {
-    std::ostringstream text;
-    text.precision(17);
-    if (expression.op == Op::part) {
-        text << core::name_of(static_cast<core::Kind>(expression.shape.index())) << "[";
-        std::visit(
-            [&](const auto& shape) {
-                for (const double number : core::numbers_of(shape))
-                    text << " " << number;
-            },
-            expression.shape);
-        text << " ]";
-        return text.str();
-    }
-    text << "|&-/"[static_cast<int>(expression.op) - 1] << "(";
-    for (const Expression& part : expression.of)
-        text << described(part) << " ";
-    text << ")";
-    return text.str();
-}
-
-std::string word(core::ShapeId shape, double t, bool entering) {
-    std::ostringstream text;
-    text.precision(17);
-    text << (entering ? "+" : "-") << shape << "@" << t << " ";
-    return text.str();
-}
-
-void ask(const Expression& expression, Random& random, bool lattice, int count, Wrong& wrong) {
-    SceneBuilder builder;
-    std::optional<Scene> scene;
-    try {
-        builder.add(solid_of(expression), builder.add_material({}));
-        scene = builder.build();
-    } catch (const InvalidValue&) { // a quadric without bounds
-        return;
-    }
-    std::vector<AnyShapeInDouble> shapes;
-    each_shape(expression, [&](const AnyShapeInDouble& shape) { shapes.push_back(shape); });
-    Rays rays;
-    std::vector<core::Ray<double>> exact;
+void ask(const Expression& expression, Random& random, bool lattice, int count, SolidTally& wrong) {
+    const std::optional<Scene> scene = scene_of(expression);
+    if (!scene) return; // a quadric without bounds
+    const std::vector<AnyShapeInDouble> shapes = shapes_of(expression);
+    std::vector<core::Ray<float>> rays;
     for (int i = 0; i < count; ++i) {
         const auto& aim = shapes[static_cast<std::size_t>(
             random.integer(0, static_cast<int>(shapes.size()) - 1))];
-        const core::Ray<float> ray = std::visit(
+        rays.push_back(std::visit(
             [&]<class Shape>(const Shape& shape) {
                 return ray_sets::make_ray(
                     core::to_floats(shape),
                     lattice ? ray_sets::Set::lattice : ray_sets::any_set(random), random);
             },
-            aim);
-        rays.add({ray.origin.x, ray.origin.y, ray.origin.z},
-                 {ray.direction.x, ray.direction.y, ray.direction.z});
-        exact.push_back({core::convert<double>(ray.origin), core::convert<double>(ray.direction)});
+            aim));
     }
-    const bool has_clip = described(expression).find('/') != std::string::npos;
-    const Tracer tracer(*scene);
-    CrossingRows rows;
-    tracer.crossings(rays.span(), rows);
-    const Hits hits = intersect(tracer, rays);
-    std::vector<std::uint8_t> blocked(rays.size());
-    tracer.occluded(rays.span(), blocked);
-    SolidRows solids;
-    tracer.contains(PointSpan{rays.span().origin_x, rays.span().origin_y, rays.span().origin_z},
-                    solids);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        oracle::SolidLine line(expression, exact[i]);
-        const std::vector<oracle::SolidHit> truth = line.surfaces();
-        ++wrong.asked;
-        wrong.surfaces += static_cast<long>(truth.size());
-        std::string expected, found;
-        for (const oracle::SolidHit& hit : truth)
-            expected +=
-                word(hit.shape, oracle::rounded_to_double(hit.hit.root, hit.hit.t), hit.entering);
-        for (std::uint64_t k = rows.first[i]; k < rows.first[i + 1]; ++k)
-            found += word(rows.shape[k], rows.t[k], rows.entering[k] != 0);
-        if (found != expected) wrong.blame(wrong.rows, "rows " + found + "for " + expected);
-        std::string first =
-            truth.empty()
-                ? "none"
-                : word(truth[0].shape,
-                       static_cast<double>(oracle::rounded(truth[0].hit.root, truth[0].hit.t)),
-                       truth[0].entering);
-        const std::string hit =
-            hits.shape[i] == no_shape
-                ? "none"
-                : word(hits.shape[i], static_cast<double>(hits.t[i]), hits.entering[i] != 0);
-        if (hit != first) wrong.blame(wrong.hits, "hit " + hit + "for " + first);
-        if ((blocked[i] != 0) == truth.empty()) wrong.blame(wrong.blocked, "occluded " + first);
-        int side = line.side_of_origin();
-        for (const AnyShapeInDouble& shape : shapes)
-            if (is_on(shape, exact[i].origin)) side = 0;
-        const bool is_in = solids.first[i] != solids.first[i + 1];
-        // What is clipped may have an inside, and no surface at all.
-        if (side != 0 && !has_clip && is_in != (side < 0)) wrong.blame(wrong.sides, "side");
-        if (!wrong.first.empty() && wrong.of.empty()) {
-            std::ostringstream text;
-            text.precision(17);
-            for (int axis = 0; axis < 3; ++axis)
-                text << exact[i].origin[axis] << " " << exact[i].direction[axis] << ", ";
-            wrong.of = described(expression) + " by " + text.str();
-        }
-    }
+    ask(expression, *scene, rays, wrong);
 }
 
-void check(const Wrong& wrong, bool lattice) {
+void check(const SolidTally& wrong, bool lattice) {
     CAPTURE(lattice, wrong.asked, wrong.surfaces, wrong.first, wrong.of);
     CHECK(wrong.rows == 0);
     CHECK(wrong.hits == 0);
@@ -301,7 +161,7 @@ void check(const Wrong& wrong, bool lattice) {
 TEST_CASE("solids of any others are what real arithmetic says") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(17));
-    Wrong wrong;
+    SolidTally wrong;
     const int scenes = rounds(120);
     for (int i = 0; i < scenes; ++i) {
         std::vector<AnyShapeInDouble> before;
@@ -316,7 +176,7 @@ TEST_CASE("solids of any others are what real arithmetic says") {
 TEST_CASE("a crowd that is cut is what real arithmetic says") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(23));
-    Wrong wrong;
+    SolidTally wrong;
     const int scenes = rounds(60);
     for (int i = 0; i < scenes; ++i)
         ask(any_cut_crowd(random, lattice), random, lattice, 100, wrong);

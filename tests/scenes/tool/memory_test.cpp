@@ -1,0 +1,96 @@
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+#include <cstdlib>
+#include <fstream>
+
+/// The tool where memory runs out, at any of its allocations: see failing_memory.c.
+using namespace raylane::tests;
+
+namespace {
+
+const std::string molecule = "4\nammonia\nN 0 0 0.1\nH 0 0.94 -0.27\n"
+                             "H 0.81 -0.47 -0.27\nH -0.81 -0.47 -0.27\n";
+const std::string pov = R"(#version 3.7;
+#declare R = 1;
+#macro Ball(X) sphere { <X, 0, 0>, R pigment { color rgb <1, 0, 0> } finish { reflection 0.2 } } #end
+camera { location <0, 0, -6> look_at 0 }
+light_source { <4, 6, -5> color rgb 1 }
+union { Ball(-0.5) Ball(0.5) }
+difference { box { -1, 1 } sphere { 0, 1.2 } translate 2*y pigment { checker color rgb 1 color rgb 0 } }
+)";
+
+/// A run of the tool with the heap that counts; `at`: refused then, 0 for never.
+struct Heap {
+    long at = 0;
+    bool for_good = false; ///< and from then on
+};
+
+Outcome render(const Workshop& workshop, const std::string& scene, const std::string& threads,
+               const Heap& heap) {
+    Setup setup;
+    setup.in_child = [heap] {
+        ::setenv("LD_PRELOAD", RAYLANE_FAILING_MEMORY, 1);
+        ::setenv("RAYLANE_ALLOCATIONS", "allocations", 1);
+        ::setenv("RAYLANE_FAIL_AT", std::to_string(heap.at).c_str(), 1);
+        if (heap.for_good) ::setenv("RAYLANE_FAIL_ON", "1", 1);
+    };
+    return workshop.run(
+        {"render", scene, "-o", "out/picture.png", "--size", "40x30", "--threads", threads}, setup);
+}
+
+/// The system may be asked for what can be done without: then all is as it was.
+bool is_right(const Workshop& workshop, const Outcome& outcome, const std::string& expected) {
+    const auto picture = workshop.output() / "picture.png";
+    const bool is_there = std::filesystem::exists(picture);
+    if (is_there && content_of(picture) != expected) return false;
+    std::filesystem::remove(picture);
+    if (!workshop.is_output_empty() || !outcome.exited || !outcome.out.empty()) return false;
+    if (outcome.code == 0) return is_there && outcome.err.empty();
+    return outcome.code == 3 && is_one_line(outcome.err) && outcome.err.starts_with("raylane: ");
+}
+
+/// Every one, or by how many to go on: RAYLANE_TEST_STRIDE. What reads the command line comes first
+/// and takes most of them.
+long stride() {
+    const char* const told = std::getenv("RAYLANE_TEST_STRIDE");
+    return told != nullptr ? std::atol(told) : 137;
+}
+
+void check_all(const std::string& name, const std::string& scene) {
+    const Workshop workshop;
+    workshop.write(name, scene);
+    for (const char* threads : {"1", "2"})
+        for (const bool for_good : {false, true}) {
+            const Outcome usual = render(workshop, name, threads, {});
+            REQUIRE(usual.code == 0);
+            const std::string expected = content_of(workshop.output() / "picture.png");
+            std::filesystem::remove(workshop.output() / "picture.png");
+            long count = 0;
+            std::ifstream(workshop.path() / "allocations") >> count;
+            REQUIRE(count > 500);
+            long refused = 0;
+            // Of the last thousand, which draw and write, more.
+            for (long at = 1; at <= count; at += at + 1000 < count ? stride() : 1 + stride() / 4) {
+                const Outcome outcome = render(workshop, name, threads, {at, for_good});
+                CAPTURE(name, threads, for_good, at, count, outcome.code, outcome.err);
+                REQUIRE(is_right(workshop, outcome, expected));
+                refused += outcome.code == 3 ? 1 : 0;
+            }
+            CHECK(refused > 10);
+        }
+}
+
+} // namespace
+
+TEST_CASE("memory that runs out is told in one line, whatever it was for") {
+    SECTION("JSON") {
+        check_all("s.json", ball);
+    }
+    SECTION("a molecule") {
+        check_all("s.xyz", molecule);
+    }
+    SECTION("POV-Ray's language") {
+        check_all("s.pov", pov);
+    }
+}
