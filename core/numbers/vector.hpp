@@ -4,6 +4,17 @@
 
 #include <cmath>
 
+namespace glm {
+
+/// From GLM 1.0.2 on its own is 0 - v, which has the other zeros, and asks numbers to be made of
+/// ints. This one is taken before it, as it is more special.
+template <class Real>
+constexpr vec<3, Real, defaultp> operator-(const vec<3, Real, defaultp>& v) {
+    return {-v.x, -v.y, -v.z};
+}
+
+} // namespace glm
+
 /// Three-component vectors. GLM holds the components; the products are ours, because the order of
 /// the operations and every fused multiply-add in them is part of what raylane promises.
 ///

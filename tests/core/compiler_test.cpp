@@ -1,7 +1,10 @@
+#include "core/numbers/vector.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/rounded_pair.hpp"
 
-/// What compilers are known to get wrong, and flags keep them from.
+#include <cmath>
+
+/// What compilers and libraries are known to get wrong, and flags or code of ours keep them from.
 
 TEST_CASE("a double that was rounded to float stays so") {
     const double exact[] = {1.0 / 3.0, 1.0 / 7.0};
@@ -11,4 +14,12 @@ TEST_CASE("a double that was rounded to float stays so") {
     CHECK(widened[0] == 0x1.555556p-2);
     CHECK(widened[1] == 0x1.24924ap-3);
     CHECK(rounded[0] == 0x1.555556p-2F);
+}
+
+TEST_CASE(
+    "a vector's negative has each component's, zeros included") { // GLM 1.0.2 subtracts from 0
+    const auto negative = -raylane::core::Vec3d(0.0, -0.0, 2.0);
+    CHECK(std::signbit(negative.x));
+    CHECK_FALSE(std::signbit(negative.y));
+    CHECK(negative.z == -2.0);
 }
