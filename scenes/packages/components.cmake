@@ -41,7 +41,8 @@ endforeach()
 list(JOIN version "." version)
 component(xxHash "${version}" BSD-2-Clause github/Cyan4973/xxHash "libxxhash[.]" raylane)
 
-if(GEMMI_INCLUDE_DIR AND PEGTL_INCLUDE_DIR)
+get_target_property(sources raylane_scenes SOURCES)
+if(sources MATCHES "gemmi_files")
   macro_of(${GEMMI_INCLUDE_DIR}/gemmi/version.hpp GEMMI_VERSION version)
   component(gemmi "${version}" "(MPL-2.0 OR LGPL-3.0-only) AND (Apache-2.0 OR MIT)" # its fast_float
             github/project-gemmi/gemmi "libgemmi" raylane libraylane)

@@ -7,6 +7,7 @@
 #include <gemmi/pdb.hpp>
 #include <gemmi/smcif.hpp>
 #include <numeric>
+#include <utility>
 
 namespace raylane::scenes::gemmi_files {
 
@@ -183,7 +184,8 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure)
         }
         return;
     }
-    const gemmi::SpaceGroup* group = structure.find_spacegroup();
+    const gemmi::SpaceGroup* group = gemmi::find_spacegroup_by_name(
+        structure.spacegroup_hm, structure.cell.alpha, structure.cell.gamma);
     for (const char* tag : {"_space_group_IT_number", "_symmetry_Int_Tables_number"})
         if (const std::string* number = block.find_value(tag); number && group == nullptr)
             group = gemmi::find_spacegroup_by_number(gemmi::cif::as_int(*number, 0));
@@ -281,7 +283,7 @@ std::vector<Model> read_cif(std::string_view text, const std::string& name) {
             gemmi::cif::read_memory(text.data(), text.size(), name.c_str());
         if (!is_small(document)) {
             check_macromolecule(document);
-            return models_of(gemmi::make_structure(document));
+            return models_of(gemmi::make_structure(std::move(document)));
         }
         std::vector<Model> models;
         for (gemmi::cif::Block& block : document.blocks) {
