@@ -98,9 +98,13 @@ void InputErrors::report() const {
         return std::tuple(std::find(files.begin(), files.end(), error.file), error.position.line,
                           error.position.column);
     };
-    std::vector<InputError> sorted = errors_;
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [&](const InputError& a, const InputError& b) { return place(a) < place(b); });
+    std::vector<InputError> sorted; // ten of them, at most
+    for (const InputError& error : errors_)
+        sorted.insert(std::upper_bound(sorted.begin(), sorted.end(), error,
+                                       [&](const InputError& a, const InputError& b) {
+                                           return place(a) < place(b);
+                                       }),
+                      error);
     throw BadInput(std::move(sorted), overflowed_);
 }
 

@@ -201,11 +201,12 @@ MethodChoice choose_method(const Scene& scene, const Settings& settings) {
         } else {
             method.objection = "nothing certifies it";
         }
-        choice.considered.push_back(std::move(method));
+        choice.considered.insert(
+            std::upper_bound(
+                choice.considered.begin(), choice.considered.end(), method,
+                [](const MethodEstimate& a, const MethodEstimate& b) { return a.cost < b.cost; }),
+            std::move(method));
     }
-    std::stable_sort(
-        choice.considered.begin(), choice.considered.end(),
-        [](const MethodEstimate& a, const MethodEstimate& b) { return a.cost < b.cost; });
     for (const MethodEstimate& method : choice.considered)
         if (method.objection.empty()) {
             choice.precision = method.precision;

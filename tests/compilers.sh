@@ -1,0 +1,44 @@
+#!/bin/sh
+# Holds the sources to every compiler that is here and from the floor on, as C++20 and as C++23: no errors
+# and no warnings. Nothing is made of them. Half an hour of one core for each, an hour with the tests.
+#
+#   tests/compilers.sh                        all of them
+#   tests/compilers.sh clang++-19/23 ...      these, each with its standard
+#   FILES='scenes/*' tests/compilers.sh       of these sources alone
+#   TESTS=ON tests/compilers.sh               of tests, too
+set -eu
+cd "$(dirname "$0")/.."
+
+if [ $# -eq 0 ]; then
+    for compiler in g++-12 g++-13 g++-14 g++-15 clang++-14 clang++-15 clang++-16 clang++-17 clang++-18 clang++-19; do
+        command -v "$compiler" >/dev/null || continue
+        set -- "$@" "$compiler/20" "$compiler/23"
+    done
+fi
+[ $# -gt 0 ] || { echo "no compiler of the list is here"; exit 1; }
+
+look() { # compiler, standard
+    folder=build/compilers/$1-$2
+    mkdir -p "$folder"
+    cmake --fresh --preset release -B "$folder" -GNinja -DCMAKE_CXX_COMPILER="$1" -DCMAKE_CXX_STANDARD="$2" \
+        -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DRAYLANE_BENCHMARKS=OFF -DRAYLANE_TESTS="${TESTS-OFF}" \
+        >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log"; return 1; }
+    # As it would be compiled, but for what comes of it.
+    python3 - "$folder/compile_commands.json" "$PWD/${FILES-*}" <<'PY' |
+import fnmatch, json, re, sys
+for each in json.load(open(sys.argv[1])):
+    if fnmatch.fnmatch(each["file"], sys.argv[2]):
+        print("cd", each["directory"], "&&", re.sub(r" -o \S+ -c ", " -fsyntax-only ", each["command"]))
+PY
+        xargs -P "$(nproc)" -d '\n' -n 1 sh -c >"$folder/log" 2>&1 || { cat "$folder/log"; return 1; }
+}
+failed=
+for each in "$@"; do
+    started=$(date +%s)
+    if look "${each%/*}" "${each#*/}"; then
+        echo "${each%/*}, C++${each#*/}: nothing to say in $(($(date +%s) - started)) s"
+    else
+        failed="$failed $each"
+    fi
+done
+[ -z "$failed" ] || { echo "not accepted:$failed"; exit 1; }
