@@ -4,6 +4,10 @@
 # find more, by means of their own.
 include(CheckPIESupported)
 check_pie_supported(LANGUAGES CXX) # else the linker is not told of CMAKE_POSITION_INDEPENDENT_CODE
+set(unless_plain $<NOT:$<BOOL:$<TARGET_PROPERTY:RAYLANE_PLAIN>>>)
+# The standard library's own, where one looks for mistakes.
+set(is_examined $<OR:$<CONFIG:Debug>,$<BOOL:${RAYLANE_SANITIZE}>>)
+target_compile_definitions(raylane_flags INTERFACE $<$<AND:${unless_plain},${is_examined}>:_GLIBCXX_ASSERTIONS>)
 if(NOT RAYLANE_HARDENED OR RAYLANE_SANITIZE)
   return()
 endif()
@@ -19,5 +23,5 @@ endforeach()
 # The last needs an optimiser, as not all of the other configurations have.
 list(APPEND hardening $<$<CONFIG:Release,MinSizeRel>:-U_FORTIFY_SOURCE>
      $<$<CONFIG:Release,MinSizeRel>:-D_FORTIFY_SOURCE=2>)
-target_compile_options(raylane_flags INTERFACE "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:RAYLANE_PLAIN>>>:${hardening}>")
+target_compile_options(raylane_flags INTERFACE "$<${unless_plain}:${hardening}>")
 target_link_options(raylane_flags INTERFACE LINKER:-z,relro LINKER:-z,now LINKER:-z,noexecstack)
