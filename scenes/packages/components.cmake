@@ -61,6 +61,17 @@ if(TARGET raylane-window)
   find_package(SDL2 QUIET)
   component(SDL2 "${SDL2_VERSION}" Zlib github/libsdl-org/SDL "libSDL2" raylane-window)
 endif()
+if(TARGET raylane-mpi)
+  set(version "")
+  if(EXISTS ${MPI_CXX_HEADER_DIR}/mpi.h)
+    foreach(part MAJOR MINOR RELEASE)
+      macro_of(${MPI_CXX_HEADER_DIR}/mpi.h OMPI_${part}_VERSION number)
+      list(APPEND version ${number})
+    endforeach()
+    list(JOIN version "." version)
+  endif()
+  component(OpenMPI "${version}" BSD-3-Clause-Open-MPI github/open-mpi/ompi "libmpi" raylane-mpi)
+endif()
 
 # The compiler's and the system's own.
 execute_process(COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -E -dM -x c++ -include cstddef /dev/null
@@ -70,6 +81,6 @@ foreach(name __GLIBC__ __GLIBC_MINOR__ _GLIBCXX_RELEASE)
   set(${name} "${CMAKE_MATCH_1}")
 endforeach()
 component(GCC-runtime "${_GLIBCXX_RELEASE}" "GPL-3.0-or-later WITH GCC-exception-3.1" generic/gcc
-          "lib(stdc[+][+]|gcc_s|atomic|[alt]san|ubsan)[.]" raylane libraylane raylane-window)
+          "lib(stdc[+][+]|gcc_s|atomic|[alt]san|ubsan)[.]" raylane libraylane raylane-window raylane-mpi)
 component(glibc "${__GLIBC__}.${__GLIBC_MINOR__}" LGPL-2.1-or-later generic/glibc
-          "(lib(c|m|dl|pthread|rt)[.]|ld-linux)" raylane libraylane raylane-window)
+          "(lib(c|m|dl|pthread|rt)[.]|ld-linux)" raylane libraylane raylane-window raylane-mpi)
