@@ -61,10 +61,6 @@ std::optional<core::Scene> any_scene(Bytes& bytes, bool plain) {
     settings.max_depth = plain ? 0 : bytes.below(6);
     settings.max_see_through = 1 + bytes.below(8);
     settings.light_samples = 1 + bytes.below(3);
-    if (!plain && bytes.below(32) == 31) { // up to a thousand samples
-        settings.quality = 30.0F;
-        settings.max_depth = 0;
-    }
     builder.camera.projection = static_cast<core::Projection>(bytes.below(2));
     builder.camera.from = bytes.vector<float>();
     builder.camera.at = bytes.vector<float>();

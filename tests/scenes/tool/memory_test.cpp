@@ -35,8 +35,9 @@ Outcome render(const Workshop& workshop, const std::string& scene, const std::st
         ::setenv("RAYLANE_FAIL_AT", std::to_string(heap.at).c_str(), 1);
         if (heap.for_good) ::setenv("RAYLANE_FAIL_ON", "1", 1);
     };
-    return workshop.run(
-        {"render", scene, "-o", "out/picture.png", "--size", "40x30", "--threads", threads}, setup);
+    return workshop.run({"render", scene, "-o", "out/picture.png", "--size", "40x30", "--quiet",
+                         "--threads", threads},
+                        setup);
 }
 
 /// The system may be asked for what can be done without: then all is as it was.
