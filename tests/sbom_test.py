@@ -91,6 +91,7 @@ OWNERS = [  # of what is included from, by the first that fits
     (r"/include/OpenEXR/", "OpenEXR"),
     (r"/include/Imath/", "Imath"),
     (r"/include/([a-z0-9_-]+/)?SDL2/", "SDL2"),
+    (r"/openmpi/", "OpenMPI"),
     (r"/png(conf|libconf)?\.h$", "libpng"),
     (r"/(zlib|zconf)\.h$", "zlib"),
     (r"/include/([a-z0-9_]+-linux-gnu/)?((bits|sys|gnu|asm|asm-generic|linux)/.*|[a-z0-9-]+\.h)$", "glibc"),
@@ -103,6 +104,8 @@ PARTS = {  # objects of which binaries
     "scenes/library/": ["libraylane"],
     "scenes/tool/CMakeFiles/raylane.dir/": ["raylane"],
     "scenes/tool/CMakeFiles/raylane_journal.dir/": ["raylane"],
+    "scenes/tool/CMakeFiles/raylane_ranks.dir/": ["raylane"],
+    "scenes/tool/CMakeFiles/raylane-mpi.dir/": ["raylane-mpi"],
     "scenes/tool/CMakeFiles/raylane-window.dir/": ["raylane-window"],
 }
 

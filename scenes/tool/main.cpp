@@ -22,7 +22,8 @@ namespace {
 
 /// Each line of the message on one of its own. Takes no memory: that may be what there is none of.
 int complain(std::string_view message, int code) {
-    if (message.empty() || first_rank_says_the_same()) return code;
+    if (message.empty()) return code;
+    if (first_rank_says_the_same()) return done; // or mpirun would not let it
     while (true) {
         const std::string_view line = message.substr(0, message.find('\n'));
         std::fprintf(stderr, "raylane: %.*s\n", static_cast<int>(line.size()), line.data());

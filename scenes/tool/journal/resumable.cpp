@@ -154,7 +154,7 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
     if (job.is_first())
         rendering.complete = rendering.complete && progress.pixels == grid_.part().pixels();
     else if (StopOnSignal::signal() != 0)
-        throw RankFailed(128 + StopOnSignal::signal(), "");
+        throw RankFailed::silent();
     return rendering;
 }
 

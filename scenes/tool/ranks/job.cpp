@@ -78,8 +78,8 @@ void Job::together(const std::function<void()>& work) {
     if (failed == reports.end()) return;
     fails_together_ = true;
     if (is_first() && own) std::rethrow_exception(own);
-    const int code = static_cast<unsigned char>(failed->front());
-    throw RankFailed(code, is_first() ? failed->substr(1) : "");
+    if (!is_first()) throw RankFailed::silent();
+    throw RankFailed(static_cast<unsigned char>(failed->front()), failed->substr(1));
 }
 
 void Job::require_same(const std::string& text, const std::string& what) {

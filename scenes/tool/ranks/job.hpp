@@ -9,11 +9,13 @@
 
 namespace raylane::scenes {
 
-/// Another rank has failed, and so this one has to end. Rank 0 says why, the others nothing.
+/// Another rank has failed, and so this one has to end. Rank 0 says why, the others nothing: they
+/// end as if all were well, or mpirun would end rank 0 before it has said so.
 struct RankFailed : std::exception {
     int code;         ///< to exit with
     std::string text; ///< empty: nothing is to be said
     RankFailed(int code_, std::string text_) : code(code_), text(std::move(text_)) {}
+    static RankFailed silent() { return {0, ""}; }
     const char* what() const noexcept override { return text.c_str(); }
 };
 
