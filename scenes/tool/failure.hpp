@@ -5,7 +5,7 @@
 namespace raylane::scenes {
 
 /// What the program exits with.
-enum ExitCode { done = 0, differs = 1, bad_input = 2, refused = 3 };
+enum ExitCode { done = 0, bad_input = 2, refused = 3 };
 
 /// What is to be said of an exception, a line for each error, and what the program is to exit with.
 struct Failure {

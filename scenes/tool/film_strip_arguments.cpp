@@ -39,7 +39,7 @@ void name_pictures(FilmStrip& strip, const std::string& scene, const Argument& o
 std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
                                        const SceneArguments& scene_arguments,
                                        const std::string& scene, const Argument& output,
-                                       int threads) {
+                                       int threads, Verbosity verbosity) {
     FilmStrip strip;
     strip.view = scene_arguments.view.change();
     strip.turn = frames.turning();
@@ -53,8 +53,8 @@ std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
     LoadOptions options = scene_arguments.load_options(true);
     strip.workers = std::make_shared<simd::ParallelWorkers>(threads);
     options.workers = strip.workers.get();
-    strip.verbosity = scene_arguments.verbosity.verbosity();
-    if (strip.verbosity != Verbosity::quiet)
+    strip.verbosity = verbosity;
+    if (verbosity != Verbosity::quiet)
         options.on_remark = [](const std::string& remark) {
             // In place of the line of progress, which is drawn anew.
             std::fprintf(stderr, is_terminal() ? "\r%s\x1B[K\n" : "%s\n", remark.c_str());

@@ -13,6 +13,6 @@ namespace raylane::scenes {
 std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
                                        const SceneArguments& scene_arguments,
                                        const std::string& scene, const Argument& output,
-                                       int threads);
+                                       int threads, Verbosity verbosity);
 
 } // namespace raylane::scenes

@@ -152,7 +152,7 @@ FilmStrip::Share share_of(const Job& job, const PicturePart& part) {
             part.count * static_cast<std::size_t>(job.size())};
 }
 
-int render(RenderArguments arguments) {
+int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
     simd::RenderOptions options = options_of(arguments);
     const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
@@ -167,11 +167,10 @@ int render(RenderArguments arguments) {
         return settings;
     };
     const Files files(arguments);
-    static_cast<void>(arguments.scene_arguments.verbosity.verbosity());
+    const Verbosity asked = arguments.scene_arguments.verbosity.verbosity();
 
     Job job;
-    if (!job.is_first()) arguments.scene_arguments.verbosity = {.quiet = true, .verbose = false};
-    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
+    const Verbosity verbosity = job.is_first() ? asked : Verbosity::quiet;
     if (!arguments.threads) options.threads = job.share_of_threads(options.threads);
     const auto prepare = [&](const core::Scene& scene, const core::Settings& settings) {
         picture.apply_to(options, settings);
@@ -202,7 +201,7 @@ int render(RenderArguments arguments) {
     std::optional<FilmStrip> strip;
     job.together([&] {
         strip = film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
-                              arguments.output, options.threads);
+                              arguments.output, options.threads, verbosity);
         if (!strip) return;
         if (files.stats)
             throw BadInput("--stats", "", "goes without --frames, --turn and several values");

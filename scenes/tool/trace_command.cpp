@@ -10,12 +10,12 @@
 #include "scenes/tool/scene_arguments.hpp"
 #include "scenes/tool/trace/ordered_output.hpp"
 #include "scenes/tool/trace/ray_file.hpp"
+#include "simd/render.hpp"
 #include "simd/stream_tracer.hpp"
 #include "simd/threads.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <cstring>
 #include <functional>
 #include <memory>
 
@@ -114,8 +114,8 @@ class Answers {
 };
 
 /// Answers all pieces, on so many threads here and with the other ranks; `add` gets them, in any
-/// order, at rank 0. `traced` counts its rays.
-void answer_all(const Answers& answers, Job& job, int threads, std::atomic<std::uint64_t>& traced,
+/// order, at rank 0. Its rays count as rays and as pixels of `progress`.
+void answer_all(const Answers& answers, Job& job, int threads, simd::Progress& progress,
                 const std::function<void(std::size_t, std::string)>& add) {
     std::atomic<bool> stop = false;
     std::optional<SharedWork> shared;
@@ -133,7 +133,8 @@ void answer_all(const Answers& answers, Job& job, int threads, std::atomic<std::
             while (std::optional<SharedWork::Piece> piece = next()) {
                 const std::size_t number = piece->number;
                 if (!piece->is_done) piece->bytes = answers.of(number);
-                traced += answers.count_in(number);
+                progress.rays += answers.count_in(number);
+                progress.pixels += static_cast<std::int64_t>(answers.count_in(number));
                 if (job.is_first())
                     add(number, std::move(piece->bytes));
                 else
@@ -150,7 +151,7 @@ void answer_all(const Answers& answers, Job& job, int threads, std::atomic<std::
     if (shared) shared->finish();
 }
 
-int trace(TraceArguments arguments) {
+int trace(const TraceArguments& arguments) {
     const core::Precision precision =
         precision_argument(*arguments.precision).value_or(core::Precision::exact);
     int threads = threads_argument(arguments.threads);
@@ -161,10 +162,10 @@ int trace(TraceArguments arguments) {
                                                 : default_output(ray_file, "-hits.npy");
     require_other_file("--output", output, "SCENE", scene_file);
     require_other_file("--output", output, "RAYS", ray_file);
+    const Verbosity asked = arguments.scene_arguments.verbosity.verbosity();
 
     Job job;
-    if (!job.is_first()) arguments.scene_arguments.verbosity = {.quiet = true, .verbose = false};
-    const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
+    const Verbosity verbosity = job.is_first() ? asked : Verbosity::quiet;
     if (!arguments.threads) threads = job.share_of_threads(threads);
     std::optional<RayFile> rays;
     std::optional<AtomicFile> file;
@@ -184,17 +185,12 @@ int trace(TraceArguments arguments) {
 
     std::optional<OrderedOutput> ordered;
     if (file) ordered.emplace(*file);
-    std::atomic<std::uint64_t> traced = 0;
+    simd::Progress progress;
     const auto start = std::chrono::steady_clock::now();
-    const auto text = [&] {
-        const double seconds = seconds_since(start), done = static_cast<double>(traced);
-        const double part = done / static_cast<double>(std::max<std::uint64_t>(1, rays->count()));
-        return bar_text(part) + "  " + with_prefix(done / seconds) + "rays/s  " +
-               (done > 0.0 ? duration_text(seconds * (1.0 - part) / part) + " left" : "");
-    };
     {
-        const ProgressLine line(verbosity, text);
-        answer_all(*answers, job, threads, traced, [&](std::size_t number, std::string bytes) {
+        const ProgressBar bar(verbosity, progress,
+                              std::max<std::int64_t>(1, static_cast<std::int64_t>(rays->count())));
+        answer_all(*answers, job, threads, progress, [&](std::size_t number, std::string bytes) {
             ordered->add(number, std::move(bytes));
         });
     }

@@ -48,7 +48,6 @@ class ThreadRanks : public scenes::Ranks {
 
     int rank() const override { return rank_; }
     int size() const override { return room_.size; }
-    int rank_on_host() const override { return rank_; }
     int size_of_host() const override { return room_.size; }
     void gather(const void*, std::size_t, const char*&, const std::size_t*&) override {
         FAIL("not asked for");
@@ -85,7 +84,6 @@ class ThreadRanks : public scenes::Ranks {
                   static_cast<char*>(bytes));
         room_.messages.pop_front();
     }
-    [[noreturn]] void abort(int code) override { std::exit(code); }
 
   private:
     Room& room_;

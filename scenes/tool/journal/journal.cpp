@@ -3,6 +3,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/library/raylane/version.h"
 #include "scenes/tool/journal/fingerprint.hpp"
+#include "scenes/tool/read_at.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -34,17 +35,9 @@ std::string head_of(const JournalSubject& subject) {
 }
 
 /// As many bytes as there are from a place on, at most `most`.
-std::string read_at(int descriptor, std::int64_t place, std::size_t most) {
+std::string bytes_at(int descriptor, std::int64_t place, std::size_t most) {
     std::string bytes(most, '\0');
-    std::size_t have = 0;
-    while (have < most) {
-        const ssize_t count = ::pread(descriptor, bytes.data() + have, most - have,
-                                      place + static_cast<std::int64_t>(have));
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) break;
-        have += static_cast<std::size_t>(count);
-    }
-    bytes.resize(have);
+    bytes.resize(read_at(descriptor, place, bytes));
     return bytes;
 }
 
@@ -111,7 +104,7 @@ void Journal::open() {
     struct stat status {};
     const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
                          status.st_uid == ::geteuid(); // others may write what they like
-    const std::string head = is_file ? read_at(descriptor, 0, head_.size()) : "";
+    const std::string head = is_file ? bytes_at(descriptor, 0, head_.size()) : "";
     if (!head.starts_with(magic))
         found_ = Found::none_of_ours;
     else if (!take_lock(descriptor))
@@ -131,12 +124,12 @@ bool Journal::read(const std::string& head) {
         end_ = static_cast<std::int64_t>(head_.size());
         for (;;) {
             RecordHead record{};
-            const std::string start = read_at(descriptor_, end_, sizeof record);
+            const std::string start = bytes_at(descriptor_, end_, sizeof record);
             if (start.size() < sizeof record) break;
             std::memcpy(&record, start.data(), sizeof record);
             if (record.number >= places_.size() || record.bytes != records_.bytes(record.number))
                 break;
-            const std::string all = read_at(descriptor_, end_, bytes_around + record.bytes);
+            const std::string all = bytes_at(descriptor_, end_, bytes_around + record.bytes);
             if (all.size() < bytes_around + record.bytes) break;
             const std::span<const char> summed(all.data(), sizeof record + record.bytes);
             std::uint64_t checksum;
@@ -166,7 +159,7 @@ std::int64_t Journal::found_pixels() const {
 bool Journal::recall(const simd::TileToFill& tile) {
     const std::size_t number = records_.grid().number_of(tile.region);
     if (places_[number] < 0) return false;
-    const std::string bytes = read_at(descriptor_, places_[number], records_.bytes(number));
+    const std::string bytes = bytes_at(descriptor_, places_[number], records_.bytes(number));
     if (bytes.size() < records_.bytes(number)) return false;
     records_.fill(tile, bytes);
     return true;

@@ -134,9 +134,10 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
     RankedTiles ranked(*job.ranks(), std::move(tiles), records, options_.threads, progress.stop);
     options_.tiles = &ranked;
     options_.recall = [&](const simd::TileToFill& tile) {
-        if (!ranked.recall(tile)) return journal_ && journal_->recall(tile);
+        const std::optional<std::string> bytes = ranked.recall(tile);
+        if (!bytes) return journal_ && journal_->recall(tile);
         progress.rays += tile.counters.rays();
-        if (journal_) journal_->note({tile.region, tile.film, tile.layers, tile.counters});
+        if (journal_) journal_->note(grid_.number_of(tile.region), *bytes);
         return true;
     };
     options_.after_tile = [&](const simd::FinishedTile& tile) {

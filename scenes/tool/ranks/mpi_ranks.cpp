@@ -24,7 +24,6 @@ class MpiRanks : public Ranks {
         MPI_Comm_size(all_, &size_);
         MPI_Comm host;
         MPI_Comm_split_type(all_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &host);
-        MPI_Comm_rank(host, &rank_on_host_);
         MPI_Comm_size(host, &size_of_host_);
         MPI_Comm_free(&host);
         MPI_Win_allocate(rank_ == 0 ? sizeof *counter_ : 0, sizeof *counter_, MPI_INFO_NULL, all_,
@@ -41,7 +40,6 @@ class MpiRanks : public Ranks {
 
     int rank() const override { return rank_; }
     int size() const override { return size_; }
-    int rank_on_host() const override { return rank_on_host_; }
     int size_of_host() const override { return size_of_host_; }
 
     void gather(const void* bytes, std::size_t count, const char*& all,
@@ -121,16 +119,11 @@ class MpiRanks : public Ranks {
         MPI_Mrecv(bytes, length_, MPI_BYTE, &message_, MPI_STATUS_IGNORE);
     }
 
-    [[noreturn]] void abort(int code) override {
-        MPI_Abort(all_, code);
-        std::_Exit(code);
-    }
-
   private:
     static constexpr int tag = 1;
 
     MPI_Comm all_ = MPI_COMM_NULL;
-    int rank_ = 0, size_ = 1, rank_on_host_ = 0, size_of_host_ = 1;
+    int rank_ = 0, size_ = 1, size_of_host_ = 1;
     MPI_Win window_ = MPI_WIN_NULL;
     std::uint64_t* counter_ = nullptr; // at rank 0
     MPI_Request barrier_ = MPI_REQUEST_NULL, sending_ = MPI_REQUEST_NULL;

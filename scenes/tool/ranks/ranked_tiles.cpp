@@ -1,5 +1,6 @@
 #include "scenes/tool/ranks/ranked_tiles.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace raylane::scenes {
@@ -30,31 +31,29 @@ std::optional<std::size_t> RankedTiles::next() {
     std::optional<SharedWork::Piece> piece = work_.next();
     if (!piece) return std::nullopt;
     const std::size_t tile = tiles_.to_draw[piece->number];
+    if (!piece->is_done) return tile;
     const std::lock_guard lock(mutex_);
-    if (piece->is_done)
-        drawn_elsewhere_.emplace(tile, std::move(piece->bytes));
-    else if (ranks_.rank() != 0)
-        pieces_.emplace(tile, piece->number);
+    drawn_elsewhere_.emplace(tile, std::move(piece->bytes));
     return tile;
 }
 
-bool RankedTiles::recall(const simd::TileToFill& tile) {
+std::optional<std::string> RankedTiles::recall(const simd::TileToFill& tile) {
     std::unique_lock lock(mutex_);
     auto found = drawn_elsewhere_.extract(records_.grid().number_of(tile.region));
     lock.unlock();
-    if (found.empty()) return false;
+    if (found.empty()) return std::nullopt;
     records_.fill(tile, found.mapped());
-    return true;
+    return std::move(found.mapped());
 }
 
 void RankedTiles::note(const simd::FinishedTile& tile) {
     if (ranks_.rank() == 0) return;
-    std::unique_lock lock(mutex_);
-    const auto piece = pieces_.extract(records_.grid().number_of(tile.region));
-    lock.unlock();
     std::string bytes;
     records_.append(tile, bytes);
-    work_.done(piece.mapped(), bytes);
+    const auto& all = tiles_.to_draw;
+    const auto place =
+        std::lower_bound(all.begin(), all.end(), records_.grid().number_of(tile.region));
+    work_.done(static_cast<std::size_t>(place - all.begin()), bytes);
 }
 
 std::vector<std::pair<std::size_t, std::string>> RankedTiles::finish() {

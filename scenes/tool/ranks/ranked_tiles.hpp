@@ -18,7 +18,7 @@ class RankedTiles : public simd::TileSource {
   public:
     /// What there is to be done, for rank 0 to say.
     struct Tiles {
-        std::vector<std::uint32_t> to_draw;  ///< by any rank
+        std::vector<std::uint32_t> to_draw;  ///< by any rank, in order
         std::vector<std::uint32_t> to_visit; ///< by rank 0, which knows what they show
     };
 
@@ -29,8 +29,9 @@ class RankedTiles : public simd::TileSource {
     std::optional<std::size_t> next() override;
     void cancel() override { work_.cancel(); }
 
-    /// For simd::RenderOptions: fills a tile that another rank has drawn; sends one to rank 0.
-    bool recall(const simd::TileToFill& tile);
+    /// For simd::RenderOptions: fills a tile that another rank has drawn, and returns its bytes;
+    /// sends one to rank 0.
+    std::optional<std::string> recall(const simd::TileToFill& tile);
     void note(const simd::FinishedTile& tile);
 
     /// All together, behind the drawing. Of tiles that have come too late to be drawn, as it was
@@ -45,7 +46,6 @@ class RankedTiles : public simd::TileSource {
     std::mutex mutex_; // of what follows
     std::size_t visited_ = 0;
     std::unordered_map<std::size_t, std::string> drawn_elsewhere_; // not filled in yet
-    std::unordered_map<std::size_t, std::size_t> pieces_;          // underway here, by tile
 };
 
 } // namespace raylane::scenes

@@ -19,7 +19,6 @@ class Ranks {
 
     virtual int rank() const = 0;
     virtual int size() const = 0;
-    virtual int rank_on_host() const = 0; ///< from 0
     virtual int size_of_host() const = 0; ///< ranks on this rank's host
 
     /// All together: the bytes of each rank, of which every rank may have as many as it likes, one
@@ -44,9 +43,6 @@ class Ranks {
     /// Rank 0: the number of bytes that somebody has sent and receive() gives, if any.
     virtual bool has_message(std::size_t& count) = 0;
     virtual void receive(void* bytes) = 0;
-
-    /// Ends all ranks at once, with this exit code.
-    [[noreturn]] virtual void abort(int code) = 0;
 };
 
 /// True if mpirun, srun or the like have started this process as one of several.

@@ -1,6 +1,7 @@
 #include "scenes/tool/trace/ray_file.hpp"
 
 #include "scenes/errors.hpp"
+#include "scenes/tool/read_at.hpp"
 
 #include <cerrno>
 #include <charconv>
@@ -20,7 +21,7 @@ constexpr std::string_view magic = "\x93NUMPY"sv;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 62;
 
 /// What is behind a key in the head, which is a dictionary as Python writes it.
-std::string_view value_of(std::string_view text, std::string_view key) {
+std::string_view value_of(std::string_view text, std::string_view key, const std::string& file) {
     for (const char quote : {'\'', '"'}) {
         const std::string quoted = quote + std::string(key) + quote;
         const std::size_t at = text.find(quoted);
@@ -29,14 +30,14 @@ std::string_view value_of(std::string_view text, std::string_view key) {
         const std::size_t start = text.find_first_not_of(" :");
         if (start != std::string_view::npos) return text.substr(start);
     }
-    throw "has no " + std::string(key) + " in its head";
+    throw BadInput(file, "", "has no " + std::string(key) + " in its head");
 }
 
-std::vector<std::uint64_t> numbers_of(std::string_view text) {
+std::vector<std::uint64_t> numbers_of(std::string_view text, const std::string& file) {
+    const BadInput none(file, "", "has a shape that is none");
     std::vector<std::uint64_t> numbers;
     const std::size_t end = text.find(')');
-    if (!text.starts_with('(') || end == std::string_view::npos)
-        throw std::string("has a shape that is none");
+    if (!text.starts_with('(') || end == std::string_view::npos) throw none;
     text = text.substr(1, end - 1);
     while (!text.empty()) {
         const std::size_t start = text.find_first_not_of(" ,");
@@ -45,7 +46,7 @@ std::vector<std::uint64_t> numbers_of(std::string_view text) {
         std::uint64_t number = 0;
         const auto [behind, error] =
             std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc()) throw std::string("has a shape that is none");
+        if (error != std::errc()) throw none;
         numbers.push_back(number);
         text.remove_prefix(static_cast<std::size_t>(behind - text.data()));
     }
@@ -54,15 +55,15 @@ std::vector<std::uint64_t> numbers_of(std::string_view text) {
 
 } // namespace
 
-NpyHead npy_head_of(std::string_view text) {
+NpyHead npy_head_of(std::string_view text, const std::string& file) {
     NpyHead head;
-    const std::string_view type = value_of(text, "descr");
+    const std::string_view type = value_of(text, "descr", file);
     const std::size_t end = type.find(type.empty() ? '\'' : type[0], 1);
     if (type.empty() || (type[0] != '\'' && type[0] != '"') || end == std::string_view::npos)
-        throw std::string("must have numbers of one type, float32 or float64");
+        throw BadInput(file, "", "must have numbers of one type, float32 or float64");
     head.type = type.substr(1, end - 1);
-    head.by_columns = value_of(text, "fortran_order").starts_with("True");
-    head.shape = numbers_of(value_of(text, "shape"));
+    head.by_columns = value_of(text, "fortran_order", file).starts_with("True");
+    head.shape = numbers_of(value_of(text, "shape", file), file);
     return head;
 }
 
@@ -116,12 +117,7 @@ void RayFile::read_head() {
     if (start_ > size || length > 1U << 20) refuse("ends in its head");
     std::string text(length, '\0');
     read_bytes(start_ - length, text.data(), text.size());
-    NpyHead head;
-    try {
-        head = npy_head_of(text);
-    } catch (const std::string& wrong) {
-        refuse(wrong);
-    }
+    const NpyHead head = npy_head_of(text, printable(name_, 4096));
     has_doubles_ = head.type == "<f8";
     if (!has_doubles_ && head.type != "<f4")
         refuse("must have numbers of type float32 or float64 (<f4 or <f8), got \"" +
@@ -141,15 +137,9 @@ void RayFile::read_head() {
 }
 
 void RayFile::read_bytes(std::uint64_t place, char* bytes, std::size_t count) const {
-    while (count > 0) {
-        const ssize_t have = ::pread(descriptor_, bytes, count, static_cast<off_t>(place));
-        if (have < 0 && errno == EINTR) continue;
-        if (have < 0) throw SystemRefused(name_, "read", errno);
-        if (have == 0) refuse("has become shorter");
-        bytes += have;
-        place += static_cast<std::uint64_t>(have);
-        count -= static_cast<std::size_t>(have);
-    }
+    if (read_at(descriptor_, static_cast<std::int64_t>(place), {bytes, count}) == count) return;
+    if (errno != 0) throw SystemRefused(name_, "read", errno);
+    refuse("has become shorter");
 }
 
 template <class Real>

@@ -16,8 +16,8 @@ struct NpyHead {
     std::vector<std::uint64_t> shape;
 };
 
-/// The text of a head; throws std::string, what is wrong with it.
-NpyHead npy_head_of(std::string_view text);
+/// Of the text of a file's head. Throws BadInput.
+NpyHead npy_head_of(std::string_view text, const std::string& file);
 
 /// Magic, version and head of a file of `count` elements of a type, such as '<f4' (with its
 /// quotes).
