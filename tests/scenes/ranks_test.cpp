@@ -187,10 +187,15 @@ TEST_CASE("a thread that fails leaves none waiting") {
         std::atomic<bool> stop = false;
         SharedWork work(own, 1000, 2, stop);
         if (own.rank() == 0) {
-            for_each_piece(work, 2, [&](const SharedWork::Piece&) { work.cancel(); });
+            std::thread fails([&] {
+                std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                work.cancel();
+            });
+            for_each_piece(work, 2, [](const SharedWork::Piece&) {});
+            fails.join();
         } else {
             while (work.next()) {
-            } // never done: rank 0 would wait for it
+            } // never done: rank 0 waits for it
         }
     });
     SUCCEED();
