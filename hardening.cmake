@@ -6,7 +6,10 @@ include(CheckPIESupported)
 check_pie_supported(LANGUAGES CXX) # else the linker is not told of CMAKE_POSITION_INDEPENDENT_CODE
 set(unless_plain $<NOT:$<BOOL:$<TARGET_PROPERTY:RAYLANE_PLAIN>>>)
 # The standard library's own, where one looks for mistakes.
-set(is_examined $<OR:$<CONFIG:Debug>,$<BOOL:${RAYLANE_SANITIZE}>>)
+set(is_examined $<CONFIG:Debug>)
+if(RAYLANE_SANITIZE) # a name or several with commas, which $<BOOL:> does not take
+  set(is_examined 1)
+endif()
 target_compile_definitions(raylane_flags INTERFACE $<$<AND:${unless_plain},${is_examined}>:_GLIBCXX_ASSERTIONS>)
 if(NOT RAYLANE_HARDENED OR RAYLANE_SANITIZE)
   return()
