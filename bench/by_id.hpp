@@ -14,10 +14,10 @@ template <class Shape>
 std::vector<std::pair<core::ShapeId, core::Place>> places_by_id(const core::Table<Shape>& table) {
     std::vector<std::pair<core::ShapeId, core::Place>> places;
     places.reserve(table.size());
-    for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
-        for (std::uint8_t lane = 0; lane < core::block_size; ++lane)
-            if (const core::ShapeId id = table.blocks()[block].ids[lane]; id != core::no_shape)
-                places.push_back({id, {block, lane}});
+    for (std::uint32_t block = 0; block < table.block_count(); ++block)
+        core::for_each_in_block(table, block, [&](core::Place place, core::ShapeId id) {
+            places.push_back({id, place});
+        });
     std::sort(places.begin(), places.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
     return places;

@@ -1,5 +1,6 @@
 #include "scenes/format.hpp"
 
+#include "scenes/built/built_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 
@@ -15,13 +16,21 @@ namespace raylane::scenes {
 namespace {
 
 constexpr std::pair<std::string_view, Format> endings[] = {
-    {".json", Format::json},        {".nff", Format::nff},
-    {".pov", Format::pov},          {".pdb", Format::pdb},
-    {".ent", Format::pdb},          {".cif", Format::cif},
-    {".mmcif", Format::cif},        {".xyz", Format::xyz},
-    {".extxyz", Format::xyz},       {".gro", Format::gro},
-    {".dump", Format::lammps_dump}, {".lammpstrj", Format::lammps_dump},
-    {".data", Format::lammps_data}, {".lmp", Format::lammps_data},
+    {".json", Format::json},
+    {".nff", Format::nff},
+    {".pov", Format::pov},
+    {".rl", Format::built},
+    {".pdb", Format::pdb},
+    {".ent", Format::pdb},
+    {".cif", Format::cif},
+    {".mmcif", Format::cif},
+    {".xyz", Format::xyz},
+    {".extxyz", Format::xyz},
+    {".gro", Format::gro},
+    {".dump", Format::lammps_dump},
+    {".lammpstrj", Format::lammps_dump},
+    {".data", Format::lammps_data},
+    {".lmp", Format::lammps_data},
 };
 
 constexpr std::string_view blanks = " \t\r\v\f";
@@ -181,6 +190,7 @@ Format format_of(InputFile& file) {
         if (ending == known) return format;
 
     std::string_view head = file.head();
+    if (looks_built(head)) return Format::built;
     if (is_binary(head))
         throw BadInput(file.name(), "",
                        "must be a scene or atoms in a text format, got a binary file");
@@ -199,8 +209,9 @@ Format format_of(InputFile& file) {
     if (looks_like_lammps_data(lines)) return Format::lammps_data;
     throw BadInput(
         file.name(), "",
-        "must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov) or Tachyon's "
-        "format (.dat), or atoms in PDB (.pdb), mmCIF or CIF (.cif), XYZ (.xyz), GRO (.gro), or "
+        "must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov), Tachyon's format "
+        "(.dat) or what \"raylane build\" writes (.rl), or atoms in PDB (.pdb), mmCIF or CIF "
+        "(.cif), XYZ (.xyz), GRO (.gro), or "
         "LAMMPS' dump (.dump) or data (.data), and what it holds is none of these");
 }
 

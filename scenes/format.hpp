@@ -5,7 +5,7 @@
 namespace raylane::scenes {
 
 /// What files that are read hold.
-enum class Format { json, nff, pov, tachyon, pdb, cif, xyz, gro, lammps_dump, lammps_data };
+enum class Format { json, nff, pov, tachyon, built, pdb, cif, xyz, gro, lammps_dump, lammps_data };
 
 /// True of atoms, which are drawn as the reader likes.
 constexpr bool is_structure(Format format) {

@@ -1,10 +1,13 @@
 #include "scenes/input_file.hpp"
 
+#include "core/shapes/big_array.hpp"
 #include "scenes/errors.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -136,6 +139,23 @@ std::string InputFile::read_all() {
     }
     text.resize(filled);
     return text;
+}
+
+FileBytes InputFile::whole() {
+    head(); // tells whether it is compressed
+    if (descriptor_ >= 0 && inflater_ == nullptr && size_ > 0) {
+        const std::size_t size = size_;
+        void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor_, 0);
+        if (memory != MAP_FAILED) {
+            if (on_read) on_read(size_, size_);
+            return {{static_cast<const std::byte*>(memory), size},
+                    {memory, [size](void* mapped) { ::munmap(mapped, size); }}};
+        }
+    }
+    const std::string text = read_all();
+    const auto bytes = std::make_shared<core::BigArray<std::byte>>(text.size());
+    std::copy_n(reinterpret_cast<const std::byte*>(text.data()), text.size(), bytes->data());
+    return {{bytes->data(), bytes->size()}, bytes};
 }
 
 bool InputFile::rewind() {

@@ -18,6 +18,13 @@ using OnRead = std::function<void(std::uint64_t bytes, std::uint64_t of)>;
 /// scene does not have.
 using OnRemark = std::function<void(const std::string& remark)>;
 
+/// All bytes of a file, which stay where they are, from a multiple of 64 on, as long as `keeper`
+/// is.
+struct FileBytes {
+    std::span<const std::byte> bytes;
+    std::shared_ptr<const void> keeper;
+};
+
 /// A file, or anything else that can be read from start to end. What gzip has compressed reads as
 /// what that was.
 class InputFile {
@@ -47,6 +54,9 @@ class InputFile {
     std::size_t read(std::span<char> buffer);
     /// Everything that is left. Throws SystemRefused.
     std::string read_all();
+    /// Everything, before any of it is read: mapped into memory, where the system can do that; then
+    /// nobody may shorten the file meanwhile. Throws SystemRefused.
+    FileBytes whole();
     /// Begins again at the start. False where that cannot be (a pipe).
     bool rewind();
 

@@ -1,5 +1,6 @@
 #include "scenes/scene_file.hpp"
 
+#include "scenes/built/built_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/format.hpp"
 #include "scenes/json/reader.hpp"
@@ -25,6 +26,7 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
         throw BadInput(options.option_for_atoms, "",
                        "goes with a file of atoms, and " + printable(file.name(), 4096) +
                            " is a scene");
+    if (format == Format::built) return read_built(file, options.workers);
     if (format == Format::pov) return read_pov(file, options.workers, options.on_remark);
     if (format == Format::tachyon)
         return read_tachyon(file, options.workers, options.on_remark, options.tachyon);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <unistd.h>
 #include <utility>
@@ -90,6 +91,23 @@ FogView view_of(const core::Fog& fog) {
     return view;
 }
 
+PackedView view_of(const core::PackedSpheres& packed) {
+    static_assert(sizeof(PackedBlockView) == sizeof(core::PackedBlock));
+    static_assert(offsetof(PackedBlockView, whole) == offsetof(core::PackedBlock, whole));
+    static_assert(offsetof(PackedBlockView, steps) == offsetof(core::PackedBlock, steps));
+    static_assert(offsetof(PackedBlockView, words) == offsetof(core::PackedBlock, words));
+    static_assert(core::PackedBlock::empty == no_slot);
+    // Without a tree shapes are looked at where they are.
+    static_assert(core::least_packed > few_shapes);
+    static_assert(sizeof(core::PackedSpheres::Row) == sizeof(float[core::block_size]));
+    return {reinterpret_cast<const PackedBlockView*>(packed.blocks.data()),
+            reinterpret_cast<const float(*)[core::block_size]>(packed.rows.data()),
+            packed.palette.radii(),
+            static_cast<std::uint32_t>(packed.palette.size()),
+            static_cast<std::uint32_t>(packed.palette.id_bits()),
+            packed.palette.id_mask()};
+}
+
 std::uint32_t depth_below(const core::BigArray<core::WideNode>& nodes, std::uint32_t index) {
     std::uint32_t deepest = 0;
     for (const core::Child child : nodes[index].children)
@@ -167,13 +185,14 @@ void SceneData::view_tables() {
     double rounding = 0.0;
     core::for_each_table(scene_.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
         const auto kind = static_cast<int>(core::kind_of<Shape>);
-        const auto blocks = static_cast<std::uint32_t>(table.blocks().size());
-        view_.tables[kind] = {reinterpret_cast<const float*>(table.blocks().data()),
+        const auto blocks = static_cast<std::uint32_t>(table.block_count());
+        view_.tables[kind] = {reinterpret_cast<const float*>(table.plain_blocks().data()),
                               blocks,
                               sizeof(core::Block<Shape>) / sizeof(float),
                               core::number_count<Shape>,
                               slots_,
-                              reinterpret_cast<const double*>(table.doubles().data())};
+                              reinterpret_cast<const double*>(table.doubles().data()),
+                              table.is_packed() ? view_of(*table.packed()) : PackedView{}};
         slots_ += blocks * core::block_size;
         if (table.has_doubles())
             core::for_each_shape(table, [&](const auto& shape, core::ShapeId) {
@@ -306,12 +325,11 @@ void SceneData::find_plain_lanes(Transmissive transmissive) {
 SceneData::Occupant SceneData::find_occupant(std::uint32_t slot) const {
     static_assert(no_slot == core::no_shape);
     const core::Kind kind = kind_of(slot);
-    const TableView& table = view_.tables[static_cast<int>(kind)];
-    const std::uint32_t place = slot - table.first_slot;
-    const float* block =
-        table.blocks + std::size_t{table.block_floats} * (place / core::block_size);
-    const core::ShapeId id = reinterpret_cast<const core::ShapeId*>(
-        block + std::size_t{core::block_size} * table.values)[place % core::block_size];
+    const std::uint32_t place = slot - view_.tables[static_cast<int>(kind)].first_slot;
+    const core::ShapeId id = core::with_table(scene_.shapes(), kind, [place](const auto& table) {
+        return table.id(
+            {place / core::block_size, static_cast<std::uint8_t>(place % core::block_size)});
+    });
     if (id == core::no_shape) return {id, {id, id}, 0, kind, false, 0, false};
     return {id,
             scene_.coplanar_with(id),

@@ -8,11 +8,29 @@
 /// that are built for newer processors.
 namespace raylane::simd {
 
+/// core::PackedBlock
+struct alignas(32) PackedBlockView {
+    std::uint32_t least[3];
+    std::uint32_t whole;
+    std::uint8_t steps[3][48];
+    std::uint32_t words[16];
+};
+
+/// core::PackedSpheres
+struct PackedView {
+    const PackedBlockView* blocks = nullptr; ///< null: the table is not packed
+    const float (*rows)[16] = nullptr;       ///< those that stand by themselves
+    const float* radii = nullptr;            ///< 16 of them at least can be read
+    std::uint32_t radius_count = 0;
+    std::uint32_t id_bits = 0; ///< of a word: above them is the number of the radius
+    std::uint32_t id_mask = 0; ///< these bits
+};
+
 /// All shapes of one kind: an array of core::Block, which is `values` rows of 16 floats and a row
 /// of 16 ids. Shapes are numbered across the kinds by slots: that of lane l in block b is
 /// first_slot + 16 b + l.
 struct TableView {
-    const float* blocks;
+    const float* blocks; ///< null: they are packed
     std::uint32_t block_count;
     std::uint32_t block_floats; ///< from one block to the next, in floats
     std::uint32_t values;       ///< floats that a shape is
@@ -20,6 +38,10 @@ struct TableView {
     /// Null, or what the shapes are exactly: an array of core::DoubleBlock, whose numbers are as
     /// far from its first as the floats are from theirs.
     const double* doubles = nullptr;
+    /// Where there is one, instead of `blocks`.
+    PackedView packed{};
+
+    [[gnu::always_inline]] bool is_packed() const { return packed.blocks != nullptr; }
 };
 
 /// core::WideNode

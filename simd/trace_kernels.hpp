@@ -66,7 +66,7 @@ struct Pending {
 };
 /// 16 that are none, and then up to 30 a level: whichever of the last 16 is taken, its children
 /// come behind the other 15. What is written at once may reach 20 beyond.
-constexpr std::size_t pending_entries(std::uint32_t levels) {
+[[gnu::always_inline]] constexpr std::size_t pending_entries(std::uint32_t levels) {
     return std::size_t{16} * (2 * levels + 1);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/hierarchy/item.hpp"
+#include "core/shapes/material_indices.hpp"
 #include "core/shapes/shape_list.hpp"
 #include "core/solids/solids.hpp"
 
@@ -19,7 +20,7 @@ class Duplicates {
   public:
     /// `material_of`: by id. `polygons`: of more than one triangle, ascending. `solids`: null if
     /// there are none.
-    Duplicates(const ShapeLists& lists, std::span<const MaterialIndex> material_of,
+    Duplicates(const ShapeLists& lists, const MaterialIndices& material_of,
                std::span<const IdRange> polygons, const Solids* solids = nullptr)
         : lists_(lists), material_of_(material_of), polygons_(polygons), solids_(solids) {}
 
@@ -56,7 +57,7 @@ class Duplicates {
     bool is_unique(ShapeId id) const;
 
     const ShapeLists& lists_;
-    std::span<const MaterialIndex> material_of_;
+    const MaterialIndices& material_of_;
     std::span<const IdRange> polygons_;
     const Solids* solids_;
 };

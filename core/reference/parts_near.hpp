@@ -53,7 +53,8 @@ class PartsNear {
         bool more = true;
         each_block(around, [&](Kind kind, std::uint32_t block) {
             with_table(scene_.shapes(), kind, [&]<class Shape>(const Table<Shape>& table) {
-                const unsigned near = near_in(table.blocks()[block], around);
+                const unsigned near = table.visit_block(
+                    block, [&](const Block<Shape>& shapes) { return near_in(shapes, around); });
                 for_each_in_block(table, block, [&](Place place, ShapeId id) {
                     if ((near >> place.lane & 1) == 0) return;
                     const Solids::Index part = solids.part_of(id);

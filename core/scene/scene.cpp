@@ -62,9 +62,9 @@ void Scene::find_transmissive() {
 }
 
 std::size_t Scene::bytes() const {
-    std::size_t bytes =
-        hierarchy_.bytes() + solids_.bytes() + material_of_.capacity() * sizeof(MaterialIndex) +
-        polygons_.capacity() * sizeof(IdRange) + materials_.capacity() * sizeof(Material);
+    std::size_t bytes = hierarchy_.bytes() + solids_.bytes() + material_of_.bytes() +
+                        polygons_.capacity() * sizeof(IdRange) +
+                        materials_.capacity() * sizeof(Material);
     for_each_table(shapes_, [&](const auto& table) { bytes += table.bytes(); });
     return bytes;
 }
@@ -115,8 +115,11 @@ void SceneBuilder::renumber_materials(std::span<const MaterialIndex> new_index) 
         renumbered[new_index[i]] = scene_.materials_[i];
     }
     scene_.materials_ = std::move(renumbered);
-    for (MaterialIndex& material : scene_.material_of_)
-        material = new_index[material];
+    MaterialIndices material_of;
+    material_of.reserve(shape_count());
+    for (std::size_t id = 0; id < shape_count(); ++id)
+        material_of.push_back(new_index[scene_.material_of_[id]]);
+    scene_.material_of_ = std::move(material_of);
     solids_.renumber_materials(new_index);
 }
 
@@ -209,7 +212,7 @@ ShapeId SceneBuilder::add_solid(const Solid& solid, MaterialIndex material) {
             return static_cast<ShapeId>(shape_count() - 1);
         });
     } catch (const InvalidValue&) {
-        scene_.material_of_.resize(first);
+        scene_.material_of_.truncate(first);
         throw;
     }
     return first;
@@ -239,23 +242,28 @@ void SceneBuilder::check_wavelengths() const {
     }
 }
 
-Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
+void SceneBuilder::check_as_a_whole() const {
     validate_in("settings", settings);
     validate_in("camera", camera);
     validate_in("fog", fog);
     validate_color("background", background);
-    if (wants_light && !staging.lights && scene_.lights_.empty() && shape_count() > 0)
-        throw InvalidValue("lights",
-                           "must have at least one light where there are objects, got none");
-
     check_wavelengths();
+}
+
+void SceneBuilder::build_shapes() {
     if (solids_.any()) solids_.list(lists_);
     Workers alone;
+    Workers& threads = workers != nullptr ? *workers : alone;
     scene_.hierarchy_ =
         build_hierarchy(lists_, {lists_, scene_.material_of_, scene_.polygons_, &solids_.solids()},
-                        workers != nullptr ? *workers : alone, scene_.shapes_);
+                        threads, scene_.shapes_);
     lists_ = {};
+    scene_.material_of_.shrink_to_fit();
+    pack_spheres(std::get<Table<Sphere>>(scene_.shapes_), shape_count(), pack_from, threads);
     if (solids_.any()) scene_.solids_ = solids_.finish(scene_.shapes_);
+}
+
+void SceneBuilder::finish(const NameOfShape& name_of_shape) {
     scene_.find_transmissive();
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
         const Light& light = scene_.lights_[i];
@@ -273,9 +281,33 @@ Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
     scene_.settings_ = settings;
     scene_.wavelengths_ = wavelengths;
     scene_.own_light_count_ = scene_.lights_.size();
+}
+
+Scene SceneBuilder::build(const NameOfShape& name_of_shape) && {
+    check_as_a_whole();
+    if (wants_light && !staging.lights && scene_.lights_.empty() && shape_count() > 0)
+        throw InvalidValue("lights",
+                           "must have at least one light where there are objects, got none");
+    build_shapes();
+    finish(name_of_shape);
     if (!staging.any()) return std::move(scene_);
     const View view = staged(scene_, staging, settings);
     return std::move(scene_).seen(staging, view);
+}
+
+Scene SceneBuilder::build(BuiltShapes shapes) && {
+    if (shape_count() > 0) throw InvalidValue("objects", "must be none besides those");
+    check_as_a_whole();
+    Workers alone;
+    check(shapes, scene_.materials_.size(), workers != nullptr ? *workers : alone);
+    scene_.shapes_ = std::move(shapes.tables);
+    scene_.material_of_ = std::move(shapes.material_of);
+    scene_.polygons_ = std::move(shapes.polygons);
+    scene_.hierarchy_ = std::move(shapes.hierarchy);
+    finish(nullptr);
+    scene_.staging_ = shapes.staging;
+    scene_.own_light_count_ = std::min(shapes.own_light_count, scene_.lights_.size());
+    return std::move(scene_);
 }
 
 Scene Scene::seen(const Staging& staging, const View& view) && {

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "core/hierarchy/hierarchy.hpp"
+#include "core/hierarchy/packing.hpp"
+#include "core/scene/built_shapes.hpp"
 #include "core/scene/material.hpp"
 #include "core/scene/staging.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
+#include "core/shapes/material_indices.hpp"
 #include "core/shapes/shape_table.hpp"
 #include "core/solids/solids.hpp"
 
@@ -41,6 +44,8 @@ class Scene {
     const std::vector<Material>& materials() const { return materials_; }
     const Material& material_of(ShapeId id) const { return materials_[material_of_[id]]; }
     MaterialIndex material_index_of(ShapeId id) const { return material_of_[id]; }
+    /// Of all shapes.
+    const MaterialIndices& material_indices() const { return material_of_; }
     /// Those that are made of others, whose parts are among the shapes.
     const Solids& solids() const { return solids_; }
     /// The material that is inside of a shape's surface: of a solid's parts, the whole's.
@@ -72,6 +77,8 @@ class Scene {
 
     /// The shapes that lie in one flat polygon with `id`: itself alone unless added by add_polygon.
     IdRange coplanar_with(ShapeId id) const;
+    /// The polygons of more than one triangle, ascending.
+    std::span<const IdRange> polygons() const { return polygons_; }
 
     /// Bytes of shapes, materials and hierarchy.
     std::size_t bytes() const;
@@ -84,8 +91,8 @@ class Scene {
     void find_transmissive();
 
     Tables shapes_;
-    std::vector<MaterialIndex> material_of_; // by shape id
-    std::vector<IdRange> polygons_;          // of more than one triangle, ascending
+    MaterialIndices material_of_;   // by shape id
+    std::vector<IdRange> polygons_; // of more than one triangle, ascending
     Hierarchy hierarchy_;
     Solids solids_;
     std::vector<Material> materials_;
@@ -112,8 +119,9 @@ class SceneBuilder {
     /// What of camera, fog and lights build() finds by itself. Throws InvalidValue, field "camera",
     /// if there is nothing that a camera could find its place by.
     Staging staging;
-    bool wants_light = true;    ///< true if build() refuses shapes without a light
-    Workers* workers = nullptr; ///< that build the hierarchy; default: the caller's thread
+    bool wants_light = true;             ///< true if build() refuses shapes without a light
+    std::size_t pack_from = packed_from; ///< so many spheres: they take less memory then
+    Workers* workers = nullptr;          ///< that build the hierarchy; default: the caller's thread
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
@@ -150,8 +158,15 @@ class SceneBuilder {
     /// Fields are those above, and "lights", "lights/0/position", ... Shapes are named by number
     /// unless `name_of_shape` knows better.
     Scene build(const NameOfShape& name_of_shape = nullptr) &&;
+    /// The same with these shapes alone, none having been added, and with the camera, fog and
+    /// lights that came of their staging. Throws InvalidValue, too, for what check() refuses.
+    Scene build(BuiltShapes shapes) &&;
 
   private:
+    void check_as_a_whole() const;
+    void build_shapes();
+    /// What is left to do once there are shapes.
+    void finish(const NameOfShape& name_of_shape);
     void require_material(MaterialIndex material) const;
     void require_room(std::size_t count) const;
     /// The part of add() that is left for a valid shape.

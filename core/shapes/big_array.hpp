@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -17,7 +18,8 @@ void free_big(void* memory, std::size_t bytes) noexcept;
 void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept;
 
 /// Plain data of a size that is set once. Its elements begin undefined, so that memory is touched
-/// first by what fills it, which may be many threads, and never twice.
+/// first by what fills it, which may be many threads, and never twice. Or they are another's, such
+/// as a file's: then they may not be changed, and copies have the same ones.
 template <class T>
 class BigArray {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);
@@ -27,18 +29,26 @@ class BigArray {
     explicit BigArray(std::size_t size)
         : data_(static_cast<T*>(size > 0 ? allocate_big(size * sizeof(T)) : nullptr)), size_(size) {
     }
-    BigArray(const BigArray& other) : BigArray(other.size_) {
-        if (size_ > 0) std::memcpy(static_cast<void*>(data_), other.data_, bytes());
+    /// What is there as long as `keeper` is.
+    BigArray(const T* data, std::size_t size, std::shared_ptr<const void> keeper)
+        : data_(const_cast<T*>(data)), size_(size), keeper_(std::move(keeper)) {}
+    BigArray(const BigArray& other)
+        : BigArray(other.keeper_ != nullptr ? BigArray(other.data_, other.size_, other.keeper_)
+                                            : BigArray(other.size_)) {
+        if (size_ > 0 && keeper_ == nullptr)
+            std::memcpy(static_cast<void*>(data_), other.data_, bytes());
     }
     BigArray(BigArray&& other) noexcept
-        : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
+        : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)),
+          keeper_(std::move(other.keeper_)) {}
     BigArray& operator=(BigArray other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);
+        std::swap(keeper_, other.keeper_);
         return *this;
     }
     ~BigArray() {
-        if (data_ != nullptr) free_big(data_, bytes());
+        if (data_ != nullptr && keeper_ == nullptr) free_big(data_, bytes());
     }
 
     /// Forgets all but the first `used` bytes.
@@ -61,6 +71,7 @@ class BigArray {
   private:
     T* data_ = nullptr;
     std::size_t size_ = 0;
+    std::shared_ptr<const void> keeper_; // of another's elements; null: they are its own
 };
 
 } // namespace raylane::core

@@ -1,75 +1,16 @@
 #pragma once
 
 #include "core/shapes/big_array.hpp"
+#include "core/shapes/block.hpp"
+#include "core/shapes/packed_spheres.hpp"
 #include "core/shapes/shape_list.hpp"
-#include "core/shapes/shapes.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 
 namespace raylane::core {
-
-/// Shapes to a block: as many as the widest packet has lanes.
-inline constexpr int block_size = 16;
-
-/// The floats of 16 shapes of one kind, or those nearest to their numbers, structure of arrays:
-/// value k of lane i is values[k][i]. An empty lane holds NaN and no_shape.
-template <class Shape>
-struct alignas(64) Block {
-    float values[number_count<Shape>][block_size];
-    ShapeId ids[block_size];
-
-    Block() {
-        for (auto& row : values)
-            for (float& value : row)
-                value = std::numeric_limits<float>::quiet_NaN();
-        for (ShapeId& id : ids)
-            id = no_shape;
-    }
-
-    Shape get(int lane) const {
-        Numbers<Shape> floats;
-        for (int k = 0; k < number_count<Shape>; ++k)
-            floats[k] = values[k][lane];
-        return shape_of<Shape>(floats);
-    }
-
-    void set(int lane, const Shape& shape, ShapeId id) {
-        const Numbers<Shape> floats = numbers_of(shape);
-        for (int k = 0; k < number_count<Shape>; ++k)
-            values[k][lane] = floats[k];
-        ids[lane] = id;
-    }
-};
-
-/// What the same 16 shapes are exactly, where that is no floats. It has as many rows as a Block has
-/// with its ids, so that places in both are as far from the table's first.
-template <class Shape>
-struct alignas(64) DoubleBlock {
-    double values[number_count<Shape> + 1][block_size];
-
-    DoubleBlock() {
-        for (auto& row : values)
-            for (double& value : row)
-                value = std::numeric_limits<double>::quiet_NaN();
-    }
-
-    InDouble<Shape> get(int lane) const {
-        Numbers<InDouble<Shape>> numbers;
-        for (int k = 0; k < number_count<Shape>; ++k)
-            numbers[k] = values[k][lane];
-        return shape_of<InDouble<Shape>>(numbers);
-    }
-
-    void set(int lane, const InDouble<Shape>& shape) {
-        const Numbers<InDouble<Shape>> numbers = numbers_of(shape);
-        for (int k = 0; k < number_count<Shape>; ++k)
-            values[k][lane] = numbers[k];
-    }
-};
 
 /// Blocks of a table; and as many of doubles, or none where floats are what the shapes are.
 template <class Shape>
@@ -105,10 +46,42 @@ struct Place {
 };
 
 /// All shapes of one kind, in a finished scene. Each block of a bounded kind is a leaf of the
-/// hierarchy, so blocks may be partly empty.
+/// hierarchy, so blocks may be partly empty. Where there are many spheres, their blocks are packed.
 template <class Shape>
 class Table {
   public:
+    /// True of kinds whose blocks may be packed.
+    static constexpr bool packs = kind_of<Shape> == Kind::sphere;
+
+    /// The blocks, whether packed or not: then an element is a block by value.
+    class BlockRange {
+      public:
+        using Reference = std::conditional_t<packs, Block<Shape>, const Block<Shape>&>;
+        struct Iterator {
+            const Table* table;
+            std::size_t index;
+            Reference operator*() const { return BlockRange(*table)[index]; }
+            Iterator& operator++() {
+                ++index;
+                return *this;
+            }
+            bool operator!=(const Iterator& other) const { return index != other.index; }
+        };
+
+        explicit BlockRange(const Table& table) : table_(&table) {}
+        std::size_t size() const { return table_->block_count(); }
+        Reference operator[](std::size_t index) const {
+            if constexpr (packs)
+                if (table_->is_packed()) return table_->packed_.block(index);
+            return table_->blocks_.floats[index];
+        }
+        Iterator begin() const { return {table_, 0}; }
+        Iterator end() const { return {table_, size()}; }
+
+      private:
+        const Table* table_;
+    };
+
     Table() = default;
     /// `size` shapes in all, with duplicates.
     Table(Blocks<Shape> blocks, std::size_t size) : blocks_(std::move(blocks)), size_(size) {}
@@ -124,28 +97,62 @@ class Table {
 
     /// Number of shapes with duplicates, of which the blocks have one each.
     std::size_t size() const { return size_; }
-    const BigArray<Block<Shape>>& blocks() const { return blocks_.floats; }
+    std::size_t block_count() const {
+        if constexpr (packs)
+            if (is_packed()) return packed_.blocks.size();
+        return blocks_.floats.size();
+    }
+    BlockRange blocks() const { return BlockRange(*this); }
+    /// Calls visit(block), without a copy of what is not packed.
+    template <class Visit>
+    decltype(auto) visit_block(std::size_t index, const Visit& visit) const {
+        if constexpr (packs)
+            if (is_packed()) return visit(std::as_const(packed_).block(index));
+        return visit(blocks_.floats[index]);
+    }
     bool has_doubles() const { return !blocks_.doubles.empty(); }
     /// If it has any: as many as blocks.
     const BigArray<DoubleBlock<Shape>>& doubles() const { return blocks_.doubles; }
     /// Exactly the shape.
     InDouble<Shape> get(Place place) const {
-        const std::size_t count = blocks_.floats.size();
+        const std::size_t count = block_count();
         if (place.block >= count) [[unlikely]]
             return get(hidden_, {static_cast<std::uint32_t>(place.block - count), place.lane});
+        if constexpr (packs)
+            if (is_packed()) return to_doubles(packed_.get(place.block, place.lane));
         return get(blocks_, place);
     }
-    ShapeId id(Place place) const { return blocks_.floats[place.block].ids[place.lane]; }
+    ShapeId id(Place place) const {
+        if constexpr (packs)
+            if (is_packed()) return packed_.id(place.block, place.lane);
+        return blocks_.floats[place.block].ids[place.lane];
+    }
     std::size_t bytes() const {
         return blocks_.floats.bytes() + blocks_.doubles.bytes() + hidden_.floats.bytes() +
-               hidden_.doubles.bytes();
+               hidden_.doubles.bytes() + (is_packed() ? packed()->bytes() : 0);
+    }
+
+    /// Null if they are not packed.
+    const PackedSpheres* packed() const {
+        if constexpr (packs)
+            return packed_.empty() ? nullptr : &packed_;
+        else
+            return nullptr;
+    }
+    bool is_packed() const { return packed() != nullptr; }
+    /// If they are not: all of them, side by side.
+    const BigArray<Block<Shape>>& plain_blocks() const { return blocks_.floats; }
+    /// Has them packed instead, without doubles.
+    void replace_blocks(PackedSpheres packed) {
+        packed_ = std::move(packed);
+        blocks_ = {};
     }
 
     /// Keeps shapes that no ray is to cross, in places behind those of the blocks; shape i of them
     /// is at hidden_place(i).
     void hide(const ShapeList<Shape>& list) { hidden_ = Table(list).blocks_; }
     Place hidden_place(std::size_t i) const {
-        return {static_cast<std::uint32_t>(blocks_.floats.size() + i / block_size),
+        return {static_cast<std::uint32_t>(block_count() + i / block_size),
                 static_cast<std::uint8_t>(i % block_size)};
     }
 
@@ -156,6 +163,8 @@ class Table {
     }
 
     Blocks<Shape> blocks_;
+    struct NeverPacked {};
+    std::conditional_t<packs, PackedSpheres, NeverPacked> packed_; // instead of them, or none
     Blocks<Shape> hidden_;
     std::size_t size_ = 0;
 };
@@ -174,9 +183,12 @@ decltype(auto) with_table(TablesRef&& tables, Kind kind, Visit&& visit) {
 /// Calls `visit(place, id)` for every shape of a block.
 template <class Shape, class Visit>
 void for_each_in_block(const Table<Shape>& table, std::uint32_t index, const Visit& visit) {
-    const Block<Shape>& block = table.blocks()[index];
-    for (int lane = 0; lane < block_size && block.ids[lane] != no_shape; ++lane)
-        visit(Place{index, static_cast<std::uint8_t>(lane)}, block.ids[lane]);
+    for (std::uint8_t lane = 0; lane < block_size; ++lane) {
+        const Place place{index, lane};
+        const ShapeId id = table.id(place);
+        if (id == no_shape) return;
+        visit(place, id);
+    }
 }
 
 /// Calls `visit(shape, id)` for every shape of a table.

@@ -1,12 +1,13 @@
 #include "scenes/export/export.hpp"
 
+#include "scenes/built/built_file.hpp"
 #include "scenes/export/writers.hpp"
 
 namespace raylane::scenes {
 
 namespace {
 
-enum class Format { json, nff, pov };
+enum class Format { json, nff, pov, built };
 
 Format format_of(const std::filesystem::path& path) {
     if (path == "-") return Format::json;
@@ -14,7 +15,8 @@ Format format_of(const std::filesystem::path& path) {
     if (ending == ".json") return Format::json;
     if (ending == ".nff") return Format::nff;
     if (ending == ".pov") return Format::pov;
-    throw BadInput(path.string(), "", "must end in .json, .nff or .pov");
+    if (ending == ".rl") return Format::built;
+    throw BadInput(path.string(), "", "must end in .json, .nff, .pov or .rl");
 }
 
 } // namespace
@@ -38,6 +40,9 @@ std::vector<std::string> export_scene(const std::filesystem::path& path, const c
             break;
         case Format::pov:
             write_pov(text, scene, differences);
+            break;
+        case Format::built:
+            write_built(file, scene);
         }
     } catch (const core::InvalidValue& invalid) {
         throw BadInput(path.string(), "", invalid.what());

@@ -9,7 +9,8 @@
 namespace raylane::scenes {
 
 /// Writes a scene, in the format that the file's ending names: .json (raylane's own), .nff (of the
-/// Standard Procedural Databases) or .pov (POV-Ray 3.7's). The file appears whole or not at all.
+/// Standard Procedural Databases), .pov (POV-Ray 3.7's), or .rl (as it is in memory, see
+/// scenes/built). The file appears whole or not at all.
 ///
 /// JSON holds all of a scene, to the bit, but which triangles make up a flat polygon. Of what the
 /// others have no word for, shapes are refused, and the rest is left out. That, and what programs

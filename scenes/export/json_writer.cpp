@@ -383,6 +383,16 @@ void write_json(TextFile& file, const core::Scene& scene) {
     file << "\n]";
 }
 
+void write_json_without_objects(TextFile& file, const core::Scene& scene) {
+    Object root(file, ",\n");
+    file << "\n";
+    write_settings(root, file, scene.settings());
+    write_surroundings(root, file, scene);
+    write_lights(root, file, scene);
+    write_materials(root, file, scene);
+    root.key("objects") << "[]";
+}
+
 void write_json_settings(TextFile& file, const core::Settings& settings) {
     Object root(file);
     write_settings(root, file, settings);

@@ -18,6 +18,8 @@ void write_json(TextFile& file, const core::Scene& scene);
 void write_json_settings(TextFile& file, const core::Settings& settings);
 /// All but its settings and the shapes that are no solids, likewise.
 void write_json_without_shapes(TextFile& file, const core::Scene& scene);
+/// All but the objects.
+void write_json_without_objects(TextFile& file, const core::Scene& scene);
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);
 void write_pov(TextFile& file, const core::Scene& scene, Differences& differences);
 

@@ -43,6 +43,7 @@ class SceneReader {
     Outline take_all(InputFile& file, InputErrors& errors);
     /// Throws BadInput for `errors` and what is wrong with the scene as a whole.
     core::Scene finish(const Outline& outline, InputErrors& errors);
+    core::Scene finish_with(core::BuiltShapes shapes, InputErrors& errors);
 
     static constexpr std::array<RootKey, 15> keys = {{
         {"$schema", Holds::one_item},
@@ -351,6 +352,16 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
     }
 }
 
+core::Scene SceneReader::finish_with(core::BuiltShapes shapes, InputErrors& errors) {
+    errors.report();
+    number_materials();
+    try {
+        return std::move(builder_).build(std::move(shapes));
+    } catch (const core::InvalidValue& invalid) {
+        throw BadInput(file_, "", std::string("has been damaged: ") + invalid.what());
+    }
+}
+
 /// What is left for core to find are lights, "lights/0/position", and what a camera cannot see.
 InputError SceneReader::error_in_scene(const core::InvalidValue& invalid,
                                        const Outline& outline) const {
@@ -394,6 +405,13 @@ core::Scene read_json(InputFile& file, core::Workers* workers,
     take_parameters(file, SceneReader::keys, parameters);
     if (!file.rewind()) throw SystemRefused(file.name(), "read again", errno);
     return read(std::move(parameters));
+}
+
+core::Scene read_json_with(InputFile& file, core::BuiltShapes shapes, core::Workers* workers) {
+    SceneReader reader(file.name(), workers, Parameters());
+    InputErrors errors;
+    static_cast<void>(reader.take_all(file, errors));
+    return reader.finish_with(std::move(shapes), errors);
 }
 
 } // namespace raylane::scenes

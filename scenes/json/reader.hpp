@@ -17,4 +17,7 @@ namespace raylane::scenes {
 core::Scene read_json(InputFile& file, core::Workers* workers = nullptr,
                       const std::map<std::string, double>& parameters = {});
 
+/// The same of a scene whose shapes were built before, and are not in the file.
+core::Scene read_json_with(InputFile& file, core::BuiltShapes shapes, core::Workers* workers);
+
 } // namespace raylane::scenes

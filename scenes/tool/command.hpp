@@ -44,6 +44,7 @@ Command add_render_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_compare_command(CLI::App& app);
 Command add_convert_command(CLI::App& app);
+Command add_build_command(CLI::App& app);
 Command add_merge_command(CLI::App& app);
 Command add_verify_command(CLI::App& app);
 Command add_trace_command(CLI::App& app);

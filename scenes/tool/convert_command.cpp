@@ -47,8 +47,8 @@ Command add_convert_command(CLI::App& app) {
                    "A scene, or atoms, as render reads them; - is standard input");
     add_positional(
         *command, "OUTPUT", arguments->output,
-        "The file to write: .json, .nff, or .pov for POV-Ray 3.7; or - for JSON to standard "
-        "output");
+        "The file to write: .json, .nff, .pov for POV-Ray 3.7, or .rl as build writes it; or - for "
+        "JSON to standard output");
     arguments->scene_arguments.add_to(*command);
     command->footer("Example: raylane convert scenes/lattice.json lattice.pov");
     return {command, [arguments] { return convert(*arguments); }};

@@ -3,7 +3,6 @@
 #include "tests/shapes/shapes.hpp"
 
 #include <map>
-#include <numeric>
 #include <vector>
 
 using namespace raylane;
@@ -27,8 +26,9 @@ Built build(const ShapeLists& lists) {
     Workers alone;
     Built built;
     // Of as many materials: none is another's duplicate.
-    std::vector<MaterialIndex> material_of(count_of(lists));
-    std::iota(material_of.begin(), material_of.end(), 0);
+    MaterialIndices material_of;
+    for (std::size_t id = 0; id < count_of(lists); ++id)
+        material_of.push_back(static_cast<MaterialIndex>(id));
     built.hierarchy = build_hierarchy(lists, {lists, material_of, {}}, alone, built.tables);
     return built;
 }

@@ -20,7 +20,7 @@ bool asks_for_much(std::string_view text) {
 }
 
 void read(std::string_view text, Format format) {
-    constexpr const char* endings[] = {"json", "nff", "pov", "dat",       "pdb",
+    constexpr const char* endings[] = {"json", "nff", "pov", "dat",       "rl", "pdb",
                                        "cif",  "xyz", "gro", "lammpstrj", "lmp"};
     const std::string name = std::string("a.") + endings[static_cast<int>(format)];
     scenes::LoadOptions options;

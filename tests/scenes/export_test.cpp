@@ -269,7 +269,7 @@ TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
 
 TEST_CASE("an ending that is no format's is refused") {
     CHECK(complaint("scene.obj", tests::scene_of(tests::with_objects(""))) ==
-          "scene.obj: must end in .json, .nff or .pov");
+          "scene.obj: must end in .json, .nff, .pov or .rl");
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "scenes/generators.hpp"
 #include "scenes/json/reader.hpp"
+#include "simd/scene_data.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
@@ -90,8 +91,10 @@ using namespace raylane;
 
 namespace {
 
-/// Bytes that a finished scene may take for each sphere, and that building it may.
+/// Bytes that a finished scene may take for each sphere, and that building it may; and of so many
+/// spheres that they are packed, all that a tracer has of them, and building them.
 constexpr double most_bytes = 40.0, most_at_peak = 2.5 * most_bytes;
+constexpr double most_packed_bytes = 20.0, most_at_packed_peak = 60.0;
 
 template <class Fill>
 void check_memory(const Fill& fill) {
@@ -123,6 +126,48 @@ void add_uniform(core::SceneBuilder& builder, int count) {
         const float x = uniform(engine), y = uniform(engine), z = uniform(engine);
         builder.add(core::Sphere{{x, y, z}, 0.3F / std::cbrt(static_cast<float>(count))}, 0);
     }
+}
+
+/// Atoms of six elements around the origin, a little off the places of a crystal, in the order of a
+/// file.
+void add_atoms(core::SceneBuilder& builder, int side) {
+    constexpr float radii[] = {1.7F, 1.55F, 1.52F, 1.1F, 1.8F, 2.0F};
+    std::mt19937 engine(2);
+    std::normal_distribution<double> off(0.0, 0.2);
+    for (std::size_t i = 1; i < std::size(radii); ++i)
+        builder.add_material({});
+    for (int z = 0; z < side; ++z)
+        for (int y = 0; y < side; ++y)
+            for (int x = 0; x < side; ++x) {
+                const auto at = [&](int place) {
+                    return static_cast<float>(2.5 * (place - side / 2) + off(engine));
+                };
+                const auto element = static_cast<core::MaterialIndex>((x + 3 * y + 5 * z) % 6);
+                builder.add(core::Sphere{{at(x), at(y), at(z)}, radii[element]}, element);
+            }
+}
+
+template <class Fill>
+void check_packed_memory(const Fill& fill) {
+    const std::size_t before = live;
+    peak = before;
+    core::SceneBuilder builder;
+    builder.wants_light = false;
+    builder.pack_from = 1'000'000;
+    builder.add_material({});
+    fill(builder);
+    const core::Scene scene = std::move(builder).build();
+    REQUIRE(std::get<core::Table<core::Sphere>>(scene.shapes()).is_packed());
+    const std::size_t of_scene = live - before, at_peak = peak - before;
+    const simd::SceneData data(scene);
+    const auto each = [&](std::size_t bytes) {
+        return static_cast<double>(bytes) / static_cast<double>(scene.shape_count());
+    };
+    CAPTURE(scene.shape_count(), each(scene.bytes()), each(of_scene), each(live - before),
+            each(at_peak));
+    CHECK(scene.bytes() <= of_scene);
+    CHECK(each(live - before) <= most_packed_bytes);
+    CHECK(each(at_peak) <= most_at_packed_peak);
 }
 
 } // namespace
@@ -164,4 +209,10 @@ TEST_CASE("a sphere takes 40 bytes, and 100 while the scene is built") {
         check_memory([&](core::SceneBuilder& builder) {
             scenes::add(builder, scenes::Sphereflake{{0, 0, 0}, 1.0F, depth}, 0);
         });
+}
+
+TEST_CASE(
+    "of a million spheres that are packed each takes 20 bytes, with all that drawing them needs") {
+    check_packed_memory([&](core::SceneBuilder& builder) { add_uniform(builder, 1'000'000); });
+    check_packed_memory([&](core::SceneBuilder& builder) { add_atoms(builder, 100); });
 }

@@ -41,8 +41,10 @@ TEST_CASE("a file of another kind is told from a scene with a mistake") {
         return raylane::tests::message_of<BadInput>([&] { parse_scene("a" + ending, text); });
     };
     const std::string neither =
-        ": must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov) or Tachyon's "
-        "format (.dat), or atoms in PDB (.pdb), mmCIF or CIF (.cif), XYZ (.xyz), GRO (.gro), or "
+        ": must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov), Tachyon's "
+        "format "
+        "(.dat) or what \"raylane build\" writes (.rl), or atoms in PDB (.pdb), mmCIF or CIF "
+        "(.cif), XYZ (.xyz), GRO (.gro), or "
         "LAMMPS' dump (.dump) or data (.data), and what it holds is none of these";
     const std::string pdb = "HEADER    HYDROLASE\nATOM      1  N   PRO A   1      29.361  39.686\n";
     const std::string obj = "# a cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";

@@ -36,7 +36,7 @@ SceneView view_of(const Tables& tables) {
     for_each_table(tables, [&]<class Shape>(const Table<Shape>& table) {
         const auto blocks = static_cast<std::uint32_t>(table.blocks().size());
         view.tables[static_cast<int>(kind_of<Shape>)] = {
-            reinterpret_cast<const float*>(table.blocks().data()), blocks,
+            reinterpret_cast<const float*>(table.plain_blocks().data()), blocks,
             sizeof(Block<Shape>) / sizeof(float), number_count<Shape>, slots};
         slots += 16 * blocks;
     });

@@ -74,7 +74,9 @@ std::string fingerprint_of(const core::Scene& scene) {
         static_assert(sizeof(core::Block<Shape>) ==
                       sizeof(core::Block<Shape>::values) + sizeof(core::Block<Shape>::ids));
         static_assert(sizeof(core::DoubleBlock<Shape>) == sizeof(core::DoubleBlock<Shape>::values));
-        add_array(hash, table.blocks());
+        hash.add(table.block_count());
+        for (const core::Block<Shape>& block : table.blocks())
+            hash.add(&block, sizeof block);
         add_array(hash, table.doubles());
         if constexpr (core::kind_of<Shape> == core::Kind::triangle)
             core::for_each_shape(table, [&](const auto&, core::ShapeId id) {

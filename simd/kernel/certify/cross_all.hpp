@@ -71,7 +71,7 @@ class CrossAll {
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t pair = packet.pair[lane < packet.count ? lane : 0];
-            loaded.reader.offset[lane] = S::offset(table, pairs_.slot[pair]);
+            loaded.reader.set(lane, pairs_.slot[pair]);
             for (int axis = 0; axis < 3; ++axis) {
                 numbers[axis][lane] = pairs_.origin[axis][pairs_.ray[pair]];
                 numbers[3 + axis][lane] = directions[axis][pairs_.ray[pair]];

@@ -10,8 +10,8 @@ namespace raylane::simd {
 template <class Arch>
 class OneShapeReader {
   public:
-    OneShapeReader(const TableView& table, long long offset)
-        : floats_(table.blocks), doubles_(table.doubles), next_(offset) {}
+    explicit OneShapeReader(const Spots<Arch>& spots)
+        : floats_(spots.base), doubles_(spots.doubles), next_(spots.offsets[0]) {}
     Floats<Double<Arch>> next() {
         const double value =
             doubles_ != nullptr ? doubles_[next_] : static_cast<double>(floats_[next_]);
@@ -102,15 +102,23 @@ class Finish {
     [[gnu::noinline, gnu::flatten]] std::size_t finish_run(const TableView& table, std::size_t i,
                                                            std::uint32_t active) const {
         Spots<Arch> spots;
-        spots.base = table.blocks;
+        float unpacked[PackedSpheres<Arch>::rows][16];
+        spots.base = table.is_packed() ? unpacked[0] : table.blocks;
         spots.doubles = table.doubles;
+        const auto place = [&](std::uint32_t slot, unsigned lane) -> long long {
+            if (!table.is_packed()) [[likely]]
+                return S::offset(table, slot);
+            PackedSpheres<Arch>::unpack_one(table.packed, slot - table.first_slot, unpacked, lane);
+            return lane;
+        };
         while (true) {
             const std::uint32_t slot = found_.slot[i + first_of(active)];
             if (is_in(active, i, slot)) {
                 // What depends on the shape alone is done once for all that are of the same.
+                const long long only = place(slot, 0);
                 for (long long& offset : spots.offsets)
-                    offset = S::offset(table, slot);
-                const Finisher finisher(OneShapeReader<Arch>(table, spots.offsets[0]));
+                    offset = only;
+                const Finisher finisher{OneShapeReader<Arch>(spots)};
                 do {
                     finish_packet(finisher, table, spots, i, active);
                     i += width;
@@ -119,7 +127,7 @@ class Finish {
             } else {
                 for (unsigned lane = 0; lane < width; ++lane)
                     spots.offsets[lane] =
-                        S::offset(table, (active >> lane & 1) != 0 ? found_.slot[i + lane] : slot);
+                        place((active >> lane & 1) != 0 ? found_.slot[i + lane] : slot, lane);
                 const Finisher finisher{GatherReader<Arch>(spots)};
                 finish_packet(finisher, table, spots, i, active);
                 i += width;
@@ -183,7 +191,7 @@ class Finish {
     }
 
     Starts<D> starts(const TableView& table, const Spots<Arch>& spots, std::size_t i) const {
-        const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
+        const float* const ids = spots.base + 16 * static_cast<std::size_t>(table.values);
         Starts<D> starts;
         std::uint32_t id[width];
         for (unsigned lane = 0; lane < width; ++lane)

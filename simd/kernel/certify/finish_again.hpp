@@ -66,8 +66,7 @@ class FinishAgain {
     bool starts_on_shape(std::size_t i) const {
         const std::uint32_t slot = found_.slot[i];
         const TableView& table = S::table_of(scene_, S::kind_of(scene_, slot));
-        const float* const ids = table.blocks + 16 * static_cast<std::size_t>(table.values);
-        const auto id = __builtin_bit_cast(std::uint32_t, ids[S::offset(table, slot)]);
+        const std::uint32_t id = S::id(table, slot);
         const std::uint32_t first = found_.origin_first[i];
         return id - first <= found_.origin_last[i] - first;
     }
@@ -104,7 +103,7 @@ class FinishAgain {
         for (std::size_t lane = 0; lane < width; ++lane) {
             // Those that are not in use do what the first one does.
             const std::size_t ray = packet.rays[lane < packet.count ? lane : 0];
-            loaded.reader.offset[lane] = S::offset(table, found_.slot[ray]);
+            loaded.reader.set(lane, found_.slot[ray]);
             for (int axis = 0; axis < 3; ++axis) {
                 numbers[axis][lane] = found_.origin[axis][ray];
                 numbers[3 + axis][lane] = directions[axis][ray];

@@ -14,6 +14,7 @@ struct DoubleRays : FilterRays<Arch> {
 template <class Arch, class Solver>
 struct DoubleFilter {
     using D = Double<Arch>;
+    static constexpr bool is_of_spheres = of_spheres<Solver>();
     Solver halves[2];
 
     template <class Reader>

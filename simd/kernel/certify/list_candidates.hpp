@@ -62,13 +62,15 @@ struct ListCandidates : Streams<Arch> {
     template <class Filter>
     [[gnu::noinline]] static bool add(const TableView& table, core::Kind kind, std::uint32_t number,
                                       const RoundedRays& rays, std::size_t i, CandidateList& list) {
-        const float* block = S::block_of(table, number);
+        BlockRoom<Arch> room;
+        const float* block = S::template block_for<Filter>(table, number, room);
         const std::uint32_t* ids = S::ids_of(table, block);
         const typename Method::Rays ray = Method::broadcast(rays, i);
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
             const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
             const Bounds<Arch> bounds = filter.bounds(ray);
-            const M possible = bounds.possible & Leaf<Arch, Method>::elsewhere(ids + from, rays, i);
+            const M possible =
+                bounds.possible & Leaf<Arch, Method>::elsewhere(S::load_bits(ids + from), rays, i);
             const M counts = possible & (bounds.lower < F(list.limit));
             std::uint32_t bits = Lanes<Arch>::bits(counts);
             if (bits == 0) continue;
@@ -110,8 +112,9 @@ struct ListCandidates : Streams<Arch> {
             if ((bits & lanes) == 0) continue;
             SlotReader<D> reader(table);
             for (int lane = 0; lane < width; ++lane)
-                reader.offset[lane] = static_cast<long long>(number) * table.block_floats + from +
-                                      half * width + lane;
+                reader.set(static_cast<std::size_t>(lane),
+                           table.first_slot + 16 * number +
+                               static_cast<std::uint32_t>(from + half * width + lane));
             const Finisher finisher{reader};
             const Finished<D> finished =
                 finisher.template finish<Wanted::all>(ray, starts_nowhere<D>());

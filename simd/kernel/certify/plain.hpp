@@ -9,6 +9,7 @@ namespace raylane::simd {
 /// A solver's first crossing as if it were certain.
 template <class Arch, class Solver>
 struct PlainFilter {
+    static constexpr bool is_of_spheres = of_spheres<Solver>();
     Solver solver;
 
     template <class Reader>

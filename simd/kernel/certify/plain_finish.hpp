@@ -55,12 +55,7 @@ class PlainFinish {
         SlotReader<Number> slots;
         bool one_shape = true; ///< they are all the same
 
-        F next() {
-            if (!one_shape) return slots.next();
-            const Value value = slots.at(slots.offset[0] + slots.row);
-            slots.row += 16;
-            return F(value);
-        }
+        F next() { return one_shape ? slots.next_of(0) : slots.next(); }
     };
 
     /// The lanes `active` from ray i on, which all found shapes of one table.
@@ -68,12 +63,14 @@ class PlainFinish {
     void finish_packet(const TableView& table, std::size_t i, std::uint32_t active) const {
         const auto first_lane = static_cast<std::size_t>(__builtin_ctz(active));
         Reader reader{SlotReader<Number>(table)};
+        std::uint32_t ids[lanes];
         for (std::size_t lane = 0; lane < lanes; ++lane) {
             const std::size_t ray = i + ((active >> lane & 1) != 0 ? lane : first_lane);
-            reader.slots.offset[lane] = S::offset(table, found_.slot[ray]);
-            reader.one_shape &= reader.slots.offset[lane] == reader.slots.offset[0];
+            ids[lane] = S::id(table, found_.slot[ray]);
+            reader.slots.set(lane, found_.slot[ray]);
+            reader.one_shape &= reader.slots.place[lane] == reader.slots.place[0];
         }
-        const Starts<Number> starts = starts_of(table, reader, i);
+        const Starts<Number> starts = starts_of(ids, i);
         const Solver solver(reader);
         const Rays<Number> rays = {load_vector(found_.origin, i), load_vector(found_.direction, i)};
         const Crossing<Number> first =
@@ -100,14 +97,12 @@ class PlainFinish {
             store(normal, found_.shading_normal, i, active);
     }
 
-    Starts<Number> starts_of(const TableView& table, const Reader& reader, std::size_t i) const {
+    Starts<Number> starts_of(const std::uint32_t (&ids)[lanes], std::size_t i) const {
         Value on_surface[lanes], inward[lanes], face[lanes];
         std::uint32_t any = 0;
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-            const float* const ids = table.blocks + std::size_t{16} * table.values;
-            const auto id = __builtin_bit_cast(std::uint32_t, ids[reader.slots.offset[lane]]);
             const std::uint32_t first = found_.origin_first[i + lane];
-            const bool on = id - first <= found_.origin_last[i + lane] - first;
+            const bool on = ids[lane] - first <= found_.origin_last[i + lane] - first;
             any |= std::uint32_t{on};
             on_surface[lane] = on ? Value(1) : Value(0);
         }

@@ -15,25 +15,41 @@ struct SlotReader {
     using Value = typename F::value_type;
     static constexpr std::size_t width = F::size;
 
-    const float* floats;
-    const double* doubles; ///< null: none
-    long long offset[width];
-    long long row = 0;
+    const TableView& table;
+    /// Of a slot: where its first number is; in a packed table, the slot's number there.
+    long long place[width];
+    int row = 0;
 
-    explicit SlotReader(const TableView& table) : floats(table.blocks), doubles(table.doubles) {}
+    explicit SlotReader(const TableView& of) : table(of) {}
+
+    void set(std::size_t lane, std::uint32_t slot) {
+        place[lane] =
+            table.is_packed() ? slot - table.first_slot : Slots<Number>::offset(table, slot);
+    }
 
     F next() {
         Value values[width];
         for (std::size_t lane = 0; lane < width; ++lane)
-            values[lane] = at(offset[lane] + row);
-        row += 16;
+            values[lane] = at(lane);
+        ++row;
         return F::load_unaligned(values);
     }
+    /// The same of what is in one lane, to all.
+    F next_of(std::size_t lane) {
+        const Value value = at(lane);
+        ++row;
+        return F(value);
+    }
 
-    Value at(long long place) const {
+  private:
+    Value at(std::size_t lane) const {
+        if (table.is_packed()) [[unlikely]]
+            return static_cast<Value>(PackedSpheres<Number>::value(
+                table.packed, static_cast<std::uint32_t>(place[lane]), row));
+        const long long there = place[lane] + 16 * row;
         if constexpr (std::is_same_v<Value, double>)
-            if (doubles != nullptr) return doubles[place];
-        return static_cast<Value>(floats[place]);
+            if (table.doubles != nullptr) return table.doubles[there];
+        return static_cast<Value>(table.blocks[there]);
     }
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "simd/scene_view.hpp"
+#include "simd/kernel/shapes/packed_spheres.hpp"
 
 #include <cstddef>
 
@@ -25,7 +25,14 @@ struct Slots {
         return scene.tables[static_cast<int>(kind)];
     }
 
-    /// Offset from the table's first float to the slot's first one.
+    static std::uint32_t id(const TableView& table, std::uint32_t slot) {
+        if (table.is_packed())
+            return PackedSpheres<Arch>::id(table.packed, slot - table.first_slot);
+        const float* const ids = table.blocks + std::size_t{16} * table.values;
+        return __builtin_bit_cast(std::uint32_t, ids[offset(table, slot)]);
+    }
+
+    /// Offset from the table's first float to the slot's first one, if it is not packed.
     [[gnu::always_inline]] static long long offset(const TableView& table, std::uint32_t slot) {
         const std::uint32_t place = slot - table.first_slot;
         return static_cast<long long>(place / 16) * table.block_floats + place % 16;

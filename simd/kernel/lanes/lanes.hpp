@@ -86,6 +86,9 @@ max(const xsimd::batch<Number, Arch>& a, const xsimd::batch<Number, Arch>& b) {
 /// narrow: doubles from memory, rounded to float.
 /// gather: floats at some places.
 /// in_range: first <= id <= last for ids, which are whole numbers in the bits of floats.
+/// add: whole numbers in the bits of floats, added.
+/// unpack_24: whole numbers of 24 bits each, as such bits; reads up to 64 bytes.
+/// look_up: floats at places of which the 4 lowest of such bits count.
 template <class Arch>
 struct Lanes;
 
@@ -143,6 +146,23 @@ struct Lanes<Portable> {
         for (std::size_t i = 0; i < F::size; ++i)
             lanes[i] = from[places[i]];
         return F(lanes);
+    }
+    static F add(const F& a, const F& b) {
+        return bits_as<float>(bits_as<std::uint32_t>(a) + bits_as<std::uint32_t>(b));
+    }
+    static F unpack_24(const std::uint8_t* from) {
+        PortableBatch<std::uint32_t>::Lanes lanes;
+        for (std::size_t i = 0; i < F::size; ++i)
+            lanes[i] = from[3 * i] | std::uint32_t{from[3 * i + 1]} << 8 |
+                       std::uint32_t{from[3 * i + 2]} << 16;
+        return bits_as<float>(PortableBatch<std::uint32_t>(lanes));
+    }
+    static F look_up(const float* from, const F& places) {
+        std::uint32_t numbers[F::size];
+        bits_as<std::uint32_t>(places).store_unaligned(numbers);
+        for (std::uint32_t& number : numbers)
+            number &= 15;
+        return gather(from, numbers);
     }
     static M in_range(const F& id, const F& first, const F& last) {
         const auto from = bits_as<std::uint32_t>(first);
@@ -203,6 +223,20 @@ struct Lanes<Sse42> {
 
     static Floats<Sse42> gather(const float* from, const std::uint32_t* places) {
         return _mm_setr_ps(from[places[0]], from[places[1]], from[places[2]], from[places[3]]);
+    }
+
+    static Floats<Sse42> add(const Floats<Sse42>& a, const Floats<Sse42>& b) {
+        return _mm_castsi128_ps(_mm_add_epi32(_mm_castps_si128(a), _mm_castps_si128(b)));
+    }
+    static Floats<Sse42> unpack_24(const std::uint8_t* from) {
+        const __m128i packed = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+        return _mm_castsi128_ps(_mm_shuffle_epi8(
+            packed, _mm_setr_epi8(0, 1, 2, -1, 3, 4, 5, -1, 6, 7, 8, -1, 9, 10, 11, -1)));
+    }
+    static Floats<Sse42> look_up(const float* from, const Floats<Sse42>& places) {
+        const __m128i at = _mm_and_si128(_mm_castps_si128(places), _mm_set1_epi32(15));
+        return _mm_setr_ps(from[_mm_cvtsi128_si32(at)], from[_mm_extract_epi32(at, 1)],
+                           from[_mm_extract_epi32(at, 2)], from[_mm_extract_epi32(at, 3)]);
     }
 
     static Mask<Sse42> in_range(const Floats<Sse42>& id, const Floats<Sse42>& first,
@@ -281,6 +315,23 @@ struct Lanes<Avx2> {
         return _mm256_setr_ps(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7));
     }
 
+    static Floats<Avx2> add(const Floats<Avx2>& a, const Floats<Avx2>& b) {
+        return _mm256_castsi256_ps(
+            _mm256_add_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)));
+    }
+    static Floats<Avx2> unpack_24(const std::uint8_t* from) {
+        const __m256i packed = _mm256_loadu2_m128i(reinterpret_cast<const __m128i*>(from + 12),
+                                                   reinterpret_cast<const __m128i*>(from));
+        const __m128i order = _mm_setr_epi8(0, 1, 2, -1, 3, 4, 5, -1, 6, 7, 8, -1, 9, 10, 11, -1);
+        return _mm256_castsi256_ps(_mm256_shuffle_epi8(packed, _mm256_broadcastsi128_si256(order)));
+    }
+    static Floats<Avx2> look_up(const float* from, const Floats<Avx2>& places) {
+        const __m256i at = _mm256_castps_si256(places);
+        const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from), at);
+        const __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from + 8), at);
+        return _mm256_blendv_ps(low, high, _mm256_castsi256_ps(_mm256_slli_epi32(at, 28)));
+    }
+
     static Mask<Avx2> in_range(const Floats<Avx2>& id, const Floats<Avx2>& first,
                                const Floats<Avx2>& last) {
         const __m256i from = _mm256_castps_si256(first);
@@ -333,6 +384,21 @@ struct Lanes<Avx512> {
         const auto at = [&](int i) { return from[places[i]]; };
         return _mm512_setr_ps(at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7), at(8), at(9),
                               at(10), at(11), at(12), at(13), at(14), at(15));
+    }
+
+    static Floats<Avx512> add(const Floats<Avx512>& a, const Floats<Avx512>& b) {
+        return _mm512_castsi512_ps(
+            _mm512_add_epi32(_mm512_castps_si512(a), _mm512_castps_si512(b)));
+    }
+    static Floats<Avx512> unpack_24(const std::uint8_t* from) {
+        const __m512i quarters = _mm512_permutexvar_epi32(
+            _mm512_setr_epi32(0, 1, 2, 3, 3, 4, 5, 6, 6, 7, 8, 9, 9, 10, 11, 12),
+            _mm512_loadu_si512(from));
+        const __m128i order = _mm_setr_epi8(0, 1, 2, -1, 3, 4, 5, -1, 6, 7, 8, -1, 9, 10, 11, -1);
+        return _mm512_castsi512_ps(_mm512_shuffle_epi8(quarters, _mm512_broadcast_i32x4(order)));
+    }
+    static Floats<Avx512> look_up(const float* from, const Floats<Avx512>& places) {
+        return _mm512_permutexvar_ps(_mm512_castps_si512(places), _mm512_loadu_ps(from));
     }
 
     static Mask<Avx512> in_range(const Floats<Avx512>& id, const Floats<Avx512>& first,

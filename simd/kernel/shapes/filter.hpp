@@ -59,6 +59,15 @@ struct Chord {
     Floats<Arch> exit, exit_end;   ///< and the last between these
 };
 
+/// True of filters, and of what they are made of, whose shapes may be packed.
+template <class Filter>
+constexpr bool of_spheres() {
+    if constexpr (requires { Filter::is_of_spheres; })
+        return Filter::is_of_spheres;
+    else
+        return false;
+}
+
 /// Obstacle of lanes that are asked about, as bits: whether the shape may be entered before one t,
 /// and is before another, which is not later. By the filter's own way, or its bounds.
 template <class Arch, class Filter, class Rays>

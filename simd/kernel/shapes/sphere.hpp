@@ -19,6 +19,7 @@ struct SphereNumbers {
 
     /// The enclosing sphere is the numbers themselves.
     static constexpr bool encloses_itself = true;
+    static constexpr bool is_of_spheres = true; ///< may be of a packed table
 };
 
 /// Filter of a sphere. With f = origin - center, tau = -f . d and q = f + tau d (the foot of the

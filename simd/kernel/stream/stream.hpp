@@ -477,8 +477,7 @@ class CallerStream {
             const std::uint32_t slot = slots[lane];
             if (!Slots<Arch>::holds(*table, slot))
                 table = &Slots<Arch>::table_of(scene, Slots<Arch>::kind_of(scene, slot));
-            const float* const ids = table->blocks + 16 * static_cast<std::size_t>(table->values);
-            to[lane] = __builtin_bit_cast(std::uint32_t, ids[Slots<Arch>::offset(*table, slot)]);
+            to[lane] = Slots<Arch>::id(*table, slot);
         }
     }
 };

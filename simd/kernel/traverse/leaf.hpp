@@ -25,7 +25,7 @@ struct LeafHits {
     alignas(64) float t[16]; ///< in these lanes
 };
 
-/// One ray against the shapes of a block.
+/// One ray against the shapes of a block, as PlainLanes or PackedLanes.
 template <class Arch, class Method>
 struct Leaf : Streams<Arch> {
     using S = Streams<Arch>;
@@ -42,45 +42,40 @@ struct Leaf : Streams<Arch> {
     }
 
     /// The shapes that the ray does not leave.
-    static M elsewhere(const std::uint32_t* ids, const RoundedRays& rays, std::size_t i) {
-        return ~Lanes<Arch>::in_range(S::load_bits(ids), S::broadcast_bits(rays.origin_first[i]),
+    static M elsewhere(const F& ids, const RoundedRays& rays, std::size_t i) {
+        return ~Lanes<Arch>::in_range(ids, S::broadcast_bits(rays.origin_first[i]),
                                       S::broadcast_bits(rays.origin_last[i]));
     }
 
     /// The shapes that may be met, as bits, as far as that can be told for less than their bounds
     /// cost.
-    template <class Filter>
-    [[gnu::always_inline]] static std::uint32_t
-    may_meet(const TableView& table, std::uint32_t number, const RoundedRays& rays, std::size_t i) {
-        const float* block = S::block_of(table, number);
-        const std::uint32_t* ids = S::ids_of(table, block);
+    template <class Filter, class Lanes16>
+    [[gnu::always_inline]] static std::uint32_t may_meet(const Lanes16& block,
+                                                         const RoundedRays& rays, std::size_t i) {
         std::uint32_t some = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-            M lanes = elsewhere(ids + from, rays, i);
+            M lanes = elsewhere(block.ids(from), rays, i);
             if constexpr (has_may_meet<Filter, typename Method::Rays>)
-                lanes = lanes & Filter(BlockReader<Arch>(S::rows_of(block), from))
-                                    .may_meet(Method::broadcast(rays, i));
+                lanes = lanes & Filter(block.reader(from)).may_meet(Method::broadcast(rays, i));
             else
-                lanes = lanes & S::filled(ids + from);
+                lanes = lanes & S::filled(block.ids(from));
             some |= Lanes<Arch>::bits(lanes) << from;
         }
         return some;
     }
 
     /// Finds those that may be crossed before `second`, where they are not cut off.
-    template <class Filter>
-    [[gnu::always_inline]] static void find(const TableView& table, std::uint32_t number,
-                                            const CutView* cut, const RoundedRays& rays,
-                                            std::size_t i, float second, LeafHits& hits) {
-        const float* block = S::block_of(table, number);
-        const std::uint32_t* ids = S::ids_of(table, block);
+    template <class Filter, class Lanes16>
+    [[gnu::always_inline]] static void find(const Lanes16& block, const CutView* cut,
+                                            const RoundedRays& rays, std::size_t i, float second,
+                                            LeafHits& hits) {
         const typename Method::Rays ray = Method::broadcast(rays, i);
         hits.lanes = 0;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const Filter filter(block.reader(from));
             const Bounds<Arch> bounds = bounds_of(filter, ray, rays, i, cut);
             const M counts =
-                bounds.possible & elsewhere(ids + from, rays, i) & (bounds.lower < F(second));
+                bounds.possible & elsewhere(block.ids(from), rays, i) & (bounds.lower < F(second));
             hits.lanes |= Lanes<Arch>::bits(counts) << from;
             bounds.lower.store_unaligned(hits.t + from);
         }
@@ -118,12 +113,10 @@ struct Leaf : Streams<Arch> {
         best.first = nearer ? t : best.first;
     }
 
-    template <class Filter>
+    template <class Filter, class Lanes16>
     [[gnu::always_inline]] static std::uint8_t
     occluded(const SceneView& scene, const TableView& table, std::uint32_t number,
-             const RoundedRays& rays, std::size_t i, float t_most) {
-        const float* block = S::block_of(table, number);
-        const std::uint32_t* ids = S::ids_of(table, block);
+             const Lanes16& block, const RoundedRays& rays, std::size_t i, float t_most) {
         const typename Method::Rays ray = Method::broadcast(rays, i);
         const std::uint32_t slot = table.first_slot + 16 * number;
         const std::uint32_t plain = S::plain_lanes(scene, slot);
@@ -131,9 +124,9 @@ struct Leaf : Streams<Arch> {
         const CutView* cut = cut_of<Method>(scene, slot);
         std::uint8_t state = unblocked;
         for (int from = 0; from < 16; from += static_cast<int>(F::size)) {
-            const Filter filter(BlockReader<Arch>(S::rows_of(block), from));
+            const Filter filter(block.reader(from));
             std::uint32_t asked =
-                Lanes<Arch>::bits(elsewhere(ids + from, rays, i)) & counts >> from;
+                Lanes<Arch>::bits(elsewhere(block.ids(from), rays, i)) & counts >> from;
             const Obstacle<Arch> obstacle = obstacle_of<Arch>(
                 filter, ray, asked, F(t_most * perhaps_within), F(t_most * surely_within));
             if constexpr (knows_cuts<Method>)

@@ -32,11 +32,12 @@ class Pairs : Streams<Arch> {
     /// goes on without them.
     template <class Filter, class Take>
     [[gnu::always_inline]] void gather(const TableView& table, std::uint32_t number,
-                                       const RoundedRays& rays, std::size_t i, int owner,
-                                       const Take& take) {
-        std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(table, number, rays, i);
+                                       const float* block, const RoundedRays& rays, std::size_t i,
+                                       int owner, const Take& take) {
+        std::uint32_t bits =
+            Leaf<Arch, Method>::template may_meet<Filter>(PlainLanes<Arch>(table, block), rays, i);
         for (; bits != 0; bits &= bits - 1) {
-            add(table, number, __builtin_ctz(bits), rays, i, owner);
+            add(table, number, block, __builtin_ctz(bits), rays, i, owner);
             if (count_ == 16) flush(take);
         }
     }
@@ -73,9 +74,8 @@ class Pairs : Streams<Arch> {
     }
 
   private:
-    void add(const TableView& table, std::uint32_t number, int lane, const RoundedRays& rays,
-             std::size_t i, int owner) {
-        const float* const block = S::block_of(table, number);
+    void add(const TableView& table, std::uint32_t number, const float* block, int lane,
+             const RoundedRays& rays, std::size_t i, int owner) {
         const auto rows = S::rows_of(block);
         for (std::uint32_t value = 0; value < table.values; ++value)
             values_[value][count_] = rows[value][lane];

@@ -8,7 +8,7 @@ namespace raylane::simd {
 template <class Arch>
 struct Prefetcher {
     /// Cache lines of a node, and of the smallest of blocks.
-    static constexpr std::uint32_t most_lines = (sizeof(NodeView) + 63) / 64, least_lines = 5;
+    static constexpr std::uint32_t most_lines = (sizeof(NodeView) + 63) / 64, least_lines = 4;
     struct Addresses {
         const char* from;
         std::uint32_t bytes; ///< from one to the next
@@ -21,7 +21,10 @@ struct Prefetcher {
             set(table, scene.nodes, sizeof(NodeView));
         for (int kind = 0; kind < core::kind_count; ++kind) {
             const TableView& shapes = scene.tables[kind];
-            set(of[16 + kind], shapes.blocks, shapes.block_floats * sizeof(float));
+            if (shapes.is_packed())
+                set(of[16 + kind], shapes.packed.blocks, sizeof(PackedBlockView));
+            else
+                set(of[16 + kind], shapes.blocks, shapes.block_floats * sizeof(float));
         }
         of[31].bytes = 0; // no_child
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/kernel/shapes/packed_spheres.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
 #include "simd/trace_kernels.hpp"
 
@@ -8,6 +9,38 @@ namespace raylane::simd {
 /// A ray's t_most times these: what may be before it, and what surely is. It has been rounded, and
 /// so is the product.
 inline constexpr float perhaps_within = 1 + 4 * half_ulp, surely_within = 1 - 4 * half_ulp;
+
+/// The 16 shapes of a block: where they are in memory, or are unpacked to.
+template <class Arch>
+struct PlainLanes {
+    const float (*rows)[16];
+    std::uint32_t values;
+
+    PlainLanes(const TableView& table, const float* block)
+        : rows(reinterpret_cast<const float (*)[16]>(block)), values(table.values) {}
+    BlockReader<Arch> reader(int from) const { return {rows, from}; }
+    Floats<Arch> ids(int from) const { return Floats<Arch>::load_unaligned(rows[values] + from); }
+};
+
+/// The same of packed spheres, in registers.
+template <class Arch>
+struct PackedLanes {
+    using Packed = PackedSpheres<Arch>;
+    const PackedView& packed;
+    const PackedBlockView& block;
+
+    typename Packed::Reader reader(int from) const { return {packed, block, from}; }
+    Floats<Arch> ids(int from) const {
+        const typename Packed::Some some(packed, block, from);
+        return select(some.empty, some.words, some.ids());
+    }
+};
+
+/// Room for a block that is unpacked.
+template <class Arch>
+struct alignas(64) BlockRoom {
+    float rows[PackedSpheres<Arch>::rows][16];
+};
 
 /// Access to the streams of trace_kernels.hpp.
 template <class Arch>
@@ -49,12 +82,12 @@ struct Streams {
     /// bounds says so for rays that are infinitely far.
     static std::uint32_t filled(const NodeView& node, int from) {
         static_assert(no_child == no_slot);
-        return Lanes<Arch>::bits(filled(node.children + from));
+        return Lanes<Arch>::bits(filled(load_bits(node.children + from)));
     }
     /// The ids that are some shape's.
-    static M filled(const std::uint32_t* ids) {
+    static M filled(const F& ids) {
         const F empty = broadcast_bits(no_slot);
-        return ~Lanes<Arch>::in_range(load_bits(ids), empty, empty);
+        return ~Lanes<Arch>::in_range(ids, empty, empty);
     }
 
     /// The lanes of the slot's block that block whatever hits them, as bits.
@@ -92,8 +125,49 @@ struct Streams {
         for (; kind_bits != 0; kind_bits &= kind_bits - 1)
             visit(static_cast<core::Kind>(__builtin_ctz(kind_bits)));
     }
+    /// Of a table that is not packed, as in scenes without a tree none is.
     static const float* block_of(const TableView& table, std::uint32_t block) {
         return table.blocks + static_cast<std::size_t>(block) * table.block_floats;
+    }
+    /// Of any table: where the block is, or what it is unpacked to.
+    [[gnu::always_inline]] static const float* block_of(const TableView& table, std::uint32_t block,
+                                                        BlockRoom<Arch>& room) {
+        if (!table.is_packed()) [[likely]]
+            return block_of(table, block);
+        PackedSpheres<Arch>::unpack_apart(table.packed, block, room.rows);
+        return room.rows[0];
+    }
+    /// The same for those whose filter is of one kind, whose tables may be packed or not.
+    template <class Filter>
+    [[gnu::always_inline]] static const float*
+    block_for(const TableView& table, std::uint32_t block, BlockRoom<Arch>& room) {
+        if constexpr (of_spheres<Filter>())
+            return block_of(table, block, room);
+        else
+            return block_of(table, block);
+    }
+    /// Visits the lanes of a block, for one ray: unpacked in registers where that can be.
+    template <class Filter, class Visit>
+    [[gnu::always_inline]] static auto with_lanes(const TableView& table, std::uint32_t number,
+                                                  const Visit& visit) {
+        if constexpr (of_spheres<Filter>()) {
+            if (table.is_packed()) {
+                const PackedBlockView& block = table.packed.blocks[number];
+                if (PackedSpheres<Arch>::is_of_steps(block)) [[likely]]
+                    return visit(PackedLanes<Arch>{table.packed, block});
+                BlockRoom<Arch> room;
+                PackedSpheres<Arch>::unpack_apart(table.packed, number, room.rows);
+                return visit(PlainLanes<Arch>(table, room.rows[0]));
+            }
+        }
+        return visit(PlainLanes<Arch>(table, block_of(table, number)));
+    }
+    /// Fetches what of a packed block is not in it, once that is there.
+    template <class Filter>
+    [[gnu::always_inline]] static void fetch_whole_rows(const TableView& table,
+                                                        std::uint32_t number) {
+        if constexpr (of_spheres<Filter>())
+            if (table.is_packed()) PackedSpheres<Arch>::fetch_whole_rows(table.packed, number);
     }
     using Rows = const float (*)[16];
     static Rows rows_of(const float* block) { return reinterpret_cast<Rows>(block); }
@@ -119,7 +193,7 @@ struct RaysInFloat : Streams<Arch> {
     }
 
     /// One of them in all lanes.
-    static Rays broadcast(const RoundedRays& rays, std::size_t i) {
+    [[gnu::always_inline]] static Rays broadcast(const RoundedRays& rays, std::size_t i) {
         return {{F(rays.origin[0][i]), F(rays.origin[1][i]), F(rays.origin[2][i])},
                 {F(rays.direction[0][i]), F(rays.direction[1][i]), F(rays.direction[2][i])},
                 F(rays.slack[i])};

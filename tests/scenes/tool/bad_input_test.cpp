@@ -81,8 +81,9 @@ TEST_CASE("what is no file that holds a scene is told in one line") {
         {"JSON of nothing", "a.json", " // nothing\n", "must be a scene, got an empty file"},
         {"NFF of nothing", "a.nff", "# nothing\n", "must have a v entity, got none"},
         {"no scene at all", "a", "Dear Sir,\n",
-         "must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov) or Tachyon's "
-         "format (.dat), or atoms in PDB (.pdb), mmCIF or CIF (.cif), XYZ (.xyz), GRO (.gro), or "
+         "must be a scene in JSON (.json), NFF (.nff), POV-Ray's language (.pov), Tachyon's format "
+         "(.dat) or what \"raylane build\" writes (.rl), or atoms in PDB (.pdb), mmCIF or CIF "
+         "(.cif), XYZ (.xyz), GRO (.gro), or "
          "LAMMPS' dump (.dump) or data (.data), and what it holds is none of these"},
         {"no NFF at all", "a.nff", "Dear Sir,\n",
          R"(line 1: must be one of v, b, l, f, s, c, p and pp, got "Dear")"},

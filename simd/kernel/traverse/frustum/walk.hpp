@@ -84,7 +84,8 @@ struct FrustumWalk : Streams<Arch> {
                     const std::uint32_t within = crossed.slot(face) - table.first_slot;
                     if (within / 16 >= table.block_count) return;
                     const auto lane = static_cast<int>(within % 16);
-                    const float* block = S::block_of(table, within / 16);
+                    BlockRoom<Arch> room;
+                    const float* block = S::block_of(table, within / 16, room);
                     Method::with_filter(kind, [&]<class Filter>() {
                         found.test_crossed(Filter(BroadcastReader<Arch>(S::rows_of(block), lane)),
                                            S::ids_of(table, block)[lane], face);
@@ -115,13 +116,22 @@ struct FrustumWalk : Streams<Arch> {
     template <class Found>
     int at_blocks(const std::uint32_t* blocks, int block_count, Found& found) {
         BlockSpheres<Arch> spheres;
+        BlockRoom<Arch> rooms[batch];
+        const float* floats[batch];
         typename Rays::SeenBlock seen[batch];
         std::uint32_t shapes[16 * batch + F::size];
         int shape_count = 0;
         const float furthest = frustum.furthest_w(largest_limit);
         for (int b = 0; b < block_count; ++b) {
             const core::Kind kind = S::kind_of(blocks[b]);
-            spheres.enclose(kind, rows_of(blocks[b]));
+            const TableView& table = S::table_of(scene, kind);
+            if (table.is_packed()) {
+                PackedSpheres<Arch>::unpack(table.packed, blocks[b] & child_index, rooms[b].rows);
+                floats[b] = rooms[b].rows[0];
+            } else {
+                floats[b] = S::block_of(table, blocks[b] & child_index);
+            }
+            spheres.enclose(kind, S::rows_of(floats[b]));
             for (int from = 0; from < 16; from += static_cast<int>(F::size))
                 shape_count +=
                     list(numbers + from, static_cast<std::uint32_t>(b) << 4,
@@ -140,7 +150,7 @@ struct FrustumWalk : Streams<Arch> {
             }
         }
         for (int tested = 0; tested < count;)
-            tested = test_run(blocks, pairs, tested, count, found);
+            tested = test_run(blocks, floats, pairs, tested, count, found);
         counters.shapes += 16 * static_cast<std::uint64_t>(count);
         update_limits(meeting, found);
         return shape_count;
@@ -158,8 +168,8 @@ struct FrustumWalk : Streams<Arch> {
     /// Tests pairs from one on, as far as they are with shapes of one kind. Returns where these
     /// end.
     template <class Found>
-    int test_run(const std::uint32_t* blocks, const std::uint32_t* pairs, int begin, int count,
-                 Found& found) {
+    int test_run(const std::uint32_t* blocks, const float* const* floats,
+                 const std::uint32_t* pairs, int begin, int count, Found& found) {
         const core::Kind kind = S::kind_of(blocks[pairs[begin] >> 8]);
         int end = begin;
         Method::with_filter(kind, [&]<class Filter>() {
@@ -168,7 +178,7 @@ struct FrustumWalk : Streams<Arch> {
                 if (S::kind_of(child) != kind) break;
                 const TableView& table = S::table_of(scene, kind);
                 const std::uint32_t number = child & child_index, lane = shape & 15;
-                const float* block = S::block_of(table, number);
+                const float* block = floats[shape >> 4];
                 const Filter filter(
                     BroadcastReader<Arch>(S::rows_of(block), static_cast<int>(lane)));
                 do
@@ -184,10 +194,6 @@ struct FrustumWalk : Streams<Arch> {
     template <class Filter>
     static constexpr bool is_cheap =
         Method::certifies&& Method::rounded_alone && !sifts_packets<Filter, typename Method::Rays>;
-
-    typename S::Rows rows_of(std::uint32_t block) const {
-        return S::rows_of(S::block_of(S::table_of(scene, S::kind_of(block)), block & child_index));
-    }
 
     /// Writes the wanted ones of a register's worth of numbers, with others above them. Returns how
     /// many.

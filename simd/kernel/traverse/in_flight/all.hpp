@@ -117,7 +117,9 @@ class InFlightAll : InFlight<Arch, Method> {
     [[gnu::always_inline]] void add_of_block(const TableView& table, std::uint32_t number,
                                              std::size_t i, float t_most) {
         LeafHits hits;
-        Leaf<Arch, Method>::template find<Filter>(table, number, nullptr, rays_, i, t_most, hits);
+        S::template with_lanes<Filter>(table, number, [&](const auto& block) {
+            Leaf<Arch, Method>::template find<Filter>(block, nullptr, rays_, i, t_most, hits);
+        });
         for (std::uint32_t bits = hits.lanes; bits != 0; bits &= bits - 1)
             add(i,
                 table.first_slot + 16 * number + static_cast<std::uint32_t>(__builtin_ctz(bits)));

@@ -116,17 +116,24 @@ struct InFlight : Streams<Arch> {
             const auto take = [&] { visit.template some<Filter>(pairs); };
             for (int k = 0; k < count; ++k) {
                 const Traveller& ray = rays[which[k]];
-                pairs.template gather<Filter>(table, ray.child & child_index, stream, ray.i,
-                                              which[k], take);
+                BlockRoom<Arch> room;
+                const std::uint32_t number = ray.child & child_index;
+                pairs.template gather<Filter>(table, number,
+                                              S::template block_for<Filter>(table, number, room),
+                                              stream, ray.i, which[k], take);
             }
             pairs.flush(take);
         } else {
+            for (int k = 0; k < count; ++k)
+                S::template fetch_whole_rows<Filter>(table, rays[which[k]].child & child_index);
             int some[in_flight], found = 0;
             for (int k = 0; k < count; ++k) {
                 const Traveller& ray = rays[which[k]];
                 some[found] = which[k];
-                const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
-                    table, ray.child & child_index, stream, ray.i);
+                const std::uint32_t bits = S::template with_lanes<Filter>(
+                    table, ray.child & child_index, [&](const auto& block) {
+                        return Leaf<Arch, Method>::template may_meet<Filter>(block, stream, ray.i);
+                    });
                 found += static_cast<int>(bits != 0);
             }
             for (int k = 0; k < found; ++k)

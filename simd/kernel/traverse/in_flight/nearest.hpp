@@ -78,8 +78,10 @@ class InFlightNearest : InFlight<Arch, Method> {
     [[gnu::always_inline]] void all(Flight& flight, const TableView& table) const {
         const std::uint32_t number = flight.child & child_index;
         const CutView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
-        Leaf<Arch, Method>::template find<Filter>(table, number, cut, rays_, flight.i,
-                                                  flight.best.second, flight.hits);
+        S::template with_lanes<Filter>(table, number, [&](const auto& block) {
+            Leaf<Arch, Method>::template find<Filter>(block, cut, rays_, flight.i,
+                                                      flight.best.second, flight.hits);
+        });
     }
     /// Takes account of what may be crossed of some pairs.
     template <class Filter>

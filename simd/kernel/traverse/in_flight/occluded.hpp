@@ -85,9 +85,11 @@ class InFlightOccluded : InFlight<Arch, Method> {
     /// Looks for what is in the way in the block that a ray is at.
     template <class Filter>
     [[gnu::always_inline]] void all(Shadow& shadow, const TableView& table) const {
-        take(shadow, Leaf<Arch, Method>::template occluded<Filter>(scene_, table,
-                                                                   shadow.child & child_index,
-                                                                   rays_, shadow.i, shadow.t_most));
+        const std::uint32_t number = shadow.child & child_index;
+        take(shadow, S::template with_lanes<Filter>(table, number, [&](const auto& block) {
+                 return Leaf<Arch, Method>::template occluded<Filter>(
+                     scene_, table, number, block, rays_, shadow.i, shadow.t_most);
+             }));
     }
     /// The same of some pairs.
     template <class Filter>

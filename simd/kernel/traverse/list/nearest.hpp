@@ -165,11 +165,14 @@ class ListNearest : Streams<Arch> {
     [[gnu::noinline, gnu::flatten]] void test(core::Kind kind, std::uint32_t number,
                                               const Number* list, int count) {
         const TableView& table = S::table_of(scene_, kind);
+        BlockRoom<Arch> room;
+        const float* const block = S::template block_for<Filter>(table, number, room);
         if constexpr (packs_pairs<Filter, Method>) {
             Pairs<Arch, Method>& pairs = pairs_.of(kind);
             const auto take_them = [&] { take<Filter>(pairs); };
             for (int k = 0; k < count; ++k)
-                pairs.template gather<Filter>(table, number, rays_, list[k], list[k], take_them);
+                pairs.template gather<Filter>(table, number, block, rays_, list[k], list[k],
+                                              take_them);
         } else {
             for (int begin = 0; begin < count; begin += batch) {
                 Number some[batch];
@@ -177,22 +180,23 @@ class ListNearest : Streams<Arch> {
                 for (int k = begin; k < begin + batch && k < count; ++k) {
                     some[found] = list[k];
                     const std::uint32_t bits = Leaf<Arch, Method>::template may_meet<Filter>(
-                        table, number, rays_, list[k]);
+                        PlainLanes<Arch>(table, block), rays_, list[k]);
                     found += static_cast<int>(bits != 0);
                 }
                 for (int k = 0; k < found; ++k)
-                    take<Filter>(table, number, some[k]);
+                    take<Filter>(table, number, block, some[k]);
             }
         }
     }
 
     template <class Filter>
     [[gnu::always_inline]] void take(const TableView& table, std::uint32_t number,
-                                     std::size_t i) const {
+                                     const float* block, std::size_t i) const {
         Best& best = records_[i].best;
         LeafHits hits;
         const CutView* cut = cut_of<Method>(scene_, table.first_slot + 16 * number);
-        Leaf<Arch, Method>::template find<Filter>(table, number, cut, rays_, i, best.second, hits);
+        Leaf<Arch, Method>::template find<Filter>(PlainLanes<Arch>(table, block), cut, rays_, i,
+                                                  best.second, hits);
         if (hits.lanes != 0) Leaf<Arch, Method>::take(hits, table.first_slot + 16 * number, best);
     }
 

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "core/shapes/big_array.hpp"
+#include "core/shapes/block.hpp"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace raylane::core {
+
+/// A Block of spheres in 224 bytes rather than 320, with the same bits.
+///
+/// Spheres of a block are near each other, so that of a row of coordinates the patterns of its
+/// floats, as numbers, are as a rule less than 2^24 apart: the row is its least pattern and 24-bit
+/// steps from there. Radii are few: each is one of a scene's palette, whose number stands above the
+/// sphere's id. What does not go that way, such as coordinates on both sides of 0, stands as floats
+/// elsewhere, row by row.
+struct alignas(32) PackedBlock {
+    static constexpr int rows = 4;                     ///< of floats: x, y, z, radius
+    static constexpr std::uint32_t is_whole = 1;       ///< << row: its floats stand elsewhere
+    static constexpr std::uint32_t empty = 0xFFFFFFFF; ///< word of an empty lane
+    static constexpr std::uint32_t step_limit = 1U << 24;
+
+    std::uint32_t least[3]; ///< pattern of each axis
+    std::uint32_t whole;    ///< which rows do; above these 4 bits, where the first of them stands
+    std::uint8_t steps[3][3 * block_size]; ///< by axis and lane, 24 bits each, the lowest first
+    std::uint32_t words[block_size];       ///< id, and above it the radius' number
+
+    int whole_rows() const { return std::popcount(whole & ((1U << rows) - 1)); }
+};
+static_assert(sizeof(PackedBlock) == 224);
+
+/// Radii by number, in as many bits as ids leave free.
+class RadiusPalette {
+  public:
+    static constexpr std::size_t most = 256;
+    static constexpr std::uint32_t none = 0xFFFFFFFF;
+
+    /// Of spheres whose ids are less than `id_count`.
+    explicit RadiusPalette(std::size_t id_count = 1);
+
+    /// Adds a radius if it is new and there is room.
+    void add(float radius);
+    /// The number of a radius, by its bits; or none.
+    std::uint32_t find(float radius) const;
+
+    int id_bits() const { return id_bits_; }
+    std::uint32_t id_mask() const { return (std::uint32_t{1} << id_bits_) - 1; }
+    std::size_t size() const { return size_; }
+    const float* radii() const { return radii_.data(); }
+    float radius(std::uint32_t word) const { return radii_[word >> id_bits_]; }
+
+  private:
+    /// Where a radius is, or a free place: of a hash table of numbers plus 1, 0 being free.
+    std::size_t place_of(float radius) const;
+
+    int id_bits_;
+    std::size_t room_;
+    std::size_t size_ = 0;
+    std::array<float, most> radii_{}; // no fewer than 16, for registers
+    std::array<std::uint16_t, 4 * most> places_{};
+};
+
+/// Ids that leave no bit for the palette cannot be packed.
+inline constexpr std::size_t most_packed_ids = std::size_t{1} << 30;
+
+/// How many rows of a block stand elsewhere.
+int whole_rows(const Block<Sphere>& block, const RadiusPalette& palette);
+
+/// Packs a block. `rows`: where those stand that do so; `first_row`: how many stand before these.
+PackedBlock pack(const Block<Sphere>& block, const RadiusPalette& palette, std::uint32_t first_row,
+                 std::array<float, block_size>* rows);
+
+/// All blocks of spheres of a scene, packed.
+struct PackedSpheres {
+    using Row = std::array<float, block_size>;
+
+    BigArray<PackedBlock> blocks;
+    BigArray<Row> rows; ///< those that stand by themselves
+    RadiusPalette palette;
+
+    bool empty() const { return blocks.empty(); }
+    std::size_t bytes() const { return blocks.bytes() + rows.bytes(); }
+
+    Block<Sphere> block(std::size_t index) const;
+    Sphere get(std::size_t index, int lane) const;
+    ShapeId id(std::size_t index, int lane) const {
+        const std::uint32_t word = blocks[index].words[lane];
+        return word == PackedBlock::empty ? no_shape : word & palette.id_mask();
+    }
+
+  private:
+    float value(const PackedBlock& block, int row, int lane) const;
+};
+
+} // namespace raylane::core

@@ -1,0 +1,178 @@
+#include "scenes/json/reader.hpp"
+
+#include "scenes/built/built_file.hpp"
+#include "scenes/built/layout.hpp"
+#include "scenes/errors.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// The sections of a file.
+class Directory {
+  public:
+    Directory(std::string name, FileBytes file) : name_(std::move(name)), file_(std::move(file)) {
+        layout::Header header{};
+        if (file_.bytes.size() < sizeof header)
+            refuse("must be whole, got " + std::to_string(file_.bytes.size()) + " bytes");
+        std::memcpy(&header, file_.bytes.data(), sizeof header);
+        if (!looks_built({header.begin, sizeof header.begin}))
+            refuse("must be a scene that \"raylane build\" wrote");
+        if (header.format != layout::format)
+            refuse("was built by another version of raylane: build it anew (format " +
+                   std::to_string(header.format) + ", and this is " +
+                   std::to_string(layout::format) + ")");
+        if (header.bytes != file_.bytes.size())
+            refuse("must be whole: it should have " + std::to_string(header.bytes) +
+                   " bytes, and has " + std::to_string(file_.bytes.size()));
+        if (header.section_count > file_.bytes.size() / sizeof(layout::Section) - 1)
+            refuse_damaged("its directory is too long");
+        sections_ = {reinterpret_cast<const layout::Section*>(file_.bytes.data() + sizeof header),
+                     header.section_count};
+    }
+
+    /// Those of a section; none if it is not there.
+    template <class T>
+    core::BigArray<T> array(const std::string& name) const {
+        const layout::Section* const section = find(name);
+        if (section == nullptr) return {};
+        const std::size_t bytes = file_.bytes.size();
+        if (section->element_bytes != sizeof(T) || section->place % layout::alignment != 0 ||
+            section->place > bytes || section->count > (bytes - section->place) / sizeof(T))
+            refuse_damaged("its section \"" + name + "\" is not what it should be");
+        return {reinterpret_cast<const T*>(file_.bytes.data() + section->place), section->count,
+                file_.keeper};
+    }
+
+    [[noreturn]] void refuse(const std::string& what) const { throw BadInput(name_, "", what); }
+    [[noreturn]] void refuse_damaged(const std::string& what) const {
+        refuse("has been damaged, or is not what \"raylane build\" wrote: " + what);
+    }
+
+  private:
+    const layout::Section* find(const std::string& name) const {
+        if (name.size() >= sizeof(layout::Section::name)) return nullptr;
+        for (const layout::Section& section : sections_)
+            if (std::strncmp(section.name, name.c_str(), sizeof section.name) == 0) return &section;
+        return nullptr;
+    }
+
+    std::string name_;
+    FileBytes file_;
+    std::span<const layout::Section> sections_;
+};
+
+class Reader {
+  public:
+    explicit Reader(const Directory& directory) : directory_(directory) {}
+
+    core::BuiltShapes shapes() {
+        core::BuiltShapes shapes;
+        const core::BigArray<std::uint64_t> counts =
+            directory_.array<std::uint64_t>(layout::counts);
+        if (counts.size() != core::kind_count) directory_.refuse_damaged("it has other shapes");
+        std::size_t all = 0;
+        for (const std::uint64_t count : counts) {
+            if (count > core::no_shape) directory_.refuse_damaged("it has too many shapes");
+            all += count;
+        }
+        core::for_each_table(shapes.tables, [&]<class Shape>(core::Table<Shape>& table) {
+            read_table(table, counts[static_cast<std::size_t>(core::kind_of<Shape>)], all);
+        });
+        shapes.material_of = materials(all);
+        const auto polygons = directory_.array<core::IdRange>(layout::polygons);
+        shapes.polygons.assign(polygons.begin(), polygons.end());
+        shapes.hierarchy = core::hierarchy_of(directory_.array<core::WideNode>(layout::nodes));
+        read_staging(shapes);
+        return shapes;
+    }
+
+  private:
+    template <class Shape>
+    void read_table(core::Table<Shape>& table, std::size_t count, std::size_t id_count) const {
+        const std::string kind(core::name_of(core::kind_of<Shape>));
+        core::Blocks<Shape> blocks;
+        blocks.floats = directory_.array<core::Block<Shape>>(kind + layout::blocks);
+        blocks.doubles = directory_.array<core::DoubleBlock<Shape>>(kind + layout::doubles);
+        table = {std::move(blocks), count};
+        if constexpr (core::Table<Shape>::packs) {
+            core::PackedSpheres packed;
+            packed.blocks = directory_.array<core::PackedBlock>(layout::packed);
+            if (packed.empty()) return;
+            if (table.block_count() != 0 || table.has_doubles() || id_count > core::most_packed_ids)
+                directory_.refuse_damaged("its spheres are there twice");
+            packed.rows = directory_.array<core::PackedSpheres::Row>(layout::rows);
+            packed.palette = core::RadiusPalette(id_count);
+            const auto radii = directory_.array<float>(layout::radii);
+            for (const float radius : radii)
+                packed.palette.add(radius);
+            if (packed.palette.size() != radii.size())
+                directory_.refuse_damaged("it has other radii");
+            table.replace_blocks(std::move(packed));
+        }
+    }
+
+    core::MaterialIndices materials(std::size_t count) const {
+        auto stored = directory_.array<std::uint8_t>(layout::materials);
+        const std::size_t width = count == 0 ? 0 : stored.size() / count;
+        if (stored.size() != width * count || (width > 2 && width != 4))
+            directory_.refuse_damaged("it has other materials");
+        return {std::move(stored), static_cast<int>(width), count};
+    }
+
+    void read_staging(core::BuiltShapes& shapes) const {
+        const auto numbers = directory_.array<double>(layout::staging);
+        std::size_t next = 0;
+        constexpr std::size_t count = 14;
+        if (numbers.size() != count || !std::ranges::all_of(numbers, [](double number) {
+                return number >= -1e30 && number <= 1e30;
+            }))
+            directory_.refuse_damaged("its camera is none");
+        const auto number = [&] { return static_cast<float>(numbers[next++]); };
+        const auto flag = [&] { return numbers[next++] != 0.0; };
+        const auto vector = [&] {
+            const float x = number(), y = number(), z = number();
+            return core::Vec3f(x, y, z);
+        };
+        const double lights = std::clamp(numbers[next++], 0.0, 4294967295.0);
+        shapes.own_light_count = static_cast<std::size_t>(lights);
+        const bool has_framing = flag();
+        core::Framing framing;
+        framing.projection =
+            flag() ? core::Projection::orthographic : core::Projection::perspective;
+        framing.direction = vector();
+        framing.up = vector();
+        framing.field_of_view = number();
+        framing.zoom = number();
+        if (has_framing) shapes.staging.framing = framing;
+        shapes.staging.lights = flag();
+        shapes.staging.depth_cue = number();
+        if (!(shapes.staging.depth_cue >= 0.0F && shapes.staging.depth_cue < 1.0F))
+            directory_.refuse_damaged("its fog is none");
+        shapes.staging.turning = flag();
+    }
+
+    const Directory& directory_;
+};
+
+} // namespace
+
+bool looks_built(std::string_view head) {
+    return head.starts_with(std::string_view(layout::magic, sizeof layout::magic));
+}
+
+core::Scene read_built(InputFile& file, core::Workers* workers) {
+    const Directory directory(file.name(), file.whole());
+    const auto json = directory.array<char>(layout::scene);
+    InputFile scene(file.name(), std::string_view(json.data(), json.size()));
+    return read_json_with(scene, Reader(directory).shapes(), workers);
+}
+
+} // namespace raylane::scenes

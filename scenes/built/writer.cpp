@@ -1,0 +1,114 @@
+#include "scenes/built/built_file.hpp"
+#include "scenes/built/layout.hpp"
+#include "scenes/errors.hpp"
+#include "scenes/export/writers.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace raylane::scenes {
+
+namespace {
+
+class Writer {
+  public:
+    template <class T>
+    void add(std::string_view name, const T* data, std::size_t count) {
+        if (count == 0) return;
+        layout::Section section{};
+        std::copy(name.begin(), name.end(), section.name);
+        section.element_bytes = sizeof(T);
+        section.count = count;
+        sections_.push_back(section);
+        contents_.emplace_back(reinterpret_cast<const char*>(data), count * sizeof(T));
+    }
+    template <class T>
+    void add(std::string_view name, const core::BigArray<T>& array) {
+        add(name, array.data(), array.size());
+    }
+
+    void write(AtomicFile& file) {
+        std::size_t place = (1 + sections_.size()) * layout::alignment;
+        for (std::size_t i = 0; i < sections_.size(); ++i) {
+            sections_[i].place = place;
+            place += layout::rounded_up(contents_[i].size());
+        }
+        layout::Header header{};
+        std::copy(std::begin(layout::magic), std::end(layout::magic), header.begin);
+        header.format = layout::format;
+        header.section_count = static_cast<std::uint32_t>(sections_.size());
+        header.bytes = place;
+        file.reserve(static_cast<std::int64_t>(place));
+        file.write({reinterpret_cast<const char*>(&header), sizeof header});
+        file.write({reinterpret_cast<const char*>(sections_.data()),
+                    sections_.size() * sizeof(layout::Section)});
+        static constexpr char zeros[layout::alignment] = {};
+        for (const std::string_view content : contents_) {
+            file.write(content);
+            file.write({zeros, layout::rounded_up(content.size()) - content.size()});
+        }
+    }
+
+  private:
+    std::vector<layout::Section> sections_;
+    std::vector<std::string_view> contents_; // of each
+};
+
+std::vector<double> numbers_of(const core::Scene& scene) {
+    const core::Staging& staging = scene.staging();
+    const core::Framing framing = staging.framing.value_or(core::Framing{});
+    return {static_cast<double>(scene.own_light_count()),
+            staging.framing ? 1.0 : 0.0,
+            static_cast<double>(framing.projection),
+            static_cast<double>(framing.direction.x),
+            static_cast<double>(framing.direction.y),
+            static_cast<double>(framing.direction.z),
+            static_cast<double>(framing.up.x),
+            static_cast<double>(framing.up.y),
+            static_cast<double>(framing.up.z),
+            static_cast<double>(framing.field_of_view),
+            static_cast<double>(framing.zoom),
+            staging.lights ? 1.0 : 0.0,
+            static_cast<double>(staging.depth_cue),
+            staging.turning ? 1.0 : 0.0};
+}
+
+} // namespace
+
+void write_built(AtomicFile& file, const core::Scene& scene) {
+    if (scene.solids().any())
+        throw BadInput(
+            file.name(), "",
+            "cannot have solids that are made of others, which are built anew each time");
+    Writer writer;
+    std::string json;
+    TextFile text([&](std::string_view piece) { json += piece; });
+    write_json_without_objects(text, scene);
+    text.flush();
+    writer.add(layout::scene, json.data(), json.size());
+    const std::vector<double> staging = numbers_of(scene);
+    writer.add(layout::staging, staging.data(), staging.size());
+    writer.add(layout::nodes, scene.hierarchy().nodes);
+    const std::span<const std::uint8_t> materials = scene.material_indices().stored();
+    writer.add(layout::materials, materials.data(), materials.size());
+    writer.add(layout::polygons, scene.polygons().data(), scene.polygons().size());
+    std::vector<std::uint64_t> counts;
+    core::for_each_table(scene.shapes(), [&]<class Shape>(const core::Table<Shape>& table) {
+        const std::string kind(core::name_of(core::kind_of<Shape>));
+        counts.push_back(table.size());
+        writer.add(kind + layout::doubles, table.doubles());
+        writer.add(kind + layout::blocks, table.plain_blocks());
+        const core::PackedSpheres* const packed = table.packed();
+        if (packed == nullptr) return;
+        writer.add(layout::packed, packed->blocks);
+        writer.add(layout::rows, packed->rows);
+        writer.add(layout::radii, packed->palette.radii(), packed->palette.size());
+    });
+    writer.add(layout::counts, counts.data(), counts.size());
+    writer.write(file);
+}
+
+} // namespace raylane::scenes

@@ -1,0 +1,304 @@
+#include "scenes/errors.hpp"
+#include "scenes/export/export.hpp"
+#include "scenes/export/writers.hpp"
+#include "scenes/scene_file.hpp"
+#include "scenes/tool/journal/fingerprint.hpp"
+#include "simd/render.hpp"
+#include "simd/stream_tracer.hpp"
+#include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
+#include "tests/scenes/temporary_directory.hpp"
+
+#include <cstring>
+#include <random>
+#include <string>
+
+/// Scenes that are written as they are in memory.
+using namespace raylane;
+using namespace raylane::scenes;
+
+namespace {
+
+std::vector<core::Color> picture_of(const core::Scene& scene, core::Precision precision,
+                                    int width = 32) {
+    core::Settings settings = scene.settings();
+    settings.height = std::max(1, width * settings.height / settings.width);
+    settings.width = width;
+    settings.grid = 1;
+    settings.quality = 0.0F;
+    simd::RenderOptions options;
+    options.precision = precision;
+    return simd::render(scene, settings, options).film.pixels();
+}
+
+std::string json_of(const core::Scene& scene) {
+    std::string json;
+    TextFile text([&](std::string_view piece) { json += piece; });
+    write_json(text, scene);
+    text.flush();
+    return json;
+}
+
+void check_same(const core::Scene& again, const core::Scene& scene) {
+    CHECK(json_of(again) == json_of(scene));
+    CHECK(fingerprint_of(again) == fingerprint_of(scene));
+    CHECK(again.bytes() <= scene.bytes());
+    CHECK(again.hierarchy().bounds.lower == scene.hierarchy().bounds.lower);
+    CHECK(again.hierarchy().bounds.upper == scene.hierarchy().bounds.upper);
+    CHECK(again.own_light_count() == scene.own_light_count());
+    CHECK(again.staging().framing.has_value() == scene.staging().framing.has_value());
+    CHECK(again.staging().lights == scene.staging().lights);
+    CHECK(again.staging().depth_cue == scene.staging().depth_cue);
+    CHECK(again.polygons().size() == scene.polygons().size());
+    for (const core::Precision precision : {core::Precision::exact, core::Precision::robust})
+        CHECK(picture_of(again, precision) == picture_of(scene, precision));
+}
+
+/// Spheres of three materials, as many as are packed or fewer; and of everything else some.
+core::Scene mixture(int spheres, std::size_t pack_from) {
+    std::mt19937 engine(4);
+    std::uniform_real_distribution<float> coordinate(30.0F, 50.0F);
+    core::SceneBuilder builder;
+    builder.pack_from = pack_from;
+    core::Material glass;
+    glass.transmission = 0.5F;
+    for (const core::Material& material : {core::Material{}, glass, core::Material{}})
+        builder.add_material(material);
+    core::Light lamp;
+    lamp.position = {30, 40, 50};
+    builder.add_light(lamp);
+    builder.camera.from = {70, 43, 42};
+    builder.camera.at = {40, 40, 40};
+    const auto point = [&] {
+        const float x = coordinate(engine), y = coordinate(engine), z = coordinate(engine);
+        return core::Vec3f(x, y, z);
+    };
+    for (int i = 0; i < spheres; ++i)
+        builder.add(core::Sphere{point(), i % 7 == 0 ? 0.5F : 0.25F},
+                    static_cast<core::MaterialIndex>(i % 3));
+    for (int i = 0; i < 40; ++i) {
+        builder.add(core::CappedCylinder{point(), {0, 1, 0}, 0.125F}, 0);
+        builder.add(
+            core::BoxOf<double>{core::Vec3d(0.1 * i), {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}}, 1);
+        const core::Vec3f a = point();
+        const core::Triangle triangles[] = {
+            {a, a + core::Vec3f(1, 0, 0), a + core::Vec3f(0, 1, 0)},
+            {a, a + core::Vec3f(0, 1, 0), a + core::Vec3f(-1, 0, 0)}};
+        builder.add_polygon(std::span<const core::Triangle>(triangles), 2);
+    }
+    builder.add(core::Plane{{0, -12, 0}, {0, 1, 0}}, 0);
+    return std::move(builder).build();
+}
+
+std::string complaint(const std::filesystem::path& path) {
+    try {
+        load_scene(path);
+    } catch (const BadInput& bad) {
+        return bad.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("all shipped scenes are the same ones as built files, or are refused as solids") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl";
+    int same = 0, solids = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             std::filesystem::path(RAYLANE_SOURCE_DIR) / "scenes")) {
+        if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".schema")
+            continue;
+        CAPTURE(entry.path());
+        const core::Scene scene = load_scene(entry.path());
+        if (scene.solids().any()) {
+            CHECK_THROWS_AS(export_scene(built, scene), BadInput);
+            ++solids;
+            continue;
+        }
+        export_scene(built, scene);
+        check_same(load_scene(built), scene);
+        ++same;
+    }
+    CHECK(same >= 10);
+    CHECK(solids >= 1);
+}
+
+TEST_CASE(
+    "built files of packed spheres and others, and of atoms with their camera, are the same") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl";
+    const core::Scene packed = mixture(3000, 0), plain = mixture(3000, 1'000'000);
+    REQUIRE(std::get<core::Table<core::Sphere>>(packed.shapes()).is_packed());
+    CHECK(fingerprint_of(packed) == fingerprint_of(plain));
+    for (const core::Scene* scene : {&packed, &plain}) {
+        export_scene(built, *scene);
+        check_same(load_scene(built), *scene);
+    }
+    const std::filesystem::path atoms =
+        directory.write("a.xyz", "3\n\nO 0 0 0\nH 1 0 0\nH 0 1 0\n");
+    LoadOptions options;
+    options.drawing.opacity = 0.5F;
+    for (const LoadOptions& with : {LoadOptions{}, options}) {
+        const core::Scene scene = load_scene(atoms, with);
+        if (scene.solids().any()) continue;
+        export_scene(built, scene);
+        const core::Scene again = load_scene(built);
+        check_same(again, scene);
+        CHECK(again.lights().size() > again.own_light_count());
+    }
+    const core::Scene empty = parse_scene("e.json", R"({"camera": {"from": [0, 0, 5],
+        "at": [0, 0, 0]}, "background": [1, 0, 0], "objects": []})");
+    export_scene(built, empty);
+    check_same(load_scene(built), empty);
+}
+
+TEST_CASE("shapes stay in a built file, whatever becomes of its name") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl";
+    const core::Scene scene = mixture(3000, 0);
+    export_scene(built, scene);
+    const core::Scene first = load_scene(built);
+    const core::Scene copy = first; // has the same ones
+    CHECK(copy.hierarchy().nodes.data() == first.hierarchy().nodes.data());
+    export_scene(built, mixture(10, 0));
+    std::filesystem::remove(built);
+    check_same(first, scene);
+    check_same(copy, scene);
+}
+
+TEST_CASE("a built file that is compressed, or comes by a name without an ending, is read") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl", other = directory.path() / "b";
+    const core::Scene scene = mixture(100, 0);
+    export_scene(built, scene);
+    std::filesystem::copy(built, other);
+    check_same(load_scene(other), scene);
+    REQUIRE(std::system(("gzip " + built.string()).c_str()) == 0);
+    check_same(load_scene(built.string() + ".gz"), scene);
+}
+
+TEST_CASE("a built file that is cut off is refused, and so is one of another version") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl";
+    export_scene(built, mixture(40, 0));
+    const std::string whole = tests::content_of(built);
+    for (std::size_t size = 0; size < whole.size(); size += size < 4096 ? 1 : 977) {
+        directory.write("a.rl", whole.substr(0, size));
+        CHECK(complaint(built).find("a.rl: ") != std::string::npos);
+    }
+    std::string other = whole;
+    other[16] = 99;
+    directory.write("a.rl", other);
+    CHECK(complaint(built).find("a.rl: was built by another version of raylane: build it anew") !=
+          std::string::npos);
+    directory.write("a.rl", "raylane is a text");
+    CHECK(complaint(built).find("a.rl: must be ") != std::string::npos);
+}
+
+namespace {
+
+/// Traces and draws whatever it is.
+void use(const core::Scene& scene) {
+    picture_of(scene, core::Precision::exact, 4);
+    const std::vector<float> zero(8, 0.5F), one(8, 1.0F);
+    std::vector<float> t(8), x(8), y(8), z(8);
+    std::vector<core::ShapeId> shape(8);
+    std::vector<std::uint8_t> entering(8);
+    const simd::RayStream<float> rays = {8,
+                                         {zero.data(), zero.data(), zero.data()},
+                                         {one.data(), one.data(), one.data()},
+                                         nullptr,
+                                         nullptr,
+                                         nullptr};
+    simd::StreamTracer(scene, 1, simd::best_isa(), core::Precision::exact)
+        .nearest(rays, {t.data(), {x.data(), y.data(), z.data()}, shape.data(), entering.data()});
+}
+
+/// Has what is read after a change, if it is read.
+bool is_read(const tests::TemporaryDirectory& directory, const std::string& content) {
+    const std::filesystem::path path = directory.write("a.rl", content);
+    try {
+        use(load_scene(path));
+        return true;
+    } catch (const BadInput& bad) {
+        CHECK(std::string(bad.what()).find("a.rl") != std::string::npos);
+        return false;
+    }
+}
+
+} // namespace
+
+TEST_CASE("a built file with any byte changed is refused, or a scene that can be drawn") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl";
+    std::mt19937 engine(9);
+    for (const std::size_t pack_from : {std::size_t{0}, std::size_t{1'000'000}}) {
+        const core::Scene scene = mixture(100, pack_from);
+        CHECK(std::get<core::Table<core::Sphere>>(scene.shapes()).is_packed() == (pack_from == 0));
+        export_scene(built, scene);
+        const std::string whole = tests::content_of(built);
+        int refused = 0, read = 0;
+        const int rounds = tests::sanitized ? 300 : 3000;
+        for (int round = 0; round < rounds; ++round) {
+            std::string other = whole;
+            const std::size_t at = engine() % other.size();
+            switch (engine() % 3) {
+            case 0:
+                other[at] = static_cast<char>(other[at] ^ (1 << engine() % 8));
+                break;
+            case 1:
+                other[at] = static_cast<char>(engine());
+                break;
+            default: // a number, or what it counts
+                for (std::size_t i = at / 4 * 4; i < std::min(other.size(), at / 4 * 4 + 4); ++i)
+                    other[i] = engine() % 2 == 0 ? '\xFF' : '\0';
+            }
+            (is_read(directory, other) ? read : refused) += 1;
+        }
+        CAPTURE(refused, read);
+        CHECK(refused > rounds / 20);
+        CHECK(read > rounds / 20);
+    }
+}
+
+TEST_CASE("what a built file says of its shapes is held to what a builder makes") {
+    core::Workers alone;
+    const auto shapes_of = [](const core::Scene& scene) {
+        core::BuiltShapes shapes;
+        shapes.tables = scene.shapes();
+        shapes.material_of = scene.material_indices();
+        shapes.polygons.assign(scene.polygons().begin(), scene.polygons().end());
+        shapes.hierarchy = scene.hierarchy();
+        return shapes;
+    };
+    const core::Scene plain = mixture(300, 1'000'000);
+    const core::BuiltShapes right = shapes_of(plain);
+    check(right, 3, alone);
+    CHECK_THROWS_AS(check(right, 2, alone), core::InvalidValue);
+    const auto refused = [&](const auto& change) {
+        core::BuiltShapes shapes = right;
+        change(shapes);
+        try {
+            check(shapes, 3, alone);
+        } catch (const core::InvalidValue& invalid) {
+            return std::string(invalid.what());
+        }
+        return std::string("nothing");
+    };
+    const auto nodes = [](core::BuiltShapes& shapes) { return shapes.hierarchy.nodes.data(); };
+    CHECK(refused([&](auto& shapes) { nodes(shapes)[0].upper[1][0] -= 1.0F; }) ==
+          "a shape outside of its bounds");
+    CHECK(refused([&](auto& shapes) { nodes(shapes)[0].children[0] = core::Child::node(0); }) ==
+          "nodes that are no tree");
+    CHECK(refused([&](auto& shapes) { nodes(shapes)[0].children[0] = core::Child(); }) ==
+          "a child behind the last");
+    CHECK(refused([&](auto& shapes) {
+              nodes(shapes)[0].children[0] = core::Child::block(core::Kind::sphere, 1 << 20);
+          }) == "a block that is not there, or twice");
+    CHECK(refused([](auto& shapes) { shapes.polygons[1].last = shapes.polygons[2].first; }) ==
+          "polygons out of order");
+    CHECK(refused([](auto& shapes) { shapes.material_of.truncate(10); }) ==
+          "the numbers of shapes do not fit each other");
+    CHECK(refused([](auto& shapes) { shapes.tables = core::Tables(); }) != "nothing");
+}

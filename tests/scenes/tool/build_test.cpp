@@ -1,0 +1,76 @@
+#include "tests/catch.hpp"
+#include "tests/scenes/tool/workshop.hpp"
+
+/// Scenes that are built once, for many pictures.
+using namespace raylane::tests;
+
+namespace {
+
+const std::string atoms = "4\n\nO 0 0 0\nH 1 0 0\nH 0 1 0\nC 3 0.5 1\n";
+
+void check_same_file(const Workshop& workshop, const std::string& a, const std::string& b) {
+    CHECK(content_of(workshop.path() / a) == content_of(workshop.path() / b));
+}
+
+} // namespace
+
+TEST_CASE("a built scene is drawn as what it was built of") {
+    const Workshop workshop;
+    workshop.write("a.xyz", atoms);
+    const std::vector<std::string> size = {"--size", "40x30", "-q"};
+    REQUIRE(workshop.run({"build", "a.xyz", "-o", "a.rl", "--style", "spheres"}).code == 0);
+    CHECK(workshop.run(joined({"render", "a.xyz", "-o", "out/a.pfm", "--style", "spheres"}, size))
+              .code == 0);
+    CHECK(workshop.run(joined({"render", "a.rl", "-o", "out/b.pfm"}, size)).code == 0);
+    check_same_file(workshop, "out/a.pfm", "out/b.pfm");
+    // Its camera finds another place, and its fog another depth.
+    const std::vector<std::string> above = {"--view", "top"};
+    CHECK(
+        workshop
+            .run(joined(joined({"render", "a.xyz", "-o", "out/a.pfm", "--style", "spheres"}, size),
+                        above))
+            .code == 0);
+    CHECK(workshop.run(joined(joined({"render", "a.rl", "-o", "out/b.pfm"}, size), above)).code ==
+          0);
+    check_same_file(workshop, "out/a.pfm", "out/b.pfm");
+}
+
+TEST_CASE("build takes the name of its scene where no other is given, and says what it wrote") {
+    const Workshop workshop;
+    const Outcome outcome = workshop.run({"build", "scene.json", "-v"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("scene.rl: 1 shapes, ") != std::string::npos);
+    CHECK(workshop.run({"info", "scene.rl"}).code == 0);
+    CHECK(workshop.run({"convert", "scene.rl", "again.json", "-q"}).code == 0);
+    CHECK(workshop.run({"convert", "scene.json", "once.json", "-q"}).code == 0);
+    check_same_file(workshop, "again.json", "once.json");
+    CHECK(workshop.run({"build", "scene.rl", "-o", "other.rl", "-q"}).code == 0);
+    check_same_file(workshop, "scene.rl", "other.rl");
+}
+
+TEST_CASE("what cannot be built, or is no built scene, is refused in one line") {
+    const Workshop workshop;
+    workshop.write("bad.rl", "not built");
+    workshop.write("solid.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+        "lights": [{"type": "directional", "direction": [-1, -2, -3]}], "materials": {"m": {}},
+        "objects": [{"type": "intersection", "material": "m", "objects": [
+            {"type": "sphere", "center": [0, 0, 0], "radius": 1},
+            {"type": "plane", "point": [0, 0, 0], "normal": [1, 0, 0]}]}]})");
+    const auto says = [&](const std::vector<std::string>& arguments, const std::string& text) {
+        const Outcome outcome = workshop.run(arguments);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(is_one_line(outcome.err));
+        CHECK(outcome.err.find(text) != std::string::npos);
+    };
+    says({"build", "scene.json", "-o", "out/a.json"}, "--output: must end in .rl");
+    says({"build", "scene.json", "-o", "scene.json"}, "--output: ");
+    says({"build", "solid.json", "-o", "out/a.rl"},
+         "out/a.rl: cannot have solids that are made of others");
+    says({"render", "bad.rl", "-o", "out/a.png"}, "bad.rl: must be ");
+    workshop.run({"build", "scene.json", "-q"});
+    says({"render", "scene.rl", "-o", "out/a.png", "--style", "spheres"},
+         "goes with a file of atoms");
+    says({"render", "scene.rl", "-o", "out/a.png", "--set", "a=1"}, "only JSON may");
+    CHECK(workshop.is_output_empty());
+}
