@@ -11,6 +11,7 @@
 #include "scenes/tool/output_name.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
+#include "scenes/tool/ranks/shared_scene.hpp"
 #include "scenes/tool/render_arguments.hpp"
 #include "simd/render.hpp"
 
@@ -171,6 +172,7 @@ int render(const RenderArguments& arguments) {
 
     Job job;
     const Verbosity verbosity = job.is_first() ? asked : Verbosity::quiet;
+    const int threads_to_load = options.threads;
     if (!arguments.threads) options.threads = job.share_of_threads(options.threads);
     const auto prepare = [&](const core::Scene& scene, const core::Settings& settings) {
         picture.apply_to(options, settings);
@@ -235,13 +237,16 @@ int render(const RenderArguments& arguments) {
     core::Settings settings;
     Stopwatch stopwatch;
     job.together([&] {
-        if (job.is_first()) {
-            output.emplace(files.output, exr_of);
-            require_fit(part_of_tiles, picture, output->format());
-            picture.require_fit(output->format());
-            if (files.stats) stats.emplace(*files.stats);
-        }
-        loaded = load_with_progress(files.scene, load_options, verbosity, options.threads);
+        if (!job.is_first()) return;
+        output.emplace(files.output, exr_of);
+        require_fit(part_of_tiles, picture, output->format());
+        picture.require_fit(output->format());
+        if (files.stats) stats.emplace(*files.stats);
+    });
+    loaded = load_together(job, threads_to_load, [&](int threads) {
+        return load_with_progress(files.scene, load_options, verbosity, threads);
+    });
+    job.together([&] {
         settings = settings_of(loaded->settings());
         loaded = seen(*std::move(loaded), change, settings);
         prepare(*loaded, settings);

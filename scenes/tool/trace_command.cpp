@@ -5,6 +5,7 @@
 #include "scenes/tool/output_name.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
+#include "scenes/tool/ranks/shared_scene.hpp"
 #include "scenes/tool/ranks/shared_work.hpp"
 #include "scenes/tool/render_arguments.hpp"
 #include "scenes/tool/scene_arguments.hpp"
@@ -166,6 +167,7 @@ int trace(const TraceArguments& arguments) {
 
     Job job;
     const Verbosity verbosity = job.is_first() ? asked : Verbosity::quiet;
+    const int threads_to_load = threads;
     if (!arguments.threads) threads = job.share_of_threads(threads);
     std::optional<RayFile> rays;
     std::optional<AtomicFile> file;
@@ -175,7 +177,11 @@ int trace(const TraceArguments& arguments) {
     job.together([&] {
         rays.emplace(ray_file);
         if (job.is_first()) file.emplace(output);
-        scene = load_with_progress(scene_file, load_options, verbosity, threads);
+    });
+    scene = load_together(job, threads_to_load, [&](int with) {
+        return load_with_progress(scene_file, load_options, verbosity, with);
+    });
+    job.together([&] {
         answers.emplace(*scene, *rays, precision, arguments.occluded);
         fingerprint = fingerprint_of(*scene);
         if (file) file->write(npy_head(answers->type(), rays->count()));

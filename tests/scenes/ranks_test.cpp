@@ -49,6 +49,7 @@ class ThreadRanks : public scenes::Ranks {
     int rank() const override { return rank_; }
     int size() const override { return room_.size; }
     int size_of_host() const override { return room_.size; }
+    int first_of_host() const override { return 0; }
     void gather(const void*, std::size_t, const char*&, const std::size_t*&) override {
         FAIL("not asked for");
     }

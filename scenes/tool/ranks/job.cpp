@@ -82,6 +82,11 @@ void Job::together(const std::function<void()>& work) {
     throw RankFailed(static_cast<unsigned char>(failed->front()), failed->substr(1));
 }
 
+std::string Job::told_on_host(const std::string& text) {
+    if (!ranks_) return text;
+    return gathered(*ranks_, text)[static_cast<std::size_t>(ranks_->first_of_host())];
+}
+
 void Job::require_same(const std::string& text, const std::string& what) {
     if (!ranks_) return;
     const std::vector<std::string> texts = gathered(*ranks_, text);

@@ -36,10 +36,15 @@ class Job {
     int rank() const { return rank_; }
     /// The one that says what is to be said, and writes what is to be written.
     bool is_first() const { return rank_ == 0; }
+    /// True if there are others on this host.
+    bool shares_host() const { return ranks_ != nullptr && ranks_->size_of_host() > 1; }
+    bool is_first_of_host() const { return ranks_ == nullptr || ranks_->first_of_host() == rank_; }
 
     /// What each rank does for itself, all at a time. If one of them fails, all throw: that one its
     /// error if it is rank 0, else rank 0 a RankFailed with its text, and all others one without.
     void together(const std::function<void()>& work);
+    /// All together: the text that the first rank of each host has for those on it.
+    std::string told_on_host(const std::string& text);
     /// All together: fails unless this text is the same for all.
     void require_same(const std::string& text, const std::string& what);
     /// All together, once they need each other no more: from now on each is by itself.

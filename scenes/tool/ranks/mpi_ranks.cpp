@@ -25,6 +25,8 @@ class MpiRanks : public Ranks {
         MPI_Comm host;
         MPI_Comm_split_type(all_, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &host);
         MPI_Comm_size(host, &size_of_host_);
+        first_of_host_ = rank_;
+        MPI_Bcast(&first_of_host_, 1, MPI_INT, 0, host);
         MPI_Comm_free(&host);
         MPI_Win_allocate(rank_ == 0 ? sizeof *counter_ : 0, sizeof *counter_, MPI_INFO_NULL, all_,
                          static_cast<void*>(&counter_), &window_);
@@ -41,6 +43,7 @@ class MpiRanks : public Ranks {
     int rank() const override { return rank_; }
     int size() const override { return size_; }
     int size_of_host() const override { return size_of_host_; }
+    int first_of_host() const override { return first_of_host_; }
 
     void gather(const void* bytes, std::size_t count, const char*& all,
                 const std::size_t*& counts) override {
@@ -123,7 +126,7 @@ class MpiRanks : public Ranks {
     static constexpr int tag = 1;
 
     MPI_Comm all_ = MPI_COMM_NULL;
-    int rank_ = 0, size_ = 1, size_of_host_ = 1;
+    int rank_ = 0, size_ = 1, size_of_host_ = 1, first_of_host_ = 0;
     MPI_Win window_ = MPI_WIN_NULL;
     std::uint64_t* counter_ = nullptr; // at rank 0
     MPI_Request barrier_ = MPI_REQUEST_NULL, sending_ = MPI_REQUEST_NULL;

@@ -19,7 +19,8 @@ class Ranks {
 
     virtual int rank() const = 0;
     virtual int size() const = 0;
-    virtual int size_of_host() const = 0; ///< ranks on this rank's host
+    virtual int size_of_host() const = 0;  ///< ranks on this rank's host
+    virtual int first_of_host() const = 0; ///< the lowest of them
 
     /// All together: the bytes of each rank, of which every rank may have as many as it likes, one
     /// after the other in `all`, their numbers in `counts` (size() of them). Both are the ranks',

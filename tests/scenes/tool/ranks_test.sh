@@ -47,6 +47,31 @@ if "$raylane" render "$scene" -q -o one.exr --size 150x90 2>/dev/null; then
     try exr --size 150x90 --part 2/3
 fi
 
+echo "a scene that ranks of a host share"
+"$raylane" build "$scene" -o built.rl -q
+"$raylane" render "$scene" -q -o one.pfm --size 150x90
+job 2 render built.rl -o many.pfm --size 150x90 2>err || fail "a built scene"
+same one.pfm many.pfm
+for name in "$scene" built.rl; do
+    mapped="memfd:raylane scene"
+    [ "$name" = "$scene" ] || mapped=built.rl
+    job 2 render "$name" -o long.png --size 4000x4000 --spp 65536 --no-resume >out 2>err &
+    sharing=
+    tries=0
+    while [ -z "$sharing" ] && [ $tries -lt 300 ]; do
+        sleep 0.2
+        tries=$((tries + 1))
+        count=0
+        for process in $(pgrep -f "^$raylane render $name -o long.png"); do
+            ! grep -qsF "$mapped" "/proc/$process/maps" || count=$((count + 1))
+        done
+        [ $count -lt 2 ] || sharing=1
+    done
+    pkill -KILL -f "^$raylane render $name -o long.png" || true
+    wait $! || true
+    [ -n "$sharing" ] || fail "ranks do not share $name"
+done
+
 echo "figures of all ranks"
 job 2 render "$scene" --size 150x90 -o many.png --stats many.json 2>err || fail "--stats"
 "$raylane" render "$scene" --size 150x90 -q -o one.png --stats one.json
