@@ -6,6 +6,7 @@
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/picture_texts.hpp"
+#include "scenes/tool/ray_tiers.hpp"
 
 #include <memory>
 #include <optional>
@@ -45,6 +46,8 @@ class Merger {
         if (has_[part.number - 1])
             throw BadInput(name, "", "is part " + part.text() + " once more");
         has_[part.number - 1] = true;
+        if (has_text(picture.texts, "Rays"))
+            rays_ += ray_tiers_of(text_in(name, picture.texts, "Rays")).value_or(RayTiers());
         for (std::size_t number = 0; number < grid_->count(); ++number)
             if (part.has(number)) copy(picture, grid_->tile(number).within(crop_));
     }
@@ -64,6 +67,7 @@ class Merger {
             if (has_text(first_->texts, key))
                 texts.emplace_back(key, text_in(first_name_, first_->texts, key));
         texts.emplace_back("Pixels", fingerprint_of(first_->film));
+        texts.emplace_back("Rays", rays_.text());
         first_->texts = std::move(texts);
         return *std::move(first_);
     }
@@ -128,6 +132,7 @@ class Merger {
     core::Region crop_{};
     std::optional<simd::TileGrid> grid_;
     std::vector<bool> has_;
+    RayTiers rays_;
 };
 
 int merge(const MergeArguments& arguments) {

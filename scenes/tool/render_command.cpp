@@ -12,6 +12,7 @@
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
 #include "scenes/tool/ranks/shared_scene.hpp"
+#include "scenes/tool/ray_tiers.hpp"
 #include "scenes/tool/render_arguments.hpp"
 #include "simd/render.hpp"
 
@@ -197,6 +198,7 @@ int render(const RenderArguments& arguments) {
         how.texts.emplace_back("Scene", fingerprint);
         std::string pixels = fingerprint_of(rendering.film);
         how.texts.emplace_back("Pixels", pixels);
+        how.texts.emplace_back("Rays", RayTiers(rendering.counters).text());
         output.commit(rendering.film, how, picture.layers ? &rendering.layers : nullptr);
         return pixels;
     };

@@ -5,6 +5,8 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
+#include <nlohmann/json.hpp>
+
 using namespace raylane;
 using namespace raylane::tests;
 
@@ -37,6 +39,26 @@ void turn_one_over(const std::filesystem::path& path) {
 }
 
 } // namespace
+
+TEST_CASE("a picture says how its rays have been decided on") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png", {"--stats", "a.json", "--size", "100x80"}).code == 0);
+    const auto stats = nlohmann::json::parse(content_of(workshop.path() / "a.json"));
+    const scenes::Image image = scenes::read_image(workshop.path() / "a.png");
+    const auto rays = std::find_if(image.texts.begin(), image.texts.end(),
+                                   [](const auto& text) { return text.first == "Rays"; });
+    REQUIRE(rays != image.texts.end());
+    const auto number = [&](const char* key) { return stats[key].get<std::uint64_t>(); };
+    const std::uint64_t refined = number("rays_refined");
+    const std::uint64_t left = stats["left_to_the_reference"]["rays"].get<std::uint64_t>();
+    const std::uint64_t paths = stats["left_to_the_reference"]["paths"].get<std::uint64_t>();
+    const std::uint64_t all = stats["rays"]["total"].get<std::uint64_t>();
+    CHECK(all > 8000);
+    CHECK(rays->second ==
+          std::to_string(all - refined - left) + " at first sight, " + std::to_string(refined) +
+              " at second, " + std::to_string(left + paths) + " by the reference, " +
+              std::to_string(number("tests_beyond_double")) + " tests beyond double");
+}
 
 TEST_CASE("a picture is what its scene and its options draw, pixel by pixel") {
     const Workshop workshop;
