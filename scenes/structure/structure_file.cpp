@@ -35,6 +35,7 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format) {
     case Format::nff:
     case Format::pov:
     case Format::tachyon:
+    case Format::built:
         break;
     }
     throw BadInput(file.name(), "", "is no file of atoms");
