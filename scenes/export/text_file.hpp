@@ -5,6 +5,7 @@
 #include "scenes/number.hpp"
 
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -28,8 +29,12 @@ class TextFile {
         return *this;
     }
     TextFile& operator<<(const char* text) { return *this << std::string_view(text); }
-    TextFile& operator<<(float value) { return *this << std::string_view(to_text(value)); }
+    TextFile& operator<<(float value) {
+        return is_negative_zero(value) ? *this << "-0.0"
+                                       : *this << std::string_view(to_text(value));
+    }
     TextFile& operator<<(double value) {
+        if (is_negative_zero(value)) return *this << "-0.0";
         char text[32];
         const auto end = std::to_chars(text, text + sizeof text, value).ptr;
         return *this << std::string_view(text, end);
@@ -48,6 +53,12 @@ class TextFile {
     }
 
   private:
+    /// Without a point it would be read as a whole number, which has no sign.
+    template <class Real>
+    static bool is_negative_zero(Real value) {
+        return value == 0 && std::signbit(value);
+    }
+
     Take take_;
     std::string text_;
 };

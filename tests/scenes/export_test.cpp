@@ -6,6 +6,8 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
+#include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -81,6 +83,22 @@ TEST_CASE("a scene that is written as JSON is the same scene") {
         CHECK(again.settings().min_weight == scene.settings().min_weight);
         CHECK(picture_of(again) == picture_of(scene));
     }
+}
+
+TEST_CASE("zeros keep their signs in JSON") {
+    const tests::TemporaryDirectory directory;
+    const core::Scene scene = tests::scene_of(R"({"camera": {"from": [-0.0, 2, 9], "at": [0, 1, 0]},
+        "lights": [{"type": "directional", "direction": [-0.0, -1, 0.0]}], "materials": {"m": {}},
+        "objects": [{"type": "sphere", "material": "m", "center": [-0.0, 0, -0.0], "radius": 1}]})");
+    export_scene(directory.path() / "copy.json", scene);
+    const core::Scene again = load_scene(directory.path() / "copy.json");
+    const auto signs = [](const auto& v) {
+        return std::array{std::signbit(v.x), std::signbit(v.y), std::signbit(v.z)};
+    };
+    CHECK(signs(again.camera().from) == std::array{true, false, false});
+    CHECK(signs(again.lights()[0].direction) == std::array{true, true, false});
+    const auto& spheres = std::get<core::Table<core::Sphere>>(again.shapes());
+    CHECK(signs(spheres.get({0, 0}).center) == std::array{true, false, true});
 }
 
 TEST_CASE("every value of a scene goes into JSON") {
