@@ -245,7 +245,7 @@ int render(const RenderArguments& arguments) {
         picture.require_fit(output->format());
         if (files.stats) stats.emplace(*files.stats);
     });
-    loaded = load_together(job, threads_to_load, [&](int threads) {
+    loaded = load_together(job, files.scene, threads_to_load, [&](int threads) {
         return load_with_progress(files.scene, load_options, verbosity, threads);
     });
     job.together([&] {

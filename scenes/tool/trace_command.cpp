@@ -178,7 +178,7 @@ int trace(const TraceArguments& arguments) {
         rays.emplace(ray_file);
         if (job.is_first()) file.emplace(output);
     });
-    scene = load_together(job, threads_to_load, [&](int with) {
+    scene = load_together(job, scene_file, threads_to_load, [&](int with) {
         return load_with_progress(scene_file, load_options, verbosity, with);
     });
     job.together([&] {

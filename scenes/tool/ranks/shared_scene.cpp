@@ -33,6 +33,11 @@ class MemoryFile {
     int descriptor_;
 };
 
+bool is_built(const std::filesystem::path& path) {
+    std::error_code none;
+    return std::filesystem::is_regular_file(path, none) && looks_built(InputFile(path).head());
+}
+
 /// Where others find a scene; empty where that cannot be.
 std::string put(const MemoryFile& memory, const core::Scene& scene) {
     if (!memory.exists() || scene.solids().any()) return "";
@@ -61,25 +66,25 @@ std::optional<core::Scene> take(const std::string& place, int threads) {
 
 } // namespace
 
-core::Scene load_together(Job& job, int threads, const std::function<core::Scene(int)>& load) {
+core::Scene load_together(Job& job, const std::filesystem::path& path, int threads,
+                          const std::function<core::Scene(int)>& load) {
     std::optional<core::Scene> scene;
     const int share = job.share_of_threads(threads);
-    if (!job.shares_host()) {
-        job.together([&] { scene = load(share); });
-        return *std::move(scene);
-    }
-    const MemoryFile memory;
+    std::optional<MemoryFile> memory;
     std::string place;
+    // Hosts may differ in all of this, but not in what they do together.
     job.together([&] {
-        if (!job.is_first_of_host()) return;
-        scene = load(threads);
-        place = put(memory, *scene);
-        if (!place.empty()) scene.reset(); // it is there twice
+        if (!job.shares_host()) {
+            scene = load(share);
+        } else if (job.is_first_of_host() && !is_built(path)) {
+            scene = load(threads);
+            place = put(memory.emplace(), *scene);
+            if (!place.empty()) scene.reset(); // it is there twice
+        }
     });
     place = job.told_on_host(place);
     job.together([&] {
-        if (scene) return;
-        scene = take(place, share);
+        if (!scene) scene = take(place, share);
         if (!scene) scene = load(share);
     });
     return *std::move(scene);

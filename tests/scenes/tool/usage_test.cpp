@@ -29,8 +29,8 @@ TEST_CASE("a command line that means nothing is told in one line") {
     const std::string see = "; see raylane --help", see_render = "; see raylane render --help";
     const std::vector<std::pair<Arguments, std::string>> rows = {
         {{},
-         "must be given a command: render, info, compare, convert, tachyon, trace, merge, verify, "
-         "view, manual or "
+         "must be given a command: render, info, compare, convert, build, tachyon, trace, merge, "
+         "verify, view, manual or "
          "completion" +
              see},
         {{"rendr", "scene.json"}, R"(unknown argument "rendr", did you mean "render"?)" + see},
