@@ -104,7 +104,8 @@ float PackedSpheres::value(const PackedBlock& block, int row, int lane) const {
                     static_cast<unsigned>(std::popcount(block.whole & before))][lane];
     if (block.words[lane] == PackedBlock::empty) return std::numeric_limits<float>::quiet_NaN();
     if (row == 3) return palette.radius(block.words[lane]);
-    const std::uint8_t* const step = block.steps[row] + 3 * lane;
+    const std::uint8_t* const step =
+        block.steps[row] + std::size_t{3} * static_cast<unsigned>(lane);
     return std::bit_cast<float>(
         block.least[row] + (step[0] | std::uint32_t{step[1]} << 8 | std::uint32_t{step[2]} << 16));
 }
