@@ -42,9 +42,9 @@ struct PackedSpheres {
         const PackedBlockView& block = packed.blocks[number];
         if (is_of_steps(block)) [[likely]]
             return;
-        const float(*const rows)[16] = packed.rows + (block.whole >> 4);
+        const float(*const first)[16] = packed.rows + (block.whole >> 4);
         for (int row = 0; row < __builtin_popcount(block.whole & 15); ++row)
-            __builtin_prefetch(rows + row);
+            __builtin_prefetch(first + row);
     }
 
     /// A register's worth of spheres of such a block, from one on. What is in empty lanes means
