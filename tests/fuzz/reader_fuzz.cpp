@@ -2,6 +2,7 @@
 #include "scenes/format.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/structure/structure_file.hpp"
+#include "simd/render.hpp"
 
 #include <cstdint>
 #include <string_view>
@@ -17,6 +18,20 @@ namespace {
 bool asks_for_much(std::string_view text) {
     return text.find("sphereflake") != std::string_view::npos ||
            text.find("lattice") != std::string_view::npos;
+}
+
+/// What kernels are given may be nothing that they cannot take.
+void draw(const core::Scene& scene) {
+    core::Settings settings = scene.settings();
+    settings.width = settings.height = 4;
+    settings.grid = 1;
+    settings.quality = 0.0F;
+    settings.light_samples = 1;
+    settings.max_depth = 2;
+    settings.max_see_through = 2;
+    simd::RenderOptions how;
+    how.threads = 1;
+    simd::render(scene, settings, how);
 }
 
 void read(std::string_view text, Format format) {
@@ -35,7 +50,8 @@ void read(std::string_view text, Format format) {
         if (text.size() % 5 == 1) options.drawing.opacity = 0.5F;
     }
     try {
-        scenes::parse_scene(name, text, options);
+        const core::Scene scene = scenes::parse_scene(name, text, options);
+        if (format == Format::built) draw(scene);
     } catch (const scenes::BadInput&) {
         if (!scenes::is_structure(format)) throw;
     }

@@ -9,7 +9,7 @@ set -eu
 cd "$(dirname "$0")/../.."
 seconds=${1:-600}
 [ $# -eq 0 ] || shift
-formats=${*:-"cif gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz calls solids engines c"}
+formats=${*:-"built cif gro json lammps_data lammps_dump nff pdb picture pov tachyon xyz calls solids engines c"}
 build=${BUILD:-build/fuzz}
 
 mkdir -p build/fuzz/findings
