@@ -45,7 +45,8 @@ unsigned whole_rows_of(const Block<Sphere>& block, const RadiusPalette& palette)
 
 /// A word of all ones is an empty lane's, so the last number is never given.
 RadiusPalette::RadiusPalette(std::size_t id_count)
-    : id_bits_(std::max(static_cast<int>(std::bit_width(id_count - 1)), 8)),
+    : id_bits_(
+          std::max(static_cast<int>(std::bit_width(std::max<std::size_t>(id_count, 1) - 1)), 8)),
       room_(std::min(most, (std::size_t{1} << (32 - id_bits_)) - 1)) {}
 
 std::size_t RadiusPalette::place_of(float radius) const {

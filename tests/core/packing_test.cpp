@@ -140,7 +140,8 @@ TEST_CASE("rows whose patterns are 2^24 apart or more stand by themselves") {
 }
 
 TEST_CASE("radii for which the ids leave no bits stand by themselves") {
-    const std::pair<std::size_t, std::size_t> most_radii[] = {{1, 256},
+    const std::pair<std::size_t, std::size_t> most_radii[] = {{0, 256},
+                                                              {1, 256},
                                                               {std::size_t{1} << 24, 255},
                                                               {(std::size_t{1} << 27) + 1, 15},
                                                               {most_packed_ids, 3}};
@@ -151,12 +152,13 @@ TEST_CASE("radii for which the ids leave no bits stand by themselves") {
         const RadiusPalette palette = palette_of(radii, ids);
         CAPTURE(ids, palette.size());
         CHECK(palette.size() == numbers);
+        const std::size_t last_id = ids == 0 ? 0 : ids - 1;
         int whole = 0;
         for (std::size_t first = 0; first < radii.size(); first += block_size) {
             Block<Sphere> block;
             for (int lane = 0; lane < block_size && first + lane < radii.size(); ++lane)
                 block.set(lane, {{1, 1, 1}, radii[first + lane]},
-                          static_cast<ShapeId>(ids - 1 - std::min<std::size_t>(ids - 1, lane)));
+                          static_cast<ShapeId>(last_id - std::min<std::size_t>(last_id, lane)));
             check_exact(block, palette);
             whole += whole_rows(block, palette);
         }
@@ -165,7 +167,7 @@ TEST_CASE("radii for which the ids leave no bits stand by themselves") {
         // The last of both, which is not to be the word of an empty lane.
         Block<Sphere> last;
         last.set(0, {{1, 1, 1}, palette.radii()[palette.size() - 1]},
-                 static_cast<ShapeId>(ids - 1));
+                 static_cast<ShapeId>(last_id));
         CHECK(whole_rows(last, palette) == 0);
         check_exact(last, palette);
         CHECK(numbers_of(packed_alone(last, palette).get(0, 1))[0] !=
