@@ -356,15 +356,19 @@ void write_materials(Object& root, TextFile& file, const core::Scene& scene) {
     file << "}";
 }
 
+void write_all_but_objects(Object& root, TextFile& file, const core::Scene& scene) {
+    write_settings(root, file, scene.settings());
+    write_surroundings(root, file, scene);
+    write_lights(root, file, scene);
+    write_materials(root, file, scene);
+}
+
 } // namespace
 
 void write_json(TextFile& file, const core::Scene& scene) {
     Object root(file, ",\n");
     file << "\n";
-    write_settings(root, file, scene.settings());
-    write_surroundings(root, file, scene);
-    write_lights(root, file, scene);
-    write_materials(root, file, scene);
+    write_all_but_objects(root, file, scene);
     root.key("objects") << "[";
     const char* separator = "\n";
     for_each_by_id(
@@ -386,10 +390,7 @@ void write_json(TextFile& file, const core::Scene& scene) {
 void write_json_without_objects(TextFile& file, const core::Scene& scene) {
     Object root(file, ",\n");
     file << "\n";
-    write_settings(root, file, scene.settings());
-    write_surroundings(root, file, scene);
-    write_lights(root, file, scene);
-    write_materials(root, file, scene);
+    write_all_but_objects(root, file, scene);
     root.key("objects") << "[]";
 }
 
