@@ -32,10 +32,10 @@ void RenderArguments::add_to(CLI::App& command) {
     const auto add = [&](const char* names, Argument& value, const char* help, const char* type) {
         add_option(command, names, value, help, type);
     };
-    add_positional(
-        command, "SCENE", scene,
-        "A scene in JSON, NFF, POV-Ray's language or Tachyon's, or atoms in PDB, mmCIF, CIF, XYZ, "
-        "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
+    add_positional(command, "SCENE", scene,
+                   "A scene in JSON, NFF, POV-Ray's language or Tachyon's, or that build wrote, or "
+                   "atoms in PDB, mmCIF, CIF, XYZ, "
+                   "GRO or LAMMPS' formats, compressed by gzip or not; - is standard input");
     add("-o,--output", output,
         "The picture: .png, .exr, .hdr, .pfm, .tga, .bmp or .ppm, or - for a PNG to standard "
         "output "
