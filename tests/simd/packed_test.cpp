@@ -182,7 +182,8 @@ TEST_CASE("packed spheres answer rays with the bits of plain ones") {
 }
 
 TEST_CASE(
-    "packed spheres answer calls of few rays, which go in flight, with the bits of plain ones") {
+    "packed spheres answer calls of few rays, which go in flight, with the bits of plain ones",
+    "[native]") {
     // More than a core's cache, so that what is ahead is fetched.
     const Pair scenes({.radii = 3, .count = sanitized ? 3000 : 150'000});
     const Rays rays(scenes.plain);
@@ -234,7 +235,7 @@ TEST_CASE("packed spheres have the crossings, lengths and insides of plain ones"
     }
 }
 
-TEST_CASE("packed spheres answer rays with the bits of plain ones by every precision") {
+TEST_CASE("packed spheres answer rays with the bits of plain ones by every precision", "[native]") {
     const Pair scenes({.radii = 20});
     const Rays rays(scenes.plain);
     for (const Isa isa : all_isas)
@@ -242,7 +243,7 @@ TEST_CASE("packed spheres answer rays with the bits of plain ones by every preci
             if (is_available(isa)) check_rays(scenes, rays, isa, precision);
 }
 
-TEST_CASE("packed spheres are drawn with the bits of plain ones") {
+TEST_CASE("packed spheres are drawn with the bits of plain ones", "[native]") {
     const Pair scenes({.radii = 20});
     for (const Isa isa : all_isas)
         for (const Precision precision : all_precisions)
@@ -250,7 +251,7 @@ TEST_CASE("packed spheres are drawn with the bits of plain ones") {
     check_pictures(scenes, Engine::reference, best_isa(), Precision::exact);
 }
 
-TEST_CASE("solids of packed spheres are those of plain ones") {
+TEST_CASE("solids of packed spheres are those of plain ones", "[native]") {
     const Pair scenes({.radii = 5, .solid = true});
     const Rays rays(scenes.plain);
     for (const Isa isa : all_isas) {
