@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <iterator>
@@ -169,11 +168,10 @@ class Checker {
         if (shape_count() > most_packed_ids) refuse("too many packed spheres");
         require_all(packed.blocks.size(), "packed spheres that are none", [&](std::size_t index) {
             const PackedBlock& block = packed.blocks[index];
-            const unsigned whole = block.whole & ((1U << PackedBlock::rows) - 1);
             const std::size_t first = block.whole >> PackedBlock::rows;
-            if (first + static_cast<std::size_t>(std::popcount(whole)) > packed.rows.size())
+            if (first + static_cast<std::size_t>(block.whole_rows()) > packed.rows.size())
                 return false;
-            const bool has_radii = (whole >> 3 & 1) != 0;
+            const bool has_radii = (block.whole & PackedBlock::is_whole << 3) != 0;
             return std::ranges::all_of(block.words, [&](std::uint32_t word) {
                 return word == PackedBlock::empty || has_radii ||
                        word >> packed.palette.id_bits() < packed.palette.size();

@@ -75,8 +75,9 @@ std::string fingerprint_of(const core::Scene& scene) {
                       sizeof(core::Block<Shape>::values) + sizeof(core::Block<Shape>::ids));
         static_assert(sizeof(core::DoubleBlock<Shape>) == sizeof(core::DoubleBlock<Shape>::values));
         hash.add(table.block_count());
-        for (const core::Block<Shape>& block : table.blocks())
-            hash.add(&block, sizeof block);
+        for (std::size_t i = 0; i < table.block_count(); ++i)
+            table.visit_block(
+                i, [&](const core::Block<Shape>& block) { hash.add(&block, sizeof block); });
         add_array(hash, table.doubles());
         if constexpr (core::kind_of<Shape> == core::Kind::triangle)
             core::for_each_shape(table, [&](const auto&, core::ShapeId id) {
