@@ -16,6 +16,8 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdlib>
+#include <list>
+#include <mutex>
 #include <string>
 #include <string_view>
 
@@ -45,11 +47,59 @@ AllowedThreads::AllowedThreads(int threads)
                                 static_cast<std::size_t>(std::max(threads, 0))))) {}
 AllowedThreads::~AllowedThreads() = default;
 
+namespace {
+
+/// An arena from those that calls before have left, or a new one. oneTBB gives back what ended ones
+/// hold later than short calls would make new ones: some 10 kB each.
+class LentArena {
+  public:
+    explicit LentArena(int threads) {
+        Idle& idle = all_idle();
+        const std::lock_guard lock(idle.mutex);
+        const auto found = std::ranges::find(idle.arenas, threads, &Arena::threads);
+        if (found != idle.arenas.end())
+            own_.splice(own_.begin(), idle.arenas, found);
+        else
+            own_.emplace_back(threads);
+    }
+    ~LentArena() {
+        Idle& idle = all_idle();
+        const std::lock_guard lock(idle.mutex);
+        idle.arenas.splice(idle.arenas.begin(), own_);
+        if (idle.arenas.size() > most_idle) idle.arenas.pop_back();
+    }
+    LentArena(const LentArena&) = delete;
+    LentArena& operator=(const LentArena&) = delete;
+
+    tbb::task_arena& operator*() { return own_.front().arena; }
+
+  private:
+    struct Arena {
+        explicit Arena(int count) : threads(count), arena(count) {}
+        int threads;
+        tbb::task_arena arena;
+    };
+    static constexpr std::size_t most_idle = 64;
+    struct Idle {
+        std::mutex mutex;
+        std::list<Arena> arenas;
+    };
+    /// Never destroyed: threads that are not waited for may call until the process ends.
+    static Idle& all_idle() {
+        static Idle& idle = *new Idle;
+        return idle;
+    }
+
+    std::list<Arena> own_;
+};
+
+} // namespace
+
 void on_threads(int threads, const std::function<void()>& body) {
     const int count = threads > 0 ? threads : default_threads();
     const AllowedThreads allowed(count);
-    tbb::task_arena arena(count);
-    arena.execute(body);
+    LentArena arena(count);
+    (*arena).execute(body);
 }
 
 namespace {

@@ -1,0 +1,92 @@
+#include "simd/threads.hpp"
+#include "tests/catch.hpp"
+#include "tests/sanitized.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+using namespace raylane;
+
+namespace {
+
+/// As many tasks as threads, each of which waits for the others: true if they ran at once.
+bool meets(int threads) {
+    std::atomic<int> here = 0;
+    simd::on_threads(threads, [&] {
+        simd::parallel_for(static_cast<std::size_t>(threads), [&](std::size_t) {
+            ++here;
+            for (int wait = 0; here < threads && wait < 10'000; ++wait)
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        });
+    });
+    return here == threads;
+}
+
+double resident_kilobytes() {
+    std::ifstream file("/proc/self/statm");
+    double all = 0.0, pages = 0.0;
+    file >> all >> pages;
+    return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1024.0;
+}
+
+} // namespace
+
+TEST_CASE("calls of several threads, one after the other, have as many as each asks for",
+          "[threads]") {
+    for (const int threads : {1, 3, 2, 3, 5, 1, 2})
+        CHECK(meets(threads));
+}
+
+TEST_CASE("calls of several threads at once, and inside of others, have their own", "[threads]") {
+    std::atomic<int> done = 0;
+    const auto call = [&] {
+        for (int round = 0; round < 20; ++round)
+            simd::on_threads(2, [&] {
+                simd::parallel_for(4, [&](std::size_t) {
+                    simd::on_threads(2,
+                                     [&] { simd::parallel_for(3, [&](std::size_t) { ++done; }); });
+                });
+            });
+    };
+    std::vector<std::thread> callers;
+    for (int i = 0; i < 3; ++i)
+        callers.emplace_back(call);
+    for (std::thread& caller : callers)
+        caller.join();
+    CHECK(done == 3 * 20 * 4 * 3);
+}
+
+TEST_CASE("an exception comes out of a call with threads, and the next one is as ever",
+          "[threads]") {
+    for (int i = 0; i < 3; ++i)
+        CHECK_THROWS_AS(simd::on_threads(2,
+                                         [] {
+                                             simd::parallel_for(8, [](std::size_t task) {
+                                                 if (task == 5) throw std::runtime_error("task");
+                                             });
+                                         }),
+                        std::runtime_error);
+    CHECK(meets(2));
+}
+
+TEST_CASE("thousands of calls with threads hold no more memory than some", "[threads]") {
+    if (tests::sanitized) return; // it keeps what is given back
+    const auto call = [](int times) {
+        for (int i = 0; i < times; ++i) {
+            std::atomic<int> done = 0;
+            simd::on_threads(2 + i % 3,
+                             [&] { simd::parallel_for(8, [&](std::size_t) { ++done; }); });
+            if (done != 8) return false;
+        }
+        return true;
+    };
+    CHECK(call(200));
+    const double before = resident_kilobytes();
+    CHECK(call(3000));
+    CHECK(resident_kilobytes() - before < 2000.0);
+}
