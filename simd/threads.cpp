@@ -54,19 +54,18 @@ namespace {
 class LentArena {
   public:
     explicit LentArena(int threads) {
-        Idle& idle = all_idle();
-        const std::lock_guard lock(idle.mutex);
-        const auto found = std::ranges::find(idle.arenas, threads, &Arena::threads);
-        if (found != idle.arenas.end())
-            own_.splice(own_.begin(), idle.arenas, found);
+        const std::lock_guard lock(mutex_);
+        if (idle_ == nullptr) idle_ = new std::list<Arena>;
+        const auto found = std::ranges::find(*idle_, threads, &Arena::threads);
+        if (found != idle_->end())
+            own_.splice(own_.begin(), *idle_, found);
         else
             own_.emplace_back(threads);
     }
     ~LentArena() {
-        Idle& idle = all_idle();
-        const std::lock_guard lock(idle.mutex);
-        idle.arenas.splice(idle.arenas.begin(), own_);
-        if (idle.arenas.size() > most_idle) idle.arenas.pop_back();
+        const std::lock_guard lock(mutex_);
+        idle_->splice(idle_->begin(), own_);
+        if (idle_->size() > most_idle) idle_->pop_back();
     }
     LentArena(const LentArena&) = delete;
     LentArena& operator=(const LentArena&) = delete;
@@ -80,18 +79,15 @@ class LentArena {
         tbb::task_arena arena;
     };
     static constexpr std::size_t most_idle = 64;
-    struct Idle {
-        std::mutex mutex;
-        std::list<Arena> arenas;
-    };
-    /// Never destroyed: threads that are not waited for may call until the process ends.
-    static Idle& all_idle() {
-        static Idle& idle = *new Idle;
-        return idle;
-    }
+    static constinit std::mutex mutex_;
+    /// Never destroyed: threads that nobody waits for may call until the process ends.
+    static constinit std::list<Arena>* idle_;
 
     std::list<Arena> own_;
 };
+
+constinit std::mutex LentArena::mutex_;
+constinit std::list<LentArena::Arena>* LentArena::idle_ = nullptr;
 
 } // namespace
 
