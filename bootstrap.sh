@@ -30,6 +30,10 @@ libbenchmark-dev    measures speed
 catch2              runs the tests
 libboost-dev        the tests'"'"' 100-digit oracle
 pkgconf             the test of what is installed
+pybind11-dev        Python'"'"'s module,
+python3-dev         its headers
+python3-numpy       and its arrays
+python3-pytest      the tests of it
 python3-jsonschema  the test of the JSON Schema
 gappa               proves the kernels'"'"' error bounds
 '

@@ -1,0 +1,211 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <raylane/raylane.hpp>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+/// NumPy's arrays as the library's spans. What lies one after the other in memory is taken as it
+/// lies, all else is copied.
+namespace raylane::python {
+
+namespace py = pybind11;
+
+/// True for arrays of float32, and for none that is not wanted.
+inline bool is_float(const py::object& values) {
+    return values.is_none() || (py::isinstance<py::array>(values) &&
+                                py::array(values).dtype().is(py::dtype::of<float>()));
+}
+
+/// Values as an array of a type, which they are already or become. Throws InvalidValue where they
+/// are no numbers.
+template <class Value>
+py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, const char* field) {
+    auto array = py::array_t<Value, py::array::forcecast>::ensure(values);
+    if (!array) {
+        PyErr_Clear();
+        throw InvalidValue(field, "must be an array of numbers");
+    }
+    return array;
+}
+
+inline std::string shape_text(const py::array& array) {
+    std::string text = "(";
+    for (py::ssize_t axis = 0; axis < array.ndim(); ++axis)
+        text += (axis == 0 ? "" : ", ") + std::to_string(array.shape(axis));
+    return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+/// Memory for copies, used again and again.
+template <class Value>
+class Room {
+  public:
+    /// Of so many values, which mean nothing yet.
+    Value* of(std::size_t count) {
+        if (count > size_) values_ = std::make_unique_for_overwrite<Value[]>(size_ = count);
+        return values_.get();
+    }
+
+  private:
+    std::unique_ptr<Value[]> values_;
+    std::size_t size_ = 0;
+};
+
+/// Values of one column of an array: `count` of them, `stride` bytes apart.
+template <class Value>
+struct Column {
+    const char* data = nullptr;
+    py::ssize_t stride = 0;
+    std::size_t count = 0;
+
+    bool is_span() const {
+        return count == 0 || (stride == sizeof(Value) &&
+                              reinterpret_cast<std::uintptr_t>(data) % alignof(Value) == 0);
+    }
+    Value operator[](std::size_t i) const {
+        Value value;
+        std::memcpy(&value, data + static_cast<py::ssize_t>(i) * stride, sizeof value);
+        return value;
+    }
+    std::span<const Value> span() const { return {reinterpret_cast<const Value*>(data), count}; }
+    /// Those from one on, in memory of the caller's if they do not lie one after the other.
+    std::span<const Value> part(std::size_t from, std::size_t to, Room<Value>& room) const {
+        if (count == 0) return {};
+        if (is_span()) return span().subspan(from, to - from);
+        Value* const copy = room.of(to - from);
+        for (std::size_t i = from; i < to; ++i)
+            copy[i - from] = (*this)[i];
+        return {copy, to - from};
+    }
+};
+
+/// Rows of numbers: an array of shape (n, row...), or one row for all of them. The array is kept.
+template <class Value>
+class Rows {
+  public:
+    static constexpr std::size_t any = static_cast<std::size_t>(-1);
+
+    /// Throws InvalidValue for another shape, or for another count than is wanted.
+    Rows(const py::handle& values, const std::vector<py::ssize_t>& row, const char* field,
+         std::size_t wanted = any)
+        : array_(array_of<Value>(values, field)), row_(row) {
+        const auto axes = static_cast<py::ssize_t>(row.size());
+        is_one_ = array_.ndim() == axes;
+        bool fits = is_one_ || array_.ndim() == axes + 1;
+        for (py::ssize_t axis = 0; fits && axis < axes; ++axis)
+            fits = array_.shape(axis + (is_one_ ? 0 : 1)) == row[static_cast<std::size_t>(axis)];
+        count_ = !fits ? 0 : is_one_ ? 1 : static_cast<std::size_t>(array_.shape(0));
+        if (fits && wanted != any) {
+            fits = is_one_ || count_ == wanted;
+            count_ = wanted;
+        }
+        if (fits) return;
+        std::string shape = wanted == any ? "n" : std::to_string(wanted);
+        for (const py::ssize_t size : row)
+            shape += ", " + std::to_string(size);
+        throw InvalidValue(field, "must have the shape (" + shape + "), got " + shape_text(array_));
+    }
+    std::size_t count() const { return count_; }
+    /// One of the numbers of all rows.
+    Column<Value> column(std::size_t number) const {
+        py::ssize_t offset = 0;
+        for (std::size_t axis = row_.size(); axis-- > 0;) {
+            const auto size = static_cast<std::size_t>(row_[axis]);
+            offset += static_cast<py::ssize_t>(number % size) *
+                      array_.strides(static_cast<py::ssize_t>(axis) + (is_one_ ? 0 : 1));
+            number /= size;
+        }
+        return {static_cast<const char*>(static_cast<const py::array&>(array_).data()) + offset,
+                is_one_ ? 0 : array_.strides(0), count_};
+    }
+    /// Three columns of rows that lie next to each other, from one row on, in memory of the
+    /// caller's.
+    std::array<std::span<const Value>, 3> parts(std::size_t from, std::size_t to,
+                                                Room<Value> (&room)[3]) const {
+        const Column<Value> x = column(0), y = column(1), z = column(2);
+        const bool in_rows = y.data - x.data == sizeof(Value) && z.data - y.data == sizeof(Value);
+        if (x.is_span() || !in_rows)
+            return {x.part(from, to, room[0]), y.part(from, to, room[1]),
+                    z.part(from, to, room[2])};
+        // All three at once, as each would read all that is there.
+        const std::size_t count = to - from;
+        Value *const to_x = room[0].of(count), *const to_y = room[1].of(count),
+                     *const to_z = room[2].of(count);
+        const char* row = x.data + static_cast<py::ssize_t>(from) * x.stride;
+        for (std::size_t i = 0; i < count; ++i, row += x.stride) {
+            std::array<Value, 3> values;
+            std::memcpy(&values, row, sizeof values);
+            to_x[i] = values[0];
+            to_y[i] = values[1];
+            to_z[i] = values[2];
+        }
+        return {std::span(to_x, count), std::span(to_y, count), std::span(to_z, count)};
+    }
+    /// Three of them, from one on, as a vector.
+    Vec3Of<Value> vector(std::size_t row, std::size_t from = 0) const {
+        return {column(from)[row], column(from + 1)[row], column(from + 2)[row]};
+    }
+
+  private:
+    py::array_t<Value, py::array::forcecast> array_;
+    std::vector<py::ssize_t> row_;
+    bool is_one_ = false;
+    std::size_t count_ = 0;
+};
+
+/// A number for each of n, or one for all: a column whose stride may be 0.
+template <class Value>
+class Values {
+  public:
+    Values() = default;
+    Values(const py::handle& values, std::size_t count, const char* field)
+        : array_(array_of<Value>(values, field)) {
+        if (array_.ndim() > 1 ||
+            (array_.ndim() == 1 && static_cast<std::size_t>(array_.shape(0)) != count))
+            throw InvalidValue(field, "must be a number or have the shape (" +
+                                          std::to_string(count) + ",), got " + shape_text(array_));
+        column_ = {static_cast<const char*>(static_cast<const py::array&>(array_).data()),
+                   array_.ndim() == 0 ? 0 : array_.strides(0), count};
+    }
+    const Column<Value>& column() const { return column_; }
+    Value operator[](std::size_t i) const { return column_[i]; }
+
+  private:
+    py::array_t<Value, py::array::forcecast> array_;
+    Column<Value> column_;
+};
+
+/// An array that takes over a vector's memory.
+template <class Value>
+py::array_t<Value> array_from(std::vector<Value>&& values) {
+    auto* const kept = new std::vector<Value>(std::move(values));
+    const py::capsule owner(kept,
+                            [](void* vector) { delete static_cast<std::vector<Value>*>(vector); });
+    return py::array_t<Value>(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
+}
+
+/// The same of bytes that are 0 or 1.
+inline py::array bools_from(std::vector<std::uint8_t>&& values) {
+    return array_from(std::move(values)).attr("view")(py::dtype::of<bool>());
+}
+
+/// Signals that Python has got, as Ctrl-C: throws what it makes of them.
+inline void look_for_signals() {
+    const py::gil_scoped_acquire lock;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+void bind_scene(py::module_& module);
+void bind_tracer(py::module_& module);
+void bind_image(py::module_& module);
+
+} // namespace raylane::python

@@ -1,0 +1,158 @@
+#include "values.hpp"
+
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <thread>
+
+namespace raylane::python {
+
+namespace {
+
+/// A picture under way, drawn by a thread of its own: Python's own thread looks for signals and
+/// calls back meanwhile.
+class Drawing {
+  public:
+    Drawing(const Scene& scene, const RenderOptions& options)
+        : thread_([this, &scene, options] { draw(scene, options); }) {}
+    ~Drawing() {
+        cancel();
+        thread_.join();
+    }
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    void cancel() {
+        const std::lock_guard lock(mutex_);
+        cancelled_ = true;
+    }
+    struct State {
+        std::int64_t pixels = 0, total_pixels = 0;
+        bool is_done = false;
+    };
+    /// Waits until it is done, a twentieth of a second at most.
+    State wait() {
+        std::unique_lock lock(mutex_);
+        done_.wait_for(lock, std::chrono::milliseconds(50), [&] { return state_.is_done; });
+        return state_;
+    }
+    /// Once it is done. Throws what came of it.
+    Image take() {
+        if (error_) std::rethrow_exception(error_);
+        return std::move(*image_);
+    }
+
+  private:
+    void draw(const Scene& scene, const RenderOptions& options) {
+        try {
+            image_ = render(scene, options, [this](const Progress& progress) {
+                const std::lock_guard lock(mutex_);
+                state_.pixels = progress.pixels;
+                state_.total_pixels = progress.total_pixels;
+                return !cancelled_;
+            });
+        } catch (...) {
+            error_ = std::current_exception();
+        }
+        const std::lock_guard lock(mutex_);
+        state_.is_done = true;
+        done_.notify_all();
+    }
+
+    std::mutex mutex_;
+    std::condition_variable done_;
+    State state_;
+    bool cancelled_ = false;
+    std::optional<Image> image_;
+    std::exception_ptr error_;
+    std::thread thread_; // last: it uses the others
+};
+
+template <class Value>
+py::array shaped(std::vector<Value>&& values, const std::vector<py::ssize_t>& shape) {
+    return array_from(std::move(values)).reshape(shape);
+}
+
+/// The arrays of a picture; None where there is none.
+py::dict arrays_of(Image&& image) {
+    const py::ssize_t height = image.height, width = image.width;
+    const auto plane = [&](auto&& values) -> py::object {
+        if (values.empty()) return py::none();
+        return shaped(std::move(values), {height, width});
+    };
+    py::dict result;
+    result["rgb"] = shaped(std::move(image.rgb), {height, width, 3});
+    result["alpha"] = plane(std::move(image.alpha));
+    if (image.layers.depth.empty()) return result;
+    result["depth"] = plane(std::move(image.layers.depth));
+    result["normal"] = shaped(std::move(image.layers.normal), {height, width, 3});
+    result["shape"] = plane(std::move(image.layers.shape));
+    result["material"] = plane(std::move(image.layers.material));
+    result["samples"] = plane(std::move(image.layers.samples));
+    return result;
+}
+
+py::object render_picture(const Scene& scene, const py::object& settings, int threads,
+                          const std::string& precision, const py::object& crop, bool layers,
+                          const py::object& progress) {
+    RenderOptions options{.settings = settings_from(settings),
+                          .threads = threads,
+                          .precision = precision_from(precision),
+                          .layers = layers};
+    if (!crop.is_none()) {
+        try {
+            const auto [x, y, width, height] = py::cast<std::array<int, 4>>(py::tuple(crop));
+            options.crop = PixelRect{x, y, width, height};
+        } catch (const py::cast_error&) {
+            throw InvalidValue("crop", "must be four whole numbers: x, y, width, height");
+        }
+    }
+    Image image;
+    {
+        const py::gil_scoped_release free;
+        Drawing drawing(scene, options);
+        Drawing::State told;
+        for (bool is_done = false; !is_done;) {
+            const Drawing::State state = drawing.wait();
+            is_done = state.is_done;
+            look_for_signals();
+            if (progress.is_none() || state.pixels == told.pixels) continue;
+            told = state;
+            const py::gil_scoped_acquire lock;
+            const py::object answer = progress(state.pixels, state.total_pixels);
+            if (answer.is(py::bool_(false))) return py::none();
+        }
+        image = drawing.take();
+    }
+    return arrays_of(std::move(image));
+}
+
+void write_picture(const std::filesystem::path& path, const py::array& rgb, const py::object& alpha,
+                   const std::string& transfer) {
+    const py::array_t<float, py::array::c_style | py::array::forcecast> colors(rgb);
+    if (colors.ndim() != 3 || colors.shape(2) != 3)
+        throw InvalidValue("rgb", "must have the shape (height, width, 3), got " + shape_text(rgb));
+    Image image{.width = static_cast<int>(colors.shape(1)),
+                .height = static_cast<int>(colors.shape(0)),
+                .rgb = {colors.data(), colors.data() + colors.size()}};
+    if (!alpha.is_none()) {
+        const py::array_t<float, py::array::c_style | py::array::forcecast> shares(alpha);
+        image.alpha.assign(shares.data(), shares.data() + shares.size());
+    }
+    if (transfer != "srgb" && transfer != "linear")
+        throw InvalidValue("transfer", "must be \"srgb\" or \"linear\", got \"" + transfer + "\"");
+    const py::gil_scoped_release free;
+    write_image(path, image, transfer == "srgb" ? Transfer::srgb : Transfer::linear);
+}
+
+} // namespace
+
+void bind_image(py::module_& module) {
+    module.def("render", &render_picture);
+    module.def("write_image", &write_picture);
+}
+
+} // namespace raylane::python

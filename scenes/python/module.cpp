@@ -1,0 +1,42 @@
+#include "arrays.hpp"
+
+#include <pybind11/stl.h>
+
+namespace raylane::python {
+
+namespace {
+
+/// The library's errors as those of raylane/_errors.py.
+void set_error(std::exception_ptr error) {
+    const auto errors = [] { return py::module_::import("raylane._errors"); };
+    const auto set = [](const py::object& type, const py::tuple& arguments) {
+        PyErr_SetObject(type.ptr(), type(*arguments).ptr());
+    };
+    try {
+        if (error) std::rethrow_exception(error);
+    } catch (const InvalidValue& value) {
+        set(errors().attr("InvalidValue"), py::make_tuple(value.field, value.expectation));
+    } catch (const BadInput& input) {
+        py::list mistakes;
+        for (const InputError& each : input.errors())
+            mistakes.append(errors().attr("InputError")(each.file, each.line, each.column,
+                                                        each.place, each.message));
+        set(errors().attr("BadInput"), py::make_tuple(input.what(), mistakes));
+    } catch (const SystemRefused& refused) {
+        set(errors().attr("SystemRefused"), py::make_tuple(refused.what()));
+    }
+}
+
+} // namespace
+
+} // namespace raylane::python
+
+PYBIND11_MODULE(_raylane, module) {
+    using namespace raylane::python;
+    py::register_exception_translator(&set_error);
+    module.attr("version") = raylane::version();
+    module.attr("NO_SHAPE") = raylane::no_shape;
+    bind_scene(module);
+    bind_tracer(module);
+    bind_image(module);
+}

@@ -1,0 +1,59 @@
+"""Data-oriented SIMD ray tracing of quadrics, exactly.
+
+>>> import raylane
+>>> scene = raylane.parse('{"camera": "auto", "materials": {"m": {}}, "objects":'
+...                       ' [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]}')
+>>> raylane.render(scene, width=64, height=48)
+<raylane.Image: 64 x 48>
+"""
+
+import sys as _sys
+
+from ._atoms import frames, from_ase, from_atoms, from_mdanalysis, from_mdtraj
+from ._errors import BadInput, InputError, InvalidValue, SystemRefused
+from ._image import Cancelled, Image, Layers, imshow, render
+from ._raylane import version as __version__
+from ._scene import Scene, SceneBuilder, Solid, load, parse
+from ._tracer import NO_SHAPE, Crossings, Hits, Leaving, Lengths, Solids, Tracer
+from ._values import Camera, Fog, Light, Material, Outline, Pattern, Sellmeier, Settings
+
+__all__ = [
+    "NO_SHAPE",
+    "BadInput",
+    "Camera",
+    "Cancelled",
+    "Crossings",
+    "Fog",
+    "Hits",
+    "Image",
+    "InputError",
+    "InvalidValue",
+    "Layers",
+    "Leaving",
+    "Lengths",
+    "Light",
+    "Material",
+    "Outline",
+    "Pattern",
+    "Scene",
+    "SceneBuilder",
+    "Sellmeier",
+    "Settings",
+    "Solid",
+    "Solids",
+    "SystemRefused",
+    "Tracer",
+    "__version__",
+    "frames",
+    "from_ase",
+    "from_atoms",
+    "from_mdanalysis",
+    "from_mdtraj",
+    "imshow",
+    "load",
+    "parse",
+    "render",
+]
+
+if "ase" in _sys.modules:
+    from . import ase_viewer as _ase_viewer  # noqa: F401

@@ -1,0 +1,346 @@
+#include "values.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cstdlib>
+#include <optional>
+
+namespace raylane::python {
+
+namespace {
+
+/// So many rays are asked before signals are looked for; and so many that do not lie one after the
+/// other are copied at a time, by the thread that asks them then, whose cache holds them.
+constexpr std::size_t most_at_once = std::size_t{1} << 22, most_copied = std::size_t{1} << 13;
+/// The same where answers are rows, which are put together.
+constexpr std::size_t most_rows = std::size_t{1} << 18;
+
+/// A tracer, with threads of its own for rays that are copied: each copies those that it asks.
+class SharedTracer {
+  public:
+    SharedTracer(const Scene& scene, const TracerOptions& options)
+        : tracer_(scene, options), precision_(options.precision),
+          arena_(threads_of(options.threads)) {}
+
+    const Tracer& all() const { return tracer_; }
+    /// For a thread that asks by itself. To be called under Python's lock.
+    const Tracer& alone() {
+        if (arena_.max_concurrency() == 1) return tracer_;
+        if (!alone_)
+            alone_.emplace(tracer_.scene(), TracerOptions{.threads = 1, .precision = precision_});
+        return *alone_;
+    }
+    template <class Call>
+    void for_each(std::size_t count, const Call& call) {
+        arena_.execute([&] { tbb::parallel_for(std::size_t{0}, count, call); });
+    }
+
+  private:
+    static int threads_of(int wanted) {
+        const char* const told = std::getenv("RAYLANE_THREADS");
+        if (wanted == 0 && told != nullptr) wanted = std::atoi(told); // the tracer has looked at it
+        const int most = tbb::info::default_concurrency();
+        return wanted > 0 ? std::min(wanted, most) : most;
+    }
+    Tracer tracer_;
+    Precision precision_;
+    std::optional<Tracer> alone_;
+    tbb::task_arena arena_;
+};
+
+/// Arrays of rays, in whatever order of memory.
+template <class Real>
+class RayColumns {
+  public:
+    RayColumns(const py::object& origins, const py::object& directions, const py::object& t_min,
+               const py::object& t_max, const py::object& shapes, const py::object& faces,
+               const py::object& inward)
+        : directions_(directions, {3}, "directions",
+                      py::array::ensure(directions).ndim() == 1 ? count_of(origins)
+                                                                : Rows<Real>::any),
+          origins_(origins, {3}, "origins", directions_.count()) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            origin_[axis] = origins_.column(axis);
+            direction_[axis] = directions_.column(axis);
+        }
+        const auto take = [&](const py::object& from, auto& values, const char* name) {
+            if (!from.is_none()) values = {from, count(), name};
+        };
+        take(t_min, t_min_, "t_min");
+        take(t_max, t_max_, "t_max");
+        take(shapes, shapes_, "leaving");
+        take(faces, faces_, "leaving");
+        take(inward, inward_, "inward");
+    }
+
+    std::size_t count() const { return directions_.count(); }
+    /// True if all of it is spans as it lies.
+    bool is_spans() const {
+        bool all = true;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            all = all && origin_[axis].is_span() && direction_[axis].is_span();
+        return all && t_min_.column().is_span() && t_max_.column().is_span() &&
+               shapes_.column().is_span() && faces_.column().is_span() &&
+               inward_.column().is_span();
+    }
+
+    struct Rooms {
+        Room<Real> origin[3], direction[3], limits[2];
+        Room<ShapeId> shapes;
+        Room<std::uint8_t> faces, inward;
+    };
+    BasicRaySpan<Real> part(std::size_t from, std::size_t to, Rooms& room) const {
+        const auto origin = origins_.parts(from, to, room.origin);
+        const auto direction = directions_.parts(from, to, room.direction);
+        return {.origin_x = origin[0],
+                .origin_y = origin[1],
+                .origin_z = origin[2],
+                .direction_x = direction[0],
+                .direction_y = direction[1],
+                .direction_z = direction[2],
+                .t_min = t_min_.column().part(from, to, room.limits[0]),
+                .t_max = t_max_.column().part(from, to, room.limits[1]),
+                .origin_shape = shapes_.column().part(from, to, room.shapes),
+                .origin_face = faces_.column().part(from, to, room.faces),
+                .origin_inward = inward_.column().part(from, to, room.inward)};
+    }
+    /// Calls answer(tracer, rays, from, to) for parts of them, without Python's lock: by several
+    /// threads where rays are copied.
+    template <class Answer>
+    void share_out(SharedTracer& tracer, const Answer& answer) const {
+        const bool copied = !is_spans();
+        const Tracer& asked = copied ? tracer.alone() : tracer.all();
+        in_turn(most_at_once, [&](std::size_t from, std::size_t to) {
+            if (!copied) {
+                Rooms rooms;
+                return answer(asked, part(from, to, rooms), from, to);
+            }
+            tbb::enumerable_thread_specific<Rooms> rooms;
+            tracer.for_each((to - from + most_copied - 1) / most_copied, [&](std::size_t number) {
+                const std::size_t first = from + number * most_copied;
+                const std::size_t last = std::min(to, first + most_copied);
+                answer(asked, part(first, last, rooms.local()), first, last);
+            });
+        });
+    }
+    /// The same one part after the other, for answers in rows.
+    template <class Answer>
+    void one_by_one(SharedTracer& tracer, const Answer& answer) const {
+        Rooms rooms;
+        in_turn(most_rows, [&](std::size_t from, std::size_t to) {
+            answer(tracer.all(), part(from, to, rooms));
+        });
+    }
+
+  private:
+    template <class Call>
+    void in_turn(std::size_t most, const Call& call) const {
+        const py::gil_scoped_release free;
+        for (std::size_t from = 0; from < count(); from += most) {
+            const std::size_t to = std::min(count(), from + most);
+            call(from, to);
+            if (to < count()) look_for_signals();
+        }
+    }
+    static std::size_t count_of(const py::object& origins) {
+        return Rows<Real>(origins, {3}, "origins").count();
+    }
+    Rows<Real> directions_, origins_;
+    Column<Real> origin_[3], direction_[3];
+    Values<Real> t_min_, t_max_;
+    Values<ShapeId> shapes_;
+    Values<std::uint8_t> faces_, inward_;
+};
+
+/// An array of the caller's to write to, whose values lie one after the other. None: not wanted.
+template <class Value>
+std::span<Value> out(const py::object& array, std::size_t count, const char* field) {
+    if (array.is_none()) return {};
+    using Array = py::array_t<Value, py::array::c_style>;
+    if (!py::isinstance<Array>(array))
+        throw InvalidValue(field,
+                           "must be an array of its type, whose values lie one after the other");
+    auto values = py::reinterpret_borrow<Array>(array);
+    if (values.ndim() != 1 || static_cast<std::size_t>(values.size()) != count)
+        throw InvalidValue(field, "must have the shape (" + std::to_string(count) + ",), got " +
+                                      shape_text(values));
+    return {values.mutable_data(), count};
+}
+
+template <class Call>
+auto by_type(const py::object& origins, const py::object& directions, const Call& call) {
+    return is_float(origins) && is_float(directions) ? call(std::type_identity<float>())
+                                                     : call(std::type_identity<double>());
+}
+
+/// What is asked for rays: origins, directions, t_min, t_max, and what they leave.
+template <class Answer>
+auto with_rays(const py::object& origins, const py::object& directions, const py::tuple& rest,
+               const Answer& answer) {
+    return by_type(origins, directions, [&]<class Real>(std::type_identity<Real>) {
+        return answer(
+            RayColumns<Real>(origins, directions, rest[0], rest[1], rest[2], rest[3], rest[4]));
+    });
+}
+
+void intersect(SharedTracer& tracer, const py::object& origins, const py::object& directions,
+               const py::tuple& rest, const py::tuple& to) {
+    with_rays(origins, directions, rest, [&](const auto& rays) {
+        const std::size_t n = rays.count();
+        const HitSpan all{.t = out<float>(to[0], n, "out.t"),
+                          .normal_x = out<float>(to[1], n, "out.normal"),
+                          .normal_y = out<float>(to[2], n, "out.normal"),
+                          .normal_z = out<float>(to[3], n, "out.normal"),
+                          .shape = out<ShapeId>(to[4], n, "out.shape"),
+                          .entering = out<std::uint8_t>(to[5], n, "out.entering"),
+                          .face = out<std::uint8_t>(to[6], n, "out.face"),
+                          .t_double = out<double>(to[7], n, "out.t_double")};
+        rays.share_out(
+            tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
+                const auto of = [&](auto span) {
+                    return span.empty() ? span : span.subspan(from, end - from);
+                };
+                asked.intersect(part, {.t = of(all.t),
+                                       .normal_x = of(all.normal_x),
+                                       .normal_y = of(all.normal_y),
+                                       .normal_z = of(all.normal_z),
+                                       .shape = of(all.shape),
+                                       .entering = of(all.entering),
+                                       .face = of(all.face),
+                                       .t_double = of(all.t_double)});
+            });
+    });
+}
+
+void occluded(SharedTracer& tracer, const py::object& origins, const py::object& directions,
+              const py::tuple& rest, const py::object& to) {
+    with_rays(origins, directions, rest, [&](const auto& rays) {
+        const auto all = out<std::uint8_t>(to, rays.count(), "out");
+        rays.share_out(
+            tracer, [&](const Tracer& asked, const auto& part, std::size_t from, std::size_t end) {
+                asked.occluded(part, all.subspan(from, end - from));
+            });
+    });
+}
+
+/// Rows of parts, one after the other.
+template <class Value>
+void append(std::vector<Value>& to, std::vector<Value>& part) {
+    if (to.empty())
+        to.swap(part);
+    else
+        to.insert(to.end(), part.begin(), part.end());
+}
+inline void append_rows(std::vector<std::uint64_t>& first, const std::vector<std::uint64_t>& part) {
+    const std::uint64_t before = first.empty() ? 0 : first.back();
+    if (first.empty()) first.push_back(0);
+    for (std::size_t i = 1; i < part.size(); ++i)
+        first.push_back(before + part[i]);
+}
+
+py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::object& directions,
+                   const py::tuple& rest, std::size_t most, bool normals) {
+    CrossingRows all;
+    with_rays(origins, directions, rest, [&](const auto& rays) {
+        rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
+            CrossingRows rows;
+            asked.crossings(part, rows, {.most = most, .normals = normals});
+            append_rows(all.first, rows.first);
+            append(all.t, rows.t);
+            append(all.shape, rows.shape);
+            append(all.entering, rows.entering);
+            append(all.face, rows.face);
+            append(all.tied, rows.tied);
+            append(all.touching, rows.touching);
+            append(all.normal_x, rows.normal_x);
+            append(all.normal_y, rows.normal_y);
+            append(all.normal_z, rows.normal_z);
+        });
+    });
+    if (all.first.empty()) all.first.push_back(0);
+    py::dict result;
+    result["first"] = array_from(std::move(all.first));
+    result["t"] = array_from(std::move(all.t));
+    result["shape"] = array_from(std::move(all.shape));
+    result["entering"] = bools_from(std::move(all.entering));
+    result["face"] = array_from(std::move(all.face));
+    result["tied"] = bools_from(std::move(all.tied));
+    result["touching"] = bools_from(std::move(all.touching));
+    if (!normals) return result;
+    const auto count = static_cast<py::ssize_t>(all.normal_x.size());
+    py::array_t<float> normal(std::vector<py::ssize_t>{count, 3});
+    auto to = normal.mutable_unchecked<2>();
+    for (py::ssize_t i = 0; i < count; ++i) {
+        to(i, 0) = all.normal_x[static_cast<std::size_t>(i)];
+        to(i, 1) = all.normal_y[static_cast<std::size_t>(i)];
+        to(i, 2) = all.normal_z[static_cast<std::size_t>(i)];
+    }
+    result["normal"] = normal;
+    return result;
+}
+
+py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py::object& directions,
+                      const py::tuple& rest) {
+    LengthRows all;
+    with_rays(origins, directions, rest, [&](const auto& rays) {
+        rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
+            LengthRows rows;
+            asked.path_lengths(part, rows);
+            append_rows(all.first, rows.first);
+            append(all.material, rows.material);
+            append(all.length, rows.length);
+        });
+    });
+    if (all.first.empty()) all.first.push_back(0);
+    py::dict result;
+    result["first"] = array_from(std::move(all.first));
+    result["material"] = array_from(std::move(all.material));
+    result["length"] = array_from(std::move(all.length));
+    return result;
+}
+
+py::dict contains(const SharedTracer& tracer, const py::object& points) {
+    SolidRows all;
+    by_type(points, py::none(), [&]<class Real>(std::type_identity<Real>) {
+        const Rows<Real> rows(points, {3}, "points");
+        const py::gil_scoped_release free;
+        for (std::size_t from = 0; from < rows.count(); from += most_rows) {
+            const std::size_t to = std::min(rows.count(), from + most_rows);
+            Room<Real> room[3];
+            const auto [x, y, z] = rows.parts(from, to, room);
+            SolidRows part;
+            tracer.all().contains(BasicPointSpan<Real>{x, y, z}, part);
+            append_rows(all.first, part.first);
+            append(all.shape, part.shape);
+            append(all.on_surface, part.on_surface);
+            if (to < rows.count()) look_for_signals();
+        }
+    });
+    if (all.first.empty()) all.first.push_back(0);
+    py::dict result;
+    result["first"] = array_from(std::move(all.first));
+    result["shape"] = array_from(std::move(all.shape));
+    result["on_surface"] = bools_from(std::move(all.on_surface));
+    return result;
+}
+
+} // namespace
+
+void bind_tracer(py::module_& module) {
+    py::class_<SharedTracer>(module, "Tracer")
+        .def(py::init([](const Scene& scene, int threads, const std::string& precision) {
+            const TracerOptions options{.threads = threads, .precision = precision_from(precision)};
+            const py::gil_scoped_release free;
+            return std::make_unique<SharedTracer>(scene, options);
+        }))
+        .def("intersect", &intersect)
+        .def("occluded", &occluded)
+        .def("crossings", &crossings)
+        .def("path_lengths", &path_lengths)
+        .def("contains", &contains);
+}
+
+} // namespace raylane::python

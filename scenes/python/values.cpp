@@ -1,0 +1,345 @@
+#include "values.hpp"
+
+#include <charconv>
+#include <pybind11/stl.h>
+#include <string_view>
+
+namespace raylane::python {
+
+namespace {
+
+template <class Enum>
+struct Names;
+template <>
+struct Names<PatternKind> {
+    static constexpr std::array names = {"solid", "checker", "stripes", "gradient", "back_plane"};
+};
+template <>
+struct Names<Reflection> {
+    static constexpr std::array names = {"constant", "schlick", "dielectric"};
+};
+template <>
+struct Names<Visible> {
+    static constexpr std::array names = {"both", "outside", "inside"};
+};
+template <>
+struct Names<LightKind> {
+    static constexpr std::array names = {"point",  "directional", "sky",
+                                         "sphere", "disc",        "rectangle"};
+};
+template <>
+struct Names<FogKind> {
+    static constexpr std::array names = {"none", "linear_z", "linear", "exponential"};
+};
+template <>
+struct Names<Projection> {
+    static constexpr std::array names = {"perspective", "orthographic"};
+};
+template <>
+struct Names<Transfer> {
+    static constexpr std::array names = {"srgb", "linear"};
+};
+template <>
+struct Names<SamplePattern> {
+    static constexpr std::array names = {"regular", "stratified"};
+};
+template <>
+struct Names<PixelFilter> {
+    static constexpr std::array names = {"box", "gaussian", "blackman_harris"};
+};
+template <>
+struct Names<Precision> {
+    static constexpr std::array names = {"fast", "robust", "exact", "double", "automatic"};
+};
+
+/// Axes of a checker, as "xz".
+struct Axes {
+    std::uint8_t& bits;
+};
+
+template <class Enum>
+Enum enum_of(const std::string& text, const std::string& field) {
+    std::string all;
+    for (std::size_t i = 0; i < Names<Enum>::names.size(); ++i) {
+        if (text == Names<Enum>::names[i]) return static_cast<Enum>(i);
+        all += (i == 0 ? "\"" : ", \"") + std::string(Names<Enum>::names[i]) + "\"";
+    }
+    throw InvalidValue(field, "must be one of " + all + ", got \"" + text + "\"");
+}
+
+template <class Value>
+Value cast(const py::handle& from, const std::string& field, const char* what) {
+    try {
+        return py::cast<Value>(from);
+    } catch (const py::cast_error&) {
+        throw InvalidValue(field, std::string("must be ") + what + ", got " +
+                                      py::cast<std::string>(py::repr(from)));
+    }
+}
+
+void take(const py::handle& from, const std::string& field, float& to) {
+    to = cast<float>(from, field, "a number");
+}
+void take(const py::handle& from, const std::string& field, int& to) {
+    to = cast<int>(from, field, "a whole number");
+}
+void take(const py::handle& from, const std::string& field, bool& to) {
+    to = cast<bool>(from, field, "True or False");
+}
+void take(const py::handle& from, const std::string& field, Vec3& to) {
+    std::array<float, 3> all{};
+    try {
+        all = py::cast<std::array<float, 3>>(py::tuple(py::reinterpret_borrow<py::object>(from)));
+    } catch (const std::exception&) {
+        throw InvalidValue(field,
+                           "must be three numbers, got " + py::cast<std::string>(py::repr(from)));
+    }
+    to = {all[0], all[1], all[2]};
+}
+void take(const py::handle& from, const std::string& field, std::array<double, 3>& to) {
+    try {
+        to = py::cast<std::array<double, 3>>(py::tuple(py::reinterpret_borrow<py::object>(from)));
+    } catch (const std::exception&) {
+        throw InvalidValue(field,
+                           "must be three numbers, got " + py::cast<std::string>(py::repr(from)));
+    }
+}
+template <class Enum>
+requires std::is_enum_v<Enum>
+void take(const py::handle& from, const std::string& field, Enum& to) {
+    to = enum_of<Enum>(cast<std::string>(from, field, "a text"), field);
+}
+void take(const py::handle& from, const std::string& field, const Axes& to) {
+    to.bits = 0;
+    for (const char axis : cast<std::string>(from, field, "a text as \"xz\"")) {
+        if (axis < 'x' || axis > 'z')
+            throw InvalidValue(field, "must be a text as \"xz\", got " +
+                                          py::cast<std::string>(py::repr(from)));
+        to.bits = static_cast<std::uint8_t>(to.bits | 1 << (axis - 'x'));
+    }
+}
+
+/// Visits the fields of a value, each by its name in Python.
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Sellmeier> {
+    visit("B", of.B);
+    visit("C", of.C);
+}
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Light> {
+    visit("kind", of.kind);
+    visit("position", of.position);
+    visit("direction", of.direction);
+    visit("color", of.color);
+    visit("radius", of.radius);
+    visit("edge_u", of.edge_u);
+    visit("edge_v", of.edge_v);
+    visit("ground", of.ground);
+    visit("reach", of.reach);
+}
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Fog> {
+    visit("kind", of.kind);
+    visit("color", of.color);
+    visit("start", of.start);
+    visit("end", of.end);
+    visit("density", of.density);
+}
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Camera> {
+    visit("projection", of.projection);
+    visit("position", of.from);
+    visit("at", of.at);
+    visit("up", of.up);
+    visit("field_of_view", of.field_of_view);
+    visit("height", of.height);
+    visit("lens_radius", of.lens_radius);
+    visit("focus_distance", of.focus_distance);
+}
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Outline> {
+    visit("width", of.width);
+    visit("color", of.color);
+    visit("creases", of.creases);
+}
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Settings> {
+    visit("width", of.width);
+    visit("height", of.height);
+    visit("grid", of.grid);
+    visit("samples", of.samples);
+    visit("quality", of.quality);
+    visit("filter", of.filter);
+    visit("light_samples", of.light_samples);
+    visit("transfer", of.transfer);
+    visit("alpha", of.alpha);
+    visit("max_depth", of.max_depth);
+    visit("min_weight", of.min_weight);
+    visit("max_see_through", of.max_see_through);
+    visit("outline", of.outline);
+}
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Pattern> {
+    visit("kind", of.kind);
+    visit("colors", of.colors);
+    visit("size", of.size);
+    visit("axes", Axes{const_cast<std::uint8_t&>(of.axes)}); // NOLINT: only visited if it is const
+    visit("direction", of.direction);
+    visit("start", of.from);
+    visit("end", of.to);
+}
+template <class Visit, class Of>
+void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_t<Of>, Material> {
+    visit("color", of.pattern);
+    visit("ambient", of.ambient);
+    visit("diffuse", of.diffuse);
+    visit("specular", of.specular);
+    visit("exponent", of.exponent);
+    visit("reflection", of.reflection);
+    visit("reflectivity", of.reflectivity);
+    visit("transmission", of.transmission);
+    visit("index", of.index);
+    visit("glass", of.glass);
+    visit("absorption", of.absorption);
+    visit("visible", of.visible);
+    visit("opacity", of.opacity);
+}
+
+template <class Value>
+void take_fields(const py::handle& from, const std::string& prefix, Value& to);
+void take(const py::handle& from, const std::string& field, Sellmeier& to) {
+    take_fields(from, field + "/", to);
+}
+void take(const py::handle& from, const std::string& field, Outline& to) {
+    take_fields(from, field + "/", to);
+}
+void take(const py::handle& from, const std::string& field, Color (&to)[2]) {
+    const py::tuple both = py::tuple(py::reinterpret_borrow<py::object>(from));
+    if (both.size() != 2) throw InvalidValue(field, "must be two colours");
+    take(both[0], field + "/0", to[0]);
+    take(both[1], field + "/1", to[1]);
+}
+/// Of a material's colour: one, or a pattern.
+void take(const py::handle& from, const std::string& field, Pattern& to) {
+    if (py::hasattr(from, "kind"))
+        take_fields(from, field + "/", to);
+    else
+        take(from, field, to.colors[0]);
+}
+template <class Value>
+void take_fields(const py::handle& from, const std::string& prefix, Value& to) {
+    fields(
+        [&](const char* name, auto&& field) {
+            if (!py::hasattr(from, name))
+                throw InvalidValue(prefix + name,
+                                   "is missing in " + py::cast<std::string>(py::repr(from)));
+            take(from.attr(name), prefix + name, field);
+        },
+        to);
+}
+template <class Value>
+Value value_from(const py::handle& from) {
+    Value value;
+    take_fields(from, "", value);
+    return value;
+}
+
+py::object module_of_values() {
+    return py::module_::import("raylane._values");
+}
+template <class Number>
+requires std::is_arithmetic_v<Number> py::object give(Number number) {
+    return py::cast(number);
+}
+/// The shortest of those that become this float: 0.1, where Python would show 0.10000000149011612.
+py::object give(float number) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+    double shortest = 0.0;
+    std::from_chars(text, end, shortest);
+    return py::cast(shortest);
+}
+py::object give(const Vec3& v) {
+    return to_python(v);
+}
+py::object give(const std::array<double, 3>& v) {
+    return py::make_tuple(v[0], v[1], v[2]);
+}
+py::object give(const Color (&colors)[2]) {
+    return py::make_tuple(to_python(colors[0]), to_python(colors[1]));
+}
+template <class Enum>
+requires std::is_enum_v<Enum> py::object give(Enum value) {
+    return py::str(Names<Enum>::names.at(static_cast<std::size_t>(value)));
+}
+py::object give(const Axes& axes) {
+    std::string text;
+    for (int axis = 0; axis < 3; ++axis)
+        if ((axes.bits >> axis & 1) != 0) text += static_cast<char>('x' + axis);
+    return py::str(text);
+}
+template <class Value>
+py::object give_fields(const char* name, const Value& value);
+py::object give(const Sellmeier& glass) {
+    return give_fields("Sellmeier", glass);
+}
+py::object give(const Outline& outline) {
+    return give_fields("Outline", outline);
+}
+py::object give(const Pattern& pattern) {
+    if (pattern.kind == PatternKind::solid) return to_python(pattern.colors[0]);
+    return give_fields("Pattern", pattern);
+}
+template <class Value>
+py::object give_fields(const char* name, const Value& value) {
+    py::dict all;
+    fields([&](const char* field, const auto& of) { all[field] = give(of); }, value);
+    return module_of_values().attr(name)(**all);
+}
+
+} // namespace
+
+Material material_from(const py::handle& material) {
+    return value_from<Material>(material);
+}
+Light light_from(const py::handle& light) {
+    return value_from<Light>(light);
+}
+Fog fog_from(const py::handle& fog) {
+    return value_from<Fog>(fog);
+}
+Camera camera_from(const py::handle& camera) {
+    return value_from<Camera>(camera);
+}
+Settings settings_from(const py::handle& settings) {
+    return value_from<Settings>(settings);
+}
+Color color_from(const py::handle& color, const std::string& field) {
+    Color result;
+    take(color, field, result);
+    return result;
+}
+Precision precision_from(const std::string& name) {
+    return enum_of<Precision>(name, "precision");
+}
+
+py::object to_python(const Material& material) {
+    return give_fields("Material", material);
+}
+py::object to_python(const Light& light) {
+    return give_fields("Light", light);
+}
+py::object to_python(const Fog& fog) {
+    return give_fields("Fog", fog);
+}
+py::object to_python(const Camera& camera) {
+    return give_fields("Camera", camera);
+}
+py::object to_python(const Settings& settings) {
+    return give_fields("Settings", settings);
+}
+py::tuple to_python(const Vec3& vector) {
+    return py::make_tuple(give(vector.x), give(vector.y), give(vector.z));
+}
+
+} // namespace raylane::python

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "arrays.hpp"
+
+/// Values of a scene, as Python's dataclasses of the same names have them (raylane/_values.py).
+namespace raylane::python {
+
+/// Throws InvalidValue with the field where a value is not of its type.
+Material material_from(const py::handle& material);
+Light light_from(const py::handle& light);
+Fog fog_from(const py::handle& fog);
+Camera camera_from(const py::handle& camera);
+Settings settings_from(const py::handle& settings);
+Color color_from(const py::handle& color, const std::string& field);
+Precision precision_from(const std::string& name);
+
+py::object to_python(const Material& material);
+py::object to_python(const Light& light);
+py::object to_python(const Fog& fog);
+py::object to_python(const Camera& camera);
+py::object to_python(const Settings& settings);
+py::tuple to_python(const Vec3& vector);
+
+} // namespace raylane::python

@@ -1,0 +1,172 @@
+"""Pictures."""
+
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+import zlib
+
+import numpy as np
+import pytest
+import raylane
+
+
+def test_the_same_bits_as_the_tool(birthday, scenes, tmp_path):
+    image = raylane.render(birthday, width=96, height=72, grid=2)
+    assert image.rgb.shape == (72, 96, 3) and image.rgb.dtype == np.float32
+    assert (image.width, image.height) == (96, 72)
+    image.save(tmp_path / "a.pfm")
+    tool = os.environ.get("RAYLANE_TOOL")
+    if not tool:
+        pytest.skip("RAYLANE_TOOL does not say where the tool is")
+    command = [tool, "render", str(scenes / "birthday.json"), "--size", "96x72", "--spp", "4", "-o", str(tmp_path / "b.pfm")]
+    subprocess.run(command, check=True)
+    assert (tmp_path / "a.pfm").read_bytes() == (tmp_path / "b.pfm").read_bytes()
+
+
+def test_options(birthday):
+    settings = birthday.settings
+    settings.width, settings.height = 64, 48
+    whole = raylane.render(birthday, settings)
+    assert np.array_equal(whole.rgb, birthday.render(width=64, height=48, threads=1).rgb)
+    part = raylane.render(birthday, settings, crop=(10, 5, 20, 15), layers=True)
+    assert np.array_equal(part.rgb, whole.rgb[5:20, 10:30])
+    layers = part.layers
+    assert layers.depth.shape == layers.shape.shape == layers.material.shape == layers.samples.shape == (15, 20)
+    assert layers.normal.shape == (15, 20, 3)
+    assert whole.layers is None and whole.alpha is None
+    clear = raylane.render(birthday, settings, alpha=True)
+    assert clear.alpha.shape == (48, 64) and clear.to_bytes().shape == (48, 64, 4)
+    assert np.asarray(whole) is whole.rgb
+    for wrong in ({"width": 0}, {"filter": "none"}, {"precision": "best"}, {"crop": (5000, 0, 20, 20)}, {"threads": -1}, {"grid": "2"}, {"crop": (1, 2)}):
+        with pytest.raises(ValueError):
+            raylane.render(birthday, **wrong)
+    with pytest.raises(TypeError):
+        raylane.render(birthday, widht=100)
+
+
+def png_pixels(data):
+    """Of a PNG of 8 bits, not interlaced, as this test needs it."""
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, chunks = 8, {}
+    while at < len(data):
+        size = int.from_bytes(data[at : at + 4], "big")
+        chunks[data[at + 4 : at + 8]] = chunks.get(data[at + 4 : at + 8], b"") + data[at + 8 : at + 8 + size]
+        at += 12 + size
+    header = chunks[b"IHDR"]
+    width, height = int.from_bytes(header[:4], "big"), int.from_bytes(header[4:8], "big")
+    channels = {2: 3, 6: 4}[header[9]]
+    raw = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, 1 + width * channels)
+    rows = np.zeros((height, width, channels), np.int64)
+    for y in range(height):
+        filter_, line = raw[y, 0], raw[y, 1:].reshape(width, channels).astype(np.int64)
+        above = rows[y - 1] if y else np.zeros((width, channels), np.int64)
+        for x in range(width):
+            left = rows[y, x - 1] if x else np.zeros(channels, np.int64)
+            corner = above[x - 1] if x else np.zeros(channels, np.int64)
+            guess = left + above[x] - corner
+            distances = np.abs([guess - left, guess - above[x], guess - corner])
+            paeth = np.choose(np.argmin(distances, axis=0), [left, above[x], corner])
+            rows[y, x] = (line[x] + [0, left, above[x], (left + above[x]) // 2, paeth][filter_]) % 256
+    return rows
+
+
+@pytest.mark.parametrize("alpha", [False, True])
+def test_bytes_are_those_of_the_png(birthday, alpha):
+    image = raylane.render(birthday, width=32, height=24, alpha=alpha)
+    assert np.array_equal(png_pixels(image._repr_png_()), image.to_bytes())
+    assert birthday._repr_png_()[:4] == b"\x89PNG"
+
+
+def test_files(birthday, tmp_path):
+    image = raylane.render(birthday, width=16, height=12)
+    for ending in ("png", "tga", "bmp", "ppm", "hdr", "pfm"):
+        image.save(tmp_path / f"a.{ending}")
+        assert (tmp_path / f"a.{ending}").stat().st_size > 100
+    with pytest.raises(ValueError):
+        image.save(tmp_path / "a.gif")
+    with pytest.raises(OSError):
+        image.save(tmp_path / "nowhere" / "a.png")
+    own = raylane.Image(np.linspace(0, 1, 5 * 4 * 3).reshape(4, 5, 3))
+    own.save(tmp_path / "own.png")
+    assert np.array_equal(png_pixels((tmp_path / "own.png").read_bytes()), own.to_bytes())
+    with pytest.raises(ValueError):
+        raylane.Image(np.zeros((4, 5))).save(tmp_path / "flat.png")
+
+
+def test_progress(birthday):
+    told = []
+    raylane.render(birthday, width=300, height=300, grid=4, progress=lambda done, total: told.append((done, total)))
+    assert told and told[-1] == (90_000, 90_000) and told == sorted(told)
+    with pytest.raises(raylane.Cancelled):
+        raylane.render(birthday, width=900, height=900, grid=8, progress=lambda done, total: False)
+
+    def refuse(done, total):
+        raise KeyError(done)
+
+    with pytest.raises(KeyError):
+        raylane.render(birthday, width=900, height=900, grid=8, progress=refuse)
+
+
+def test_a_bar(birthday, capsys):
+    pytest.importorskip("tqdm")
+    raylane.render(birthday, width=64, height=64, progress=True)
+    assert "4.10k" in capsys.readouterr().err
+
+
+def run(code, **options):
+    return subprocess.Popen([sys.executable, "-c", textwrap.dedent(code)], stdout=subprocess.PIPE, text=True, **options)
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        "raylane.render(scene, width=4000, height=4000, grid=16)",
+        "raylane.Tracer(scene).intersect(np.ones((1 << 26, 3), np.float32), np.ones((1 << 26, 3), np.float32))",
+        "[raylane.Tracer(scene).crossings(np.zeros((1 << 26, 3)), np.ones((1 << 26, 3)))]",
+    ],
+)
+def test_ctrl_c_stops_at_once(scenes, work):
+    process = run(
+        f"""
+        import raylane, numpy as np, time
+        scene = raylane.load({str(scenes / 'birthday.json')!r})
+        print("begins", flush=True)
+        try:
+            {work}
+            print("went on")
+        except KeyboardInterrupt:
+            print("stopped", flush=True)
+        """
+    )
+    assert process.stdout.readline() == "begins\n"
+    time.sleep(1.0)
+    started = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    assert process.stdout.readline() == "stopped\n"
+    assert time.monotonic() - started < 5.0
+    assert process.wait(20) == 0
+
+
+def test_show(birthday, tmp_path, monkeypatch):
+    """Without a notebook, a file goes to what opens files."""
+    opened = []
+    monkeypatch.setattr(subprocess, "Popen", lambda command, **_: opened.append(command))
+    birthday.show(width=16, height=16)
+    assert opened[0][0] in ("xdg-open", "open") and open(opened[0][1], "rb").read(4) == b"\x89PNG"
+    os.remove(opened[0][1])
+
+
+def test_matplotlib(birthday):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots()
+    image = raylane.render(birthday, width=32, height=24)
+    shown = raylane.imshow(image, axes)
+    assert np.array_equal(shown.get_array(), image.to_bytes()) and not axes.axison
+    assert raylane.imshow(birthday, width=32, height=24).axes is axes
+    plt.close(figure)

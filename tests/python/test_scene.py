@@ -1,0 +1,227 @@
+"""Scenes that are read and built."""
+
+import copy
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+import raylane
+from raylane import InvalidValue, SceneBuilder, Solid, Tracer
+
+
+def test_what_is_set_is_there():
+    builder = SceneBuilder()
+    glass = raylane.Material(
+        color=(0.5, 0.25, 1.0),
+        ambient=0.5,
+        diffuse=0.25,
+        specular=0.75,
+        exponent=8.0,
+        reflection="dielectric",
+        reflectivity=0.125,
+        transmission=1.0,
+        index=1.25,
+        glass=raylane.Sellmeier(B=(1.0, 0.25, 1.0), C=(0.0078125, 0.015625, 100.0)),
+        absorption=(0.5, 0.0, 2.0),
+        visible="both",
+        opacity=1.0,
+    )
+    checker = raylane.Material(
+        color=raylane.Pattern("checker", ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), size=2.0, axes="yz")
+    )
+    stripes = raylane.Material(color=raylane.Pattern("stripes", direction=(0.0, 1.0, 0.0)), visible="inside")
+    gradient = raylane.Material(color=raylane.Pattern("gradient", start=(1.0, 2.0, 3.0), end=(4.0, 5.0, 6.0)))
+    materials = [glass, checker, stripes, gradient, raylane.Material(opacity=0.5)]
+    for index, material in enumerate(materials):
+        assert builder.add_material(material) == index
+    lights = [
+        raylane.Light(position=(1.0, 2.0, 3.0)),
+        raylane.Light("directional", direction=(0.0, 0.0, 1.0), color=(0.5, 0.5, 0.5)),
+        raylane.Light("sky", ground=(0.0, 0.5, 0.0), reach=4.0),
+        raylane.Light("sphere", position=(9.0, 9.0, 9.0), radius=0.5),
+        raylane.Light("rectangle", edge_u=(2.0, 0.0, 0.0), edge_v=(0.0, 2.0, 0.0), position=(5.0, 5.0, 5.0)),
+    ]
+    for light in lights:
+        builder.add_light(light)
+    builder.fog = raylane.Fog("exponential", (0.5, 0.5, 0.5), density=0.25)
+    builder.camera = raylane.Camera("orthographic", (0.0, 1.0, 8.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), height=3.0)
+    builder.background = (0.25, 0.5, 0.75)
+    builder.settings = raylane.Settings(
+        320, 200, 3, "stratified", 0.0, "gaussian", 4, "linear", True, 5, 0.5, 7, raylane.Outline(2.0, (1.0, 0.0, 0.0), 30.0)
+    )
+    ids = builder.add_spheres([0, 0, 0], 1, material=0)
+    fog, camera, background, settings = builder.fog, builder.camera, builder.background, builder.settings
+    scene = builder.build()
+    assert list(ids) == [0]
+    glass.index = scene.material(0).index  # that of the formula
+    assert scene.materials == materials
+    assert scene.lights == lights
+    assert (scene.fog, scene.camera, scene.background, scene.settings) == (fog, camera, background, settings)
+    # The builder is new.
+    assert len(builder) == 0 and builder.camera == raylane.Camera()
+
+
+def test_arrays_of_all_kinds(random):
+    """Whatever shapes, strides and types of arrays: the same scene as one by one."""
+    n = 20
+    axes = random.normal(size=(n, 3, 3))
+    points, vectors, radii = random.normal(size=(n, 3)), random.normal(size=(n, 3)), random.uniform(0.1, 1, n)
+    coefficients = np.tile([1.0, 1, 1, 0, 0, 0, 0, 0, 0, -1], (n, 1))
+    adds = [
+        ("add_spheres", (points, radii), {}),
+        ("add_ellipsoids", (points, axes), {}),
+        ("add_planes", (points, vectors), {}),
+        ("add_discs", (points, vectors, radii), {}),
+        ("add_triangles", (axes,), {}),
+        ("add_boxes", (points, axes), {}),
+        ("add_cylinders", (points, vectors, radii), {}),
+        ("add_cylinders", (points, vectors, radii), {"caps": False}),
+        ("add_cones", (points, vectors, radii, 2 * radii), {}),
+        ("add_cones", (points, vectors, radii), {"caps": False}),
+        ("add_quadrics", (points, coefficients, -np.ones(3), np.ones(3)), {}),
+    ]
+    for dtype in (np.float32, np.float64):
+        for order in (lambda a: a, np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2], lambda a: a[::-1].copy()[::-1]):
+            whole, single = SceneBuilder(), SceneBuilder()
+            for builder in (whole, single):
+                builder.add_material()
+                builder.add_material(color=(1, 0, 0))
+            materials = np.arange(n) % 2
+            for name, arrays, options in adds:
+                arrays = [order(np.asarray(a, dtype)) if np.ndim(a) and len(a) == n else np.asarray(a, dtype) for a in arrays]
+                before = len(whole)
+                assert getattr(whole, name)(*arrays, material=materials, **options) == range(before, before + n)
+                for i in range(n):
+                    rows = [a[i] if a.ndim and len(a) == n else a for a in arrays]
+                    getattr(single, name)(*rows, material=int(materials[i]), **options)
+            scenes = [whole.build(), single.build()]
+            assert scenes[0].shape_count == n * len(adds)
+            assert scenes[0].bounds == scenes[1].bounds
+            ids = np.arange(n * len(adds))
+            assert np.array_equal(scenes[0].material_of(ids), np.tile(materials, len(adds)))
+            assert scenes[0].material_of(3) == 1
+            origins, directions = random.normal(size=(500, 3)) * 3, random.normal(size=(500, 3))
+            hits = [Tracer(scene).intersect(origins, directions) for scene in scenes]
+            assert np.array_equal(hits[0].t, hits[1].t) and np.array_equal(hits[0].shape, hits[1].shape)
+            assert hits[0].hit.sum() > 100
+
+
+def test_doubles_count_as_they_are():
+    """A sphere of doubles is not that of the floats next to them."""
+    for radius, found in ((np.float64(1.0 + 1e-12), True), (np.float64(1.0 - 1e-12), False)):
+        builder = SceneBuilder()
+        builder.add_material()
+        builder.add_spheres(np.zeros((1, 3)), radius, material=0)
+        assert Tracer(builder.build()).occluded([[1.0, 0, 5]], [0, 0, -1.0])[0] == found
+
+
+def test_a_polygon_and_smooth_triangles():
+    corners = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]], np.float32)
+    builder = SceneBuilder()
+    material = builder.add_material()
+    assert builder.add_polygon(corners, material=material) == range(0, 2)
+    assert builder.add_triangles(corners + 2, normals=np.ones_like(corners), material=material) == range(2, 4)
+    tracer = Tracer(builder.build())
+    crossings = tracer.crossings([[0.5, 0.5, 1], [2.5, 2.5, 3]], [0, 0, -1])
+    assert crossings.counts().tolist() == [1, 2]  # where triangles of a polygon meet, one of them counts
+
+
+def test_solids():
+    bowl = Solid.sphere((0, 0, 0), 1) - Solid.sphere((0, 0, 0), 0.5) - Solid.half_space((0, 0, 0), (0, -1, 0))
+    bowl = bowl | Solid.box((5, 0, 0), np.eye(3)) & Solid.cylinder((5, 0, 0), (0, 1, 0), 1)
+    bowl = bowl | Solid.cone((0, -9, 0), (0, 1, 0), 1) | Solid.ellipsoid((0, 9, 0), np.eye(3)).of(1)
+    bowl = bowl | Solid.lens((0, 20, 0), (0, 0, 1), (10, -10), 0.5, 1)
+    builder = SceneBuilder()
+    builder.add_material()
+    builder.add_material()
+    parts = builder.add_solid(bowl, material=0)
+    scene = builder.build()
+    assert len(parts) == 10 and set(scene.solid_of(np.arange(10)).tolist()) == {0}
+    inside = Tracer(scene).contains([[0, -0.75, 0], [0, 0.75, 0], [0, 0, 0], [5.5, 0.5, 0.5], [0, 20, 0.25], [0, 9, 0]])
+    assert inside.counts().tolist() == [1, 0, 0, 1, 1, 1]
+    builder.add_material()
+    builder.add_solid(Solid.sphere((0, 0, 0), 1).clipped(Solid.half_space((0, 0, 0), (0, 1, 0))), material=0)
+    open_ = Tracer(builder.build())
+    assert open_.crossings([0, 5, 0], [0, -1, 0]).t.tolist() == [6.0]
+
+
+def test_what_is_not_valid_says_where():
+    builder = SceneBuilder()
+    material = builder.add_material()
+    for call, field in (
+        (lambda: builder.add_spheres([[0, 0, 0], [1, 1, 1]], [1, -1], material=material), "1/radius"),
+        (lambda: builder.add_spheres([[0, 0, 0]], 1, material=7), "0/material"),
+        (lambda: builder.add_spheres([[0, 0, 0]], 1, material=-1), "0/material"),
+        (lambda: builder.add_spheres([[0, 0, 0]], 1, material=0.5), "material"),
+        (lambda: builder.add_spheres([[0, 0, 0]], 1, material="red"), "material"),
+        (lambda: builder.add_spheres([[0, 0]], 1, material=material), "centers"),
+        (lambda: builder.add_spheres("abc", 1, material=material), "centers"),
+        (lambda: builder.add_spheres(np.zeros((4, 3)), [1, 2], material=material), "radii"),
+        (lambda: builder.add_boxes(np.zeros((4, 3)), np.zeros((4, 9)), material=material), "edges"),
+        (lambda: builder.add_material(reflection="hm"), "reflection"),
+        (lambda: builder.add_material(color=(1, 2)), "color"),
+        (lambda: builder.add_material(color=raylane.Pattern(axes="xw")), "color/axes"),
+        (lambda: builder.add_material(diffuse="much"), "diffuse"),
+        (lambda: builder.add_material(diffuse=-1), "diffuse"),
+        (lambda: builder.add_light(kind="torch"), "kind"),
+        (lambda: builder.add_material("red"), "color"),
+        (lambda: Solid.sphere((0, 0), 1), "center"),
+    ):
+        with pytest.raises(ValueError) as error:
+            call()
+        assert isinstance(error.value, InvalidValue) and error.value.field == field, str(error.value)
+        assert error.value.expectation and str(error.value) == f"{field}: {error.value.expectation}"
+    for call in (
+        lambda: builder.add_material(colour=(1, 0, 0)),
+        lambda: builder.add_material(raylane.Material(), color=(1, 0, 0)),
+        lambda: builder.add_spheres([0, 0, 0], 1),
+    ):
+        with pytest.raises(TypeError):
+            call()
+    for name, value in (("camera", raylane.Camera(field_of_view=0)), ("fog", None), ("background", (1, 2))):
+        setattr(builder, name, value)
+        with pytest.raises(InvalidValue, match=name if value else "kind"):
+            builder.build()
+    again = pickle.loads(pickle.dumps(InvalidValue("a", "must be")))
+    assert (again.field, again.expectation) == ("a", "must be")
+
+
+def test_files(scenes, tmp_path):
+    scene = raylane.load(scenes / "birthday.json")
+    text = (scenes / "birthday.json").read_text()
+    for other in (raylane.load(str(scenes / "birthday.json")), raylane.parse(text), raylane.parse(text.encode(), "a.json")):
+        assert other.shape_count == scene.shape_count and other.camera == scene.camera
+    with pytest.raises(raylane.BadInput) as error:
+        raylane.parse('{"camera": "auto",\n "objects": 3}', "a.json")
+    assert isinstance(error.value, ValueError) and len(error.value.errors) >= 1
+    first = error.value.errors[0]
+    assert first.file == "a.json" and first.line >= 1 and first.message and first.place == "/objects"
+    assert str(error.value).startswith("a.json:")
+    assert pickle.loads(pickle.dumps(error.value)).errors == error.value.errors
+    with pytest.raises(ValueError):
+        raylane.load(tmp_path / "not there.json")
+    (tmp_path / "a.xyz").write_text("2\n\nC 0 0 0\nO 0 0 1.2\n")
+    assert raylane.load(tmp_path / "a.xyz").shape_count >= 2
+
+
+def test_remarks(tmp_path):
+    text = 'camera { location <0, 0, -5> look_at 0 }\nsphere { 0, 1 pigment { rgb 1 } finish { brilliance 2 } }\nlight_source { <1, 2, -3> rgb 1 }\n'
+    told = []
+    raylane.parse(text, "a.pov", told.append)
+    assert told and all(isinstance(each, str) for each in told)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        raylane.parse(text, "a.pov")
+    assert [str(each.message) for each in caught] == told
+
+    def refuse(_):
+        raise KeyError("no")
+
+    with pytest.raises(KeyError):
+        raylane.parse(text, "a.pov", refuse)
+
+
+def test_scenes_are_cheap_to_keep(ball):
+    assert copy.copy(ball).shape_count == 2
+    assert "2 shapes" in repr(ball)

@@ -1,0 +1,229 @@
+"""Rays: what they are asked as does not change what is answered."""
+
+import threading
+import time
+
+import numpy as np
+import pytest
+import raylane
+from raylane import NO_SHAPE, Hits, InvalidValue, Leaving, Tracer
+
+
+@pytest.fixture(scope="module")
+def crowd():
+    random = np.random.default_rng(5)
+    builder = raylane.SceneBuilder()
+    materials = [builder.add_material(color=(i, 1, 1)) for i in range(3)]
+    n = 2000
+    builder.add_spheres(random.uniform(-5, 5, (n, 3)).astype(np.float32), random.uniform(0.1, 0.5, n).astype(np.float32), material=np.arange(n) % 3)
+    builder.add_boxes(random.uniform(-5, 5, (50, 3)), random.normal(size=(50, 3, 3)), material=materials[0])
+    return builder.build()
+
+
+def rays(n, dtype=np.float32, seed=1):
+    random = np.random.default_rng(seed)
+    return random.uniform(-6, 6, (n, 3)).astype(dtype), random.normal(size=(n, 3)).astype(dtype)
+
+
+ORDERS = {
+    "rows": np.ascontiguousarray,
+    "columns": np.asfortranarray,
+    "every other": lambda a: np.repeat(a, 2, axis=0)[::2],
+    "backwards": lambda a: a[::-1].copy()[::-1],
+    "of a wider table": lambda a: np.hstack([a, np.zeros_like(a)])[:, : a.shape[1]],
+    "in another order of bytes": lambda a: a.astype(a.dtype.newbyteorder()),
+    "not aligned": lambda a: np.frombuffer(b"x" + a.tobytes(), np.uint8)[1:].view(a.dtype).reshape(a.shape),
+    "list": lambda a: a.tolist(),
+}
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("threads", [1, 3])
+def test_any_order_of_memory(crowd, dtype, order, threads):
+    tracer = Tracer(crowd, threads)
+    n = 20_000 if order != "list" else 100
+    origins, directions = rays(n, dtype)
+    t_max = np.linspace(1, 9, n).astype(dtype)
+    expected = Tracer(crowd, 1).intersect(np.asfortranarray(origins), np.asfortranarray(directions), t_max=t_max, double=True)
+    assert 0.2 < expected.hit.mean() < 0.98
+    o, d, t = (ORDERS[order](a) for a in (origins, directions, t_max[:, None]))
+    t = np.asarray(t)[:, 0]
+    hits = tracer.intersect(o, d, t_max=t, double=True)
+    same = order != "list" or dtype == np.float64
+    for name in ("shape", "t_double", "t", "normal", "entering", "face"):
+        if same:
+            assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
+    assert np.array_equal(tracer.occluded(o, d, t_max=t), hits.hit)
+    rows = tracer.crossings(o, d, t_max=t, normals=True)
+    reached = rows.counts() > 0
+    assert np.array_equal(reached, hits.hit)
+    first = rows.first[:-1][reached].astype(int)
+    assert np.array_equal(rows.shape[first], hits.shape[reached])
+    assert np.array_equal(rows.t[first], hits.t_double[reached])
+    assert np.array_equal(rows.normal[first], hits.normal[reached])
+    assert np.array_equal(tracer.path_lengths(o, d, t_max=t).total() > 0, tracer.path_lengths(o, d, t_max=t).counts() > 0)
+
+
+def test_more_rays_than_are_asked_at_once(crowd):
+    """Rows of several parts are put together, and hits of several parts lie where they belong."""
+    n = (1 << 18) + 1000
+    origins, directions = rays(n)
+    tracer = Tracer(crowd)
+    some = slice(n - 1500, n)
+    whole, part = tracer.crossings(origins, directions, most=2), tracer.crossings(origins[some], directions[some], most=2)
+    assert len(whole) == n and whole.first[-1] == len(whole.t)
+    assert np.array_equal(whole.counts()[some], part.counts())
+    assert np.array_equal(whole.t[-len(part.t):], part.t)
+    inside, tail = tracer.contains(origins), tracer.contains(origins[some])
+    assert len(inside) == n and np.array_equal(inside.shape[-len(tail.shape):], tail.shape)
+    lengths, end = tracer.path_lengths(origins, directions), tracer.path_lengths(origins[some], directions[some])
+    assert np.array_equal(lengths.total()[some], end.total())
+    hits = tracer.intersect(origins, directions)
+    assert np.array_equal(hits.hit, whole.counts() > 0)
+
+
+def test_no_rays(ball):
+    tracer = Tracer(ball)
+    nothing = np.empty((0, 3))
+    assert len(tracer.intersect(nothing, [0, 0, 1])) == 0
+    assert tracer.occluded(nothing, nothing).shape == (0,)
+    for rows in (tracer.crossings(nothing, nothing, normals=True), tracer.contains(nothing), tracer.path_lengths(nothing, nothing)):
+        assert len(rows) == 0 and rows.first.tolist() == [0]
+    assert tracer.path_lengths(nothing, nothing).total().shape == (0,)
+
+
+def test_one_origin_or_direction_for_all(ball):
+    tracer = Tracer(ball)
+    assert tracer.intersect([0, 0, 5], [[0, 0, -1], [0, 0, 1], [0, 0, -2]]).t.tolist() == [4.0, np.inf, 2.0]
+    assert tracer.intersect([[0, 0, 5], [0, 0, 3]], [0, 0, -1]).t.tolist() == [4.0, 2.0]
+    assert tracer.intersect([0, 0, 5], [0, 0, -1]).t.tolist() == [4.0]
+
+
+def test_answers(ball):
+    tracer = Tracer(ball)
+    hits = tracer.intersect([[0, 0, 5], [0, 0, 5], [0, 0, 0]], [[0, 0, -1], [0, 1, 0], [1, 0, 0]], double=True)
+    assert hits.shape.tolist() == [0, NO_SHAPE, 1] and hits.hit.tolist() == [True, False, True]
+    assert hits.entering.tolist() == [True, False, False]
+    assert hits.normal.tolist() == [[0, 0, 1], [0, 0, 0], [1, 0, 0]]
+    assert hits.t_double.tolist() == [4.0, np.inf, 0.5]
+    assert "2 of 3" in repr(hits)
+    rows = tracer.crossings([0, 0, 5], [0, 0, -1], normals=True)
+    assert rows.t.tolist() == [4, 4.5, 5.5, 6] and rows.shape.tolist() == [0, 1, 1, 0]
+    assert rows.entering.tolist() == [True, True, False, False] and rows.of().tolist() == [0] * 4
+    assert tracer.crossings([0, 0, 5], [0, 0, -1], most=3).t.tolist() == [4, 4.5, 5.5]
+    assert tracer.contains([[0, 0, 1], [0, 0, 0.5]]).shape.tolist() == [0, 0, 1]
+    assert tracer.contains([[0, 0, 1], [0, 0, 0.5]]).on_surface.tolist() == [True, False, True]
+    lengths = tracer.path_lengths([[0, 0, 5], [0, 0, 9]], [0, 0, -1], t_max=[np.inf, 8.25])
+    assert lengths.total(0).tolist() == [2, 0.25] and lengths.total(1).tolist() == [1, 0]
+    assert lengths.total().tolist() == [3, 0.25]
+
+
+def test_what_goes_on_from_a_hit(ball):
+    """A ray that leaves a surface does not hit it again, however its numbers were rounded."""
+    tracer = Tracer(ball)
+    n = 2000
+    random = np.random.default_rng(3)
+    origins = (5 * random.normal(size=(n, 3))).astype(np.float32)
+    origins *= 3 / np.linalg.norm(origins, axis=1, keepdims=True).astype(np.float32)
+    directions = -origins + random.uniform(-0.9, 0.9, (n, 3)).astype(np.float32)
+    hits = tracer.intersect(origins, directions)
+    there = hits.hit & (hits.shape == 0)
+    assert there.sum() > n / 2
+    at = origins + hits.t[:, None] * directions
+    onwards = tracer.intersect(at[there], hits.normal[there], leaving=Leaving(hits.shape[there], hits.face[there], 0))
+    assert not onwards.hit.any()
+    inwards = tracer.intersect(at[there], -hits.normal[there], leaving=Leaving(hits.shape[there], hits.face[there], np.ones(there.sum(), bool)))
+    assert inwards.hit.all() and (inwards.shape == 1).all()
+
+
+def test_arrays_are_filled_again(ball):
+    tracer = Tracer(ball)
+    out = Hits(2)
+    assert tracer.intersect([[0, 0, 5], [0, 0, 3]], [0, 0, -1], out=out) is out
+    assert out.t.tolist() == [4, 2]
+    for wrong in (Hits(3), Hits(1)):
+        with pytest.raises(InvalidValue, match="out.t"):
+            tracer.intersect([[0, 0, 5], [0, 0, 3]], [0, 0, -1], out=wrong)
+    answer = np.empty(2, bool)
+    assert tracer.occluded([[0, 0, 5], [0, 0, 3]], [0, 0, 1], out=answer) is answer
+    assert answer.tolist() == [False, False]
+    with pytest.raises(InvalidValue):
+        tracer.occluded([[0, 0, 5], [0, 0, 3]], [0, 0, 1], out=np.empty(4, bool)[::2])
+    frozen = np.empty(2, bool)
+    frozen.setflags(write=False)
+    with pytest.raises(ValueError):
+        tracer.occluded([[0, 0, 5], [0, 0, 3]], [0, 0, 1], out=frozen)
+
+
+def test_columns_are_read_where_they_are():
+    """Of what lies in columns there is no copy: memory does not grow by one."""
+    import resource
+
+    builder = raylane.SceneBuilder()
+    builder.add_material()
+    builder.add_spheres([0, 0, 0], 1, material=0)
+    tracer = Tracer(builder.build())
+    n = 3_000_000
+    origins, directions = np.zeros((3, n), np.float32).T, np.ones((3, n), np.float32).T
+    answer = np.empty(n, bool)
+    tracer.occluded(origins[:1000], directions[:1000])
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    tracer.occluded(origins, directions, out=answer)
+    assert answer.all()
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 24 * n / 1024 / 2
+
+
+def test_what_cannot_be_asked_says_why(ball):
+    tracer = Tracer(ball)
+    o, d = np.zeros((4, 3)), np.ones((4, 3))
+    for call, field in (
+        (lambda: tracer.intersect(o[:, :2], d), "origins"),
+        (lambda: tracer.intersect(o, d[:3]), "origins"),
+        (lambda: tracer.intersect(o, np.zeros((4, 1, 3))), "directions"),
+        (lambda: tracer.intersect("rays", d), "origins"),
+        (lambda: tracer.intersect(o, None), "directions"),
+        (lambda: tracer.intersect(o, d, t_max=[1, 2]), "t_max"),
+        (lambda: tracer.intersect(o, d, t_min="soon"), "t_min"),
+        (lambda: tracer.intersect(o, d, leaving=Leaving([0], [0], [0])), "leaving"),
+        (lambda: tracer.contains(np.zeros(4)), "points"),
+        (lambda: Tracer(ball, 5000), "threads"),
+        (lambda: Tracer(ball, -1), "threads"),
+        (lambda: Tracer(ball, precision="best"), "precision"),
+    ):
+        with pytest.raises(InvalidValue) as error:
+            call()
+        assert error.value.field == field, str(error.value)
+
+
+def test_precisions(crowd):
+    origins, directions = rays(2000)
+    exact = Tracer(crowd).intersect(origins, directions)
+    for precision in ("fast", "robust", "double", "automatic"):
+        hits = Tracer(crowd, precision=precision).intersect(origins, directions)
+        assert (hits.shape == exact.shape).mean() > 0.99
+
+
+def test_the_interpreter_goes_on_meanwhile(crowd):
+    """Its lock is free while rays are asked; and several threads may ask one tracer."""
+    tracer = Tracer(crowd, 1)
+    origins, directions = rays(300_000)
+    expected = tracer.intersect(origins, directions).t
+    found, turns = [], []
+    asking = threading.Event()
+
+    def ask():
+        asking.set()
+        found.append(tracer.intersect(origins, directions).t)
+
+    threads = [threading.Thread(target=ask) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    asking.wait()
+    while any(thread.is_alive() for thread in threads):
+        turns.append(time.perf_counter())
+        time.sleep(0.001)
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(t, expected) for t in found)
+    assert len(turns) > 5
