@@ -3,6 +3,7 @@
 #include "core/optics/spectrum.hpp"
 #include "core/reference/tracer.hpp"
 #include "core/scene/validate.hpp"
+#include "simd/default_rounding.hpp"
 #include "simd/layers/layers.hpp"
 #include "simd/layers/outlines.hpp"
 #include "simd/wavefront/wavefront.hpp"
@@ -275,6 +276,7 @@ Rendering render_vector(const SceneData& scene, const core::Settings& settings,
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,
                  const RenderOptions& asked) {
+    const DefaultRounding rounding;
     core::validate(settings);
     require_part(settings, asked.crop);
     RenderOptions options = asked;

@@ -1,5 +1,6 @@
 #include "simd/stream_tracer.hpp"
 
+#include "simd/default_rounding.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream/worker.hpp"
 #include "simd/threads.hpp"
@@ -32,6 +33,7 @@ StreamTracer::Parts StreamTracer::parts_of(std::size_t count) const {
 template <class Answer>
 void StreamTracer::answer(std::size_t count, const Answer& answer) const {
     if (count == 0) return;
+    const DefaultRounding rounding;
     const auto make = [&] { return std::make_unique<StreamWorker>(*data_, tracing_, shapes_); };
     const Parts parts = parts_of(count);
     const auto answer_part = [&](std::size_t number) {
@@ -48,6 +50,7 @@ template <class AnyRows, class Answer>
 void StreamTracer::answer_in_rows(std::size_t count, AnyRows& rows, const Answer& answer) const {
     rows = {};
     if (count == 0) return;
+    const DefaultRounding rounding;
     const auto make = [&] { return std::make_unique<RowWorker>(*data_, tracing_, shapes_); };
     const Parts parts = parts_of(count);
     std::vector<AnyRows> found(parts.count);

@@ -1,6 +1,7 @@
 #include "simd/threads.hpp"
 
 #include "core/shapes/invalid_value.hpp"
+#include "simd/default_rounding.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -50,7 +51,8 @@ AllowedThreads::~AllowedThreads() = default;
 namespace {
 
 /// An arena from those that calls before have left, or a new one. oneTBB gives back what ended ones
-/// hold later than short calls would make new ones: some 10 kB each.
+/// hold later than short calls would make new ones: some 10 kB each. All threads of one round as
+/// the one that has made it did.
 class LentArena {
   public:
     explicit LentArena(int threads) {
@@ -60,7 +62,7 @@ class LentArena {
         if (found != idle_->end())
             own_.splice(own_.begin(), *idle_, found);
         else
-            own_.emplace_back(threads);
+            own_.emplace_back(threads).arena.initialize();
     }
     ~LentArena() {
         const std::lock_guard lock(mutex_);
@@ -94,6 +96,7 @@ constinit std::list<LentArena::Arena>* LentArena::idle_ = nullptr;
 void on_threads(int threads, const std::function<void()>& body) {
     const int count = threads > 0 ? threads : default_threads();
     const AllowedThreads allowed(count);
+    const DefaultRounding rounding;
     LentArena arena(count);
     (*arena).execute(body);
 }

@@ -21,6 +21,7 @@ forbid simd/kernel 'simd/(query|wavefront)'
 forbid simd/kernel 'core/(shapes|solids|hierarchy|scene|optics|beams|reference)'
 forbid simd/query 'simd/wavefront'
 forbid scenes 'bench|tests'
+forbid scenes/python 'core|simd|scenes' # it is a user of the library
 for folder in json nff export image; do
     forbid "scenes/$folder" 'simd|scenes/(library|tool)'
 done

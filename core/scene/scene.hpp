@@ -34,7 +34,8 @@ struct TransmissiveShapes {
     Bounds open;   ///< of those that are no solids: several together may have an inside
 };
 
-/// A validated scene that no longer changes. Copying it is expensive, moving it is not.
+/// A validated scene that no longer changes. A copy has the same memory of shapes, of their
+/// hierarchy and of their materials' indices, and all else for itself.
 class Scene {
   public:
     /// Shapes; of those that are the same, of one material, the first alone.

@@ -18,26 +18,25 @@ void free_big(void* memory, std::size_t bytes) noexcept;
 void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept;
 
 /// Plain data of a size that is set once. Its elements begin undefined, so that memory is touched
-/// first by what fills it, which may be many threads, and never twice. Or they are another's, such
-/// as a file's: then they may not be changed, and copies have the same ones.
+/// first by what fills it, which may be many threads, and never twice. Copies have the same
+/// elements, not others like them: once there is one, they may not be changed. They may be
+/// another's, such as a file's: then they may not be changed either.
 template <class T>
 class BigArray {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);
 
   public:
     BigArray() = default;
-    explicit BigArray(std::size_t size)
-        : data_(static_cast<T*>(size > 0 ? allocate_big(size * sizeof(T)) : nullptr)), size_(size) {
+    explicit BigArray(std::size_t size) : size_(size) {
+        if (size == 0) return;
+        const auto give_back = [bytes = bytes()](void* memory) { free_big(memory, bytes); };
+        data_ = static_cast<T*>(allocate_big(bytes()));
+        keeper_ = std::shared_ptr<void>(static_cast<void*>(data_), give_back);
     }
     /// What is there as long as `keeper` is.
     BigArray(const T* data, std::size_t size, std::shared_ptr<const void> keeper)
         : data_(const_cast<T*>(data)), size_(size), keeper_(std::move(keeper)) {}
-    BigArray(const BigArray& other)
-        : BigArray(other.keeper_ != nullptr ? BigArray(other.data_, other.size_, other.keeper_)
-                                            : BigArray(other.size_)) {
-        if (size_ > 0 && keeper_ == nullptr)
-            std::memcpy(static_cast<void*>(data_), other.data_, bytes());
-    }
+    BigArray(const BigArray& other) = default;
     BigArray(BigArray&& other) noexcept
         : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)),
           keeper_(std::move(other.keeper_)) {}
@@ -47,14 +46,14 @@ class BigArray {
         std::swap(keeper_, other.keeper_);
         return *this;
     }
-    ~BigArray() {
-        if (data_ != nullptr && keeper_ == nullptr) free_big(data_, bytes());
-    }
+    ~BigArray() = default;
 
     /// Forgets all but the first `used` bytes.
     void forget_rest(std::size_t used) { core::forget_rest(data_, bytes(), used); }
 
     bool empty() const { return size_ == 0; }
+    /// True if there is a copy, or they are another's.
+    bool is_shared() const { return keeper_.use_count() > 1; }
     std::size_t size() const { return size_; }
     std::size_t bytes() const { return size_ * sizeof(T); }
 
@@ -71,7 +70,7 @@ class BigArray {
   private:
     T* data_ = nullptr;
     std::size_t size_ = 0;
-    std::shared_ptr<const void> keeper_; // of another's elements; null: they are its own
+    std::shared_ptr<const void> keeper_; // of the elements
 };
 
 } // namespace raylane::core

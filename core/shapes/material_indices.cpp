@@ -15,7 +15,8 @@ int width_of(MaterialIndex material) {
 void MaterialIndices::push_back(MaterialIndex material) {
     constexpr std::size_t least = 64;
     const int width = std::max(width_, width_of(material));
-    if (width != width_ || room_.bytes() < (size_ + 1) * static_cast<std::size_t>(width))
+    if (width != width_ || room_.is_shared() ||
+        room_.bytes() < (size_ + 1) * static_cast<std::size_t>(width))
         rearrange(width, size_ < reserved_ ? reserved_ : std::max(least, 2 * size_));
     put(size_++, material);
 }

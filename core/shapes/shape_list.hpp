@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <utility>
 
 namespace raylane::core {
 
@@ -15,6 +16,21 @@ namespace raylane::core {
 template <class T>
 class GrowingList {
   public:
+    GrowingList() = default;
+    /// With elements of its own: both may grow.
+    GrowingList(const GrowingList& other) {
+        for (std::size_t i = 0; i < other.size(); ++i)
+            add(other[i]);
+    }
+    GrowingList(GrowingList&& other) noexcept
+        : pieces_(std::move(other.pieces_)), size_(std::exchange(other.size_, 0)) {}
+    GrowingList& operator=(GrowingList other) noexcept {
+        pieces_ = std::move(other.pieces_);
+        size_ = other.size_;
+        return *this;
+    }
+    ~GrowingList() = default;
+
     std::size_t size() const { return size_; }
 
     const T& operator[](std::size_t i) const {

@@ -1,5 +1,6 @@
 #include "core/scene/scene.hpp"
 
+#include "core/scene/staging.hpp"
 #include "raylane/scene.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
@@ -7,6 +8,7 @@
 #include "scenes/scene_file.hpp"
 #include "simd/workers.hpp"
 
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -80,6 +82,34 @@ Color Scene::background() const {
 
 Settings Scene::settings() const {
     return converted<Settings>(scene_->settings());
+}
+
+Scene Scene::seen_by(const Camera& camera) const {
+    return translated([&] {
+        core::Staging staging = scene_->staging();
+        staging.framing.reset(); // it has its place
+        core::Scene same = *scene_;
+        same = std::move(same).seen(staging, {converted<core::Camera>(camera), same.fog(), {}});
+        if (staging.any()) {
+            const core::View view = core::staged(same, staging, same.settings());
+            same = std::move(same).seen(staging, view);
+        }
+        return owning(std::move(same));
+    });
+}
+
+Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {
+    if (!(aspect >= 1e-5F && aspect <= 1e5F))
+        throw InvalidValue("aspect",
+                           "must be from 0.00001 to 100000, got " + std::to_string(aspect));
+    const auto way = converted<core::Vec3f>(direction);
+    const double squared_length = core::squared_length(core::convert<double>(way));
+    if (!(squared_length > 0.0 && squared_length < std::numeric_limits<double>::infinity()))
+        throw InvalidValue("direction", "must be finite and not zero");
+    core::Frame frame({.direction = way, .up = core::upright(way)}, static_cast<double>(aspect));
+    core::include_shapes(*scene_, frame);
+    if (frame.empty()) throw InvalidValue("", "must have shapes other than planes, to look at");
+    return converted<Camera>(frame.camera());
 }
 
 SceneBuilder::SceneBuilder() = default;

@@ -2,6 +2,7 @@
 
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
+#include "simd/default_rounding.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream_tracer.hpp"
 #include "simd/threads.hpp"
@@ -127,6 +128,7 @@ std::optional<core::Precision> library::core_precision(Precision precision) {
 
 Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene) {
     library::require_threads(options.threads);
+    const simd::DefaultRounding rounding;
     tracer_ = std::make_shared<const simd::StreamTracer>(
         library::Internals::of(scene_), options.threads, simd::best_isa(),
         library::core_precision(options.precision).value_or(core::Precision::exact));

@@ -5,6 +5,7 @@
 #include "raylane/errors.hpp"
 #include "raylane/precision.hpp"
 #include "scenes/errors.hpp"
+#include "simd/default_rounding.hpp"
 
 #include <optional>
 #include <utility>
@@ -12,9 +13,11 @@
 
 namespace raylane::library {
 
-/// Calls f(), and throws the library's own errors in place of those inside.
+/// Calls f(), whatever the caller's rounding, and throws the library's own errors in place of those
+/// inside.
 template <class F>
 decltype(auto) translated(const F& f) {
+    const simd::DefaultRounding rounding;
     try {
         return f();
     } catch (const core::InvalidValue& invalid) {

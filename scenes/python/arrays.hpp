@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -20,22 +21,59 @@ namespace raylane::python {
 
 namespace py = pybind11;
 
-/// True for arrays of float32, and for none that is not wanted.
+/// Whatever NumPy makes an array of. Throws InvalidValue where it will not.
+inline py::array any_array(const py::handle& values, const char* field) {
+    if (py::isinstance<py::array>(values)) return py::reinterpret_borrow<py::array>(values);
+    try {
+        return py::array(py::module_::import("numpy").attr("asarray")(values));
+    } catch (const py::error_already_set& error) {
+        if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+        throw InvalidValue(field, "must be an array of numbers");
+    }
+}
+
+/// True for arrays and scalars of float32, and for what is not there.
 inline bool is_float(const py::object& values) {
-    return values.is_none() || (py::isinstance<py::array>(values) &&
-                                py::array(values).dtype().is(py::dtype::of<float>()));
+    return values.is_none() || (py::hasattr(values, "dtype") &&
+                                py::isinstance<py::array_t<float>>(any_array(values, "")));
+}
+/// The same for what is no array, too: a number is taken for one of the others' type.
+inline bool is_float_or_plain(const py::object& values) {
+    return !py::hasattr(values, "dtype") || is_float(values);
 }
 
 /// Values as an array of a type, which they are already or become. Throws InvalidValue where they
-/// are no numbers.
+/// are no numbers, or have more digits than doubles.
 template <class Value>
 py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, const char* field) {
-    auto array = py::array_t<Value, py::array::forcecast>::ensure(values);
-    if (!array) {
-        PyErr_Clear();
-        throw InvalidValue(field, "must be an array of numbers");
+    const py::array array = any_array(values, field);
+    const char kind = array.dtype().kind();
+    if (kind != 'b' && kind != 'i' && kind != 'u' && !(kind == 'f' && array.itemsize() <= 8))
+        throw InvalidValue(field, "must be an array of numbers, of 64 bits at most");
+    return py::array_t<Value, py::array::forcecast>(array);
+}
+
+/// Whole numbers from 0 to `most`, as an array of a type. Throws InvalidValue for others.
+template <class Value>
+py::object whole_numbers(const py::handle& values, const char* field, Value most) {
+    const py::array array = any_array(values, field);
+    if (py::isinstance<py::array_t<Value>>(array) && most == std::numeric_limits<Value>::max())
+        return array;
+    const char kind = array.dtype().kind();
+    if (kind != 'b' && kind != 'i' && kind != 'u' && array.size() > 0)
+        throw InvalidValue(field, "must be a whole number, or an array of them");
+    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> numbers(array);
+    py::array_t<Value> result(
+        std::vector<py::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
+    Value* to = result.mutable_data();
+    for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+        const std::int64_t number = numbers.data()[i];
+        if (number < 0 || number > std::int64_t{most})
+            throw InvalidValue(field, "must be from 0 to " + std::to_string(most) + ", got " +
+                                          std::to_string(number));
+        to[i] = static_cast<Value>(number);
     }
-    return array;
+    return result;
 }
 
 inline std::string shape_text(const py::array& array) {

@@ -106,7 +106,7 @@ py::object render_picture(const Scene& scene, const py::object& settings, int th
         try {
             const auto [x, y, width, height] = py::cast<std::array<int, 4>>(py::tuple(crop));
             options.crop = PixelRect{x, y, width, height};
-        } catch (const py::cast_error&) {
+        } catch (const std::exception&) {
             throw InvalidValue("crop", "must be four whole numbers: x, y, width, height");
         }
     }
@@ -123,7 +123,10 @@ py::object render_picture(const Scene& scene, const py::object& settings, int th
             told = state;
             const py::gil_scoped_acquire lock;
             const py::object answer = progress(state.pixels, state.total_pixels);
-            if (answer.is(py::bool_(false))) return py::none();
+            if (is_done || answer.is_none()) continue; // what is done is not cancelled
+            const int goes_on = PyObject_IsTrue(answer.ptr());
+            if (goes_on < 0) throw py::error_already_set();
+            if (goes_on == 0) return py::none();
         }
         image = drawing.take();
     }
@@ -140,6 +143,11 @@ void write_picture(const std::filesystem::path& path, const py::array& rgb, cons
                 .rgb = {colors.data(), colors.data() + colors.size()}};
     if (!alpha.is_none()) {
         const py::array_t<float, py::array::c_style | py::array::forcecast> shares(alpha);
+        if (shares.ndim() != 2 || shares.shape(0) != colors.shape(0) ||
+            shares.shape(1) != colors.shape(1))
+            throw InvalidValue("alpha", "must have the shape (" + std::to_string(image.height) +
+                                            ", " + std::to_string(image.width) + "), got " +
+                                            shape_text(shares));
         image.alpha.assign(shares.data(), shares.data() + shares.size());
     }
     if (transfer != "srgb" && transfer != "linear")

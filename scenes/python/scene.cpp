@@ -1,57 +1,68 @@
 #include "values.hpp"
 
+#include <initializer_list>
 #include <limits>
+#include <mutex>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <utility>
 
 namespace raylane::python {
 
 namespace {
 
-/// True if all of them are arrays of float32.
-template <class... Arrays>
-bool are_floats(const Arrays&... arrays) {
-    return (is_float(arrays) && ...);
-}
+/// A builder that threads may use, one after the other.
+struct SharedBuilder {
+    SceneBuilder builder;
+    std::mutex mutex;
 
-/// Materials of shapes: one for all, or one for each.
-class Materials {
-  public:
-    Materials(const py::object& material, std::size_t count)
-        : values_(checked(material), count, "material") {}
-    MaterialIndex operator[](std::size_t i) const {
-        const std::int64_t index = values_[i];
-        if (index < 0 || index > std::numeric_limits<MaterialIndex>::max())
-            throw InvalidValue("material",
-                               "must be the index of one, got " + std::to_string(index));
-        return static_cast<MaterialIndex>(index);
+    /// Calls it without Python's lock.
+    template <class Call>
+    auto change(const Call& call) {
+        const py::gil_scoped_release free;
+        const std::lock_guard lock(mutex);
+        return call(builder);
     }
-
-  private:
-    static const py::object& checked(const py::object& material) {
-        const py::array array = py::array::ensure(material);
-        const char kind = array ? array.dtype().kind() : '?';
-        if (kind != 'i' && kind != 'u')
-            throw InvalidValue("material", "must be a whole number, or an array of them");
-        return material;
-    }
-    Values<std::int64_t> values_;
 };
 
 MaterialIndex one_material(const py::object& material) {
-    return Materials(material, 1)[0];
+    const Values<MaterialIndex> one(
+        whole_numbers(material, "material", std::numeric_limits<MaterialIndex>::max()), 1,
+        "material");
+    return one[0];
+}
+
+/// How many shapes there are: rows of what has more axes than one of them; 1 without any. Of each,
+/// the axes that one has.
+struct Rowed {
+    const py::object& values;
+    py::ssize_t axes;
+    const char* name;
+};
+std::size_t count_of(std::initializer_list<Rowed> all) {
+    for (const Rowed& each : all)
+        if (const py::array array = any_array(each.values, each.name); array.ndim() > each.axes)
+            return static_cast<std::size_t>(array.shape(0));
+    return 1;
+}
+
+/// Ids of what has been added: first, and behind the last.
+using Ids = std::pair<ShapeId, std::size_t>;
+py::tuple told(const Ids& ids) {
+    return py::make_tuple(ids.first, ids.second);
 }
 
 /// Adds what make(i) makes, and returns the ids: first, and behind the last. Of what is thrown, the
 /// field says which shape it is.
 template <class Make>
-py::tuple add_all(SceneBuilder& builder, std::size_t count, const py::object& material,
+py::tuple add_all(SharedBuilder& shared, std::size_t count, const py::object& material,
                   const Make& make) {
-    const Materials materials(material, count);
-    const auto first = static_cast<ShapeId>(builder.shape_count());
-    {
-        const py::gil_scoped_release free;
+    constexpr auto most = std::numeric_limits<MaterialIndex>::max();
+    const Values<MaterialIndex> materials(whole_numbers(material, "material", most), count,
+                                          "material");
+    return told(shared.change([&](SceneBuilder& builder) {
+        const auto first = static_cast<ShapeId>(builder.shape_count());
         for (std::size_t i = 0; i < count; ++i) {
             try {
                 builder.add(make(i), materials[i]);
@@ -61,86 +72,95 @@ py::tuple add_all(SceneBuilder& builder, std::size_t count, const py::object& ma
                                    error.expectation);
             }
         }
-    }
-    return py::make_tuple(first, builder.shape_count());
+        return Ids(first, builder.shape_count());
+    }));
 }
 
 /// Calls it with float or double, as the arrays have it.
 template <class Call, class... Arrays>
 py::tuple by_type(const Call& call, const Arrays&... arrays) {
-    return are_floats(arrays...) ? call(std::type_identity<float>())
-                                 : call(std::type_identity<double>());
+    return (is_float(arrays) && ...) ? call(std::type_identity<float>())
+                                     : call(std::type_identity<double>());
 }
 
-py::tuple add_spheres(SceneBuilder& builder, const py::object& centers, const py::object& radii,
+py::tuple add_spheres(SharedBuilder& builder, const py::object& centers, const py::object& radii,
                       const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> center(centers, {3}, "centers");
-            const Values<T> radius(radii, center.count(), "radii");
+            const std::size_t count = count_of({{centers, 1, "centers"}, {radii, 0, "radii"}});
+            const Rows<T> center(centers, {3}, "centers", count);
+            const Values<T> radius(radii, count, "radii");
             const std::array columns = {center.column(0), center.column(1), center.column(2)};
-            return add_all(builder, center.count(), material, [&](std::size_t i) {
+            return add_all(builder, count, material, [&](std::size_t i) {
                 return SphereOf<T>{{columns[0][i], columns[1][i], columns[2][i]}, radius[i]};
             });
         },
         centers, radii);
 }
-py::tuple add_ellipsoids(SceneBuilder& builder, const py::object& centers, const py::object& axes,
+py::tuple add_ellipsoids(SharedBuilder& builder, const py::object& centers, const py::object& axes,
                          const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> center(centers, {3}, "centers");
-            const Rows<T> axis(axes, {3, 3}, "axes", center.count());
-            return add_all(builder, center.count(), material, [&](std::size_t i) {
+            const std::size_t count = count_of({{centers, 1, "centers"}, {axes, 2, "axes"}});
+            const Rows<T> center(centers, {3}, "centers", count);
+            const Rows<T> axis(axes, {3, 3}, "axes", count);
+            return add_all(builder, count, material, [&](std::size_t i) {
                 return EllipsoidOf<T>{center.vector(i), axis.vector(i, 0), axis.vector(i, 3),
                                       axis.vector(i, 6)};
             });
         },
         centers, axes);
 }
-py::tuple add_planes(SceneBuilder& builder, const py::object& points, const py::object& normals,
+py::tuple add_planes(SharedBuilder& builder, const py::object& points, const py::object& normals,
                      const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> point(points, {3}, "points");
-            const Rows<T> normal(normals, {3}, "normals", point.count());
-            return add_all(builder, point.count(), material, [&](std::size_t i) {
+            const std::size_t count = count_of({{points, 1, "points"}, {normals, 1, "normals"}});
+            const Rows<T> point(points, {3}, "points", count);
+            const Rows<T> normal(normals, {3}, "normals", count);
+            return add_all(builder, count, material, [&](std::size_t i) {
                 return PlaneOf<T>{point.vector(i), normal.vector(i)};
             });
         },
         points, normals);
 }
-py::tuple add_discs(SceneBuilder& builder, const py::object& centers, const py::object& normals,
+py::tuple add_discs(SharedBuilder& builder, const py::object& centers, const py::object& normals,
                     const py::object& radii, const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> center(centers, {3}, "centers");
-            const Rows<T> normal(normals, {3}, "normals", center.count());
-            const Values<T> radius(radii, center.count(), "radii");
-            return add_all(builder, center.count(), material, [&](std::size_t i) {
+            const std::size_t count =
+                count_of({{centers, 1, "centers"}, {normals, 1, "normals"}, {radii, 0, "radii"}});
+            const Rows<T> center(centers, {3}, "centers", count);
+            const Rows<T> normal(normals, {3}, "normals", count);
+            const Values<T> radius(radii, count, "radii");
+            return add_all(builder, count, material, [&](std::size_t i) {
                 return DiscOf<T>{center.vector(i), normal.vector(i), radius[i]};
             });
         },
         centers, normals, radii);
 }
-py::tuple add_triangles(SceneBuilder& builder, const py::object& corners, const py::object& normals,
-                        const py::object& material, bool polygon) {
+py::tuple add_triangles(SharedBuilder& builder, const py::object& corners,
+                        const py::object& normals, const py::object& material, bool polygon) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> corner(corners, {3, 3}, "corners");
+            const std::size_t count = count_of({{corners, 2, "corners"}});
+            const Rows<T> corner(corners, {3, 3}, "corners", count);
             const auto flat = [&](std::size_t i) {
                 return TriangleOf<T>{corner.vector(i, 0), corner.vector(i, 3), corner.vector(i, 6)};
             };
             const auto add = [&](const auto& make) {
-                if (!polygon) return add_all(builder, corner.count(), material, make);
-                std::vector<decltype(make(0))> all;
-                for (std::size_t i = 0; i < corner.count(); ++i)
-                    all.push_back(make(i));
-                const ShapeId first = builder.add_polygon(all, one_material(material));
-                return py::make_tuple(first, builder.shape_count());
+                if (!polygon) return add_all(builder, count, material, make);
+                const MaterialIndex of = one_material(material);
+                return told(builder.change([&](SceneBuilder& to) {
+                    std::vector<decltype(make(0))> all;
+                    for (std::size_t i = 0; i < count; ++i)
+                        all.push_back(make(i));
+                    const ShapeId first = to.add_polygon(all, of);
+                    return Ids(first, to.shape_count());
+                }));
             };
             if (normals.is_none()) return add(flat);
-            const Rows<T> normal(normals, {3, 3}, "normals", corner.count());
+            const Rows<T> normal(normals, {3, 3}, "normals", count);
             return add([&](std::size_t i) {
                 const TriangleOf<T> of = flat(i);
                 return SmoothTriangleOf<T>{of.a,
@@ -153,28 +173,31 @@ py::tuple add_triangles(SceneBuilder& builder, const py::object& corners, const 
         },
         corners, normals);
 }
-py::tuple add_boxes(SceneBuilder& builder, const py::object& corners, const py::object& edges,
+py::tuple add_boxes(SharedBuilder& builder, const py::object& corners, const py::object& edges,
                     const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> corner(corners, {3}, "corners");
-            const Rows<T> edge(edges, {3, 3}, "edges", corner.count());
-            return add_all(builder, corner.count(), material, [&](std::size_t i) {
+            const std::size_t count = count_of({{corners, 1, "corners"}, {edges, 2, "edges"}});
+            const Rows<T> corner(corners, {3}, "corners", count);
+            const Rows<T> edge(edges, {3, 3}, "edges", count);
+            return add_all(builder, count, material, [&](std::size_t i) {
                 return BoxOf<T>{corner.vector(i), edge.vector(i, 0), edge.vector(i, 3),
                                 edge.vector(i, 6)};
             });
         },
         corners, edges);
 }
-py::tuple add_cylinders(SceneBuilder& builder, const py::object& bases, const py::object& axes,
+py::tuple add_cylinders(SharedBuilder& builder, const py::object& bases, const py::object& axes,
                         const py::object& radii, const py::object& material, bool caps) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> base(bases, {3}, "bases");
-            const Rows<T> axis(axes, {3}, "axes", base.count());
-            const Values<T> radius(radii, base.count(), "radii");
+            const std::size_t count =
+                count_of({{bases, 1, "bases"}, {axes, 1, "axes"}, {radii, 0, "radii"}});
+            const Rows<T> base(bases, {3}, "bases", count);
+            const Rows<T> axis(axes, {3}, "axes", count);
+            const Values<T> radius(radii, count, "radii");
             const auto add = [&]<class Shape>(std::type_identity<Shape>) {
-                return add_all(builder, base.count(), material, [&](std::size_t i) {
+                return add_all(builder, count, material, [&](std::size_t i) {
                     return Shape{base.vector(i), axis.vector(i), radius[i]};
                 });
             };
@@ -183,17 +206,21 @@ py::tuple add_cylinders(SceneBuilder& builder, const py::object& bases, const py
         },
         bases, axes, radii);
 }
-py::tuple add_cones(SceneBuilder& builder, const py::object& bases, const py::object& axes,
+py::tuple add_cones(SharedBuilder& builder, const py::object& bases, const py::object& axes,
                     const py::object& base_radii, const py::object& top_radii,
                     const py::object& material, bool caps) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> base(bases, {3}, "bases");
-            const Rows<T> axis(axes, {3}, "axes", base.count());
-            const Values<T> lower(base_radii, base.count(), "base_radii");
-            const Values<T> upper(top_radii, base.count(), "top_radii");
+            const std::size_t count = count_of({{bases, 1, "bases"},
+                                                {axes, 1, "axes"},
+                                                {base_radii, 0, "base_radii"},
+                                                {top_radii, 0, "top_radii"}});
+            const Rows<T> base(bases, {3}, "bases", count);
+            const Rows<T> axis(axes, {3}, "axes", count);
+            const Values<T> lower(base_radii, count, "base_radii");
+            const Values<T> upper(top_radii, count, "top_radii");
             const auto add = [&]<class Shape>(std::type_identity<Shape>) {
-                return add_all(builder, base.count(), material, [&](std::size_t i) {
+                return add_all(builder, count, material, [&](std::size_t i) {
                     return Shape{base.vector(i), axis.vector(i), lower[i], upper[i]};
                 });
             };
@@ -202,16 +229,20 @@ py::tuple add_cones(SceneBuilder& builder, const py::object& bases, const py::ob
         },
         bases, axes, base_radii, top_radii);
 }
-py::tuple add_quadrics(SceneBuilder& builder, const py::object& centers,
+py::tuple add_quadrics(SharedBuilder& builder, const py::object& centers,
                        const py::object& coefficients, const py::object& lower,
                        const py::object& upper, const py::object& material) {
     return by_type(
         [&]<class T>(std::type_identity<T>) {
-            const Rows<T> center(centers, {3}, "centers");
-            const Rows<T> q(coefficients, {10}, "coefficients", center.count());
-            const Rows<T> least(lower, {3}, "lower", center.count());
-            const Rows<T> most(upper, {3}, "upper", center.count());
-            return add_all(builder, center.count(), material, [&](std::size_t i) {
+            const std::size_t count = count_of({{centers, 1, "centers"},
+                                                {coefficients, 1, "coefficients"},
+                                                {lower, 1, "lower"},
+                                                {upper, 1, "upper"}});
+            const Rows<T> center(centers, {3}, "centers", count);
+            const Rows<T> q(coefficients, {10}, "coefficients", count);
+            const Rows<T> least(lower, {3}, "lower", count);
+            const Rows<T> most(upper, {3}, "upper", count);
+            return add_all(builder, count, material, [&](std::size_t i) {
                 const auto at = [&](std::size_t k) { return q.column(k)[i]; };
                 return QuadricOf<T>{center.vector(i),
                                     at(0),
@@ -252,30 +283,42 @@ py::tuple exactly(const Vec3& v) {
     return py::make_tuple(v.x, v.y, v.z);
 }
 
+/// Of one shape, or of an array of them.
 template <class Call>
 py::object for_each_shape(const py::object& shapes, const Call& call) {
-    if (py::isinstance<py::int_>(shapes)) return py::int_(call(py::cast<ShapeId>(shapes)));
-    const py::array array = py::array::ensure(shapes);
-    const char kind = array ? array.dtype().kind() : '?';
-    if (kind != 'i' && kind != 'u') throw InvalidValue("shapes", "must be ids of shapes");
-    const auto ids =
-        py::array_t<ShapeId, py::array::c_style | py::array::forcecast>::ensure(shapes);
+    constexpr ShapeId most = std::numeric_limits<ShapeId>::max();
+    const py::array_t<ShapeId, py::array::c_style> ids(whole_numbers(shapes, "shapes", most));
     py::array_t<std::uint32_t> result(
         std::vector<py::ssize_t>(ids.shape(), ids.shape() + ids.ndim()));
-    std::transform(ids.data(), ids.data() + ids.size(), result.mutable_data(), call);
+    try {
+        std::transform(ids.data(), ids.data() + ids.size(), result.mutable_data(), call);
+    } catch (const InvalidValue& error) {
+        throw InvalidValue("shapes", error.expectation);
+    }
+    if (ids.ndim() == 0 && !py::isinstance<py::array>(shapes)) return py::int_(result.data()[0]);
     return result;
+}
+
+double number_of(const py::object& value, const char* field) {
+    return Values<double>(value, 1, field)[0];
+}
+std::array<double, 2> pair_of(const py::object& values, const char* field) {
+    const Rows<double> row(values, {2}, field, 1);
+    return {row.column(0)[0], row.column(1)[0]};
 }
 
 } // namespace
 
 void bind_scene(py::module_& module) {
-    py::class_<Solid>(module, "Solid").def("of", [](const Solid& solid, MaterialIndex material) {
-        return solid.of(material);
-    });
-    module.def(
-        "sphere_solid", [](const py::object& center, double radius, const py::object& material) {
-            return with_material(SphereOf<double>{vector_of(center, "center"), radius}, material);
+    py::class_<Solid>(module, "Solid")
+        .def("of", [](const Solid& solid, const py::object& material) {
+            return solid.of(one_material(material));
         });
+    module.def("sphere_solid", [](const py::object& center, const py::object& radius,
+                                  const py::object& material) {
+        return with_material(
+            SphereOf<double>{vector_of(center, "center"), number_of(radius, "radius")}, material);
+    });
     module.def("half_space_solid", [](const py::object& point, const py::object& normal,
                                       const py::object& material) {
         return with_material(
@@ -295,46 +338,59 @@ void bind_scene(py::module_& module) {
                                                  axis.vector(0, 3), axis.vector(0, 6)},
                              material);
     });
-    module.def("cylinder_solid", [](const py::object& base, const py::object& axis, double radius,
-                                    const py::object& material) {
-        return with_material(
-            CappedCylinderOf<double>{vector_of(base, "base"), vector_of(axis, "axis"), radius},
-            material);
+    module.def("cylinder_solid", [](const py::object& base, const py::object& axis,
+                                    const py::object& radius, const py::object& material) {
+        return with_material(CappedCylinderOf<double>{vector_of(base, "base"),
+                                                      vector_of(axis, "axis"),
+                                                      number_of(radius, "radius")},
+                             material);
     });
-    module.def("cone_solid", [](const py::object& base, const py::object& axis, double base_radius,
-                                double top_radius, const py::object& material) {
+    module.def("cone_solid", [](const py::object& base, const py::object& axis,
+                                const py::object& base_radius, const py::object& top_radius,
+                                const py::object& material) {
         return with_material(CappedConeOf<double>{vector_of(base, "base"), vector_of(axis, "axis"),
-                                                  base_radius, top_radius},
+                                                  number_of(base_radius, "base_radius"),
+                                                  number_of(top_radius, "top_radius")},
                              material);
     });
-    module.def("lens_solid", [](const py::object& vertex, const py::object& axis,
-                                std::array<double, 2> radii, std::array<double, 2> conics,
-                                double thickness, double radius, const py::object& material) {
-        return with_material(solid_of(Lens{vector_of(vertex, "vertex"),
-                                           vector_of(axis, "axis"),
-                                           {radii[0], radii[1]},
-                                           {conics[0], conics[1]},
-                                           thickness,
-                                           radius}),
-                             material);
-    });
+    module.def("lens_solid",
+               [](const py::object& vertex, const py::object& axis, const py::object& radii,
+                  const py::object& conics, const py::object& thickness, const py::object& radius,
+                  const py::object& material) {
+                   const auto [r1, r2] = pair_of(radii, "radii");
+                   const auto [k1, k2] = pair_of(conics, "conics");
+                   return with_material(solid_of(Lens{vector_of(vertex, "vertex"),
+                                                      vector_of(axis, "axis"),
+                                                      {r1, r2},
+                                                      {k1, k2},
+                                                      number_of(thickness, "thickness"),
+                                                      number_of(radius, "radius")}),
+                                        material);
+               });
     module.def("union_of", &union_of);
     module.def("intersection_of", &intersection_of);
     module.def("difference_of", &difference_of);
     module.def("clipped", &clipped);
 
-    py::class_<SceneBuilder>(module, "Builder")
+    py::class_<SharedBuilder>(module, "Builder")
         .def(py::init())
         .def("add_material",
-             [](SceneBuilder& builder, const py::object& material) {
-                 return builder.add_material(material_from(material));
+             [](SharedBuilder& builder, const py::object& material) {
+                 const Material value = material_from(material);
+                 return builder.change([&](SceneBuilder& to) { return to.add_material(value); });
              })
-        .def("add_light", [](SceneBuilder& builder,
-                             const py::object& light) { builder.add_light(light_from(light)); })
+        .def("add_light",
+             [](SharedBuilder& builder, const py::object& light) {
+                 const Light value = light_from(light);
+                 builder.change([&](SceneBuilder& to) { to.add_light(value); });
+             })
         .def("add_solid",
-             [](SceneBuilder& builder, const Solid& solid, MaterialIndex material) {
-                 const ShapeId first = builder.add(solid, material);
-                 return py::make_tuple(first, builder.shape_count());
+             [](SharedBuilder& builder, const Solid& solid, const py::object& material) {
+                 const MaterialIndex of = one_material(material);
+                 return told(builder.change([&](SceneBuilder& to) {
+                     const ShapeId first = to.add(solid, of);
+                     return Ids(first, to.shape_count());
+                 }));
              })
         .def("add_spheres", &add_spheres)
         .def("add_ellipsoids", &add_ellipsoids)
@@ -345,22 +401,45 @@ void bind_scene(py::module_& module) {
         .def("add_cylinders", &add_cylinders)
         .def("add_cones", &add_cones)
         .def("add_quadrics", &add_quadrics)
-        .def("shape_count", &SceneBuilder::shape_count)
-        .def("build", [](SceneBuilder& builder, const py::object& camera,
+        .def("shape_count",
+             [](SharedBuilder& builder) {
+                 return builder.change([](const SceneBuilder& of) { return of.shape_count(); });
+             })
+        .def("build", [](SharedBuilder& builder, const py::object& camera,
                          const py::object& background, const py::object& fog,
                          const py::object& settings, const std::vector<double>& wavelengths) {
-            builder.camera = camera_from(camera);
-            builder.background = color_from(background, "background");
-            builder.fog = fog_from(fog);
-            builder.settings = settings_from(settings);
-            builder.wavelengths = wavelengths;
-            const py::gil_scoped_release free;
-            return builder.build();
+            const Camera seen = camera.is_none() ? Camera() : camera_from(camera);
+            const Color behind = color_from(background, "background");
+            const Fog dim = fog_from(fog);
+            const Settings of = settings_from(settings);
+            return builder.change([&](SceneBuilder& whole) {
+                whole.camera = seen;
+                whole.background = behind;
+                whole.fog = dim;
+                whole.settings = of;
+                whole.wavelengths = wavelengths;
+                return whole.build();
+            });
         });
 
     py::class_<Scene>(module, "Scene")
         .def("shape_count", &Scene::shape_count)
         .def("material_count", &Scene::material_count)
+        .def("seen_by",
+             [](const Scene& scene, const py::object& camera) {
+                 const Camera other = camera_from(camera);
+                 const py::gil_scoped_release free;
+                 return scene.seen_by(other);
+             })
+        .def("camera_on_all",
+             [](const Scene& scene, const py::object& direction, float aspect) {
+                 const Vec3 way = color_from(direction, "direction");
+                 const Camera found = [&] {
+                     const py::gil_scoped_release free;
+                     return scene.camera_on_all(way, aspect);
+                 }();
+                 return to_python(found);
+             })
         .def("bounds",
              [](const Scene& scene) {
                  const Bounds bounds = scene.bounds();
@@ -374,8 +453,10 @@ void bind_scene(py::module_& module) {
              [](const Scene& scene, const py::object& shapes) {
                  return for_each_shape(shapes, [&](ShapeId id) { return scene.solid_of(id); });
              })
-        .def("material", [](const Scene& scene,
-                            MaterialIndex index) { return to_python(scene.material(index)); })
+        .def("material",
+             [](const Scene& scene, const py::object& index) {
+                 return to_python(scene.material(one_material(index)));
+             })
         .def("lights",
              [](const Scene& scene) {
                  py::list all;

@@ -19,9 +19,9 @@ HEADER = (ROOT / "scenes/library/raylane/version.h").read_text()
 class Build(build_ext):
     def build_extension(self, ext: Extension) -> None:
         build = pathlib.Path(os.environ.get("RAYLANE_BUILD") or self.build_temp).resolve()
-        if not (build / "CMakeCache.txt").exists():
+        if "RAYLANE_BUILD" not in os.environ:
             options = [f"-DRAYLANE_{part}=OFF" for part in ("TOOL", "TESTS", "BENCHMARKS", "INSTALL")]
-            options += ["-DCMAKE_BUILD_TYPE=Release", f"-DPython3_EXECUTABLE={sys.executable}"]
+            options += ["-DRAYLANE_PYTHON=REQUIRED", "-DCMAKE_BUILD_TYPE=Release", f"-DPython3_EXECUTABLE={sys.executable}"]
             subprocess.run(["cmake", "-S", ROOT, "-B", build, *options], check=True)
         jobs = str(os.cpu_count() or 1)
         subprocess.run(["cmake", "--build", build, "--target", "raylane_python", "--parallel", jobs], check=True)

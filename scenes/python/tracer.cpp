@@ -14,7 +14,7 @@ namespace {
 
 /// So many rays are asked before signals are looked for; and so many that do not lie one after the
 /// other are copied at a time, by the thread that asks them then, whose cache holds them.
-constexpr std::size_t most_at_once = std::size_t{1} << 22, most_copied = std::size_t{1} << 13;
+constexpr std::size_t most_at_once = std::size_t{1} << 20, most_copied = std::size_t{1} << 13;
 /// The same where answers are rows, which are put together.
 constexpr std::size_t most_rows = std::size_t{1} << 18;
 
@@ -58,10 +58,8 @@ class RayColumns {
     RayColumns(const py::object& origins, const py::object& directions, const py::object& t_min,
                const py::object& t_max, const py::object& shapes, const py::object& faces,
                const py::object& inward)
-        : directions_(directions, {3}, "directions",
-                      py::array::ensure(directions).ndim() == 1 ? count_of(origins)
-                                                                : Rows<Real>::any),
-          origins_(origins, {3}, "origins", directions_.count()) {
+        : origins_(origins, {3}, "origins", count_of(origins, directions)),
+          directions_(directions, {3}, "directions", origins_.count()) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             origin_[axis] = origins_.column(axis);
             direction_[axis] = directions_.column(axis);
@@ -71,9 +69,14 @@ class RayColumns {
         };
         take(t_min, t_min_, "t_min");
         take(t_max, t_max_, "t_max");
-        take(shapes, shapes_, "leaving");
-        take(faces, faces_, "leaving");
-        take(inward, inward_, "inward");
+        const auto take_whole = [&]<class Value>(const py::object& from, Values<Value>& values,
+                                                 const char* name,
+                                                 std::type_identity_t<Value> most) {
+            if (!from.is_none()) values = {whole_numbers(from, name, most), count(), name};
+        };
+        take_whole(shapes, shapes_, "leaving.shape", raylane::no_shape);
+        take_whole(faces, faces_, "leaving.face", std::uint8_t{255});
+        take_whole(inward, inward_, "leaving.inward", std::uint8_t{1});
     }
 
     std::size_t count() const { return directions_.count(); }
@@ -145,10 +148,12 @@ class RayColumns {
             if (to < count()) look_for_signals();
         }
     }
-    static std::size_t count_of(const py::object& origins) {
-        return Rows<Real>(origins, {3}, "origins").count();
+    /// Of rays, by what has a row for each.
+    static std::size_t count_of(const py::object& origins, const py::object& directions) {
+        const py::array o = any_array(origins, "origins"), d = any_array(directions, "directions");
+        return static_cast<std::size_t>(o.ndim() > 1 ? o.shape(0) : d.ndim() > 1 ? d.shape(0) : 1);
     }
-    Rows<Real> directions_, origins_;
+    Rows<Real> origins_, directions_;
     Column<Real> origin_[3], direction_[3];
     Values<Real> t_min_, t_max_;
     Values<ShapeId> shapes_;
@@ -170,20 +175,25 @@ std::span<Value> out(const py::object& array, std::size_t count, const char* fie
     return {values.mutable_data(), count};
 }
 
+/// As floats if what are arrays are of float32, else as doubles. A number by itself is of the rays'
+/// type.
 template <class Call>
-auto by_type(const py::object& origins, const py::object& directions, const Call& call) {
-    return is_float(origins) && is_float(directions) ? call(std::type_identity<float>())
-                                                     : call(std::type_identity<double>());
+auto by_type(const py::object& origins, const py::object& directions, const py::object& t_min,
+             const py::object& t_max, const Call& call) {
+    const bool are_floats = is_float(origins) && is_float(directions) && is_float_or_plain(t_min) &&
+                            is_float_or_plain(t_max);
+    return are_floats ? call(std::type_identity<float>()) : call(std::type_identity<double>());
 }
 
 /// What is asked for rays: origins, directions, t_min, t_max, and what they leave.
 template <class Answer>
 auto with_rays(const py::object& origins, const py::object& directions, const py::tuple& rest,
                const Answer& answer) {
-    return by_type(origins, directions, [&]<class Real>(std::type_identity<Real>) {
-        return answer(
-            RayColumns<Real>(origins, directions, rest[0], rest[1], rest[2], rest[3], rest[4]));
-    });
+    return by_type(origins, directions, rest[0], rest[1],
+                   [&]<class Real>(std::type_identity<Real>) {
+                       return answer(RayColumns<Real>(origins, directions, rest[0], rest[1],
+                                                      rest[2], rest[3], rest[4]));
+                   });
 }
 
 void intersect(SharedTracer& tracer, const py::object& origins, const py::object& directions,
@@ -213,6 +223,12 @@ void intersect(SharedTracer& tracer, const py::object& origins, const py::object
                                        .t_double = of(all.t_double)});
             });
     });
+}
+
+/// True if rays are asked as they lie in memory, without a copy.
+bool reads_in_place(const py::object& origins, const py::object& directions,
+                    const py::tuple& rest) {
+    return with_rays(origins, directions, rest, [](const auto& rays) { return rays.is_spans(); });
 }
 
 void occluded(SharedTracer& tracer, const py::object& origins, const py::object& directions,
@@ -272,11 +288,14 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
     if (!normals) return result;
     const auto count = static_cast<py::ssize_t>(all.normal_x.size());
     py::array_t<float> normal(std::vector<py::ssize_t>{count, 3});
-    auto to = normal.mutable_unchecked<2>();
-    for (py::ssize_t i = 0; i < count; ++i) {
-        to(i, 0) = all.normal_x[static_cast<std::size_t>(i)];
-        to(i, 1) = all.normal_y[static_cast<std::size_t>(i)];
-        to(i, 2) = all.normal_z[static_cast<std::size_t>(i)];
+    float* const to = normal.mutable_data();
+    {
+        const py::gil_scoped_release free;
+        for (std::size_t i = 0; i < all.normal_x.size(); ++i) {
+            to[3 * i] = all.normal_x[i];
+            to[3 * i + 1] = all.normal_y[i];
+            to[3 * i + 2] = all.normal_z[i];
+        }
     }
     result["normal"] = normal;
     return result;
@@ -304,7 +323,7 @@ py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py:
 
 py::dict contains(const SharedTracer& tracer, const py::object& points) {
     SolidRows all;
-    by_type(points, py::none(), [&]<class Real>(std::type_identity<Real>) {
+    by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
         const Rows<Real> rows(points, {3}, "points");
         const py::gil_scoped_release free;
         for (std::size_t from = 0; from < rows.count(); from += most_rows) {
@@ -336,6 +355,7 @@ void bind_tracer(py::module_& module) {
             const py::gil_scoped_release free;
             return std::make_unique<SharedTracer>(scene, options);
         }))
+        .def_static("reads_in_place", &reads_in_place)
         .def("intersect", &intersect)
         .def("occluded", &occluded)
         .def("crossings", &crossings)

@@ -214,7 +214,11 @@ void take(const py::handle& from, const std::string& field, Outline& to) {
     take_fields(from, field + "/", to);
 }
 void take(const py::handle& from, const std::string& field, Color (&to)[2]) {
-    const py::tuple both = py::tuple(py::reinterpret_borrow<py::object>(from));
+    py::tuple both;
+    try {
+        both = py::tuple(py::reinterpret_borrow<py::object>(from));
+    } catch (const py::error_already_set&) { // no sequence: as one of another length
+    }
     if (both.size() != 2) throw InvalidValue(field, "must be two colours");
     take(both[0], field + "/0", to[0]);
     take(both[1], field + "/1", to[1]);

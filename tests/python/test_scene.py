@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import threading
 import warnings
 
 import numpy as np
@@ -59,7 +60,7 @@ def test_what_is_set_is_there():
     assert scene.lights == lights
     assert (scene.fog, scene.camera, scene.background, scene.settings) == (fog, camera, background, settings)
     # The builder is new.
-    assert len(builder) == 0 and builder.camera == raylane.Camera()
+    assert len(builder) == 0 and builder.camera is None
 
 
 def test_arrays_of_all_kinds(random):
@@ -152,7 +153,7 @@ def test_what_is_not_valid_says_where():
     for call, field in (
         (lambda: builder.add_spheres([[0, 0, 0], [1, 1, 1]], [1, -1], material=material), "1/radius"),
         (lambda: builder.add_spheres([[0, 0, 0]], 1, material=7), "0/material"),
-        (lambda: builder.add_spheres([[0, 0, 0]], 1, material=-1), "0/material"),
+        (lambda: builder.add_spheres([[0, 0, 0]], 1, material=-1), "material"),
         (lambda: builder.add_spheres([[0, 0, 0]], 1, material=0.5), "material"),
         (lambda: builder.add_spheres([[0, 0, 0]], 1, material="red"), "material"),
         (lambda: builder.add_spheres([[0, 0]], 1, material=material), "centers"),
@@ -167,6 +168,15 @@ def test_what_is_not_valid_says_where():
         (lambda: builder.add_light(kind="torch"), "kind"),
         (lambda: builder.add_material("red"), "color"),
         (lambda: Solid.sphere((0, 0), 1), "center"),
+        (lambda: Solid.sphere((0, 0, 0), "wide"), "radius"),
+        (lambda: Solid.lens((0, 0, 0), (0, 0, 1), (1, 2, 3), 1, 1), "radii"),
+        (lambda: Solid.sphere((0, 0, 0), 1, material=-1), "material"),
+        (lambda: builder.add_solid(Solid.sphere((0, 0, 0), 1), material=2**32), "material"),
+        (lambda: builder.add_material(color=raylane.Pattern(colors=3)), "color/colors"),
+        (lambda: builder.add_spheres([[None, 0, 0]], 1, material=material), "centers"),
+        (lambda: builder.add_spheres([[0, 0, 0], [1]], 1, material=material), "centers"),
+        (lambda: builder.add_spheres(np.zeros((4, 3)), 1, material=[0, 0, 0]), "material"),
+        (lambda: builder.add_polygon(np.zeros((1, 3, 3)), material=-1), "material"),
     ):
         with pytest.raises(ValueError) as error:
             call()
@@ -222,6 +232,65 @@ def test_remarks(tmp_path):
         raylane.parse(text, "a.pov", refuse)
 
 
+def test_one_row_is_for_all():
+    builder = SceneBuilder()
+    material = builder.add_material()
+    assert builder.add_spheres([0, 0, 0], [1, 2, 3], material=material) == range(0, 3)
+    assert builder.add_cylinders([0, 0, 0], np.eye(3), 0.5, material=material) == range(3, 6)
+    assert builder.add_ellipsoids([0, 0, 0], np.eye(3), material=material) == range(6, 7)
+    assert Tracer(builder.build()).crossings([0, 0, 5], [0, 0, -1]).shape[:3].tolist() == [2, 1, 0]
+
+
+def test_one_builder_of_several_threads():
+    """Not what it is for, but it is no crash."""
+    builder = SceneBuilder()
+    material = builder.add_material()
+    places = np.random.default_rng(1).normal(size=(20_000, 3))
+    threads = [threading.Thread(target=lambda: builder.add_spheres(places, 0.1, material=material)) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert builder.build().shape_count == 80_000
+
+
+def test_ids_that_are_none(ball):
+    for shapes in (2, -1, 2**32, np.array([0, 2]), np.array([2**32]), np.array([0.5]), "a"):
+        for call in (ball.material_of, ball.solid_of):
+            with pytest.raises(InvalidValue) as error:
+                call(shapes)
+            assert error.value.field == "shapes"
+    assert ball.material_of(np.array([[0, 1]])).tolist() == [[0, 1]] and ball.material_of(np.array([], int)).shape == (0,)
+    with pytest.raises(InvalidValue):
+        ball.material(-1)
+
+
 def test_scenes_are_cheap_to_keep(ball):
     assert copy.copy(ball).shape_count == 2
     assert "2 shapes" in repr(ball)
+
+
+def test_cameras(scenes):
+    builder = SceneBuilder()
+    material = builder.add_material()
+    builder.add_spheres([[0, 0, 0], [4, 0, 0]], 0.5, material=material)
+    builder.settings.alpha = True
+    builder.settings.width, builder.settings.height = 60, 30
+    scene = builder.build()
+    seen = raylane.render(scene).alpha > 0
+    assert seen.any(axis=0)[2:-2].mean() > 0.3 and not seen[:, 0].any() and not seen[0].any()
+    assert scene.camera == scene.camera_on_all(aspect=2)
+    above = scene.camera_on_all((0, -1, 0), 2)
+    other = scene.seen_by(above)
+    assert other.camera == above != scene.camera and other.shape_count == 2
+    assert np.array_equal(raylane.render(scene, camera=above).rgb, raylane.render(other).rgb)
+    builder.add_planes([0, 0, 0], [0, 1, 0], material=builder.add_material())
+    assert builder.build().camera == raylane.Camera()
+    for call, field in (
+        (lambda: scene.seen_by(raylane.Camera(lens_radius=-1)), "camera/lens_radius"),
+        (lambda: scene.camera_on_all((0, 0)), "direction"),
+        (lambda: scene.camera_on_all(aspect=0), "aspect"),
+    ):
+        with pytest.raises(InvalidValue) as error:
+            call()
+        assert error.value.field == field

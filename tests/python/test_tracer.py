@@ -1,5 +1,7 @@
 """Rays: what they are asked as does not change what is answered."""
 
+import copy
+import pickle
 import threading
 import time
 
@@ -156,22 +158,19 @@ def test_arrays_are_filled_again(ball):
         tracer.occluded([[0, 0, 5], [0, 0, 3]], [0, 0, 1], out=frozen)
 
 
-def test_columns_are_read_where_they_are():
-    """Of what lies in columns there is no copy: memory does not grow by one."""
-    import resource
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_which_arrays_are_read_where_they_are(dtype):
+    def in_place(o, d, *rest):
+        return raylane._raylane.Tracer.reads_in_place(o, d, (*rest, *[None] * (5 - len(rest))))
 
-    builder = raylane.SceneBuilder()
-    builder.add_material()
-    builder.add_spheres([0, 0, 0], 1, material=0)
-    tracer = Tracer(builder.build())
-    n = 3_000_000
-    origins, directions = np.zeros((3, n), np.float32).T, np.ones((3, n), np.float32).T
-    answer = np.empty(n, bool)
-    tracer.occluded(origins[:1000], directions[:1000])
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    tracer.occluded(origins, directions, out=answer)
-    assert answer.all()
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 24 * n / 1024 / 2
+    n = 100
+    columns, rows, limits = np.zeros((3, n), dtype).T, np.zeros((n, 3), dtype), np.ones(n, dtype)
+    ids, faces = np.zeros(n, np.uint32), np.zeros(n, np.uint8)
+    assert in_place(columns, columns) and in_place(columns, np.asfortranarray(rows), limits, limits, ids, faces)
+    for o, d, *rest in ((rows, columns), (columns, rows), (columns[::2], columns[::2]), (columns, columns, limits[::-1])):
+        assert not in_place(o, d, *rest)
+    pickled = pickle.loads(pickle.dumps(columns))
+    assert in_place(pickled, columns)
 
 
 def test_what_cannot_be_asked_says_why(ball):
@@ -179,14 +178,31 @@ def test_what_cannot_be_asked_says_why(ball):
     o, d = np.zeros((4, 3)), np.ones((4, 3))
     for call, field in (
         (lambda: tracer.intersect(o[:, :2], d), "origins"),
-        (lambda: tracer.intersect(o, d[:3]), "origins"),
+        (lambda: tracer.intersect(o, d[:3]), "directions"),
         (lambda: tracer.intersect(o, np.zeros((4, 1, 3))), "directions"),
         (lambda: tracer.intersect("rays", d), "origins"),
         (lambda: tracer.intersect(o, None), "directions"),
         (lambda: tracer.intersect(o, d, t_max=[1, 2]), "t_max"),
         (lambda: tracer.intersect(o, d, t_min="soon"), "t_min"),
-        (lambda: tracer.intersect(o, d, leaving=Leaving([0], [0], [0])), "leaving"),
+        (lambda: tracer.intersect(o, d, leaving=Leaving([0], [0], [0])), "leaving.shape"),
         (lambda: tracer.contains(np.zeros(4)), "points"),
+        (lambda: tracer.intersect([[0, 0, 5]], [[0, 0, -1], [1]]), "directions"),
+        (lambda: tracer.crossings([[0, 0, 5]], [[0, 0, -1], [1]]), "directions"),
+        (lambda: tracer.crossings([[0, 0, 5], [1]], [0, 0, 1]), "origins"),
+        (lambda: tracer.intersect(o + 1j, d), "origins"),
+        (lambda: tracer.intersect([["0", "0", "5"]], d[:1]), "origins"),
+        (lambda: tracer.intersect([[None, 0, 5]], d[:1]), "origins"),
+        (lambda: tracer.intersect(o.astype(np.longdouble), d), "origins"),
+        (lambda: tracer.intersect(np.zeros(4, "f4,f4,f4"), d), "origins"),
+        (lambda: tracer.crossings(o, d, most=-1), "most"),
+        (lambda: tracer.intersect(o, d, leaving=Leaving(np.full(4, 2**32), 0, 0)), "leaving.shape"),
+        (lambda: tracer.intersect(o, d, leaving=Leaving(np.full(4, -1), 0, 0)), "leaving.shape"),
+        (lambda: tracer.intersect(o, d, leaving=Leaving(0, 300, 0)), "leaving.face"),
+        (lambda: tracer.intersect(o, d, leaving=Leaving(0, 0, 2)), "leaving.inward"),
+        (lambda: tracer.intersect(o, d, leaving=Leaving(0.5, 0, 0)), "leaving.shape"),
+        (lambda: tracer.occluded(o[:1], d[:1], out=np.empty(1, np.uint8)), "out"),
+        (lambda: tracer.occluded(o, d, out=[True] * 4), "out"),
+        (lambda: tracer.occluded(o, d, out=np.empty(3, bool)), "out"),
         (lambda: Tracer(ball, 5000), "threads"),
         (lambda: Tracer(ball, -1), "threads"),
         (lambda: Tracer(ball, precision="best"), "precision"),
@@ -194,6 +210,45 @@ def test_what_cannot_be_asked_says_why(ball):
         with pytest.raises(InvalidValue) as error:
             call()
         assert error.value.field == field, str(error.value)
+
+
+def test_limits_count_as_they_are(ball):
+    """A limit in double is not rounded to the rays' floats."""
+    tracer = Tracer(ball)
+    o, d = np.array([[0, 0, 5]], np.float32), np.array([[0, 0, -1]], np.float32)
+    assert not tracer.occluded(o, d, t_max=np.array([4 - 1e-12]))[0]
+    assert tracer.occluded(o, d, t_max=np.array([4], np.float32))[0] and tracer.occluded(o, d, t_max=4)[0]
+    assert not tracer.occluded(o, d, t_max=np.float64(4 - 1e-12))[0]
+
+
+def test_hits_may_be_copied(ball):
+    tracer = Tracer(ball)
+    hits = tracer.intersect([[0, 0, 5]], [0, 0, -1])
+    for other in (copy.deepcopy(hits), pickle.loads(pickle.dumps(hits))):
+        assert tracer.intersect([[5, 0, 0]], [-1, 0, 0], double=True, out=other) is other
+        assert other.normal.tolist() == [[1, 0, 0]] and other.t_double.tolist() == [4.0]
+    assert hits.normal.tolist() == [[0, 0, 1]]
+    with pytest.raises(AttributeError):
+        hits.normal = np.zeros((1, 3))
+    assert tracer.crossings([0, 0, 5], [0, 0, -1]) != tracer.crossings([0, 0, 5], [0, 0, -1])  # no comparison of arrays
+
+
+def test_whatever_the_rounding_of_the_process(ball):
+    """A library that was built with -ffast-math may have turned numbers near zero off, for all."""
+    import ctypes
+    import ctypes.util
+
+    libm = ctypes.CDLL(ctypes.util.find_library("m"))
+    origins, directions = rays(20_000)
+    expected = Tracer(ball, 1).intersect(origins, directions, double=True)
+    tracer = Tracer(ball, 3)
+    try:
+        assert libm.fesetround(0x800) == 0  # upward
+        first = tracer.intersect(origins, directions, double=True)
+    finally:
+        libm.fesetround(0)
+    for hits in (first, tracer.intersect(origins, directions, double=True)):
+        assert np.array_equal(hits.t_double, expected.t_double) and np.array_equal(hits.normal, expected.normal)
 
 
 def test_precisions(crowd):

@@ -52,6 +52,14 @@ class Scene {
     Camera camera() const;
     Color background() const;
     Settings settings() const;
+    /// The same shapes, seen by another camera, which brings the lights along that the scene's own
+    /// has brought. Takes little memory and time: of a scene whose camera has found its place by
+    /// itself, one look at all shapes. Throws InvalidValue, fields "camera/...".
+    Scene seen_by(const Camera& camera) const;
+    /// A camera in perspective that looks in a direction, of any length but zero, and sees all
+    /// shapes that have bounds as large as that may be, in a picture of so many times its height as
+    /// width. Throws InvalidValue where there are none, or for values that are none.
+    Camera camera_on_all(const Vec3& direction = {0.0F, 0.0F, -1.0F}, float aspect = 1.0F) const;
 
     // Without a move, no scene is ever empty.
     Scene(const Scene&) = default;

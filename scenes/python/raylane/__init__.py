@@ -12,6 +12,7 @@ import sys as _sys
 from ._atoms import frames, from_ase, from_atoms, from_mdanalysis, from_mdtraj
 from ._errors import BadInput, InputError, InvalidValue, SystemRefused
 from ._image import Cancelled, Image, Layers, imshow, render
+from ._orbit import orbit
 from ._raylane import version as __version__
 from ._scene import Scene, SceneBuilder, Solid, load, parse
 from ._tracer import NO_SHAPE, Crossings, Hits, Leaving, Lengths, Solids, Tracer
@@ -51,6 +52,7 @@ __all__ = [
     "from_mdtraj",
     "imshow",
     "load",
+    "orbit",
     "parse",
     "render",
 ]

@@ -62,12 +62,12 @@ def from_mdtraj(trajectory: Any, frame: int = 0) -> Scene:
 
 
 def frames(trajectory: Any) -> Iterator[Scene]:
-    """Scenes of a trajectory, one after the other: ASE's list of atoms, MDAnalysis' universe or mdtraj's."""
+    """Scenes of a trajectory, one after the other: ASE's list of atoms, MDAnalysis' universe or atoms, or mdtraj's."""
     if hasattr(trajectory, "xyz"):
         for frame in range(len(trajectory.xyz)):
             yield from_mdtraj(trajectory, frame)
-    elif hasattr(trajectory, "trajectory"):
-        for _ in trajectory.trajectory:
+    elif hasattr(trajectory, "universe"):
+        for _ in trajectory.universe.trajectory:
             yield from_mdanalysis(trajectory)
     else:
         for atoms in trajectory:

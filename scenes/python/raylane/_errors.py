@@ -9,7 +9,7 @@ class InvalidValue(ValueError):
     """A value that no scene may hold, or that no function may be called with."""
 
     field: str
-    """Which, as ``"radii/3"``; it may be empty."""
+    """Which, as ``"3/radius"``; it may be empty."""
     expectation: str
     """What it must be."""
 

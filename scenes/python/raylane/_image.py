@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import atexit
 import dataclasses
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -15,7 +17,7 @@ from numpy.typing import NDArray
 
 from . import _raylane
 from ._scene import Scene
-from ._values import Precision, Settings
+from ._values import Camera, Precision, Settings
 
 OnProgress = Callable[[int, int], Optional[bool]]
 """Called with pixels that are done, and all; what returns False cancels."""
@@ -95,7 +97,7 @@ class Image:
             return path.read_bytes()
 
     def show(self) -> None:
-        """In a notebook, or else as the desktop shows pictures."""
+        """In a notebook, or else as the desktop shows pictures (``xdg-open``), as long as Python runs."""
         if "IPython" in sys.modules:
             from IPython import get_ipython
             from IPython.display import display
@@ -103,10 +105,14 @@ class Image:
             if get_ipython() is not None and hasattr(get_ipython(), "kernel"):
                 display(self)
                 return
-        with tempfile.NamedTemporaryFile(prefix="raylane-", suffix=".png", delete=False) as file:
-            self.save(file.name)
-            opener = "open" if sys.platform == "darwin" else "xdg-open"
-            subprocess.Popen([opener, file.name], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        opener = shutil.which("open" if sys.platform == "darwin" else "xdg-open")
+        if opener is None:
+            raise RuntimeError("there is no notebook here, and no desktop: save() the picture")
+        folder = tempfile.mkdtemp(prefix="raylane-")
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        path = Path(folder) / "picture.png"
+        self.save(path)
+        subprocess.run([opener, str(path)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
 
     def __repr__(self) -> str:
         return f"<raylane.Image: {self.width} x {self.height}>"
@@ -138,6 +144,7 @@ def render(
     scene: Scene,
     settings: Optional[Settings] = None,
     *,
+    camera: Optional[Camera] = None,
     threads: int = 0,
     precision: Precision = "exact",
     crop: Optional[Tuple[int, int, int, int]] = None,
@@ -148,11 +155,13 @@ def render(
     """The picture of a scene: the same bits for the same scene and settings, whatever the threads and processor.
 
     ``settings`` are the scene's unless they are given; further arguments change them: ``render(scene,
-    width=800, height=600, grid=4)``. ``crop`` is a part of the picture: x, y, width, height. ``progress`` is
+    width=800, height=600, grid=4)``. ``camera``: another one (:meth:`Scene.seen_by`). ``crop`` is a part of the picture: x, y, width, height. ``progress`` is
     called with pixels that are done, and all, every now and then; True: tqdm's bar, if that is installed. If it
     returns False, :class:`Cancelled` is raised; Ctrl-C stops at once.
     """
     chosen = dataclasses.replace(scene.settings if settings is None else settings, **changed)
+    if camera is not None:
+        scene = scene.seen_by(camera)
     bar = _bar() if progress is True else None
     on_progress = bar if isinstance(progress, bool) else progress
     try:
@@ -171,6 +180,9 @@ def imshow(picture: Union[Scene, Image], ax: Any = None, **options: Any) -> Any:
         import matplotlib.pyplot as plt
 
         ax = plt.gca()
-    image = render(picture, **options) if isinstance(picture, Scene) else picture
+    if isinstance(picture, Scene):
+        picture = render(picture, **options)
+    elif options:
+        raise TypeError("a picture that is there takes no options of render")
     ax.set_axis_off()
-    return ax.imshow(image.to_bytes(), interpolation="nearest")
+    return ax.imshow(picture.to_bytes(), interpolation="nearest")

@@ -81,6 +81,17 @@ class Scene:
     def background(self) -> Vector:
         return self._scene.background()
 
+    def seen_by(self, camera: Camera) -> Scene:
+        """The same shapes, seen by another camera. Takes little memory and time."""
+        return Scene(self._scene.seen_by(camera))
+
+    def camera_on_all(self, direction: Vector = (0.0, 0.0, -1.0), aspect: float = 1.0) -> Camera:
+        """A camera that looks in a direction and sees all shapes that have bounds, as large as that may be.
+
+        ``aspect``: the picture's width by its height.
+        """
+        return self._scene.camera_on_all(direction, aspect)
+
     @property
     def settings(self) -> Settings:
         """Those of its picture: a copy, to change and to give to :func:`render`."""
@@ -192,7 +203,8 @@ class SceneBuilder:
     >>> scene = builder.build()
     """
 
-    camera: Camera
+    camera: Optional[Camera]
+    """None: one that sees all from the front, or, where there are planes alone, ``Camera()``."""
     background: Vector
     fog: Fog
     settings: Settings
@@ -204,7 +216,7 @@ class SceneBuilder:
 
     def _renew(self) -> None:
         self._builder = _raylane.Builder()
-        self.camera = Camera()
+        self.camera = None
         self.background = (0.0, 0.0, 0.0)
         self.fog = Fog()
         self.settings = Settings()
@@ -290,11 +302,17 @@ class SceneBuilder:
 
     def build(self) -> Scene:
         """Checks the whole, and hands the scene over. The builder is new then, whether this succeeds or not."""
-        builder, values = self._builder, (self.camera, self.background, self.fog, self.settings, self.wavelengths)
+        builder, camera, settings = self._builder, self.camera, self.settings
+        others = (self.background, self.fog, settings, self.wavelengths)
         self._renew()
-        return Scene(builder.build(*values))
+        scene = Scene(builder.build(camera, *others))
+        if camera is not None or not np.all(np.less_equal(*scene.bounds)):
+            return scene
+        aspect = min(max(settings.width / settings.height, 1e-5), 1e5)
+        return scene.seen_by(scene.camera_on_all(aspect=aspect))
 
 
+# What a file says and the scene does not have.
 def _warn(remark: str) -> None:
     warnings.warn(remark, stacklevel=3)
 

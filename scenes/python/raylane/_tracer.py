@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass
-from typing import Any, List, Optional, Tuple
+from typing import Any, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
+from ._errors import InvalidValue
 from ._scene import Scene
 from ._values import Precision
 
@@ -28,8 +30,6 @@ class Hits:
 
     t: Floats
     """(n,): > 0 and finite, the float nearest to the true one; infinite where nothing is hit."""
-    normal: Floats
-    """(n, 3): of unit length, on the surface's outside, whichever side is hit; 0 where nothing is."""
     shape: Ids
     """(n,): ids, or ``NO_SHAPE``."""
     entering: Bools
@@ -42,11 +42,15 @@ class Hits:
     def __init__(self, count: int, double: bool = False) -> None:
         self.t = np.empty(count, np.float32)
         self._normal = np.empty((3, count), np.float32)
-        self.normal = self._normal.T
         self.shape = np.empty(count, np.uint32)
         self.entering = np.empty(count, np.bool_)
         self.face = np.empty(count, np.uint8)
         self.t_double = np.empty(count, np.float64) if double else None
+
+    @property
+    def normal(self) -> Floats:
+        """(n, 3): of unit length, on the surface's outside, whichever side is hit; 0 where nothing is."""
+        return self._normal.T
 
     @property
     def hit(self) -> Bools:
@@ -84,7 +88,7 @@ class _Rows:
         return f"<raylane.{type(self).__name__}: {int(self.first[-1])} of {len(self)}>"
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, eq=False)
 class Crossings(_Rows):
     """All crossings of n rays, by ray and then in their order."""
 
@@ -102,7 +106,7 @@ class Crossings(_Rows):
     """(m, 3), if they are wanted."""
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, eq=False)
 class Solids(_Rows):
     """Solids that n points are in, by point and then by id."""
 
@@ -112,7 +116,7 @@ class Solids(_Rows):
     """Whether the point is exactly on the solid's surface."""
 
 
-@dataclass(repr=False)
+@dataclass(repr=False, eq=False)
 class Lengths(_Rows):
     """Lengths of n rays inside of materials, by ray and then by material."""
 
@@ -127,7 +131,7 @@ class Lengths(_Rows):
         return np.bincount(self.of(), which, len(self)).astype(np.float64)
 
 
-@dataclass
+@dataclass(eq=False)
 class Leaving:
     """What rays leave, exactly: they start on the surface that a hit was on, however their numbers were rounded.
 
@@ -144,10 +148,11 @@ class Tracer:
     """Asks rays about a scene.
 
     Rays are ``origins`` and ``directions`` of shape (n, 3), or one of either for all; directions may have any
-    length but zero, and t counts in units of that length. If both are float32 they are asked as floats, else as
-    doubles, each for exactly what it is. Arrays whose columns lie one after the other in memory
-    (``np.empty((3, n)).T``, or Fortran's order) are read where they are; others are copied in parts. ``t_min``
-    and ``t_max`` are numbers or (n,).
+    length but zero, and t counts in units of that length. If all arrays, those of ``t_min`` and ``t_max``
+    included, are float32, rays are asked as floats, else as doubles, each for exactly what it is. Arrays whose
+    columns lie one after the other in memory (``np.empty((3, n)).T``, or Fortran's order) are read where they
+    are; others are copied in parts, and those of another type first converted. ``t_min`` and ``t_max`` are (n,),
+    or numbers, which are taken for ones of the rays' type.
 
     With ``precision="exact"`` all that is answered is what real arithmetic gives for the numbers given. The
     interpreter's lock is free meanwhile: any number of threads may ask one tracer.
@@ -185,6 +190,8 @@ class Tracer:
         """The nearest crossing of each ray with t_min < t <= t_max."""
         if out is None:
             out = Hits(_count(origins, directions), double)
+        elif double and out.t_double is None:
+            out.t_double = np.empty(len(out), np.float64)
         self._tracer.intersect(origins, directions, self._rest(t_min, t_max, leaving), out._arrays())
         return out
 
@@ -201,6 +208,8 @@ class Tracer:
         """(n,): whether a ray has any crossing within its limits."""
         if out is None:
             out = np.empty(_count(origins, directions), np.bool_)
+        elif not isinstance(out, np.ndarray) or out.dtype != np.bool_ or not out.flags.c_contiguous:
+            raise InvalidValue("out", "must be an array of bool, whose values lie one after the other")
         rest = self._rest(t_min, t_max, leaving)
         self._tracer.occluded(origins, directions, rest, out.view(np.uint8))
         return out
@@ -217,6 +226,8 @@ class Tracer:
         normals: bool = False,
     ) -> Crossings:
         """All crossings of each ray in the order of their true t, or the first ``most`` of them. Always exact."""
+        if operator.index(most) < 0:
+            raise InvalidValue("most", f"must not be negative, got {most}")
         rest = self._rest(t_min, t_max, leaving)
         return Crossings(**self._tracer.crossings(origins, directions, rest, most, normals))
 
@@ -238,5 +249,15 @@ class Tracer:
 
 def _count(origins: ArrayLike, directions: ArrayLike) -> int:
     """Of rays. What is no array of them is refused where they are read."""
-    counts: List[int] = [len(a) for a in (np.asarray(origins), np.asarray(directions)) if a.ndim == 2]
-    return counts[-1] if counts else 1
+    for rays in (origins, directions):
+        shape: Tuple[int, ...] = getattr(rays, "shape", None) or _shape(rays)
+        if len(shape) > 1:
+            return shape[0]
+    return 1
+
+
+def _shape(rays: ArrayLike) -> Tuple[int, ...]:
+    try:
+        return np.shape(rays)
+    except ValueError:
+        return ()

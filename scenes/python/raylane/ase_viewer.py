@@ -12,8 +12,9 @@ from ._atoms import from_ase
 
 
 def view_raylane(atoms: Any, *, repeat: Optional[Tuple[int, int, int]] = None, **_: Any) -> None:
-    """Draws atoms, as often as is wanted along each vector of their cell, and shows the picture."""
-    from_ase(atoms if repeat is None else atoms.repeat(repeat)).show()
+    """Draws atoms, of several the last, as often as is wanted along each vector of their cell, and shows them."""
+    last = atoms[-1] if isinstance(atoms, (list, tuple)) else atoms
+    from_ase(last if repeat is None else last.repeat(repeat)).show()
 
 
 class _Viewer:

@@ -1,0 +1,13 @@
+"""python3 -m sphinx -W -b html scenes/python/docs build/pages/python, with PYTHONPATH=build/release/python"""
+
+import raylane
+
+project = "raylane"
+version = release = raylane.__version__
+extensions = ["sphinx.ext.autodoc", "sphinx.ext.viewcode"]
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_type_aliases = {"ArrayLike": "ArrayLike"}
+python_use_unqualified_type_names = True
+html_theme = "alabaster"
+html_theme_options = {"page_width": "60em", "description": "Quadrics, traced exactly"}
