@@ -56,18 +56,18 @@ namespace {
 class LentArena {
   public:
     explicit LentArena(int threads) {
-        const std::lock_guard lock(mutex_);
-        if (idle_ == nullptr) idle_ = new std::list<Arena>;
-        const auto found = std::ranges::find(*idle_, threads, &Arena::threads);
-        if (found != idle_->end())
-            own_.splice(own_.begin(), *idle_, found);
+        const std::lock_guard lock(idle_mutex);
+        if (idle == nullptr) idle = new std::list<Arena>;
+        const auto found = std::ranges::find(*idle, threads, &Arena::threads);
+        if (found != idle->end())
+            own_.splice(own_.begin(), *idle, found);
         else
             own_.emplace_back(threads).arena.initialize();
     }
     ~LentArena() {
-        const std::lock_guard lock(mutex_);
-        idle_->splice(idle_->begin(), own_);
-        if (idle_->size() > most_idle) idle_->pop_back();
+        const std::lock_guard lock(idle_mutex);
+        idle->splice(idle->begin(), own_);
+        if (idle->size() > most_idle) idle->pop_back();
     }
     LentArena(const LentArena&) = delete;
     LentArena& operator=(const LentArena&) = delete;
@@ -81,15 +81,15 @@ class LentArena {
         tbb::task_arena arena;
     };
     static constexpr std::size_t most_idle = 64;
-    static constinit std::mutex mutex_;
+    static constinit std::mutex idle_mutex;
     /// Never destroyed: threads that nobody waits for may call until the process ends.
-    static constinit std::list<Arena>* idle_;
+    static constinit std::list<Arena>* idle;
 
     std::list<Arena> own_;
 };
 
-constinit std::mutex LentArena::mutex_;
-constinit std::list<LentArena::Arena>* LentArena::idle_ = nullptr;
+constinit std::mutex LentArena::idle_mutex;
+constinit std::list<LentArena::Arena>* LentArena::idle = nullptr;
 
 } // namespace
 

@@ -88,8 +88,8 @@ Scene Scene::seen_by(const Camera& camera) const {
     return translated([&] {
         core::Staging staging = scene_->staging();
         staging.framing.reset(); // it has its place
-        core::Scene same = *scene_;
-        same = std::move(same).seen(staging, {converted<core::Camera>(camera), same.fog(), {}});
+        core::Scene same = core::Scene(*scene_).seen(
+            staging, {converted<core::Camera>(camera), scene_->fog(), {}});
         if (staging.any()) {
             const core::View view = core::staged(same, staging, same.settings());
             same = std::move(same).seen(staging, view);

@@ -56,7 +56,7 @@ py::array_t<Value, py::array::forcecast> array_of(const py::handle& values, cons
 /// Whole numbers from 0 to `most`, as an array of a type. Throws InvalidValue for others.
 template <class Value>
 py::object whole_numbers(const py::handle& values, const char* field, Value most) {
-    const py::array array = any_array(values, field);
+    py::array array = any_array(values, field);
     if (py::isinstance<py::array_t<Value>>(array) && most == std::numeric_limits<Value>::max())
         return array;
     const char kind = array.dtype().kind();

@@ -79,7 +79,7 @@ py::array shaped(std::vector<Value>&& values, const std::vector<py::ssize_t>& sh
 /// The arrays of a picture; None where there is none.
 py::dict arrays_of(Image&& image) {
     const py::ssize_t height = image.height, width = image.width;
-    const auto plane = [&](auto&& values) -> py::object {
+    const auto plane = [&](auto values) -> py::object {
         if (values.empty()) return py::none();
         return shaped(std::move(values), {height, width});
     };
@@ -151,7 +151,7 @@ void write_picture(const std::filesystem::path& path, const py::array& rgb, cons
         image.alpha.assign(shares.data(), shares.data() + shares.size());
     }
     if (transfer != "srgb" && transfer != "linear")
-        throw InvalidValue("transfer", "must be \"srgb\" or \"linear\", got \"" + transfer + "\"");
+        throw InvalidValue("transfer", R"(must be "srgb" or "linear", got ")" + transfer + '"');
     const py::gil_scoped_release free;
     write_image(path, image, transfer == "srgb" ? Transfer::srgb : Transfer::linear);
 }
