@@ -102,14 +102,17 @@ Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {
     if (!(aspect >= 1e-5F && aspect <= 1e5F))
         throw InvalidValue("aspect",
                            "must be from 0.00001 to 100000, got " + std::to_string(aspect));
-    const auto way = converted<core::Vec3f>(direction);
-    const double squared_length = core::squared_length(core::convert<double>(way));
-    if (!(squared_length > 0.0 && squared_length < std::numeric_limits<double>::infinity()))
-        throw InvalidValue("direction", "must be finite and not zero");
-    core::Frame frame({.direction = way, .up = core::upright(way)}, static_cast<double>(aspect));
-    core::include_shapes(*scene_, frame);
-    if (frame.empty()) throw InvalidValue("", "must have shapes other than planes, to look at");
-    return converted<Camera>(frame.camera());
+    return translated([&] {
+        const auto way = converted<core::Vec3f>(direction);
+        const double squared_length = core::squared_length(core::convert<double>(way));
+        if (!(squared_length > 0.0 && squared_length < std::numeric_limits<double>::infinity()))
+            throw InvalidValue("direction", "must be finite and not zero");
+        core::Frame frame({.direction = way, .up = core::upright(way)},
+                          static_cast<double>(aspect));
+        core::include_shapes(*scene_, frame);
+        if (frame.empty()) throw InvalidValue("", "must have shapes other than planes, to look at");
+        return converted<Camera>(frame.camera());
+    });
 }
 
 SceneBuilder::SceneBuilder() = default;

@@ -51,6 +51,18 @@ class SharedTracer {
     tbb::task_arena arena_;
 };
 
+/// Calls call(from, to) for parts of `count` without Python's lock, and looks for signals between
+/// them.
+template <class Call>
+void in_turn(std::size_t count, std::size_t most, const Call& call) {
+    const py::gil_scoped_release free;
+    for (std::size_t from = 0; from < count; from += most) {
+        const std::size_t to = std::min(count, from + most);
+        call(from, to);
+        if (to < count) look_for_signals();
+    }
+}
+
 /// Arrays of rays, in whatever order of memory.
 template <class Real>
 class RayColumns {
@@ -116,7 +128,7 @@ class RayColumns {
     void share_out(SharedTracer& tracer, const Answer& answer) const {
         const bool copied = !is_spans();
         const Tracer& asked = copied ? tracer.alone() : tracer.all();
-        in_turn(most_at_once, [&](std::size_t from, std::size_t to) {
+        in_turn(count(), most_at_once, [&](std::size_t from, std::size_t to) {
             if (!copied) {
                 Rooms rooms;
                 return answer(asked, part(from, to, rooms), from, to);
@@ -133,21 +145,12 @@ class RayColumns {
     template <class Answer>
     void one_by_one(SharedTracer& tracer, const Answer& answer) const {
         Rooms rooms;
-        in_turn(most_rows, [&](std::size_t from, std::size_t to) {
+        in_turn(count(), most_rows, [&](std::size_t from, std::size_t to) {
             answer(tracer.all(), part(from, to, rooms));
         });
     }
 
   private:
-    template <class Call>
-    void in_turn(std::size_t most, const Call& call) const {
-        const py::gil_scoped_release free;
-        for (std::size_t from = 0; from < count(); from += most) {
-            const std::size_t to = std::min(count(), from + most);
-            call(from, to);
-            if (to < count()) look_for_signals();
-        }
-    }
     /// Of rays, by what has a row for each.
     static std::size_t count_of(const py::object& origins, const py::object& directions) {
         const py::array o = any_array(origins, "origins"), d = any_array(directions, "directions");
@@ -250,9 +253,9 @@ void append(std::vector<Value>& to, std::vector<Value>& part) {
     else
         to.insert(to.end(), part.begin(), part.end());
 }
-inline void append_rows(std::vector<std::uint64_t>& first, const std::vector<std::uint64_t>& part) {
-    const std::uint64_t before = first.empty() ? 0 : first.back();
-    if (first.empty()) first.push_back(0);
+/// The same of where rows begin, which starts with a 0.
+void append_rows(std::vector<std::uint64_t>& first, const std::vector<std::uint64_t>& part) {
+    const std::uint64_t before = first.back();
     for (std::size_t i = 1; i < part.size(); ++i)
         first.push_back(before + part[i]);
 }
@@ -260,6 +263,7 @@ inline void append_rows(std::vector<std::uint64_t>& first, const std::vector<std
 py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::object& directions,
                    const py::tuple& rest, std::size_t most, bool normals) {
     CrossingRows all;
+    all.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             CrossingRows rows;
@@ -276,7 +280,6 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
             append(all.normal_z, rows.normal_z);
         });
     });
-    if (all.first.empty()) all.first.push_back(0);
     py::dict result;
     result["first"] = array_from(std::move(all.first));
     result["t"] = array_from(std::move(all.t));
@@ -304,6 +307,7 @@ py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::ob
 py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py::object& directions,
                       const py::tuple& rest) {
     LengthRows all;
+    all.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
         rays.one_by_one(tracer, [&](const Tracer& asked, const auto& part) {
             LengthRows rows;
@@ -313,7 +317,6 @@ py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py:
             append(all.length, rows.length);
         });
     });
-    if (all.first.empty()) all.first.push_back(0);
     py::dict result;
     result["first"] = array_from(std::move(all.first));
     result["material"] = array_from(std::move(all.material));
@@ -323,22 +326,19 @@ py::dict path_lengths(SharedTracer& tracer, const py::object& origins, const py:
 
 py::dict contains(const SharedTracer& tracer, const py::object& points) {
     SolidRows all;
+    all.first = {0};
     by_type(points, py::none(), py::none(), py::none(), [&]<class Real>(std::type_identity<Real>) {
         const Rows<Real> rows(points, {3}, "points");
-        const py::gil_scoped_release free;
-        for (std::size_t from = 0; from < rows.count(); from += most_rows) {
-            const std::size_t to = std::min(rows.count(), from + most_rows);
-            Room<Real> room[3];
+        Room<Real> room[3];
+        in_turn(rows.count(), most_rows, [&](std::size_t from, std::size_t to) {
             const auto [x, y, z] = rows.parts(from, to, room);
             SolidRows part;
             tracer.all().contains(BasicPointSpan<Real>{x, y, z}, part);
             append_rows(all.first, part.first);
             append(all.shape, part.shape);
             append(all.on_surface, part.on_surface);
-            if (to < rows.count()) look_for_signals();
-        }
+        });
     });
-    if (all.first.empty()) all.first.push_back(0);
     py::dict result;
     result["first"] = array_from(std::move(all.first));
     result["shape"] = array_from(std::move(all.shape));

@@ -86,23 +86,21 @@ void take(const py::handle& from, const std::string& field, int& to) {
 void take(const py::handle& from, const std::string& field, bool& to) {
     to = cast<bool>(from, field, "True or False");
 }
-void take(const py::handle& from, const std::string& field, Vec3& to) {
-    std::array<float, 3> all{};
+template <class Number>
+std::array<Number, 3> three(const py::handle& from, const std::string& field) {
     try {
-        all = py::cast<std::array<float, 3>>(py::tuple(py::reinterpret_borrow<py::object>(from)));
+        return py::cast<std::array<Number, 3>>(py::tuple(py::reinterpret_borrow<py::object>(from)));
     } catch (const std::exception&) {
         throw InvalidValue(field,
                            "must be three numbers, got " + py::cast<std::string>(py::repr(from)));
     }
-    to = {all[0], all[1], all[2]};
+}
+void take(const py::handle& from, const std::string& field, Vec3& to) {
+    const auto [x, y, z] = three<float>(from, field);
+    to = {x, y, z};
 }
 void take(const py::handle& from, const std::string& field, std::array<double, 3>& to) {
-    try {
-        to = py::cast<std::array<double, 3>>(py::tuple(py::reinterpret_borrow<py::object>(from)));
-    } catch (const std::exception&) {
-        throw InvalidValue(field,
-                           "must be three numbers, got " + py::cast<std::string>(py::repr(from)));
-    }
+    to = three<double>(from, field);
 }
 template <class Enum>
 requires std::is_enum_v<Enum>
