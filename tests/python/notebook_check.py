@@ -17,6 +17,7 @@ import tempfile
 import time
 import urllib.request
 
+import raylane
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
@@ -28,7 +29,7 @@ CELLS = [
     "raylane.render(scene, width=200, height=150)",
     "raylane.orbit(scene, 160, 120)",
     "scene.show(width=80, height=60)",
-    "import os; print('ready', os.getpid())",
+    "print('rea' + 'dy')",
 ]
 
 
@@ -73,11 +74,16 @@ def browser(folder):
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
 
 
+def errors(driver):
+    return [each.text for each in driver.find_elements(By.CSS_SELECTOR, ".output_error")]
+
+
 def look(driver, url, picture):
     driver.get(url + "/notebooks/a.ipynb")
     wait("a kernel", lambda: driver.execute_script("return window.Jupyter && Jupyter.notebook && Jupyter.notebook.kernel && Jupyter.notebook.kernel.is_connected()"))
     driver.execute_script("Jupyter.notebook.execute_all_cells()")
-    wait("all cells", lambda: "ready" in driver.find_element(By.TAG_NAME, "body").text)
+    wait("all cells", lambda: "ready" in driver.find_element(By.TAG_NAME, "body").text or errors(driver))
+    assert not errors(driver), errors(driver)
 
     def pictures(width):
         images = driver.find_elements(By.CSS_SELECTOR, ".output img, .widget-image, .widget-subarea img")
@@ -86,8 +92,6 @@ def look(driver, url, picture):
     [plain] = wait("the cell's picture", lambda: pictures(200))
     assert plain.get_property("naturalHeight") == 150
     shown = base64.b64decode(plain.get_attribute("src").split("base64,")[1])
-    import raylane
-
     assert shown == raylane.render(raylane.load(SCENE), width=200, height=150)._repr_png_(), "not what the kernel has drawn"
     assert len(wait("what is shown", lambda: pictures(80))) == 1
     turning = wait("the sliders' picture", lambda: pictures(160))[0]
@@ -119,7 +123,9 @@ def main(picture=None):
         notebook(pathlib.Path(folder) / "a.ipynb")
         port = free_port()
         url = f"http://127.0.0.1:{port}"
-        environment = {**os.environ, "HOME": folder, "JUPYTER_RUNTIME_DIR": folder + "/runtime", "IPYTHONDIR": folder + "/ipython"}
+        # The kernel's own folder is another one than this, from which a relative PYTHONPATH may be.
+        module = str(pathlib.Path(raylane.__file__).resolve().parents[1])
+        environment = {**os.environ, "PYTHONPATH": module, "HOME": folder, "JUPYTER_RUNTIME_DIR": folder + "/runtime", "IPYTHONDIR": folder + "/ipython"}
         command = ["/usr/bin/jupyter-notebook", "--no-browser", "--allow-root", f"--port={port}", "--NotebookApp.token=", "--NotebookApp.password=", f"--notebook-dir={folder}"]
         with open(folder + "/log", "w") as log:
             server = subprocess.Popen(command, stdout=log, stderr=log, env=environment)
