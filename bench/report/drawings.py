@@ -1,0 +1,96 @@
+"""Draws where methods fail, and some of the shipped scenes, by the Python module and raylane-tiers."""
+
+import json
+import pathlib
+import subprocess
+
+import numpy as np
+import raylane
+import textbook
+from pictures import Map, Picture, Set, encoded
+
+BENCH = pathlib.Path(__file__).resolve().parents[1]
+SCENES = BENCH.parent / "scenes"
+PRECISIONS = {"fast": "textbook float, no epsilon", "robust": "best float", "double": "double", "exact": "exact"}
+TIERS = [
+    "at once: bounds in float, one crossing in double",
+    "all that may be first, in double with bounds or twice the digits; shadows step by step",
+    "a crossing by scalar code",
+    "with more digits than double has, or exactly",
+    "the whole path by the reference, where surfaces meet",
+]
+SHIPPED = {"birthday": (256, 256), "sphereflake": (256, 256), "ellipsoid": (256, 192), "protein": (256, 192)}
+
+
+def tiers_of(build, scene, width, height):
+    """As a list of one map, or none if there is no raylane-tiers."""
+    program = build / "bin/raylane-tiers"
+    if not program.exists():
+        return []
+    done = subprocess.run([program, scene, str(width), str(height)], stdout=subprocess.PIPE, check=True)
+    values = np.frombuffer(done.stdout[-width * height :], np.uint8).reshape(height, width)
+    return [Map("tiers", "how rays were decided", values, TIERS)]
+
+
+def steps(rgb, exact):
+    """Pixels that differ by more than one step of 255."""
+    return int((np.abs(encoded(rgb).astype(int) - encoded(exact)) > 1).any(-1).sum())
+
+
+def compare_hits(t, shape, exact_t, exact_shape):
+    """Rays that are wrong, and of the others t in ulps of float: median, 99th percentile, maximum."""
+    same = shape == exact_shape
+    hit = same & np.isfinite(exact_t)
+    # Floats above 0 are in the order of their bits.
+    off = np.abs(t[hit].astype(np.float32).view(np.int32).astype(np.int64) - exact_t[hit].view(np.int32))
+    ulps = [float(np.percentile(off, share)) for share in (50, 99, 100)] if off.size else [0.0, 0.0, 0.0]
+    return {"wrong": int((~same).sum()), "ulps": ulps}
+
+
+def first_hits(scene, precision, origins, directions):
+    """t in float32, infinite where nothing is hit, and the shape's number or -1."""
+    hits = raylane.Tracer(scene, precision=precision).intersect(origins, directions)
+    return np.where(hits.hit, hits.t, np.inf).astype(np.float32), np.where(hits.hit, hits.shape.astype(np.int64), -1)
+
+
+def draw_failure(build, failure):
+    path = BENCH / "failures" / (failure["name"] + ".json")
+    description = textbook.read(path)
+    scene = raylane.load(path)
+    exact = raylane.render(scene).rgb
+    exact_hits = first_hits(scene, "exact", *textbook.camera_rays(description))
+    rgb, t, shape = textbook.draw(description, failure["textbook"])
+    numbers = {"off": steps(rgb, exact), **compare_hits(t.ravel(), shape.ravel(), *exact_hits)}
+    pictures = [Picture("textbook", "textbook float, its epsilon", rgb, numbers)]
+    for precision, title in PRECISIONS.items():
+        rgb = raylane.render(scene, precision=precision).rgb
+        hits = first_hits(scene, precision, *textbook.camera_rays(description))
+        pictures.append(Picture(precision, title, rgb, {"off": steps(rgb, exact), **compare_hits(*hits, *exact_hits)}))
+    height, width = exact.shape[:2]
+    maps = tiers_of(build, path, width, height)
+    return Set(failure["name"], f"{failure['title']} ({failure['reference']})", pictures, maps, "exact")
+
+
+def draw_failures(build):
+    """What is said of them, and a set of pictures for each."""
+    failures = json.loads((BENCH / "failures/failures.json").read_text())
+    told = [{key: each[key] for key in ("name", "reference", "title", "failure")} for each in failures]
+    return told, [draw_failure(build, each) for each in failures]
+
+
+def draw_scene(build, name, width, height):
+    scene = raylane.load(SCENES / f"{name}.json")
+
+    def draw(**options):
+        return raylane.render(scene, width=width, height=height, **options)
+
+    pictures = [Picture(each, f"{title}, 1 sample", draw(precision=each, grid=1).rgb) for each, title in PRECISIONS.items()]
+    pictures += [Picture(f"exact-{n * n}", f"exact, {n * n} samples", draw(grid=n).rgb) for n in (2, 4, 8)]
+    of_quality = draw(quality=40, layers=True)
+    pictures.append(Picture("quality", "exact, to 40 dB", of_quality.rgb))
+    maps = [Map("samples", "samples, to 40 dB", of_quality.layers.samples)]
+    return Set(name, name, pictures, maps + tiers_of(build, SCENES / f"{name}.json", width, height), "exact")
+
+
+def draw_scenes(build):
+    return [draw_scene(build, name, *size) for name, size in SHIPPED.items()]

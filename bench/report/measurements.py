@@ -1,0 +1,78 @@
+"""Rows for the page's charts, from the JSON of raylane-bench and of peers/run.sh."""
+
+import json
+import math
+
+import chart
+
+
+def methods(path):
+    """{shape, rays, isa, method, mrays, ulps_..., wrong}: of Embree the faster way to call it."""
+    best = {}
+    for (shape, rays, method, isa), runs in chart.runs_of(path, "methods").items():
+        name = "Embree" if method.startswith("embree") else method
+        row = {
+            "shape": shape,
+            "rays": rays,
+            "isa": isa,
+            "method": name,
+            "mrays": chart.median(runs, "items_per_second") / 1e6,
+        }
+        errors = {key: runs[0][key] for key in runs[0] if key.startswith("ulps_") or key == "wrong"}
+        row.update({key: error for key, error in errors.items() if math.isfinite(error)})
+        key = (shape, rays, isa, name)
+        if key not in best or row["mrays"] > best[key]["mrays"]:
+            best[key] = row
+    return list(best.values())
+
+
+def pictures(path):
+    """{scene, way, value, ms, rmse}: `way` is the precision of so many samples, or what else makes it cheaper."""
+    rows = [
+        {
+            "scene": scene,
+            "way": precision if what == "samples" else what,
+            "value": float(value),
+            "ms": 1000 * chart.median(runs, "seconds"),
+            "rmse": runs[0]["rmse"],
+        }
+        for (scene, what, precision, value), runs in chart.runs_of(path, "picture").items()
+    ]
+    # Converged pictures differ by 0 from themselves, for which logarithms have no place.
+    return sorted((row for row in rows if row["rmse"] > 0), key=lambda row: (row["scene"], row["way"], row["ms"]))
+
+
+def counts(path):
+    """{rays, by, count, mrays}: one thread, the widest registers."""
+    rows = [row for row in json.loads(path.read_text())["rows"] if row["threads"] == 1]
+    rows = [row for row in rows if row.get("isa") == rows[0].get("isa")]
+    return [
+        {"rays": f"{what} rays", "by": by, "count": count, "mrays": speed}
+        for what in dict.fromkeys(row["what"] for row in rows)
+        for count, *speeds in chart.speeds_by_count(rows, what)
+        for by, speed in zip(("raylane", "its engine", "Embree"), speeds)
+        if speed
+    ]
+
+
+def peers(path):
+    """{scene, by, setting, seconds, psnr}."""
+    return [row for row in json.loads(path.read_text())["rows"] if row["psnr"]]
+
+
+def of_folder(folder):
+    """By figure; without what is not there."""
+    sources = {
+        "methods": (methods, "chart.json"),
+        "pictures": (pictures, "chart.json"),
+        "counts": (counts, "peers.json"),
+        "peers": (peers, "errors.json"),
+    }
+    rows = {}
+    for name, (rows_of, source) in sources.items():
+        path = folder / source
+        try:
+            rows[name] = rows_of(path) if path.exists() else []
+        except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:
+            raise ValueError(f"{path}: not what is measured there ({error!r})") from None
+    return rows

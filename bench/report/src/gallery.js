@@ -1,0 +1,65 @@
+import { shown, unpack } from "./pictures.js";
+
+function element(name, properties = {}, ...children) {
+    const made = Object.assign(document.createElement(name), properties);
+    made.append(...children);
+    return made;
+}
+
+function numbers({ off, wrong, ulps }) {
+    const lines = [];
+    if (off !== undefined) lines.push(element("span", { className: off ? "bad" : "" }, `${off.toLocaleString("en")} pixels off`));
+    if (wrong !== undefined)
+        lines.push(element("br"), element("span", { className: wrong ? "bad" : "" }, `${wrong.toLocaleString("en")} rays wrong`));
+    if (ulps) {
+        const [median, most99, most] = ulps.map((each) => Number(each.toPrecision(3)).toLocaleString("en"));
+        lines.push(element("br"), `t off by ${median}, ${most99}, ${most} ulps`);
+    }
+    return lines;
+}
+
+/** The failures, each a row of pictures; open(set, picture) looks at one. Pictures are drawn once they are near. */
+export function showGallery(place, failures, sets, open) {
+    const drawing = new IntersectionObserver(
+        async (entries) => {
+            for (const entry of entries)
+                if (entry.isIntersecting) {
+                    drawing.unobserve(entry.target);
+                    await draw(entry.target, sets);
+                }
+        },
+        { rootMargin: "600px" },
+    );
+    for (const failure of failures) {
+        const set = sets.find((each) => each.name === failure.name);
+        const row = element("div", { className: "row" });
+        row.dataset.set = set.name;
+        for (const picture of set.pictures) {
+            const canvas = element("canvas", { width: set.width, height: set.height });
+            const button = element("button", { type: "button", title: `${picture.title}, beside exact` }, canvas);
+            button.setAttribute("aria-label", `${failure.title}: ${picture.title}`);
+            button.addEventListener("click", () => open(set.name, picture.name));
+            row.append(element("figure", {}, button, element("figcaption", {}, element("b", {}, picture.title), ...numbers(picture.numbers))));
+        }
+        place.append(
+            element(
+                "article",
+                { className: "failure" },
+                element("h3", {}, failure.title),
+                element("div", { className: "reference" }, failure.reference),
+                element("p", {}, failure.failure),
+                row,
+            ),
+        );
+        drawing.observe(row);
+    }
+    place.append(element("p", { className: "reference" }, "t off by: median, 99th percentile and maximum, of rays that hit the same shape as the exact ones."));
+}
+
+async function draw(row, sets) {
+    const set = await unpack(sets.find((each) => each.name === row.dataset.set));
+    row.querySelectorAll("canvas").forEach((canvas, i) => {
+        canvas.getContext("2d").putImageData(shown(set, set.pictures[i]), 0, 0);
+    });
+    row.dataset.drawn = "yes";
+}

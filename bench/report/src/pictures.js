@@ -1,0 +1,128 @@
+// Pictures: linear float RGB, planes one behind the other, rows from the top down.
+
+/** Of a set of data: { name, title, width, height, pictures, maps }, whose planes are there once unpacked. */
+export async function unpack(set) {
+    if (set.ready) return set;
+    const count = set.width * set.height;
+    for (const picture of set.pictures) {
+        if (picture.planes) continue;
+        const bytes = await inflate(picture.data);
+        const words = new Uint32Array(3 * count);
+        for (let plane = 0; plane < 4; ++plane)
+            for (let i = 0; i < words.length; ++i) words[i] |= bytes[plane * words.length + i] << (8 * plane);
+        if (picture.base !== null) {
+            const base = set.pictures[picture.base].planes;
+            const others = new Uint32Array(base.buffer, base.byteOffset, base.length);
+            for (let i = 0; i < words.length; ++i) words[i] ^= others[i];
+        }
+        picture.planes = new Float32Array(words.buffer);
+        delete picture.data;
+    }
+    for (const map of set.maps)
+        if (!map.values) {
+            const bytes = await inflate(map.data);
+            map.values = new Uint16Array(bytes.buffer, 0, count);
+            delete map.data;
+        }
+    set.ready = true;
+    return set;
+}
+
+async function inflate(base64) {
+    const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+export function encoded(linear) {
+    const x = Math.min(Math.max(linear, 0), 1);
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
+}
+
+function decoded(value) {
+    return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+}
+
+/** RGBA bytes of a picture, brighter by so many stops. */
+export function shown(set, picture, stops = 0) {
+    const count = set.width * set.height;
+    const image = new ImageData(set.width, set.height);
+    const factor = 2 ** stops;
+    for (let i = 0; i < count; ++i) {
+        for (let c = 0; c < 3; ++c)
+            image.data[4 * i + c] = Math.round(255 * encoded(factor * picture.planes[c * count + i]));
+        image.data[4 * i + 3] = 255;
+    }
+    return image;
+}
+
+const word = new Uint32Array(1);
+const real = new Float32Array(word.buffer);
+
+/** Floats in order: their distance is one of ulps. */
+export function order(value) {
+    real[0] = value;
+    return word[0] & 0x80000000 ? -(word[0] & 0x7fffffff) : word[0];
+}
+
+/** By pixel: the largest of its three components' differences, and the same in ulps. */
+export function differences(set, a, b) {
+    const count = set.width * set.height;
+    const absolute = new Float64Array(count);
+    const ulps = new Float64Array(count);
+    let squares = 0;
+    for (let i = 0; i < 3 * count; ++i) {
+        const difference = Math.abs(a.planes[i] - b.planes[i]);
+        squares += difference * difference;
+        const pixel = i % count;
+        absolute[pixel] = Math.max(absolute[pixel], difference);
+        ulps[pixel] = Math.max(ulps[pixel], Math.abs(order(a.planes[i]) - order(b.planes[i])));
+    }
+    return { absolute, ulps, rmse: Math.sqrt(squares / (3 * count)) };
+}
+
+/** A file of the user's as a picture of a set of its own size. */
+export async function read(file) {
+    const picture = file.name.toLowerCase().endsWith(".pfm") ? pfm(await file.arrayBuffer()) : await png(file);
+    return { ...picture, name: file.name, title: file.name };
+}
+
+async function png(file) {
+    const bitmap = await createImageBitmap(file, { colorSpaceConversion: "none", premultiplyAlpha: "none" });
+    const canvas = document.createElement("canvas");
+    canvas.width = bitmap.width;
+    canvas.height = bitmap.height;
+    const context = canvas.getContext("2d", { willReadFrequently: true });
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+    const count = canvas.width * canvas.height;
+    const planes = new Float32Array(3 * count);
+    for (let i = 0; i < count; ++i)
+        for (let c = 0; c < 3; ++c) planes[c * count + i] = decoded(data[4 * i + c] / 255);
+    return { width: canvas.width, height: canvas.height, planes };
+}
+
+function pfm(buffer) {
+    const bytes = new Uint8Array(buffer);
+    const words = [];
+    let at = 0;
+    while (words.length < 4) {
+        let text = "";
+        while (at < bytes.length && !/\s/.test(String.fromCharCode(bytes[at]))) text += String.fromCharCode(bytes[at++]);
+        if (at++ >= bytes.length) throw new Error("no PFM");
+        if (text) words.push(text);
+    }
+    const [magic, width, height, scale] = [words[0], ...words.slice(1).map(Number)];
+    const channels = { PF: 3, Pf: 1 }[magic];
+    const count = width * height;
+    if (!channels || !(count > 0) || bytes.length - at < 4 * channels * count) throw new Error("no PFM");
+    const view = new DataView(buffer, at);
+    const planes = new Float32Array(3 * count);
+    for (let y = 0; y < height; ++y)
+        for (let x = 0; x < width; ++x)
+            for (let c = 0; c < 3; ++c) {
+                const from = ((height - 1 - y) * width + x) * channels + (channels === 3 ? c : 0);
+                planes[c * count + y * width + x] = view.getFloat32(4 * from, scale < 0);
+            }
+    return { width, height, planes };
+}

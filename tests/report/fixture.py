@@ -1,0 +1,66 @@
+"""A folder for bench/report.py: measurements that nobody has made, and two pictures whose differences are known.
+
+    fixture.py FOLDER
+"""
+
+import itertools
+import json
+import pathlib
+import sys
+
+import numpy as np
+
+folder = pathlib.Path(sys.argv[1])
+count = itertools.count(1)
+
+
+def run(name, **counters):
+    return [{"name": name, "run_name": name, "run_type": "iteration", **counters} for _ in range(3)]
+
+
+runs = []
+for rays, shape in itertools.product(("random", "hard"), ("sphere", "capped_cone")):
+    for method in ("fast", "robust", "exact", "double", "embree1", "embree16", "ceiling"):
+        errors = {"ulps_median": 0.25, "ulps_p99": next(count) / 4, "ulps_max": 70 + next(count), "wrong": next(count) / 1024}
+        if method == "ceiling":
+            errors = dict.fromkeys(errors, float("nan"))
+        some = run(f"methods/{shape}/{rays}/{method}/avx512", family_index=0, **errors)
+        for each, speed in zip(some, (11, 17, 12)):
+            each["items_per_second"] = 1e6 * speed * next(count)
+        runs += some
+for scene, (what, value) in itertools.product(("birthday", "lattice"), (("samples", 4), ("quality", 40))):
+    runs += run(f"picture/{scene}/{what}/exact/{value}", seconds=next(count) / 64, rmse=next(count) / 4096)
+(folder / "chart.json").write_text(json.dumps({"benchmarks": runs}))
+
+rows = [
+    {
+        "scene": f"spheres/{n}",
+        "what": what,
+        "threads": 1,
+        "isa": "avx512",
+        "own": "library",
+        "by": [{"name": name, "median": next(count) * 1.5} for name in ("raylane exact", "library", "embree16")],
+    }
+    for n, what in itertools.product((10, 1000), ("camera", "incoherent"))
+]
+(folder / "peers.json").write_text(json.dumps({"rows": rows}))
+rows = [
+    {"scene": scene, "by": by, "setting": setting, "seconds": next(count) / 8, "psnr": 20 + next(count) / 16}
+    for scene, by, setting in itertools.product(("lattice", "protein"), ("raylane", "povray"), ("1", "4"))
+]
+(folder / "errors.json").write_text(json.dumps({"size": 512, "rows": rows}))
+
+known = folder / "pictures/known"
+known.mkdir(parents=True)
+
+
+def write(name, rgb):
+    height, width = rgb.shape[:2]
+    (known / name).write_bytes(b"PF\n%d %d\n-1\n" % (width, height) + rgb[::-1].astype("<f4").tobytes())
+
+
+rgb = np.full((3, 4, 3), 0.5, np.float32)
+write("a.pfm", rgb)
+rgb[0, 1, 0] = 1.0
+rgb[2, 3, 2] = np.nextafter(np.float32(0.5), np.float32(1))
+write("b.pfm", rgb)

@@ -1,0 +1,127 @@
+"""Of bench/report.py what needs no browser: what is drawn where methods fail, and what it is made of.
+
+    PYTHONPATH=BUILD/python pytest tests/report
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "bench"), str(ROOT / "bench/report"), str(ROOT / "bench/failures")]
+
+import drawings  # noqa: E402
+import gallery  # noqa: E402
+import measurements  # noqa: E402
+import pictures  # noqa: E402
+import raylane  # noqa: E402
+import textbook  # noqa: E402
+
+GALLERY = (ROOT / "bench/failures/README.md").read_text()
+FAILURES = json.loads((ROOT / "bench/failures/failures.json").read_text())
+
+
+@pytest.mark.parametrize("failure", FAILURES, ids=lambda each: each["name"])
+def test_textbook_is_right_where_numbers_are_good_enough(failure, monkeypatch):
+    """What it does wrong is its floats and its epsilons: in double, by a tiny one, it draws what is exact."""
+    monkeypatch.setattr(textbook, "F", np.float64)
+    monkeypatch.setattr(textbook, "NONE", np.inf)
+    path = ROOT / "bench/failures" / (failure["name"] + ".json")
+    description = textbook.read(path)
+    scale = max(np.abs(description["camera"][which]).max() for which in ("from", "at"))
+    rgb, _, shape = textbook.draw(description, {"epsilon": 1e-9 * scale})
+    exact = raylane.render(raylane.load(path)).rgb
+    assert drawings.steps(rgb, exact) <= 0.001 * shape.size
+
+
+@pytest.mark.parametrize("failure", FAILURES, ids=lambda each: each["name"])
+def test_failures_fail_by_the_textbook_and_no_other_way_in_double(failure):
+    drawn = drawings.draw_failure(pathlib.Path("nowhere"), failure)
+    numbers = {picture.name: picture.numbers for picture in drawn.pictures}
+    assert numbers["textbook"]["off"] > 300
+    assert numbers["exact"] == {"off": 0, "wrong": 0, "ulps": [0.0, 0.0, 0.0]}
+    assert numbers["double"]["off"] <= 3
+    of_failure = GALLERY.split(f"## {failure['title']}\n")[1].split("\n## ")[0]
+    assert failure["failure"] in of_failure
+    for precision in drawings.PRECISIONS:
+        assert f"| {gallery.cell(numbers[precision])} |" in of_failure
+
+
+def test_hits_are_compared_by_shape_and_by_ulps():
+    t = np.array([1, 1 + 2**-22, np.inf, 1, 2], np.float32)
+    exact = np.array([1, 1, np.inf, np.inf, 2], np.float32)
+    shape, exact_shape = np.array([0, 0, -1, 0, 1]), np.array([0, 0, -1, -1, 0])
+    assert drawings.compare_hits(t, shape, exact, exact_shape) == {"wrong": 2, "ulps": [1.0, pytest.approx(1.98), 2.0]}
+    assert drawings.compare_hits(t[2:3], shape[2:3], exact[2:3], exact_shape[2:3])["ulps"] == [0.0, 0.0, 0.0]
+
+
+def test_pfm_is_read_as_raylane_writes_it(tmp_path):
+    scene = raylane.load(ROOT / "scenes/sphere.json")
+    picture = raylane.render(scene, width=13, height=7, grid=1)
+    picture.save(tmp_path / "a.pfm")
+    np.testing.assert_array_equal(pictures.read_pfm(tmp_path / "a.pfm"), picture.rgb)
+
+
+def test_pictures_of_several_sizes_are_no_set(tmp_path):
+    scene = raylane.load(ROOT / "scenes/sphere.json")
+    (tmp_path / "some").mkdir()
+    for width in (4, 5):
+        raylane.render(scene, width=width, height=4, grid=1).save(tmp_path / f"some/{width}.pfm")
+    with pytest.raises(ValueError, match="several sizes"):
+        pictures.of_folder(tmp_path)
+
+
+def test_embree_is_its_faster_way_and_medians_count(tmp_path):
+    def runs(method, speeds):
+        name = f"methods/sphere/random/{method}/avx512"
+        more = {"run_type": "iteration", "run_name": name, "name": name, "ulps_p99": float("nan"), "wrong": 0.25}
+        return [{**more, "items_per_second": 1e6 * speed} for speed in speeds]
+
+    some = runs("exact", (3, 1, 2)) + runs("embree1", (5, 5, 5)) + runs("embree16", (1, 7, 7))
+    (tmp_path / "chart.json").write_text(json.dumps({"benchmarks": some}))
+    rows = {row["method"]: row for row in measurements.of_folder(tmp_path)["methods"]}
+    assert {name: row["mrays"] for name, row in rows.items()} == {"exact": 2, "Embree": 7}
+    assert rows["exact"]["wrong"] == 0.25 and "ulps_p99" not in rows["exact"]
+
+
+@pytest.mark.parametrize(
+    "files, words",
+    [
+        ({}, "nothing to show"),
+        ({"chart.json": "{"}, "chart.json"),
+        ({"pictures/a/b.pfm": "P6"}, "b.pfm: no PFM"),
+        ({"pictures/a/b.pfm": "PF\n2 2\n-1\n"}, "has not the pixels"),
+    ],
+)
+def test_mistakes_are_told_in_a_line(tmp_path, files, words):
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    command = [sys.executable, str(ROOT / "bench/report.py"), str(tmp_path), "--build", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 1 and words in done.stderr and "Traceback" not in done.stderr
+    assert not (tmp_path / "report.html").exists()
+
+
+def test_tiers_tell_where_surfaces_meet(tmp_path):
+    build = pathlib.Path(raylane.__file__).resolve().parents[2]
+    scene = tmp_path / "scene.json"
+    disc = {"type": "disc", "center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}
+    scene.write_text(
+        json.dumps(
+            {
+                "camera": {"type": "orthographic", "from": [0, 0, 5], "at": [0, 0, 0], "height": 4},
+                "lights": [{"type": "directional", "direction": [0, 0, -1]}],
+                "materials": {"a": {"color": [1, 0, 0]}, "b": {"color": [0, 0, 1]}},
+                "objects": [{**disc, "material": "a"}, {**disc, "material": "b", "radius": 0.9}],
+            }
+        )
+    )
+    [tiers] = drawings.tiers_of(build, scene, 16, 12)
+    assert tiers.values.shape == (12, 16) and len(tiers.labels) == 5
+    assert tiers.values[6, 8] == 4  # two materials at one point: the reference follows the path
+    assert tiers.values[0, 0] == 0
