@@ -47,6 +47,7 @@ void read_exr(ByteSource&, Image&) {
 #include <OpenEXR/ImfStringAttribute.h>
 #include <algorithm>
 #include <cstring>
+#include <string_view>
 
 namespace raylane::scenes {
 
@@ -73,9 +74,32 @@ class MemoryOut : public Imf::OStream {
     std::size_t at_ = 0;
 };
 
+/// OpenEXR makes room for what an attribute claims to have before it reads any of it.
+void check_attributes(std::string_view bytes) {
+    constexpr std::size_t head = 8; // magic number and version
+    const bool has_parts = bytes.size() > 5 && (static_cast<unsigned char>(bytes[5]) & 0x10U) != 0;
+    const auto is_end = [&](std::size_t at) { return at >= bytes.size() || bytes[at] == '\0'; };
+    for (std::size_t at = head;;) {
+        if (is_end(at)) { // of a header; behind that of the last part is another
+            if (!has_parts || is_end(++at)) return;
+        }
+        at = bytes.find('\0', at);                           // of the name
+        if (at != bytes.npos) at = bytes.find('\0', at + 1); // of the type
+        if (at == bytes.npos || bytes.size() - at < 5) throw damaged("EXR");
+        std::uint32_t size = 0;
+        for (int byte = 4; byte > 0; --byte)
+            size = size << 8 | static_cast<unsigned char>(bytes[at + static_cast<unsigned>(byte)]);
+        at += 5;
+        if (size > bytes.size() - at) throw damaged("EXR");
+        at += size;
+    }
+}
+
 class MemoryIn : public Imf::IStream {
   public:
-    explicit MemoryIn(std::string bytes) : IStream("memory"), bytes_(std::move(bytes)) {}
+    explicit MemoryIn(std::string bytes) : IStream("memory"), bytes_(std::move(bytes)) {
+        check_attributes(bytes_);
+    }
 
     bool read(char* bytes, int count) override {
         if (count < 0 || at_ > bytes_.size() || bytes_.size() - at_ < std::size_t(count))
@@ -331,8 +355,8 @@ std::string exr_of(const core::Film& film, const core::Layers* layers,
 }
 
 void read_exr(ByteSource& source, Image& image) {
-    MemoryIn in(all_of(source));
     try {
+        MemoryIn in(all_of(source));
         constexpr int no_threads = 0, most = core::Settings::max_size;
         Imf::Header::setMaxImageSize(most, most); // before it makes room for so many rows
         Imf::InputFile file(in, no_threads);

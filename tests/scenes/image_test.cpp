@@ -4,18 +4,14 @@
 #include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/scenes/little_memory.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <bit>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <malloc.h>
 #include <random>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <zlib.h>
 
 using namespace raylane;
@@ -85,14 +81,6 @@ std::string png_of(std::uint32_t width, std::uint32_t height, char bits, const s
     return "\x89PNG\r\n\x1A\n" +
            chunk("IHDR", big_endian(width) + big_endian(height) + bits + bytes("\2\0\0\0")) +
            chunk("IDAT", compressed) + chunk("IEND", "");
-}
-
-/// The address space that this process has.
-rlim_t used_megabytes() {
-    std::ifstream file("/proc/self/statm");
-    rlim_t pages = 0;
-    file >> pages;
-    return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) >> 20;
 }
 
 /// 2 x 1 pixels of 16 bits: (0, 65535, 257), (1, 2, 32768).
@@ -337,30 +325,10 @@ TEST_CASE("a PNG takes the memory of its codes, and says so if there is none") {
         rows.append(1, '\0').append(std::size_t{side} * 6, '\x7F');
     const auto path = directory.write("a.png", png_of(side, side, 16, rows));
     // 96 MiB of codes; as floats they would be twice as many.
-    const auto reads_within = [&](rlim_t megabytes) {
-        const pid_t child = ::fork();
-        if (child == 0) {
-            ::malloc_trim(0); // other tests leave room in the heap
-            rlimit limit{};
-            ::getrlimit(RLIMIT_AS, &limit);
-            limit.rlim_cur = (used_megabytes() + megabytes) << 20;
-            ::setrlimit(RLIMIT_AS, &limit);
-            int code = 3;
-            try {
-                code = scenes::read_image(path).width == int{side} ? 0 : 1;
-            } catch (const scenes::SystemRefused&) {
-                code = 2;
-            } catch (...) {
-            }
-            ::_exit(code);
-        }
-        int status = 0;
-        ::waitpid(child, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    };
-    if (tests::sanitized) return; // they reserve all that there is
-    CHECK(reads_within(130) == 0);
-    CHECK(reads_within(60) == 2);
+    const auto reads = [&] { return scenes::read_image(path).width == int{side}; };
+    if (tests::sanitized) return;
+    CHECK(tests::within(130, reads) == tests::Ended::well);
+    CHECK(tests::within(60, reads) == tests::Ended::refused_by_the_system);
 }
 
 TEST_CASE("a picture cut short is bad input, a damaged one at worst another picture") {

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "scenes/errors.hpp"
+
+#include <fstream>
+#include <malloc.h>
+#include <new>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace raylane::tests {
+
+enum class Ended { well, badly, refused_by_the_system, as_bad_input, otherwise };
+
+/// The address space that this process has.
+inline rlim_t used_megabytes() {
+    std::ifstream file("/proc/self/statm");
+    rlim_t pages = 0;
+    file >> pages;
+    return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) >> 20;
+}
+
+/// How `run`, which says whether all is well, ends in a process of its own that may have so much
+/// more memory. Not for sanitizers, which reserve all that there is.
+template <class Run>
+Ended within(rlim_t megabytes, const Run& run) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::malloc_trim(0); // other tests leave room in the heap
+        rlimit limit{};
+        ::getrlimit(RLIMIT_AS, &limit);
+        limit.rlim_cur = (used_megabytes() + megabytes) << 20;
+        ::setrlimit(RLIMIT_AS, &limit);
+        Ended ended = Ended::otherwise;
+        try {
+            ended = run() ? Ended::well : Ended::badly;
+        } catch (const scenes::SystemRefused&) {
+            ended = Ended::refused_by_the_system;
+        } catch (const scenes::BadInput&) {
+            ended = Ended::as_bad_input;
+        } catch (...) {
+        }
+        ::_exit(static_cast<int>(ended));
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? static_cast<Ended>(WEXITSTATUS(status)) : Ended::otherwise;
+}
+
+} // namespace raylane::tests
