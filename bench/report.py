@@ -14,11 +14,15 @@ Pillow for PNG.
 
 import argparse
 import datetime
+import html
 import json
+import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
+import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent
@@ -29,7 +33,8 @@ import pictures  # noqa: E402
 
 
 def fail(message):
-    sys.exit(f"report.py: {message}")
+    print(f"report.py: {message}", file=sys.stderr)
+    sys.exit(2)
 
 
 def bundle(room):
@@ -49,21 +54,32 @@ def bundle(room):
             fail(f"npm could not fetch the libraries of {HERE / 'report/package-lock.json'}")
         installed.write_text(lock)
     subprocess.run(["node", str(HERE / "report/build.mjs"), str(room / "node_modules"), str(room)], check=True)
-    return (room / "main.js").read_text(), (room / "main.css" if (room / "main.css").exists() else room / "style.css").read_text()
+    return (room / "main.js").read_text(), (room / "style.css").read_text()
 
 
-def in_html(text):
-    """Neither ends a script element nor begins a comment in one."""
-    return text.replace("</", "<\\/").replace("<!--", "<\\!--")
+def licences(modules):
+    """Of what is in the page."""
+    files = ["tslib/LICENSE.txt", "zrender/LICENSE", "echarts/LICENSE", "echarts/NOTICE"]
+    files += sorted(str(each.relative_to(modules)) for each in modules.glob("echarts/licenses/*"))
+    return "\n\n".join(f"{name}\n\n{(modules / name).read_text()}" for name in files)
 
 
-def page_of(data, script, style):
-    page = (HERE / "report/page.html").read_text()
-    parts = {"/*STYLE*/": style, "/*DATA*/": in_html(json.dumps(data, separators=(",", ":"), allow_nan=False)), "/*SCRIPT*/": in_html(script)}
-    for mark, text in parts.items():
-        before, after = page.split(mark)
-        page = before + text + after
-    return page
+def page_of(data, script, style, licence):
+    parts = {
+        "STYLE": style,
+        # Nothing in it ends its element, or begins a comment.
+        "DATA": json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c"),
+        "SCRIPT": script.replace("</", "<\\/").replace("<!--", "<\\!--"),
+        "LICENCES": html.escape(licence),
+    }
+    return re.sub(r"/\*([A-Z]+)\*/", lambda mark: parts[mark[1]], (HERE / "report/page.html").read_text())
+
+
+def write_whole(path, text):
+    """Or not at all."""
+    unfinished = path.with_name(path.name + ".part")
+    unfinished.write_text(text)
+    unfinished.replace(path)
 
 
 def main():
@@ -73,8 +89,10 @@ def main():
     parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
     arguments = parser.parse_args()
     folder, build = arguments.folder, arguments.build.resolve()
-    if not folder.is_dir():
-        fail(f"{folder} is no folder")
+    output = arguments.output or folder / "report.html"
+    for each in (folder, output.parent):
+        if not each.is_dir():
+            fail(f"{each} is no folder")
     try:
         charts = measurements.of_folder(folder)
         sets = pictures.of_folder(folder / "pictures")
@@ -87,14 +105,22 @@ def main():
 
         failures, drawn = drawings.draw_failures(build)
         sets = drawings.draw_scenes(build) + drawn + sets
+        if not drawings.has_tiers(build):
+            print(f"report.py: no raylane-tiers in {build}/bin, so no maps of tiers (RAYLANE_BENCHMARKS)", file=sys.stderr)
     else:
         print(f"report.py: no Python module in {build}, so no failures and no scenes are drawn", file=sys.stderr)
     if not sets and not any(charts.values()):
         fail(f"nothing to show in {folder}: no chart.json, peers.json, errors.json or pictures/SET")
-    made = f"Made on {datetime.date.today().isoformat()}."
-    data = {"made": made, "charts": charts, "failures": failures, "sets": [each.packed() for each in sets]}
-    output = arguments.output or folder / "report.html"
-    output.write_text(page_of(data, *bundle(ROOT / "build/report")))
+    day = datetime.datetime.fromtimestamp(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())), datetime.timezone.utc)
+    data = {
+        "made": f"Made on {day:%Y-%m-%d}.",
+        "charts": charts,
+        "failures": failures,
+        "sets": [each.packed() for each in sets],
+    }
+    room = ROOT / "build/report"
+    script, style = bundle(room)
+    write_whole(output, page_of(data, script, style, licences(room / "node_modules")))
     print(f"{output} ({output.stat().st_size / 1e6:.1f} MB)")
 
 

@@ -14,10 +14,11 @@ SIDE = 128
 
 HEAD = """# Where methods fail
 
-Failures that users of other renderers have reported, drawn again from what the reports say. From left to right:
+Failures that users of other renderers have reported, drawn again from what the reports say, and two of our own where double
+fails as well. From left to right:
 
-1. the **textbook's** formulas in float, with the remedy that the report's program had against rays that hit what they leave
-   (`textbook.py`; in double, and by a tiny epsilon, it draws what is exact);
+1. the **textbook's** formulas in float, with the remedy that is told with each against rays that hit what they leave
+   (`textbook.py`; in double, and by a tiny epsilon, it draws all but a thousandth of the pixels of the others as they should be);
 2. raylane's textbook formulas in float, `--precision fast`, which need no epsilon;
 3. the best formulas in float, `--precision robust`;
 4. these in double, `--precision double`;
@@ -25,8 +26,9 @@ Failures that users of other renderers have reported, drawn again from what the 
 
 *Off* are pixels of 36,864 that differ from the exact ones by more than one step of 255; *wrong* are rays through the middle of
 a pixel that miss for a hit, hit for a miss, or hit another shape; *ulps* are those of `t` as a float: median, 99th percentile and
-maximum, of rays that hit the same shape. Exact ones are held to an oracle of rationals, each of these
-failures by a test of its own (`tests/simd/field_failures_test.cpp`, `tests/simd/field_epsilons_test.cpp`).
+maximum, of rays that hit the same shape. That exact ones are exact is for tests to say: of spheres here, which rays hit them is
+held to rationals (`tests/report`), and scenes like these, of all shapes, to an oracle
+(`tests/simd/field_failures_test.cpp`, `tests/simd/field_epsilons_test.cpp`).
 
 `bench/report.py` makes a page of them, on which any two can be laid over each other, down to the pixel. `gallery.py` has
 written this one.
@@ -42,9 +44,10 @@ def text_of(told, sets):
     parts = [HEAD]
     for failure, drawn in zip(told, sets):
         name = failure["name"]
-        titles = ["textbook", "fast", "robust", "double", "exact"]
+        titles = [picture.name for picture in drawn.pictures]
         parts.append(
-            f"## {failure['title']}\n\n{failure['reference']}, [{name}.json]({name}.json). {failure['failure']}\n\n"
+            f"## {failure['title']}\n\n{failure['reference']}, [{name}.json]({name}.json). {failure['failure']} "
+            f"The textbook's remedy: {failure['remedy']}.\n\n"
             f"![{failure['title']}: by the textbook, and as it should be]({name}.png)\n\n"
             f"| {' | '.join(titles)} |\n|{' --- |' * len(titles)}\n"
             f"| {' | '.join(cell(picture.numbers) for picture in drawn.pictures)} |\n"

@@ -9,6 +9,7 @@ says which remedy of the reports it takes:
     interval      half the width of an interval about the coordinates of a ray's origin: spheres that are not
                   surely hit are not
     balls         open cylinders and cones end in balls
+    shadows       false: nothing is in the way of light
 
 Arrays of n rays: origins and directions (n, 3), t (n,), in float32.
 """
@@ -47,10 +48,13 @@ def unit(v):
     return v / np.sqrt(dot(v, v))[..., None]
 
 
+def discriminant(a, b, c):
+    return b * b - F(4) * a * c
+
+
 def roots(a, b, c):
     """Both of a t^2 + b t + c = 0, or not a number."""
-    discriminant = b * b - F(4) * a * c
-    root = np.sqrt(discriminant)
+    root = np.sqrt(discriminant(a, b, c))
     return (-b - root) / (F(2) * a), (-b + root) / (F(2) * a)
 
 
@@ -98,18 +102,18 @@ class Cone:
         f = o - self.base
         fa, da = dot(f, self.axis), dot(d, self.axis)
         width, grows = self.r0 + self.slope * fa, self.slope * da
-        both = roots(
+        wall = (
             dot(d, d) - da * da - grows * grows,
             F(2) * (dot(f, d) - fa * da - width * grows),
             dot(f, f) - fa * fa - width * width,
         )
-        candidates = [(t, (fa + t * da >= 0) & (fa + t * da <= self.height)) for t in both]
+        candidates = [(t, (fa + t * da >= 0) & (fa + t * da <= self.height)) for t in roots(*wall)]
         if self.is_capped:
             for at, radius in ((F(0), self.r0), (self.height, self.r1)):
                 t = (at - fa) / da
                 q = f + t[..., None] * d - at * self.axis
-                # Where the wall has no roots, the caps are not asked.
-                candidates.append((t, (dot(q, q) <= radius * radius) & ~np.isnan(both[0])))
+                # Where the wall is not crossed, the caps are not asked.
+                candidates.append((t, (dot(q, q) <= radius * radius) & ~(discriminant(*wall) < 0)))
         return first_of(candidates, least)
 
     def normal(self, p):
@@ -284,10 +288,11 @@ class Textbook:
             distance = np.sqrt(dot(to_light, to_light))
             to_light = to_light / distance[..., None]
         cos = dot(n, to_light)
-        t, _ = self.first_hits(
-            self.moved(p, n, to_light), to_light, lambda number: self.materials[number].get("transmission", 0) > 0
-        )
-        reached = (cos > 0) & ~(t < distance)
+        reached = cos > 0
+        if self.how.get("shadows", True):
+            start = self.moved(p, n, to_light)
+            t, _ = self.first_hits(start, to_light, lambda number: self.materials[number].get("transmission", 0) > 0)
+            reached &= ~(t < distance)
         half = unit(to_light - d)
         falloff = np.maximum(dot(n, half), 0).astype(float) ** material.get("exponent", 32)
         shine = F(material.get("specular", 0)) * falloff.astype(F)

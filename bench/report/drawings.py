@@ -17,18 +17,24 @@ TIERS = [
     "all that may be first, in double with bounds or twice the digits; shadows step by step",
     "a crossing by scalar code",
     "with more digits than double has, or exactly",
-    "the whole path by the reference, where surfaces meet",
+    "the whole path by the reference: surfaces meet, or too many follow each other",
 ]
 SHIPPED = {"birthday": (256, 256), "sphereflake": (256, 256), "ellipsoid": (256, 192), "protein": (256, 192)}
 
 
+def has_tiers(build):
+    return (build / "bin/raylane-tiers").exists()
+
+
 def tiers_of(build, scene, width, height):
     """As a list of one map, or none if there is no raylane-tiers."""
-    program = build / "bin/raylane-tiers"
-    if not program.exists():
+    if not has_tiers(build):
         return []
-    done = subprocess.run([program, scene, str(width), str(height)], stdout=subprocess.PIPE, check=True)
-    values = np.frombuffer(done.stdout[-width * height :], np.uint8).reshape(height, width)
+    command = [build / "bin/raylane-tiers", scene, str(width), str(height)]
+    done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
+    head = f"P5\n{width} {height}\n{len(TIERS) - 1}\n".encode()
+    assert done.stdout.startswith(head)
+    values = np.frombuffer(done.stdout[len(head) :], np.uint8).reshape(height, width)
     return [Map("tiers", "how rays were decided", values, TIERS)]
 
 
@@ -61,7 +67,7 @@ def draw_failure(build, failure):
     exact_hits = first_hits(scene, "exact", *textbook.camera_rays(description))
     rgb, t, shape = textbook.draw(description, failure["textbook"])
     numbers = {"off": steps(rgb, exact), **compare_hits(t.ravel(), shape.ravel(), *exact_hits)}
-    pictures = [Picture("textbook", "textbook float, its epsilon", rgb, numbers)]
+    pictures = [Picture("textbook", "textbook float", rgb, numbers)]
     for precision, title in PRECISIONS.items():
         rgb = raylane.render(scene, precision=precision).rgb
         hits = first_hits(scene, precision, *textbook.camera_rays(description))
@@ -74,7 +80,7 @@ def draw_failure(build, failure):
 def draw_failures(build):
     """What is said of them, and a set of pictures for each."""
     failures = json.loads((BENCH / "failures/failures.json").read_text())
-    told = [{key: each[key] for key in ("name", "reference", "title", "failure")} for each in failures]
+    told = [{key: each[key] for key in ("name", "reference", "title", "failure", "remedy")} for each in failures]
     return told, [draw_failure(build, each) for each in failures]
 
 

@@ -20,6 +20,8 @@ def methods(path):
         }
         errors = {key: runs[0][key] for key in runs[0] if key.startswith("ulps_") or key == "wrong"}
         row.update({key: error for key, error in errors.items() if math.isfinite(error)})
+        if not math.isfinite(row["mrays"]):
+            raise ValueError(f"{shape} by {method} has no speed")
         key = (shape, rays, isa, name)
         if key not in best or row["mrays"] > best[key]["mrays"]:
             best[key] = row
@@ -44,7 +46,7 @@ def pictures(path):
 
 def counts(path):
     """{rays, by, count, mrays}: one thread, the widest registers."""
-    rows = [row for row in json.loads(path.read_text())["rows"] if row["threads"] == 1]
+    rows = [row for row in json.loads(path.read_text())["rows"] if row["threads"] == 1 and row.get("unit", "Mrays/s") == "Mrays/s"]
     rows = [row for row in rows if row.get("isa") == rows[0].get("isa")]
     return [
         {"rays": f"{what} rays", "by": by, "count": count, "mrays": speed}
@@ -57,7 +59,9 @@ def counts(path):
 
 def peers(path):
     """{scene, by, setting, seconds, psnr}."""
-    return [row for row in json.loads(path.read_text())["rows"] if row["psnr"]]
+    keys = ("scene", "by", "setting", "seconds", "psnr")
+    rows = [{key: row[key] for key in keys} for row in json.loads(path.read_text())["rows"]]
+    return [row for row in rows if row["psnr"] and math.isfinite(row["psnr"])]
 
 
 def of_folder(folder):

@@ -73,18 +73,19 @@ def read_pfm(path):
     with open(path, "rb") as file:
         words = []
         while len(words) < 4:
-            line = file.readline()
-            if not line:
-                raise ValueError(f"{path}: no PFM")
+            line = file.readline(80)
             words += line.split()
-        channels = {b"PF": 3, b"Pf": 1}.get(words[0])
-        if channels is None:
-            raise ValueError(f"{path}: no PFM")
+            if not line.endswith(b"\n"):
+                raise ValueError(f"{path}: no PFM")
+        rest = file.read()
+    try:
+        channels = {b"PF": 3, b"Pf": 1}[words[0]]
         width, height, scale = int(words[1]), int(words[2]), float(words[3])
-        numbers = np.frombuffer(file.read(), "<f4" if scale < 0 else ">f4")
-    if numbers.size != channels * width * height:
+    except (KeyError, ValueError):
+        raise ValueError(f"{path}: no PFM") from None
+    if width < 1 or height < 1 or len(rest) != 4 * channels * width * height:
         raise ValueError(f"{path}: has not the pixels that it says")
-    rgb = numbers.reshape(height, width, channels)[::-1].astype(np.float32)
+    rgb = np.frombuffer(rest, "<f4" if scale < 0 else ">f4").reshape(height, width, channels)[::-1].astype(np.float32)
     return np.repeat(rgb, 3, axis=2) if channels == 1 else rgb
 
 
@@ -101,7 +102,13 @@ def encoded(rgb):
 def read_png(path):
     from PIL import Image
 
-    return linear(np.asarray(Image.open(path).convert("RGB")) / 255)
+    try:
+        image = Image.open(path)
+        if image.mode not in ("L", "P", "RGB"):
+            raise ValueError(f"{path}: more than 8 bits, or an alpha, for which there is PFM")
+        return linear(np.asarray(image.convert("RGB")) / 255)
+    except (OSError, Image.DecompressionBombError) as error:
+        raise ValueError(f"{path}: {error}") from None
 
 
 def of_folder(folder):
@@ -109,11 +116,11 @@ def of_folder(folder):
     readers = {".pfm": read_pfm, ".png": read_png}
     sets = []
     for each in sorted(folder.iterdir()) if folder.is_dir() else []:
-        files = [file for file in sorted(each.iterdir()) if file.suffix in readers] if each.is_dir() else []
+        files = [file for file in sorted(each.iterdir()) if file.suffix.lower() in readers] if each.is_dir() else []
         if not files:
             continue
-        pictures = [Picture(file.name, file.name, readers[file.suffix](file)) for file in files]
+        pictures = [Picture(file.name, file.name, readers[file.suffix.lower()](file)) for file in files]
         if len({picture.rgb.shape for picture in pictures}) > 1:
             raise ValueError(f"{each}: pictures of several sizes")
-        sets.append(Set(each.name, each.name, pictures))
+        sets.append(Set(f"own/{each.name}", each.name, pictures))
     return sets

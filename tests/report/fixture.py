@@ -37,11 +37,12 @@ rows = [
         "scene": f"spheres/{n}",
         "what": what,
         "threads": 1,
+        "unit": "Mrays/s" if what != "build" else "s",
         "isa": "avx512",
         "own": "library",
         "by": [{"name": name, "median": next(count) * 1.5} for name in ("raylane exact", "library", "embree16")],
     }
-    for n, what in itertools.product((10, 1000), ("camera", "incoherent"))
+    for n, what in itertools.product((10, 1000), ("build", "camera", "incoherent"))
 ]
 (folder / "peers.json").write_text(json.dumps({"rows": rows}))
 rows = [
@@ -50,17 +51,22 @@ rows = [
 ]
 (folder / "errors.json").write_text(json.dumps({"size": 512, "rows": rows}))
 
-known = folder / "pictures/known"
-known.mkdir(parents=True)
 
 
 def write(name, rgb):
+    path = folder / "pictures" / name
+    path.parent.mkdir(parents=True, exist_ok=True)
     height, width = rgb.shape[:2]
-    (known / name).write_bytes(b"PF\n%d %d\n-1\n" % (width, height) + rgb[::-1].astype("<f4").tobytes())
+    path.write_bytes(b"PF\n%d %d\n-1\n" % (width, height) + rgb[::-1].astype("<f4").tobytes())
 
 
 rgb = np.full((3, 4, 3), 0.5, np.float32)
-write("a.pfm", rgb)
-rgb[0, 1, 0] = 1.0
+write("known/a.pfm", rgb)
+rgb[0, 1, :] = 1.0
 rgb[2, 3, 2] = np.nextafter(np.float32(0.5), np.float32(1))
-write("b.pfm", rgb)
+write("known/b.pfm", rgb)
+
+# The same; next to each other about 0; no number, and none that is near.
+rgb = np.array([[[np.nan] * 3, [1e-45, 0, 0], [np.inf, 0, 0], [0.5, np.nan, 0]]], np.float32)
+write("numberless/a.pfm", rgb)
+write("numberless/b.pfm", np.array([[[np.nan] * 3, [0, 0, 0], [1, 0, 0], [0.5, 0.5, 0]]], np.float32))

@@ -3,6 +3,7 @@
     PYTHONPATH=BUILD/python pytest tests/report
 """
 
+import fractions
 import json
 import pathlib
 import subprocess
@@ -19,10 +20,15 @@ import gallery  # noqa: E402
 import measurements  # noqa: E402
 import pictures  # noqa: E402
 import raylane  # noqa: E402
+import report  # noqa: E402
 import textbook  # noqa: E402
 
-GALLERY = (ROOT / "bench/failures/README.md").read_text()
 FAILURES = json.loads((ROOT / "bench/failures/failures.json").read_text())
+
+
+def of_double(failure):
+    """True if double fails, too."""
+    return failure["name"].startswith("double-")
 
 
 @pytest.mark.parametrize("failure", FAILURES, ids=lambda each: each["name"])
@@ -35,20 +41,59 @@ def test_textbook_is_right_where_numbers_are_good_enough(failure, monkeypatch):
     scale = max(np.abs(description["camera"][which]).max() for which in ("from", "at"))
     rgb, _, shape = textbook.draw(description, {"epsilon": 1e-9 * scale})
     exact = raylane.render(raylane.load(path)).rgb
-    assert drawings.steps(rgb, exact) <= 0.001 * shape.size
+    off = drawings.steps(rgb, exact)
+    assert off > 10000 if of_double(failure) else off <= 0.001 * shape.size
 
 
-@pytest.mark.parametrize("failure", FAILURES, ids=lambda each: each["name"])
-def test_failures_fail_by_the_textbook_and_no_other_way_in_double(failure):
-    drawn = drawings.draw_failure(pathlib.Path("nowhere"), failure)
-    numbers = {picture.name: picture.numbers for picture in drawn.pictures}
-    assert numbers["textbook"]["off"] > 300
-    assert numbers["exact"] == {"off": 0, "wrong": 0, "ulps": [0.0, 0.0, 0.0]}
-    assert numbers["double"]["off"] <= 3
-    of_failure = GALLERY.split(f"## {failure['title']}\n")[1].split("\n## ")[0]
-    assert failure["failure"] in of_failure
-    for precision in drawings.PRECISIONS:
-        assert f"| {gallery.cell(numbers[precision])} |" in of_failure
+@pytest.fixture(scope="module")
+def drawn():
+    """What is said of the failures, and their pictures."""
+    return drawings.draw_failures(pathlib.Path("nowhere"))
+
+
+def test_failures_fail_by_the_textbook_and_others_by_double(drawn):
+    for failure, of in zip(FAILURES, drawn[1]):
+        numbers = {picture.name: picture.numbers for picture in of.pictures}
+        assert numbers["textbook"]["off"] > 300
+        assert numbers["double"]["off"] > 10000 if of_double(failure) else numbers["double"]["off"] <= 3
+        assert numbers["exact"] == {"off": 0, "wrong": 0, "ulps": [0.0, 0.0, 0.0]}
+
+
+def test_gallery_says_what_is_drawn(drawn):
+    assert gallery.text_of(*drawn) == (ROOT / "bench/failures/README.md").read_text()
+
+
+def rationals(numbers):
+    return [fractions.Fraction(float(number)) for number in numbers]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+@pytest.mark.parametrize("name", ["pbrt-265", "pbrt-44-far", "mitsuba-512", "mitsuba-1236", "plotoptix-4", "double-shells"])
+def test_rays_hit_spheres_that_they_hit_by_rationals(name):
+    """And of two that are about one centre the outer one."""
+    path = ROOT / "bench/failures" / f"{name}.json"
+    description = textbook.read(path)
+    origins, directions = (rays[::11] for rays in textbook.camera_rays(description))
+    found = raylane.Tracer(raylane.load(path)).intersect(origins, directions)
+    spheres = [(rationals(each["center"]), fractions.Fraction(float(each["radius"]))) for each in description["objects"]]
+    nested = name == "double-shells"
+    hits = 0
+    for hit, shape, o, d in zip(found.hit, found.shape, map(rationals, origins), map(rationals, directions)):
+        crossed = []
+        for number, (center, radius) in enumerate(spheres):
+            f = [x - c for x, c in zip(o, center)]
+            b = dot(f, d)
+            if b < 0 and b * b >= dot(d, d) * (dot(f, f) - radius * radius):
+                crossed.append(number)
+        assert hit == bool(crossed)
+        if hit:
+            hits += 1
+            assert shape in crossed
+            assert not nested or shape == max(crossed)
+    assert hits > 500
 
 
 def test_hits_are_compared_by_shape_and_by_ulps():
@@ -75,6 +120,15 @@ def test_pictures_of_several_sizes_are_no_set(tmp_path):
         pictures.of_folder(tmp_path)
 
 
+def test_nothing_of_the_data_ends_or_begins_anything_in_the_page():
+    name = "</script><!--/*SCRIPT*/"
+    page = report.page_of({"name": name}, "let a = '</script><!--';", "b {}", "<c>")
+    assert page.count("</script>") == 2 and "<!--" not in page.split("<body>")[1]
+    data = page.split('id="data">')[1].split("</script>")[0]
+    assert json.loads(data) == {"name": name}
+    assert "&lt;c&gt;" in page
+
+
 def test_embree_is_its_faster_way_and_medians_count(tmp_path):
     def runs(method, speeds):
         name = f"methods/sphere/random/{method}/avx512"
@@ -95,6 +149,10 @@ def test_embree_is_its_faster_way_and_medians_count(tmp_path):
         ({"chart.json": "{"}, "chart.json"),
         ({"pictures/a/b.pfm": "P6"}, "b.pfm: no PFM"),
         ({"pictures/a/b.pfm": "PF\n2 2\n-1\n"}, "has not the pixels"),
+        ({"pictures/a/b.pfm": "PF\n0 0\n-1\n"}, "has not the pixels"),
+        ({"pictures/a/b.PFM": "PF\nab 2\n-1\n"}, "b.PFM: no PFM"),
+        ({"pictures/a/b.png": "no picture"}, "b.png"),
+        ({"errors.json": '{"rows": [{"psnr": 30}]}'}, "errors.json"),
     ],
 )
 def test_mistakes_are_told_in_a_line(tmp_path, files, words):
@@ -103,7 +161,7 @@ def test_mistakes_are_told_in_a_line(tmp_path, files, words):
         (tmp_path / name).write_text(text)
     command = [sys.executable, str(ROOT / "bench/report.py"), str(tmp_path), "--build", str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 1 and words in done.stderr and "Traceback" not in done.stderr
+    assert done.returncode == 2 and words in done.stderr and "Traceback" not in done.stderr
     assert not (tmp_path / "report.html").exists()
 
 

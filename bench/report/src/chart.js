@@ -1,9 +1,9 @@
 import { BarChart, LineChart, ScatterChart } from "echarts/charts";
-import { GridComponent, LegendComponent, MarkLineComponent, TitleComponent, TooltipComponent } from "echarts/components";
+import { GridComponent, MarkLineComponent, TitleComponent, TooltipComponent } from "echarts/components";
 import { init, use } from "echarts/core";
 import { SVGRenderer } from "echarts/renderers";
 
-use([BarChart, LineChart, ScatterChart, GridComponent, LegendComponent, MarkLineComponent, TitleComponent, TooltipComponent, SVGRenderer]);
+use([BarChart, LineChart, ScatterChart, GridComponent, MarkLineComponent, TitleComponent, TooltipComponent, SVGRenderer]);
 
 const shown = new Map();
 
@@ -17,7 +17,6 @@ export function chart(place, options) {
     const entry = shown.get(place);
     entry.options = options;
     entry.made.setOption({ animation: false, ...options() }, true);
-    return entry.made;
 }
 
 export function forget(place) {

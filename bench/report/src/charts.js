@@ -1,28 +1,25 @@
 import { chart, forget } from "./chart.js";
 import { color } from "./colors.js";
+import { element, escaped } from "./html.js";
 
-// By figure: which colour a method, a program or a way has.
-const colors = {
-    fast: "fast",
-    robust: "robust",
-    exact: "exact",
-    double: "double",
-    Embree: "peer",
-    raylane: "exact",
-    "its engine": "faint",
-    "raylane --quality": "quality",
-    quality: "quality",
-    depth: "peer",
-    weight: "robust",
-    povray: "peer",
-    tachyon: "fast",
+// Colour and mark of each method, program and way.
+const looks = {
+    fast: ["fast", "triangle"],
+    robust: ["robust", "diamond"],
+    exact: ["exact", "circle"],
+    double: ["double", "rect"],
+    Embree: ["peer", "pin"],
+    raylane: ["exact", "circle"],
+    "its engine": ["faint", "rect"],
+    "raylane --quality": ["quality", "diamond"],
+    quality: ["quality", "diamond"],
+    depth: ["violet", "triangle"],
+    weight: ["earth", "arrow"],
+    povray: ["violet", "rect"],
+    tachyon: ["earth", "triangle"],
 };
-
-function element(name, properties = {}, ...children) {
-    const made = Object.assign(document.createElement(name), properties);
-    made.append(...children);
-    return made;
-}
+const lookOf = (name) => looks[name] ?? ["ink", "circle"];
+const marks = { triangle: "\u25b2", diamond: "\u25c6", circle: "\u25cf", rect: "\u25a0", pin: "\u2666", arrow: "\u25bc" };
 
 /** Numbers as people read them. */
 export function told(value) {
@@ -50,7 +47,6 @@ function axis(name, extra) {
         name,
         nameLocation: "middle",
         nameTextStyle: { color: color("faint"), fontSize: 11 },
-        axisLabel: { color: color("faint"), fontSize: 10, hideOverlap: true },
         axisLine: { lineStyle: { color: color("line") } },
         splitLine: { lineStyle: { color: color("line") } },
         ...extra,
@@ -70,18 +66,18 @@ function lines(place, { title, x, y, series, vertical, tip, isLog = [true, true]
             backgroundColor: color("panel"),
             borderColor: color("line"),
             textStyle: { color: color("ink"), fontSize: 12 },
-            formatter: ({ seriesName, value }) => tip(seriesName, value),
+            formatter: ({ seriesName, value }) => tip(seriesName, value).map(escaped).join("<br>"),
         },
-        xAxis: axis(x, { type: isLog[0] ? "log" : "value", max: most, nameGap: 22, axisLabel: { color: color("faint"), fontSize: 10, formatter: power, hideOverlap: true } }),
+        xAxis: axis(x, { type: isLog[0] ? "log" : "value", max: most, nameGap: 22, axisLabel: { color: color("faint"), fontSize: 10, formatter: power, hideOverlap: true, showMaxLabel: most === undefined } }),
         yAxis: axis(y, { type: isLog[1] ? "log" : "value", nameGap: 38, min: least, axisLabel: { color: color("faint"), fontSize: 10, formatter: power, hideOverlap: true } }),
         series: series.map(({ name, points, isLine = true }, number) => ({
             name,
             type: isLine ? "line" : "scatter",
             data: points,
-            symbol: "circle",
+            symbol: lookOf(name)[1],
             symbolSize: isLine ? 7 : 13,
-            itemStyle: { color: color(colors[name] ?? "ink") },
-            lineStyle: { color: color(colors[name] ?? "ink"), width: 1.5 },
+            itemStyle: { color: color(lookOf(name)[0]) },
+            lineStyle: { color: color(lookOf(name)[0]), width: 1.5 },
             emphasis: { scale: 1.4 },
             // Of the first one, for the panel.
             markLine: number === 0 && vertical ? { silent: true, symbol: "none", lineStyle: { color: color("ink"), type: "solid", width: 1 }, label: { show: false }, data: [{ xAxis: vertical }] } : undefined,
@@ -95,8 +91,9 @@ function key(entries) {
         "p",
         { className: "key" },
         ...entries.flatMap(([name, meaning]) => {
-            const dot = element("span", { textContent: "● " });
-            dot.style.color = `var(--${colors[name] ?? "ink"})`;
+            const [its, mark] = lookOf(name);
+            const dot = element("span", { textContent: `${marks[mark]} ` });
+            dot.style.color = `var(--${its})`;
             return [dot, `${meaning}  `];
         }),
     );
@@ -174,11 +171,15 @@ function showMethods(place, rows) {
                 vertical: ceiling?.mrays,
                 most: ceiling && Math.ceil(1.1 * Math.max(...of.map((row) => row.mrays))),
                 series: of
-                    .filter((row) => row.method !== "ceiling")
-                    .map((row) => ({ name: row.method, isLine: false, points: [[row.mrays, Math.max(row[what] ?? 0, floor), row]] })),
-                tip: (name, [, , row]) =>
-                    `<b>${name}</b>, ${shape.replaceAll("_", " ")}<br>${told(row.mrays)} million rays/s<br>` +
-                    Object.entries(errors).filter(([each]) => row[each] !== undefined).map(([each, text]) => `${text}: ${told(row[each])}`).join("<br>"),
+                    .filter((row) => row.method !== "ceiling" && row[what] !== undefined)
+                    .map((row) => ({ name: row.method, isLine: false, points: [[row.mrays, Math.max(row[what], floor), row]] })),
+                tip: (name, [, , row]) => [
+                    `${name}, ${shape.replaceAll("_", " ")}`,
+                    `${told(row.mrays)} million rays/s`,
+                    ...Object.entries(errors)
+                        .filter(([each]) => row[each] !== undefined)
+                        .map(([each, text]) => `${text}: ${told(row[each])}`),
+                ],
             });
         }
         const columns = ["shape", "method", "million rays/s", ...present.map(([, text]) => text)];
@@ -213,7 +214,7 @@ function showPictures(place, rows) {
         x: "milliseconds",
         y: "RMSE to 1,024 samples",
         series: series(of, "way", (row) => [row.ms, row.rmse, row]),
-        tip: (name, [, , row]) => `<b>${name}</b> ${told(row.value)}<br>${told(row.ms)} ms<br>RMSE ${told(row.rmse)}`,
+        tip: (name, [, , row]) => [`${name} ${told(row.value)}`, `${told(row.ms)} ms`, `RMSE ${told(row.rmse)}`],
     }));
     made.append(table(["scene", "way", "value", "ms", "RMSE"], rows.map((row) => [row.scene, row.way, row.value, row.ms, row.rmse])));
 }
@@ -230,7 +231,7 @@ function showCounts(place, rows) {
         x: "spheres",
         y: "million rays/s",
         series: series(of, "by", (row) => [row.count, row.mrays, row]),
-        tip: (name, [, , row]) => `<b>${name}</b>, ${row.count.toLocaleString("en")} spheres<br>${told(row.mrays)} million rays/s`,
+        tip: (name, [, , row]) => [`${name}, ${row.count.toLocaleString("en")} spheres`, `${told(row.mrays)} million rays/s`],
     }));
     made.append(table(["rays", "by", "spheres", "million rays/s"], rows.map((row) => [row.rays, row.by, row.count, row.mrays])));
 }
@@ -247,7 +248,7 @@ function showPeers(place, rows) {
         y: "dB",
         isLog: [true, false],
         series: series(of, "by", (row) => [row.seconds, row.psnr, row]),
-        tip: (name, [, , row]) => `<b>${name}</b> ${told(row.setting)}<br>${told(row.seconds)} s<br>${told(row.psnr)} dB`,
+        tip: (name, [, , row]) => [`${name} ${told(row.setting)}`, `${told(row.seconds)} s`, `${told(row.psnr)} dB`],
     }));
     made.append(table(["scene", "by", "setting", "seconds", "dB"], rows.map((row) => [row.scene, row.by, row.setting, row.seconds, row.psnr])));
 }

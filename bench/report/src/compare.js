@@ -1,9 +1,13 @@
 import { chart } from "./chart.js";
-import { color, css, heat } from "./colors.js";
+import { color } from "./colors.js";
+import { listen } from "./gestures.js";
+import { element } from "./html.js";
+import { colorsOf, legendOf } from "./maps.js";
 import { differences, read, shown, unpack } from "./pictures.js";
 
 const $ = (id) => document.getElementById(id);
-const tierColors = [[54, 92, 141], [38, 166, 154], [250, 193, 39], [245, 125, 21], [214, 39, 40]];
+const many = (count) => count.toLocaleString("en");
+const untold = "Point at a pixel for its values.";
 
 /** Looks at two pictures of a set. */
 export class Viewer {
@@ -16,21 +20,40 @@ export class Viewer {
         for (const stops of [-4, -2, -1, 0, 1, 2, 4, 8])
             $("exposure").append(new Option(`${stops > 0 ? "+" : ""}${stops} EV`, stops, false, stops === 0));
         for (const set of sets) $("set").append(new Option(set.title, set.name));
-        $("set").addEventListener("change", () => this.open($("set").value));
-        for (const id of ["a", "b", "mode", "exposure"]) $(id).addEventListener("change", () => this.choose());
-        $("split").addEventListener("input", () => this.draw());
-        $("flip").addEventListener("click", () => this.flip());
-        $("blink").addEventListener("change", () => this.blink());
-        $("in").addEventListener("click", () => this.zoomAbout(this.canvas.width / 2, this.canvas.height / 2, 2));
-        $("out").addEventListener("click", () => this.zoomAbout(this.canvas.width / 2, this.canvas.height / 2, 0.5));
-        $("fit").addEventListener("click", () => this.fit());
-        $("own").addEventListener("change", () => this.takeFiles($("own").files));
-        this.listen();
+        const middle = (factor) => () => this.zoomAbout(this.canvas.width / 2, this.canvas.height / 2, factor);
+        const wirings = {
+            set: ["change", () => this.open($("set").value)],
+            a: ["change", () => this.choose()],
+            b: ["change", () => this.choose()],
+            exposure: ["change", () => this.choose()],
+            mode: ["change", () => this.stopBlinking() || this.choose()],
+            split: ["input", () => this.draw()],
+            flip: ["click", () => this.flip()],
+            blink: ["change", () => this.blink()],
+            in: ["click", middle(2)],
+            out: ["click", middle(0.5)],
+            fit: ["click", () => this.fit()],
+            own: ["change", () => this.takeFiles([...$("own").files])],
+        };
+        for (const [id, [event, act]] of Object.entries(wirings)) $(id).addEventListener(event, act);
+        listen(this.canvas, {
+            moves: (dx, dy) => this.move(dx, dy),
+            zooms: (x, y, factor) => this.zoomAbout(x, y, factor),
+            points: (x, y) => this.tell(x, y),
+            flips: () => this.flip(),
+        });
+        for (const name of ["dragover", "drop"])
+            window.addEventListener(name, (event) => {
+                event.preventDefault();
+                if (name === "drop") this.takeFiles([...event.dataTransfer.files]);
+            });
         new ResizeObserver(() => this.resize()).observe(this.canvas);
     }
 
     async open(name, a, b) {
+        this.wanted = name;
         const set = await unpack(this.sets.find((each) => each.name === name));
+        if (this.wanted !== name) return; // another one, by now
         const isNew = set !== this.set;
         this.set = set;
         $("set").value = name;
@@ -39,138 +62,98 @@ export class Viewer {
             $(id).replaceChildren(...set.pictures.map((each) => new Option(each.title, each.name)));
             $(id).value = chosen;
         }
+        const mode = $("mode").value;
         for (const old of $("mode").querySelectorAll("[data-map]")) old.remove();
         for (const map of set.maps) {
             const option = new Option(map.title, `map:${map.name}`);
             option.dataset.map = map.name;
             $("mode").append(option);
         }
-        if (!$("mode").value) $("mode").value = "slider";
+        $("mode").value = mode;
+        if ($("mode").selectedIndex < 0) $("mode").value = "slider";
         if (isNew) {
             this.images.clear();
             this.fit(false);
-            $("pixel").textContent = "Point at a pixel for its values.";
+            $("pixel").textContent = untold;
         }
         this.choose();
     }
 
     choose() {
         const { set } = this;
-        const find = (id) => set.pictures.find((each) => each.name === $(id).value);
-        this.a = find("a");
-        this.b = find("b");
+        if (!set) return;
+        const [a, b] = ["a", "b"].map((id) => set.pictures.find((each) => each.name === $(id).value));
+        if (a !== this.a || b !== this.b) {
+            [this.a, this.b] = [a, b];
+            this.differences = differences(set, a, b);
+            this.showTotals();
+            this.showHistogram();
+        }
         this.mode = $("mode").value;
         this.map = set.maps.find((each) => `map:${each.name}` === this.mode);
         if (Number($("exposure").value) !== this.exposure) {
             this.exposure = Number($("exposure").value);
             this.images.clear();
         }
-        this.differences = differences(set, this.a, this.b);
-        this.images.delete("field");
+        this.images.delete("map");
         $("split-label").style.visibility = this.mode === "slider" ? "visible" : "hidden";
-        this.showTotals();
-        this.showHistogram();
-        this.showLegend();
+        $("legend").replaceChildren(...legendOf(this.mode, this.map));
         this.draw();
     }
 
     /** What is drawn of a picture, or in place of one. */
     image(picture) {
-        const key = picture ?? "field";
+        const key = picture ?? "map";
         if (!this.images.has(key)) {
-            const data = picture ? shown(this.set, picture, this.exposure) : this.field();
-            const canvas = new OffscreenCanvas(this.set.width, this.set.height);
+            const { width, height } = this.set;
+            const data = picture ? shown(this.set, picture, this.exposure) : new ImageData(width, height);
+            if (!picture) {
+                const colors = colorsOf(this.mode, this.map, this.differences);
+                for (let i = 0; i < width * height; ++i) {
+                    data.data.set(colors(i), 4 * i);
+                    data.data[4 * i + 3] = 255;
+                }
+            }
+            const canvas = new OffscreenCanvas(width, height);
             canvas.getContext("2d").putImageData(data, 0, 0);
             this.images.set(key, canvas);
         }
         return this.images.get(key);
     }
 
-    field() {
-        const image = new ImageData(this.set.width, this.set.height);
-        const colors = this.scale();
-        for (let i = 0; i < image.width * image.height; ++i) {
-            image.data.set(colors(i), 4 * i);
-            image.data[4 * i + 3] = 255;
-        }
-        return image;
-    }
-
-    /** Colour by pixel. */
-    scale() {
-        const { absolute, ulps } = this.differences;
-        if (this.map?.name === "tiers") return (i) => tierColors[this.map.values[i]];
-        if (this.map) {
-            const most = Math.log2(this.mapMost());
-            return (i) => heat(most > 0 ? Math.log2(this.map.values[i]) / most : 0);
-        }
-        if (this.mode === "ulps") return (i) => (ulps[i] === 0 ? [0, 0, 0] : heat(0.15 + (0.85 * Math.log2(ulps[i])) / 31));
-        return (i) => (absolute[i] === 0 ? [0, 0, 0] : heat(0.15 + 0.85 * Math.max(0, 1 + Math.log10(absolute[i]) / 8)));
-    }
-
-    mapMost() {
-        return this.map.values.reduce((a, b) => Math.max(a, b), 1);
-    }
-
-    showLegend() {
-        const entry = (rgb, text) => {
-            const span = document.createElement("span");
-            const box = document.createElement("i");
-            box.style.background = css(rgb);
-            span.append(box, text);
-            return span;
-        };
-        const entries = [];
-        if (this.map?.name === "tiers") {
-            const counts = new Array(tierColors.length).fill(0);
-            for (const tier of this.map.values) ++counts[tier];
-            this.map.labels.forEach((label, i) => entries.push(entry(tierColors[i], `${label}: ${counts[i].toLocaleString("en")} pixels`)));
-        } else if (this.map) {
-            const most = this.mapMost();
-            for (let samples = 1; samples <= most; samples *= 4)
-                entries.push(entry(heat(most > 1 ? Math.log2(samples) / Math.log2(most) : 0), `${samples}`));
-            entries.push(`samples in a pixel; at most ${most}`);
-        } else if (this.mode === "ulps") {
-            entries.push(entry([0, 0, 0], "the same bits"));
-            for (const power of [0, 4, 8, 16, 24]) entries.push(entry(heat(0.15 + (0.85 * power) / 31), `${(2 ** power).toLocaleString("en")} ulps`));
-        } else if (this.mode === "difference") {
-            entries.push(entry([0, 0, 0], "the same bits"));
-            for (const power of [-8, -6, -4, -2, 0]) entries.push(entry(heat(0.15 + 0.85 * (1 + power / 8)), `1e${power}`));
-        }
-        $("legend").replaceChildren(...entries);
-    }
-
     showTotals() {
-        const { absolute, ulps, rmse } = this.differences;
-        const same = absolute.reduce((sum, each) => sum + (each === 0 ? 1 : 0), 0);
-        const most = absolute.reduce((a, b) => Math.max(a, b), 0);
-        const mostUlps = ulps.reduce((a, b) => Math.max(a, b), 0);
+        const { absolute, ulps, isSame, rmse, numberless } = this.differences;
+        const sameCount = isSame.reduce((sum, each) => sum + each, 0);
+        const greatest = (values) => values.reduce((a, b) => (b > a ? b : a), 0);
         const rows = [
-            ["pixels with the same bits", `${same.toLocaleString("en")} of ${absolute.length.toLocaleString("en")}`],
-            ["largest difference", `${most.toPrecision(4)}; ${mostUlps.toLocaleString("en")} ulps`],
+            ["pixels with the same bits", `${many(sameCount)} of ${many(isSame.length)}`],
+            ["largest difference", `${greatest(absolute).toPrecision(4)}; ${many(greatest(ulps))} ulps`],
             ["root mean square", rmse.toPrecision(4)],
         ];
-        $("totals").replaceChildren(
-            ...rows.map((cells) => {
-                const row = document.createElement("tr");
-                row.append(...cells.map((text) => Object.assign(document.createElement("td"), { textContent: text })));
-                return row;
-            }),
-        );
+        if (numberless) rows.push(["differ by no number", `${many(numberless)} pixels`]);
+        $("totals").replaceChildren(...rows.map((cells) => element("tr", {}, ...cells.map((text) => element("td", { textContent: text })))));
     }
 
     /** Pixels by the powers of ten of their difference. */
     showHistogram() {
         const names = ["same", ...Array.from({ length: 10 }, (_, i) => `1e${i - 9}`), "more"];
         const counts = new Array(names.length).fill(0);
-        for (const each of this.differences.absolute)
-            ++counts[each === 0 ? 0 : Math.min(Math.max(Math.ceil(Math.log10(each)) + 10, 1), names.length - 1)];
+        const { absolute, isSame } = this.differences;
+        for (let i = 0; i < absolute.length; ++i) {
+            const bin = Math.ceil(Math.log10(absolute[i])) + 10;
+            ++counts[isSame[i] ? 0 : Number.isNaN(bin) ? names.length - 1 : Math.min(Math.max(bin, 1), names.length - 1)];
+        }
         chart($("histogram"), () => ({
             grid: { left: 8, right: 8, top: 30, bottom: 4, containLabel: true },
             title: { text: "Pixels by their difference, up to", textStyle: { fontSize: 13, fontWeight: "normal", color: color("ink") } },
-            tooltip: { trigger: "axis" },
+            tooltip: { trigger: "axis", backgroundColor: color("panel"), borderColor: color("line"), textStyle: { color: color("ink") } },
             xAxis: { type: "category", data: names, axisLabel: { color: color("faint"), fontSize: 10 } },
-            yAxis: { type: "log", min: 0.5, axisLabel: { color: color("faint"), formatter: (v) => (v < 1 ? "0" : `${v}`) }, splitLine: { lineStyle: { color: color("line") } } },
+            yAxis: {
+                type: "log",
+                min: 0.5,
+                axisLabel: { color: color("faint"), formatter: (value) => (value < 1 ? "0" : `${value}`) },
+                splitLine: { lineStyle: { color: color("line") } },
+            },
             series: [{ name: "pixels", type: "bar", data: counts.map((each) => each || null), itemStyle: { color: color("accent") } }],
         }));
     }
@@ -184,17 +167,30 @@ export class Viewer {
         this.draw();
     }
 
+    /** Of the whole picture. */
+    fitting() {
+        return Math.min(this.canvas.width / this.set.width, this.canvas.height / this.set.height);
+    }
+
     fit(draws = true) {
-        const { width, height } = this.set;
-        this.zoom = Math.min(this.canvas.width / width, this.canvas.height / height);
-        this.x = (this.canvas.width - this.zoom * width) / 2;
-        this.y = (this.canvas.height - this.zoom * height) / 2;
+        if (!this.set) return;
+        this.zoom = this.fitting();
+        this.x = (this.canvas.width - this.zoom * this.set.width) / 2;
+        this.y = (this.canvas.height - this.zoom * this.set.height) / 2;
         this.isZoomed = false;
         if (draws) this.draw();
     }
 
+    move(dx, dy) {
+        this.x += dx;
+        this.y += dy;
+        this.isZoomed = true;
+        this.draw();
+    }
+
     zoomAbout(x, y, factor) {
-        const zoom = Math.min(Math.max(this.zoom * factor, 0.25), 256);
+        if (!this.set) return;
+        const zoom = Math.min(Math.max(this.zoom * factor, this.fitting() / 4), Math.max(256, 4 * this.fitting()));
         this.x = x - ((x - this.x) * zoom) / this.zoom;
         this.y = y - ((y - this.y) * zoom) / this.zoom;
         this.zoom = zoom;
@@ -215,10 +211,14 @@ export class Viewer {
         if ($("blink").checked) this.timer = setInterval(() => this.flip(), 600);
     }
 
+    stopBlinking() {
+        $("blink").checked = false;
+        this.blink();
+    }
+
     draw() {
         if (!this.set || !this.a) return;
         const context = this.canvas.getContext("2d");
-        context.setTransform(1, 0, 0, 1, 0, 0);
         context.fillStyle = "#808080";
         context.fillRect(0, 0, this.canvas.width, this.canvas.height);
         context.imageSmoothingEnabled = false;
@@ -239,22 +239,23 @@ export class Viewer {
         this.writeNames(context);
     }
 
+    write(context, text, x, y, room) {
+        context.lineWidth = 3 * (window.devicePixelRatio || 1);
+        context.strokeStyle = "#000000";
+        context.fillStyle = "#ffffff";
+        context.strokeText(text, x, y, room);
+        context.fillText(text, x, y, room);
+    }
+
     writeNames(context) {
         const ratio = window.devicePixelRatio || 1;
+        const [isSlider, isFlip] = [this.mode === "slider", this.mode === "flip"];
+        const room = this.canvas.width / (isSlider ? 2.2 : 1);
         context.font = `${13 * ratio}px system-ui, sans-serif`;
-        const write = (text, x, align) => {
-            context.textAlign = align;
-            context.lineWidth = 4 * ratio;
-            context.strokeStyle = "#000000";
-            context.fillStyle = "#ffffff";
-            const room = this.canvas.width / (this.mode === "slider" ? 2.2 : 1);
-            context.strokeText(text, x, 18 * ratio, room);
-            context.fillText(text, x, 18 * ratio, room);
-        };
-        if (this.mode === "slider" || this.mode === "flip") {
-            if (this.mode === "slider" || !this.showsB) write(`A: ${this.a.title}`, 8 * ratio, "left");
-            if (this.mode === "slider" || this.showsB) write(`B: ${this.b.title}`, this.canvas.width - 8 * ratio, "right");
-        }
+        context.textAlign = "left";
+        if (isSlider || (isFlip && !this.showsB)) this.write(context, `A: ${this.a.title}`, 8 * ratio, 18 * ratio, room);
+        context.textAlign = "right";
+        if (isSlider || (isFlip && this.showsB)) this.write(context, `B: ${this.b.title}`, this.canvas.width - 8 * ratio, 18 * ratio, room);
     }
 
     /** In each pixel its values, where there is room for them. */
@@ -272,118 +273,58 @@ export class Viewer {
                 const i = y * width + x;
                 const at = this.x + x * this.zoom;
                 const isB = this.mode === "flip" ? this.showsB : this.mode === "slider" && at + this.zoom / 2 > split;
-                const lines = this.map
-                    ? [`${this.map.values[i]}`]
-                    : this.mode === "ulps"
-                      ? [`${this.differences.ulps[i]}`]
-                      : this.mode === "difference"
-                        ? [this.differences.absolute[i].toPrecision(3)]
-                        : [0, 1, 2].map((c) => (isB ? this.b : this.a).planes[c * count + i].toPrecision(4));
-                lines.forEach((text, line) => {
-                    const place = [at + 5 * ratio, this.y + y * this.zoom + (16 + 14 * line) * ratio];
-                    context.lineWidth = 3 * ratio;
-                    context.strokeStyle = "#000000";
-                    context.strokeText(text, ...place);
-                    context.fillStyle = "#ffffff";
-                    context.fillText(text, ...place);
-                });
+                let lines = [0, 1, 2].map((c) => (isB ? this.b : this.a).planes[c * count + i].toPrecision(4));
+                if (this.map) lines = [`${this.map.values[i]}`];
+                else if (this.mode === "ulps") lines = [`${this.differences.ulps[i]}`];
+                else if (this.mode === "difference") lines = [this.differences.absolute[i].toPrecision(3)];
+                lines.forEach((text, line) => this.write(context, text, at + 5 * ratio, this.y + y * this.zoom + (16 + 14 * line) * ratio));
             }
     }
 
     /** Of the pixel at a place of the canvas. */
-    tell(clientX, clientY) {
-        const box = this.canvas.getBoundingClientRect();
-        const x = Math.floor((((clientX - box.left) * this.canvas.width) / box.width - this.x) / this.zoom);
-        const y = Math.floor((((clientY - box.top) * this.canvas.height) / box.height - this.y) / this.zoom);
+    tell(canvasX, canvasY) {
+        if (!this.set) return;
         const { width, height, maps } = this.set;
+        const [x, y] = [Math.floor((canvasX - this.x) / this.zoom), Math.floor((canvasY - this.y) / this.zoom)];
         if (x < 0 || y < 0 || x >= width || y >= height) return;
         const i = y * width + x;
         const values = (picture) => [0, 1, 2].map((c) => picture.planes[c * width * height + i].toPrecision(9)).join("  ");
+        const { absolute, ulps, isSame } = this.differences;
         const lines = [
             `pixel (${x}, ${y})`,
             `A ${values(this.a)}`,
             `B ${values(this.b)}`,
-            `difference ${this.differences.absolute[i].toPrecision(4)}, ${this.differences.ulps[i].toLocaleString("en")} ulps`,
+            isSame[i] ? "the same bits" : `difference ${absolute[i].toPrecision(4)}, ${many(ulps[i])} ulps`,
             ...maps.map((map) => `${map.title}: ${map.labels ? map.labels[map.values[i]] : map.values[i]}`),
         ];
         $("pixel").textContent = lines.join("\n");
     }
 
-    listen() {
-        const { canvas } = this;
-        const fingers = new Map();
-        const scale = () => canvas.width / canvas.getBoundingClientRect().width;
-        const place = (event) => {
-            const box = canvas.getBoundingClientRect();
-            return [(event.clientX - box.left) * scale(), (event.clientY - box.top) * scale()];
-        };
-        canvas.addEventListener("pointerdown", (event) => {
-            canvas.setPointerCapture(event.pointerId);
-            fingers.set(event.pointerId, event);
-            this.tell(event.clientX, event.clientY);
-        });
-        canvas.addEventListener("pointermove", (event) => {
-            const before = fingers.get(event.pointerId);
-            if (before && fingers.size === 1) {
-                this.x += (event.clientX - before.clientX) * scale();
-                this.y += (event.clientY - before.clientY) * scale();
-                this.isZoomed = true;
-                this.draw();
-            } else if (before) {
-                const other = [...fingers.values()].find((each) => each.pointerId !== event.pointerId);
-                const distance = (each) => Math.hypot(each.clientX - other.clientX, each.clientY - other.clientY);
-                const [ax, ay] = place(event);
-                const [bx, by] = place(other);
-                if (distance(before) > 0) this.zoomAbout((ax + bx) / 2, (ay + by) / 2, distance(event) / distance(before));
-            }
-            if (before) fingers.set(event.pointerId, event);
-            if (fingers.size <= 1) this.tell(event.clientX, event.clientY);
-        });
-        for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
-        canvas.addEventListener(
-            "wheel",
-            (event) => {
-                event.preventDefault();
-                this.zoomAbout(...place(event), 2 ** (-event.deltaY / 300));
-            },
-            { passive: false },
-        );
-        canvas.addEventListener("keydown", (event) => {
-            if (event.key === " ") {
-                event.preventDefault();
-                this.flip();
-            }
-        });
-        for (const name of ["dragover", "drop"])
-            window.addEventListener(name, (event) => {
-                event.preventDefault();
-                if (name === "drop") this.takeFiles(event.dataTransfer.files);
-            });
-    }
-
     /** The user's own pictures become a set, with those before them that are of their size. */
     async takeFiles(files) {
-        const pictures = [];
+        const [pictures, complaints] = [[], []];
         for (const file of files)
             try {
                 pictures.push(await read(file));
             } catch {
-                $("pixel").textContent = `${file.name} is neither PNG nor PFM`;
+                complaints.push(`${file.name} is neither PNG nor PFM.`);
             }
-        if (pictures.length === 0) return;
-        const { width, height } = pictures[0];
-        const kept = (this.own?.width === width && this.own.height === height ? this.own.pictures : []).filter(
-            (each) => !pictures.some((other) => other.name === each.name),
-        );
-        const fitting = [...kept, ...pictures.filter((each) => each.width === width && each.height === height)];
-        if (this.own) {
-            this.sets.splice(this.sets.indexOf(this.own), 1);
-            $("set").querySelector('[value=":own"]').remove();
+        $("own").value = "";
+        if (pictures.length) {
+            const { width, height } = pictures[0];
+            const before = this.own?.width === width && this.own.height === height ? this.own.pictures : [];
+            const kept = before.filter((each) => !pictures.some((other) => other.name === each.name));
+            const fitting = pictures.filter((each) => each.width === width && each.height === height);
+            if (fitting.length < pictures.length) complaints.push(`Left out what is not of ${width} x ${height} pixels.`);
+            const own = { name: ":own", title: "dropped here", width, height, pictures: [...kept, ...fitting], maps: [], ready: true };
+            if (this.own) this.sets.splice(this.sets.indexOf(this.own), 1, own);
+            else {
+                this.sets.push(own);
+                $("set").append(new Option(own.title, own.name));
+            }
+            this.own = own;
+            await this.open(own.name, (own.pictures.at(-2) ?? own.pictures[0]).name, own.pictures.at(-1).name);
         }
-        this.own = { name: ":own", title: "your own", width, height, pictures: fitting, maps: [], ready: true };
-        this.sets.push(this.own);
-        $("set").append(new Option(this.own.title, ":own"));
-        await this.open(":own", fitting.at(-2)?.name ?? fitting[0].name, fitting.at(-1).name);
-        if (fitting.length < kept.length + pictures.length) $("pixel").textContent = `Left out what is not of ${width} x ${height} pixels.`;
+        $("status").textContent = complaints.join(" ");
     }
 }

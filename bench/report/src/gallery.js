@@ -1,10 +1,5 @@
+import { element } from "./html.js";
 import { shown, unpack } from "./pictures.js";
-
-function element(name, properties = {}, ...children) {
-    const made = Object.assign(document.createElement(name), properties);
-    made.append(...children);
-    return made;
-}
 
 function numbers({ off, wrong, ulps }) {
     const lines = [];
@@ -47,13 +42,12 @@ export function showGallery(place, failures, sets, open) {
                 { className: "failure" },
                 element("h3", {}, failure.title),
                 element("div", { className: "reference" }, failure.reference),
-                element("p", {}, failure.failure),
+                element("p", {}, failure.failure, element("br"), element("span", { className: "reference" }, `The textbook's remedy: ${failure.remedy}.`)),
                 row,
             ),
         );
         drawing.observe(row);
     }
-    place.append(element("p", { className: "reference" }, "t off by: median, 99th percentile and maximum, of rays that hit the same shape as the exact ones."));
 }
 
 async function draw(row, sets) {

@@ -3,29 +3,30 @@ import { showCharts } from "./charts.js";
 import { Viewer } from "./compare.js";
 import { showGallery } from "./gallery.js";
 
+// Light or dark, as the system has it until it is chosen.
+const root = document.documentElement;
+const system = matchMedia("(prefers-color-scheme: dark)");
+const wear = (theme) => {
+    root.dataset.theme = theme;
+    redraw();
+};
+wear(system.matches ? "dark" : "light");
+system.addEventListener("change", () => wear(system.matches ? "dark" : "light"));
+document.getElementById("theme").addEventListener("click", () => wear(root.dataset.theme === "dark" ? "light" : "dark"));
+
 const data = JSON.parse(document.getElementById("data").textContent);
 const reveal = (id, condition) => (document.getElementById(id).hidden = !condition);
 
 document.getElementById("made").textContent = data.made;
 const charts = data.charts;
 reveal("failures", data.failures.length);
-reveal("compare", data.sets.length);
 reveal("speed", Object.values(charts).some((rows) => rows.length));
 
-if (data.sets.length) {
-    const viewer = new Viewer(data.sets);
-    viewer.open(data.sets[0].name);
-    showGallery(document.getElementById("gallery"), data.failures, data.sets, async (set, picture) => {
-        await viewer.open(set, picture, "exact");
-        document.getElementById("compare").scrollIntoView({ behavior: "smooth" });
-    });
-}
-showCharts(document.getElementById("charts"), charts);
-
-document.getElementById("theme").addEventListener("click", () => {
-    const root = document.documentElement;
-    const isDark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-    root.dataset.theme = isDark ? "light" : "dark";
-    redraw();
+const viewer = new Viewer(data.sets);
+if (data.sets.length) viewer.open(data.sets[0].name);
+showGallery(document.getElementById("gallery"), data.failures, data.sets, async (set, picture) => {
+    await viewer.open(set, picture, "exact");
+    document.getElementById("compare").scrollIntoView();
 });
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+for (const link of document.querySelectorAll("header a")) link.hidden = document.querySelector(link.hash).hidden;
+showCharts(document.getElementById("charts"), charts);

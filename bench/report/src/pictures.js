@@ -48,6 +48,7 @@ export function shown(set, picture, stops = 0) {
     const count = set.width * set.height;
     const image = new ImageData(set.width, set.height);
     const factor = 2 ** stops;
+    // Of NaN, black.
     for (let i = 0; i < count; ++i) {
         for (let c = 0; c < 3; ++c)
             image.data[4 * i + c] = Math.round(255 * encoded(factor * picture.planes[c * count + i]));
@@ -65,20 +66,31 @@ export function order(value) {
     return word[0] & 0x80000000 ? -(word[0] & 0x7fffffff) : word[0];
 }
 
-/** By pixel: the largest of its three components' differences, and the same in ulps. */
+/**
+ * By pixel: the largest of its three components' differences, the same in ulps, and whether all bits are the same. Where
+ * one is no number, or infinite, a difference is NaN, and counts for neither the largest nor the mean.
+ */
 export function differences(set, a, b) {
     const count = set.width * set.height;
-    const absolute = new Float64Array(count);
-    const ulps = new Float64Array(count);
+    const [absolute, ulps, isSame] = [new Float64Array(count), new Float64Array(count), new Uint8Array(count).fill(1)];
+    const [wordsA, wordsB] = [a, b].map(({ planes }) => new Uint32Array(planes.buffer, planes.byteOffset, planes.length));
     let squares = 0;
-    for (let i = 0; i < 3 * count; ++i) {
-        const difference = Math.abs(a.planes[i] - b.planes[i]);
-        squares += difference * difference;
-        const pixel = i % count;
-        absolute[pixel] = Math.max(absolute[pixel], difference);
-        ulps[pixel] = Math.max(ulps[pixel], Math.abs(order(a.planes[i]) - order(b.planes[i])));
-    }
-    return { absolute, ulps, rmse: Math.sqrt(squares / (3 * count)) };
+    for (let c = 0; c < 3; ++c)
+        for (let pixel = 0, i = c * count; pixel < count; ++pixel, ++i) {
+            if (wordsA[i] === wordsB[i]) continue;
+            isSame[pixel] = 0;
+            const difference = Math.abs(a.planes[i] - b.planes[i]);
+            if (!Number.isFinite(difference)) {
+                absolute[pixel] = ulps[pixel] = NaN;
+                continue;
+            }
+            squares += difference * difference;
+            if (difference > absolute[pixel]) absolute[pixel] = difference;
+            const apart = Math.abs(order(a.planes[i]) - order(b.planes[i]));
+            if (apart > ulps[pixel]) ulps[pixel] = apart;
+        }
+    const numberless = absolute.reduce((sum, each) => sum + (Number.isNaN(each) ? 1 : 0), 0);
+    return { absolute, ulps, isSame, numberless, rmse: Math.sqrt(squares / (3 * count)) };
 }
 
 /** A file of the user's as a picture of a set of its own size. */
@@ -115,7 +127,7 @@ function pfm(buffer) {
     const [magic, width, height, scale] = [words[0], ...words.slice(1).map(Number)];
     const channels = { PF: 3, Pf: 1 }[magic];
     const count = width * height;
-    if (!channels || !(count > 0) || bytes.length - at < 4 * channels * count) throw new Error("no PFM");
+    if (!channels || ![width, height].every((each) => Number.isInteger(each) && each >= 1) || bytes.length - at < 4 * channels * count) throw new Error("no PFM");
     const view = new DataView(buffer, at);
     const planes = new Float32Array(3 * count);
     for (let y = 0; y < height; ++y)

@@ -1,0 +1,11 @@
+/** An element with its properties and what is in it. */
+export function element(name, properties = {}, ...children) {
+    const made = Object.assign(document.createElement(name), properties);
+    made.append(...children);
+    return made;
+}
+
+/** Text as HTML has it. */
+export function escaped(text) {
+    return element("span", { textContent: `${text}` }).innerHTML;
+}
