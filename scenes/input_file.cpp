@@ -2,79 +2,32 @@
 
 #include "core/shapes/big_array.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/inflater.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <new>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
-#include <zlib.h>
 
 namespace raylane::scenes {
 
 namespace {
+
 constexpr std::size_t head_size = 64 << 10;
+
+/// Throws std::bad_alloc for more than there can be in memory.
+std::size_t in_memory(std::uint64_t bytes) {
+    if (bytes > std::string().max_size()) throw std::bad_alloc();
+    return static_cast<std::size_t>(bytes);
 }
 
-/// Gives back what gzip has compressed, one piece or several one after the other.
-class InputFile::Inflater {
-  public:
-    /// `begin`: the file's first bytes.
-    Inflater(InputFile& file, std::string begin) : file_(file), packed_(std::move(begin)) {
-        constexpr int largest_window = 15, with_gzip_header = 16;
-        stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
-        stream_.avail_in = static_cast<uInt>(packed_.size());
-        if (::inflateInit2(&stream_, largest_window + with_gzip_header) != Z_OK)
-            throw std::bad_alloc();
-    }
-    ~Inflater() { ::inflateEnd(&stream_); }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
-
-    std::size_t read(std::span<char> buffer) {
-        stream_.next_out = reinterpret_cast<Bytef*>(buffer.data());
-        stream_.avail_out = static_cast<uInt>(std::min(buffer.size(), std::size_t{1} << 30));
-        const uInt room = stream_.avail_out;
-        while (stream_.avail_out == room && room > 0) {
-            if (stream_.avail_in == 0 && !refill()) {
-                if (is_between_) return 0;
-                throw BadInput(file_.name(), "",
-                               "must be whole: what is compressed ends too early");
-            }
-            if (is_between_) ::inflateReset(&stream_);
-            is_between_ = false;
-            const int result = ::inflate(&stream_, Z_NO_FLUSH);
-            if (result == Z_STREAM_END) {
-                is_between_ = true;
-            } else if (result == Z_MEM_ERROR) {
-                throw std::bad_alloc();
-            } else if (result != Z_OK && result != Z_BUF_ERROR) {
-                throw BadInput(file_.name(), "",
-                               std::string("must be what gzip makes: ") +
-                                   (stream_.msg != nullptr ? stream_.msg : "it is damaged"));
-            }
-        }
-        return room - stream_.avail_out;
-    }
-
-  private:
-    bool refill() {
-        packed_.resize(head_size);
-        const std::size_t count = file_.read_as_it_is(packed_);
-        stream_.next_in = reinterpret_cast<Bytef*>(packed_.data());
-        stream_.avail_in = static_cast<uInt>(count);
-        return count != 0;
-    }
-
-    InputFile& file_;
-    std::string packed_;
-    z_stream stream_{};
-    bool is_between_ = false; // two pieces
-};
+} // namespace
 
 InputFile::InputFile(const std::filesystem::path& path)
     : name_(path == "-" ? "standard input" : path.string()),
@@ -113,7 +66,9 @@ std::string_view InputFile::head() {
         }
         head_.resize(filled);
         if (inflater_ == nullptr && head_.starts_with("\x1F\x8B")) {
-            inflater_ = std::make_unique<Inflater>(*this, std::exchange(head_, {}));
+            inflater_ = std::make_unique<Inflater>(
+                name_, std::exchange(head_, {}),
+                [this](std::span<char> buffer) { return read_as_it_is(buffer); });
             return head();
         }
     }
@@ -131,7 +86,7 @@ std::size_t InputFile::read(std::span<char> buffer) {
 
 std::string InputFile::read_all() {
     std::string text;
-    text.resize(size() + 1); // one more, so that the end shows without growing
+    text.resize(in_memory(size() + 1)); // one more, so that the end shows without growing
     std::size_t filled = 0;
     while (const std::size_t count = read(std::span(text).subspan(filled))) {
         filled += count;
@@ -144,7 +99,7 @@ std::string InputFile::read_all() {
 FileBytes InputFile::whole() {
     head(); // tells whether it is compressed
     if (descriptor_ >= 0 && inflater_ == nullptr && size_ > 0) {
-        const std::size_t size = size_;
+        const std::size_t size = in_memory(size_);
         void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor_, 0);
         if (memory != MAP_FAILED) {
             if (on_read) on_read(size_, size_);

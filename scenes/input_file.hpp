@@ -11,6 +11,8 @@
 
 namespace raylane::scenes {
 
+class Inflater;
+
 /// Is told how many bytes have been read so far, and how many there are or 0.
 using OnRead = std::function<void(std::uint64_t bytes, std::uint64_t of)>;
 
@@ -61,8 +63,6 @@ class InputFile {
     bool rewind();
 
   private:
-    class Inflater;
-
     std::size_t read_some(std::span<char> buffer);
     std::size_t read_as_it_is(std::span<char> buffer);
     void require_same_size() const;

@@ -6,10 +6,9 @@
 #include "simd/default_rounding.hpp"
 #include "simd/layers/layers.hpp"
 #include "simd/layers/outlines.hpp"
+#include "simd/per_thread.hpp"
+#include "simd/threads.hpp"
 #include "simd/wavefront/wavefront.hpp"
-
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -71,8 +70,8 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, const core::Sett
     const core::Region part = grid.part(), crop = options.crop.value_or(part);
     Rendering rendering{core::Film(part, settings.alpha), {}, {}};
     if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
-    tbb::enumerable_thread_specific<Tracer> tracers(make_tracer);
-    tbb::enumerable_thread_specific<FirstHitPasses> passes(
+    PerThread<Tracer> tracers(make_tracer);
+    PerThread<FirstHitPasses> passes(
         [&] { return FirstHitPasses(*scene, settings, kernels_of(options.isa)); });
     const auto is_abandoned = [&] {
         return options.progress != nullptr && options.progress->abandon;
@@ -80,7 +79,7 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, const core::Sett
     const auto is_stopped = [&] {
         return is_abandoned() || (options.progress != nullptr && options.progress->stop);
     };
-    tbb::enumerable_thread_specific<EngineCounters> recalled;
+    PerThread<EngineCounters> recalled([] { return EngineCounters(); });
     std::atomic<bool> complete = true;
     const auto draw = [&](const core::Region& region) {
         if (is_stopped()) {
@@ -109,18 +108,16 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, const core::Sett
             options.progress->rays += of_tile.rays();
             options.progress->pixels += region.pixels();
         }
-        // Isolated: what it waits for shall not make it draw another tile.
+        // What it waits for shall not make it draw another tile.
         if (options.after_tile)
-            tbb::this_task_arena::isolate([&] {
+            isolate([&] {
                 options.after_tile({region, rendering.film, rendering.layers, of_tile});
             });
     };
     for_each_tile(grid, options.threads, draw, options.tiles);
     rendering.complete = complete;
-    for (const Tracer& tracer : tracers)
-        rendering.counters += tracer.counters();
-    for (const EngineCounters& counters : recalled)
-        rendering.counters += counters;
+    tracers.for_each([&](const Tracer& tracer) { rendering.counters += tracer.counters(); });
+    recalled.for_each([&](const EngineCounters& counters) { rendering.counters += counters; });
     if (options.crop) rendering.film = rendering.film.cropped(crop);
     return rendering;
 }

@@ -147,4 +147,8 @@ void parallel_invoke(const std::function<void()>& one, const std::function<void(
     tbb::parallel_invoke([&] { fork.run(one); }, [&] { fork.run(other); });
 }
 
+void isolate(const std::function<void()>& body) {
+    tbb::this_task_arena::isolate([&] { body(); });
+}
+
 } // namespace raylane::simd

@@ -35,4 +35,7 @@ void on_threads(int threads, const std::function<void()>& body);
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& task);
 void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other);
 
+/// Calls body() from a task; what it waits for does not make this thread begin another one.
+void isolate(const std::function<void()>& body);
+
 } // namespace raylane::simd

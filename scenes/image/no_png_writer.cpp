@@ -1,0 +1,11 @@
+#include "scenes/errors.hpp"
+#include "scenes/image/png_writer.hpp"
+
+namespace raylane::scenes {
+
+void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options) {
+    static_cast<void>(film), static_cast<void>(options);
+    throw BadInput(file.name(), "", "must not be PNG: this raylane is built without libpng");
+}
+
+} // namespace raylane::scenes
