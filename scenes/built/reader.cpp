@@ -47,8 +47,8 @@ class Directory {
         if (section->element_bytes != sizeof(T) || section->place % layout::alignment != 0 ||
             section->place > bytes || section->count > (bytes - section->place) / sizeof(T))
             refuse_damaged("its section \"" + name + "\" is not what it should be");
-        return {reinterpret_cast<const T*>(file_.bytes.data() + section->place), section->count,
-                file_.keeper};
+        return {reinterpret_cast<const T*>(file_.bytes.data() + section->place),
+                static_cast<std::size_t>(section->count), file_.keeper};
     }
 
     [[noreturn]] void refuse(const std::string& what) const { throw BadInput(name_, "", what); }
@@ -80,11 +80,12 @@ class Reader {
         if (counts.size() != core::kind_count) directory_.refuse_damaged("it has other shapes");
         std::size_t all = 0;
         for (const std::uint64_t count : counts) {
-            if (count > core::no_shape) directory_.refuse_damaged("it has too many shapes");
-            all += count;
+            if (count > core::no_shape - all) directory_.refuse_damaged("it has too many shapes");
+            all += static_cast<std::size_t>(count);
         }
         core::for_each_table(shapes.tables, [&]<class Shape>(core::Table<Shape>& table) {
-            read_table(table, counts[static_cast<std::size_t>(core::kind_of<Shape>)], all);
+            const std::uint64_t count = counts[static_cast<std::size_t>(core::kind_of<Shape>)];
+            read_table(table, static_cast<std::size_t>(count), all);
         });
         shapes.material_of = materials(all);
         const auto polygons = directory_.array<core::IdRange>(layout::polygons);

@@ -37,7 +37,7 @@ class TextFile {
         if (is_negative_zero(value)) return *this << "-0.0";
         char text[32];
         const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-        return *this << std::string_view(text, end);
+        return *this << std::string_view(text, static_cast<std::size_t>(end - text));
     }
     TextFile& operator<<(int value) { return *this << std::string_view(std::to_string(value)); }
 

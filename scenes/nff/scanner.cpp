@@ -36,7 +36,7 @@ NffScanner::NffScanner(InputFile& file)
 }
 
 void NffScanner::fail(std::uint64_t line, std::string_view message) const {
-    throw BadInput({{file_.name(), {line, 0}, "", std::string(message)}});
+    throw BadInput({{file_.name(), {static_cast<std::size_t>(line), 0}, "", std::string(message)}});
 }
 
 std::string_view NffScanner::word() {

@@ -72,7 +72,7 @@ bool Lines::refill() {
 
 void Lines::fail(std::string_view message, std::size_t column) const {
     throw BadInput({{.file = file_.name(),
-                     .position = {.line = number_, .column = column},
+                     .position = {.line = static_cast<std::size_t>(number_), .column = column},
                      .place = {},
                      .message = std::string(message)}});
 }

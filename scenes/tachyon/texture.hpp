@@ -20,7 +20,7 @@ struct TachyonTexture {
     bool is_metal = false;  ///< its highlights are of its colour
 
     bool operator==(const TachyonTexture& other) const { return key() == other.key(); }
-    auto operator<=>(const TachyonTexture& other) const { return key() <=> other.key(); }
+    bool operator<(const TachyonTexture& other) const { return key() < other.key(); }
 
   private:
     std::array<float, 10> key() const {

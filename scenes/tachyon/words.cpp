@@ -138,7 +138,8 @@ void TachyonWords::remark(const std::string& what) {
     if (!on_remark_ || !remarks_.insert(what).second) return;
     // What is known at the end is of no line.
     const std::uint64_t place = is_keyword(statement_, "END_SCENE") ? 0 : line_of_statement();
-    on_remark_(text_of({sources_.back().file->name(), {place, 0}, "", what}));
+    on_remark_(
+        text_of({sources_.back().file->name(), {static_cast<std::size_t>(place), 0}, "", what}));
 }
 
 void TachyonWords::refuse(std::string_view field, std::string_view must,
