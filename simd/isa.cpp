@@ -20,6 +20,8 @@ bool is_available(Isa isa) {
     return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
            __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
            __builtin_cpu_supports("avx512vl") != 0;
+#elif defined(__wasm__)
+    return isa <= Isa::sse42; // what engines without do not load
 #else
     return isa == Isa::portable;
 #endif
@@ -41,6 +43,8 @@ const Kernels& kernels_of([[maybe_unused]] Isa isa) {
     case Isa::avx512:
         return kernels_avx512();
     }
+#elif defined(__wasm__)
+    if (isa == Isa::sse42) return kernels_sse42();
 #endif
     return kernels_portable();
 }

@@ -12,7 +12,7 @@ enum class Isa : std::uint8_t { portable, sse42, avx2, avx512 };
 inline constexpr Isa all_isas[] = {Isa::portable, Isa::sse42, Isa::avx2, Isa::avx512};
 
 /// True if this processor, and the system on it, can run it: portable on any. avx2 stands for AVX2
-/// and FMA, avx512 for the F, CD, BW, DQ and VL parts.
+/// and FMA, avx512 for the F, CD, BW, DQ and VL parts; of WebAssembly, sse42 for its SIMD.
 bool is_available(Isa isa);
 
 /// The widest that is available.

@@ -1,0 +1,48 @@
+#pragma once
+
+/// What C++20's standard library has, and emscripten's, which is LLVM's 13, does not yet; of
+/// numbers, with the bits that others give. Included before all else by the compiler's flags, where
+/// that library is used.
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <functional>
+#include <iterator>
+#include <type_traits>
+
+namespace std {
+
+#ifndef __cpp_lib_bit_cast
+template <class To, class From>
+requires(sizeof(To) == sizeof(From) && is_trivially_copyable_v<To> &&
+         is_trivially_copyable_v<From>) constexpr To bit_cast(const From& from) noexcept {
+    return __builtin_bit_cast(To, from);
+}
+#endif
+
+#ifndef __cpp_lib_ranges
+namespace ranges {
+template <class Range, class Predicate>
+constexpr bool all_of(const Range& range, Predicate predicate) {
+    return std::all_of(std::begin(range), std::end(range),
+                       [&](const auto& each) { return std::invoke(predicate, each); });
+}
+template <class Range, class Out, class Function>
+constexpr void transform(const Range& range, Out out, Function function) {
+    std::transform(std::begin(range), std::end(range), out,
+                   [&](const auto& each) { return std::invoke(function, each); });
+}
+} // namespace ranges
+#endif
+
+#ifndef __cpp_lib_to_chars
+/// The nearest number to a decimal one, in no locale.
+from_chars_result from_chars(const char* first, const char* last, float& value);
+from_chars_result from_chars(const char* first, const char* last, double& value);
+/// The shortest decimal number that leads back to `value`, and of these the nearest.
+to_chars_result to_chars(char* first, char* last, float value);
+to_chars_result to_chars(char* first, char* last, double value);
+#endif
+
+} // namespace std
