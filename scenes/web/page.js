@@ -7,6 +7,9 @@ const SLOWEST = 200, QUICK = 60; // milliseconds for a frame that moves: coarser
 const PATIENCE = 5000; // milliseconds: what has taken longer gets no finer
 const DEGREES_PER_SECOND = 40; // of what turns by itself
 
+// In the address behind #: scene=lens&workers=1&size=256, and steady: of all pixels, moving or not.
+const asked = new URLSearchParams(location.hash.slice(1));
+
 // What is to be seen. `version` counts changes.
 const view = { around: 0, above: 0, distance: 1, version: 0 };
 let pool = null;
@@ -59,6 +62,7 @@ function note_frame(now, milliseconds) {
     times.push(now);
     while (times.length > 2 && now - times[0] > 3000) times.shift();
     if (times.length > 2) $("frames").textContent = (1000 * (times.length - 1) / (now - times[0])).toFixed(1);
+    if (asked.has("steady")) return;
     if (milliseconds > SLOWEST && coarseness < 8) coarseness *= 2;
     else if (milliseconds < QUICK && coarseness > 1) coarseness /= 2;
 }
@@ -224,9 +228,6 @@ async function code() {
     const plain = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     return WebAssembly.compile(await new Response(plain).arrayBuffer());
 }
-
-// In the address behind #: scene=lens&workers=1&size=256
-const asked = new URLSearchParams(location.hash.slice(1));
 
 attempt(async () => {
     for (const name of Object.keys(SHIPPED)) $("scene").add(new Option(name, name));
