@@ -1,4 +1,4 @@
-# What a build by emscripten needs: the preset wasm, or `emcmake cmake`.
+# What a build by emscripten needs: see the preset wasm.
 
 # Headers alone, which are any compiler's: taken from where this machine has them, by links in a folder
 # of their own, as what else is beside them is not WebAssembly's. Packages that say where they are say

@@ -99,10 +99,12 @@ const next_frame = () => new Promise((resolve) => requestAnimationFrame(resolve)
 
 async function run() {
     let drawn = -1;
+    let waits = true; // for the display, where frames are quick or there is nothing to do
     for (let before = await next_frame();; ) {
-        const now = await next_frame();
+        const now = waits ? await next_frame() : performance.now();
         if (turning) changed({ around: view.around + DEGREES_PER_SECOND * Math.min(now - before, 1000) / 1000 });
         before = now;
+        waits = true;
         if (view.version === drawn || scene === null) {
             times.length = 0;
             continue;
@@ -110,6 +112,7 @@ async function run() {
         drawn = view.version;
         const [quick, ...better] = stages();
         let alone = await draw(quick, true);
+        waits = performance.now() - now < 16;
         if (turning || !alone) continue;
         await new Promise((resolve) => setTimeout(resolve, 80)); // a hand may be about to go on
         if (view.version !== drawn) continue;
