@@ -1,6 +1,6 @@
 #include "bench/elementary_unit.hpp"
 #include "core/numbers/elementary.hpp"
-#include "simd/isa.hpp"
+#include "simd/by_isa.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -81,17 +81,7 @@ void in_registers(benchmark::State& state, const Case& c, Function function) {
 }
 
 bench::ElementaryUnit unit_of(simd::Isa isa) {
-    switch (isa) {
-    case simd::Isa::portable:
-        return bench::elementary_portable();
-    case simd::Isa::sse42:
-        return bench::elementary_sse42();
-    case simd::Isa::avx2:
-        return bench::elementary_avx2();
-    case simd::Isa::avx512:
-        break;
-    }
-    return bench::elementary_avx512();
+    return simd::of_isa(isa, RAYLANE_BY_ISA(bench::elementary))();
 }
 
 void add(const Case& c) {

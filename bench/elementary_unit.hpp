@@ -39,5 +39,6 @@ ElementaryUnit elementary_portable();
 ElementaryUnit elementary_sse42();
 ElementaryUnit elementary_avx2();
 ElementaryUnit elementary_avx512();
+ElementaryUnit elementary_neon();
 
 } // namespace raylane::bench

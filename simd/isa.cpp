@@ -14,6 +14,8 @@ bool is_available(Isa isa) {
         return __builtin_cpu_supports("sse4.2") != 0;
     case Isa::avx2:
         return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+    case Isa::neon:
+        return false;
     case Isa::avx512:
         break;
     }
@@ -21,7 +23,9 @@ bool is_available(Isa isa) {
            __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
            __builtin_cpu_supports("avx512vl") != 0;
 #elif defined(__wasm__)
-    return isa <= Isa::sse42; // what engines without do not load
+    return isa == Isa::portable || isa == Isa::sse42; // what engines without do not load
+#elif defined(__aarch64__)
+    return isa == Isa::portable || isa == Isa::neon;
 #else
     return isa == Isa::portable;
 #endif
@@ -35,6 +39,7 @@ const Kernels& kernels_of([[maybe_unused]] Isa isa) {
 #ifdef __x86_64__
     switch (isa) {
     case Isa::portable:
+    case Isa::neon:
         break;
     case Isa::sse42:
         return kernels_sse42();
@@ -45,6 +50,8 @@ const Kernels& kernels_of([[maybe_unused]] Isa isa) {
     }
 #elif defined(__wasm__)
     if (isa == Isa::sse42) return kernels_sse42();
+#elif defined(__aarch64__)
+    if (isa == Isa::neon) return kernels_neon();
 #endif
     return kernels_portable();
 }

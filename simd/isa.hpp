@@ -7,12 +7,13 @@
 
 namespace raylane::simd {
 
-enum class Isa : std::uint8_t { portable, sse42, avx2, avx512 };
+enum class Isa : std::uint8_t { portable, sse42, avx2, avx512, neon };
 
-inline constexpr Isa all_isas[] = {Isa::portable, Isa::sse42, Isa::avx2, Isa::avx512};
+inline constexpr Isa all_isas[] = {Isa::portable, Isa::sse42, Isa::avx2, Isa::avx512, Isa::neon};
 
 /// True if this processor, and the system on it, can run it: portable on any. avx2 stands for AVX2
-/// and FMA, avx512 for the F, CD, BW, DQ and VL parts; of WebAssembly, sse42 for its SIMD.
+/// and FMA, avx512 for the F, CD, BW, DQ and VL parts, and neon is what every AArch64 processor
+/// has; of WebAssembly, sse42 stands for its SIMD.
 bool is_available(Isa isa);
 
 /// The widest that is available.
@@ -20,7 +21,7 @@ Isa best_isa();
 
 /// Name for people.
 inline constexpr std::string_view name_of(Isa isa) {
-    constexpr std::string_view names[] = {"portable", "sse4.2", "avx2", "avx512"};
+    constexpr std::string_view names[] = {"portable", "sse4.2", "avx2", "avx512", "neon"};
     return names[static_cast<std::size_t>(isa)];
 }
 

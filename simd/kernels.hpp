@@ -90,5 +90,6 @@ const Kernels& kernels_portable();
 const Kernels& kernels_sse42();
 const Kernels& kernels_avx2();
 const Kernels& kernels_avx512();
+const Kernels& kernels_neon();
 
 } // namespace raylane::simd

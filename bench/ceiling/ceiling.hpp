@@ -33,5 +33,6 @@ CeilingUnit ceiling_portable();
 CeilingUnit ceiling_sse42();
 CeilingUnit ceiling_avx2();
 CeilingUnit ceiling_avx512();
+CeilingUnit ceiling_neon();
 
 } // namespace raylane::bench

@@ -1,16 +1,14 @@
 #include "bench/ceiling/prepare.hpp"
 #include "bench/method_rays.hpp"
-#include "simd/isa.hpp"
+#include "simd/by_isa.hpp"
 
 /// The ceiling of each kind beside raylane's precisions: the same rays at the same shapes.
 namespace raylane::bench {
 
 namespace {
 
-const CeilingUnit& unit_of(simd::Isa isa) {
-    static const CeilingUnit units[] = {ceiling_portable(), ceiling_sse42(), ceiling_avx2(),
-                                        ceiling_avx512()};
-    return units[static_cast<int>(isa)];
+CeilingUnit unit_of(simd::Isa isa) {
+    return simd::of_isa(isa, RAYLANE_BY_ISA(ceiling))();
 }
 
 template <class Shape>

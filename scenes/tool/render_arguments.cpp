@@ -68,7 +68,7 @@ void RenderArguments::add_to(CLI::App& command) {
         "What traces: vector, or reference, which is slow and written to be read (default: vector)",
         "vector|reference");
     add("--isa", isa, "The vector engine's instructions (default: the best there are)",
-        "portable|sse4.2|avx2|avx512");
+        "portable|sse4.2|avx2|avx512|neon");
     add("--tile", tile,
         "Pixels on the side of the squares that threads work on, 8 to 64; changes no exact picture",
         "N");

@@ -39,5 +39,6 @@ int bounded_operation_portable(int, const BoundedColumns&, const BoundedColumns&
 int bounded_operation_sse42(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
 int bounded_operation_avx2(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
 int bounded_operation_avx512(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
+int bounded_operation_neon(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
 
 } // namespace raylane::simd

@@ -41,5 +41,6 @@ void elementary_portable(const ElementaryArrays& arrays);
 void elementary_sse42(const ElementaryArrays& arrays);
 void elementary_avx2(const ElementaryArrays& arrays);
 void elementary_avx512(const ElementaryArrays& arrays);
+void elementary_neon(const ElementaryArrays& arrays);
 
 } // namespace raylane::simd

@@ -1,5 +1,5 @@
 #include "core/numbers/elementary.hpp"
-#include "simd/isa.hpp"
+#include "simd/by_isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/elementary_check.hpp"
 
@@ -75,8 +75,9 @@ void check(void (*fill)(const ElementaryArrays&)) {
 } // namespace
 
 TEST_CASE("elementary functions have the scalar ones' bits in every lane") {
-    check(elementary_portable);
-    if (is_available(Isa::sse42)) check(elementary_sse42);
-    if (is_available(Isa::avx2)) check(elementary_avx2);
-    if (is_available(Isa::avx512)) check(elementary_avx512);
+    constexpr auto all = RAYLANE_BY_ISA(elementary);
+    for (const auto& [isa, fill] : all) {
+        CAPTURE(name_of(isa));
+        if (is_available(isa)) check(fill);
+    }
 }

@@ -27,16 +27,7 @@ int rounds() {
 }
 
 ScaledFilters scaled_filters_of(Isa isa) {
-    switch (isa) {
-    case Isa::portable:
-        return scaled_filters_portable();
-    case Isa::sse42:
-        return scaled_filters_sse42();
-    case Isa::avx2:
-        return scaled_filters_avx2();
-    default:
-        return scaled_filters_avx512();
-    }
+    return of_isa(isa, RAYLANE_BY_ISA(scaled_filters))();
 }
 
 /// One shape and one ray before the filters.

@@ -39,5 +39,6 @@ FilterChecks filter_checks_portable();
 FilterChecks filter_checks_sse42();
 FilterChecks filter_checks_avx2();
 FilterChecks filter_checks_avx512();
+FilterChecks filter_checks_neon();
 
 } // namespace raylane::simd

@@ -2,7 +2,7 @@
 
 #include "core/shapes/shape_table.hpp"
 #include "core/shapes/solve.hpp"
-#include "simd/isa.hpp"
+#include "simd/by_isa.hpp"
 #include "tests/random.hpp"
 #include "tests/simd/filter_check.hpp"
 
@@ -20,16 +20,7 @@ using namespace simd;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline FilterChecks checks_of(Isa isa) {
-    switch (isa) {
-    case Isa::portable:
-        return filter_checks_portable();
-    case Isa::sse42:
-        return filter_checks_sse42();
-    case Isa::avx2:
-        return filter_checks_avx2();
-    default:
-        return filter_checks_avx512();
-    }
+    return of_isa(isa, RAYLANE_BY_ISA(filter_checks))();
 }
 
 /// A ray as it is meant, and as the filters see it.

@@ -73,6 +73,9 @@ struct LanesCheck {
             check(sqrt(abs(x)), [](Number p, Number) {
                 return static_cast<Number>(__builtin_sqrt(__builtin_fabs(static_cast<double>(p))));
             });
+            check(floor(x), [](Number p, Number) {
+                return static_cast<Number>(__builtin_floor(static_cast<double>(p)));
+            });
             check(select(x < y, x, y), [](Number p, Number q) { return p < q ? p : q; });
             check(select(x <= y, x, y), [](Number p, Number q) { return p <= q ? p : q; });
             check(select(x > y, x, y), [](Number p, Number q) { return p > q ? p : q; });
@@ -159,6 +162,95 @@ struct LanesCheck {
             Lanes<Arch>::mul_add(x, y, z).store_unaligned(native);
             for (int i = 0; i < size; ++i)
                 failures += same(native[i], __builtin_fmaf(a[i], b[i], c[i])) ? 0 : 1;
+        }
+        return failures;
+    }
+
+    /// As far off as SSE's may be, which filters count on.
+    int reciprocal_root_failures(int rounds) {
+        constexpr double most = 1.5 * 0x1p-12;
+        int failures = 0;
+        for (int round = 0; round < rounds; ++round) {
+            float a[size], native[size];
+            for (float& number : a) // from 2^-100 on
+                number = __builtin_bit_cast(float, (random() & 0x3FFFFFFF) + 0x0D800000);
+            rsqrt(Floats<Arch>::load_unaligned(a)).store_unaligned(native);
+            for (int i = 0; i < size; ++i) {
+                const double ratio =
+                    static_cast<double>(native[i]) * __builtin_sqrt(static_cast<double>(a[i]));
+                failures += ratio >= 1 - most && ratio <= 1 + most ? 0 : 1;
+            }
+        }
+        return failures;
+    }
+
+    /// What takes numbers from elsewhere, or from one type to another.
+    int move_failures(int rounds) {
+        using F = Floats<Arch>;
+        using D = DoubleLanes<Arch>;
+        constexpr int half = size / 2;
+        int failures = 0;
+        for (int round = 0; round < rounds; ++round) {
+            float table[16], found[size], wide[size];
+            double wide_doubles[size];
+            std::uint32_t places[size];
+            std::uint8_t packed[64];
+            for (float& number : table)
+                number = random_float(false);
+            for (std::uint8_t& byte : packed)
+                byte = static_cast<std::uint8_t>(random() >> 24);
+            for (int i = 0; i < size; ++i) {
+                places[i] = random() >> 28;
+                wide_doubles[i] = static_cast<double>(random_float(round % 2 == 0)) / 3;
+                wide[i] = __builtin_bit_cast(float, random() << 4 | places[i]);
+            }
+            const auto check = [&](const F& lanes, const auto& expected) {
+                lanes.store_unaligned(found);
+                for (int i = 0; i < size; ++i)
+                    failures += same(found[i], expected(i)) ? 0 : 1;
+            };
+            const F x = F::load_unaligned(wide), y = F::load_unaligned(table);
+            check(Lanes<Arch>::gather(table, places), [&](int i) { return table[places[i]]; });
+            check(Lanes<Arch>::look_up(table, x), [&](int i) { return table[places[i]]; });
+            check(Lanes<Arch>::narrow(wide_doubles),
+                  [&](int i) { return static_cast<float>(wide_doubles[i]); });
+            check(Lanes<Arch>::add(x, y), [&](int i) {
+                return __builtin_bit_cast(float, __builtin_bit_cast(std::uint32_t, wide[i]) +
+                                                     __builtin_bit_cast(std::uint32_t, table[i]));
+            });
+            check(Lanes<Arch>::unpack_24(packed), [&](int i) {
+                std::uint32_t number = 0;
+                __builtin_memcpy(&number, packed + 3 * i, 3);
+                return __builtin_bit_cast(float, number);
+            });
+
+            float least = table[0], greatest = table[0];
+            for (int i = 0; i < size; ++i) {
+                if (table[i] != table[i]) table[i] = 1;
+                least = i == 0 || table[i] < least ? table[i] : least;
+                greatest = i == 0 || table[i] > greatest ? table[i] : greatest;
+            }
+            const F numbers = F::load_unaligned(table);
+            failures += Lanes<Arch>::least(numbers) == least ? 0 : 1;
+            failures += Lanes<Arch>::greatest(numbers) == greatest ? 0 : 1;
+
+            double lanes[half];
+            Spots<Arch> spots{table, nullptr, {}};
+            for (int i = 0; i < half; ++i)
+                spots.offsets[i] = places[i] / 2;
+            D::gather(spots, 8).store_unaligned(lanes);
+            for (int i = 0; i < half; ++i)
+                failures += same(static_cast<float>(lanes[i]), table[places[i] / 2 + 8]) ? 0 : 1;
+            for (int part = 0; part < 2; ++part) {
+                D::widen(x, part).store_unaligned(lanes);
+                for (int i = 0; i < half; ++i)
+                    failures += same(lanes[i], static_cast<double>(wide[part * half + i])) ? 0 : 1;
+            }
+            for (std::uint32_t& place : places)
+                place %= static_cast<std::uint32_t>(size);
+            D::pick(wide_doubles, places).store_unaligned(lanes);
+            for (int i = 0; i < half; ++i)
+                failures += same(lanes[i], wide_doubles[places[i]]) ? 0 : 1;
         }
         return failures;
     }
@@ -274,6 +366,7 @@ struct LanesCheck {
     static int failures() {
         LanesCheck check;
         return check.mul_add_failures(200000) + check.compress_failures() +
+               check.reciprocal_root_failures(20000) + check.move_failures(10000) +
                check.template operation_failures<Floats<Arch>>(20000) +
                check.template operation_failures<Floats<Double<Arch>>>(20000) +
                check.double_failures(20000) + check.mask_failures(10000) +
@@ -285,5 +378,6 @@ int lanes_failures_portable();
 int lanes_failures_sse42();
 int lanes_failures_avx2();
 int lanes_failures_avx512();
+int lanes_failures_neon();
 
 } // namespace raylane::simd

@@ -1,4 +1,4 @@
-#include "simd/isa.hpp"
+#include "simd/by_isa.hpp"
 #include "tests/bounded_truth.hpp"
 #include "tests/catch.hpp"
 #include "tests/simd/bounded_lanes.hpp"
@@ -56,10 +56,7 @@ BoundedCounts bounds_of(BoundedOperation operate) {
 } // namespace
 
 TEST_CASE("bounds hold in lanes, whatever operands are within theirs") {
-    constexpr std::pair<Isa, BoundedOperation> all[] = {{Isa::portable, bounded_operation_portable},
-                                                        {Isa::sse42, bounded_operation_sse42},
-                                                        {Isa::avx2, bounded_operation_avx2},
-                                                        {Isa::avx512, bounded_operation_avx512}};
+    constexpr auto all = RAYLANE_BY_ISA(bounded_operation);
     for (const auto& [isa, operate] : all) {
         if (!is_available(isa)) continue;
         const BoundedCounts counts = bounds_of(operate);
@@ -69,15 +66,17 @@ TEST_CASE("bounds hold in lanes, whatever operands are within theirs") {
 }
 
 TEST_CASE("lanes do what loops over numbers do") {
-    CHECK(lanes_failures_portable() == 0);
-    if (is_available(Isa::sse42)) CHECK(lanes_failures_sse42() == 0);
-    if (is_available(Isa::avx2)) CHECK(lanes_failures_avx2() == 0);
-    if (is_available(Isa::avx512)) CHECK(lanes_failures_avx512() == 0);
+    constexpr auto all = RAYLANE_BY_ISA(lanes_failures);
+    for (const auto& [isa, failures] : all) {
+        CAPTURE(name_of(isa));
+        if (is_available(isa)) CHECK(failures() == 0);
+    }
 }
 
 TEST_CASE("a queue has room for all that a ray may enter, and loses none of it") {
-    CHECK(queue_failures_portable() == 0);
-    if (is_available(Isa::sse42)) CHECK(queue_failures_sse42() == 0);
-    if (is_available(Isa::avx2)) CHECK(queue_failures_avx2() == 0);
-    if (is_available(Isa::avx512)) CHECK(queue_failures_avx512() == 0);
+    constexpr auto all = RAYLANE_BY_ISA(queue_failures);
+    for (const auto& [isa, failures] : all) {
+        CAPTURE(name_of(isa));
+        if (is_available(isa)) CHECK(failures() == 0);
+    }
 }

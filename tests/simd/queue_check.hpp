@@ -54,5 +54,6 @@ int queue_failures_portable();
 int queue_failures_sse42();
 int queue_failures_avx2();
 int queue_failures_avx512();
+int queue_failures_neon();
 
 } // namespace raylane::simd

@@ -15,5 +15,6 @@ ScaledFilters scaled_filters_portable();
 ScaledFilters scaled_filters_sse42();
 ScaledFilters scaled_filters_avx2();
 ScaledFilters scaled_filters_avx512();
+ScaledFilters scaled_filters_neon();
 
 } // namespace raylane::simd

@@ -4,7 +4,7 @@
 # the linker may merge must carry the unit's instruction set in its name.
 #
 # usage: symbols_test.sh OBJECT...
-# Those not called *_portable, *_sse42, *_avx2 or *_avx512 are passed over.
+# Those not called *_portable, *_sse42, *_avx2, *_avx512 or *_neon are passed over.
 set -eu
 units=0
 for object in "$@"; do
@@ -13,6 +13,7 @@ for object in "$@"; do
     *_sse42.cpp*) tag=6sse4_2 ;;
     *_avx2.cpp*) tag=4fma3I ;;
     *_avx512.cpp*) tag=7avx512f ;;
+    *_neon.cpp*) tag=6neon64 ;;
     *) continue ;;
     esac
     units=$((units + 1))

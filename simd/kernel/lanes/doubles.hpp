@@ -306,6 +306,14 @@ struct DoubleLanes<Avx512> {
 };
 #endif
 
+} // namespace raylane::simd
+
+#ifdef __aarch64__
+#include "simd/kernel/lanes/neon/doubles.hpp"
+#endif
+
+namespace raylane::simd {
+
 template <class Arch>
 struct Lanes<Double<Arch>> : DoubleLanes<Arch> {
     using F = Floats<Double<Arch>>;

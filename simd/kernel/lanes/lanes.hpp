@@ -14,6 +14,9 @@
 #ifdef __x86_64__
 #include <immintrin.h>
 #endif
+#ifdef __aarch64__
+#include "simd/kernel/lanes/neon/registers.hpp"
+#endif
 
 /// Vector registers: what xsimd does not give, or not in all of its versions.
 /// Everything in kernel/ is a template over the instruction set, so that no two kernel units share
@@ -412,3 +415,7 @@ struct Lanes<Avx512> {
 #endif
 
 } // namespace raylane::simd
+
+#ifdef __aarch64__
+#include "simd/kernel/lanes/neon/lanes.hpp"
+#endif

@@ -139,7 +139,8 @@ class PortableBatch {
     friend PortableBatch floor(const PortableBatch& a) {
         PortableBatch result;
         for (std::size_t i = 0; i < size; ++i)
-            result.lanes_[i] = __builtin_floor(a.lanes_[i]);
+            result.lanes_[i] =
+                static_cast<Number>(__builtin_floor(static_cast<double>(a.lanes_[i])));
         return result;
     }
 

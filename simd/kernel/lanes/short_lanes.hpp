@@ -179,3 +179,7 @@ struct ShortLanes<Avx512> : EightLanes<Avx512> {
 #endif
 
 } // namespace raylane::simd
+
+#ifdef __aarch64__
+#include "simd/kernel/lanes/neon/short_lanes.hpp"
+#endif

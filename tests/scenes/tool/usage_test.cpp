@@ -113,7 +113,8 @@ TEST_CASE("an option's value that is none is told in one line") {
         {{"--precision", "half"},
          "--precision: must be fast, robust, exact, double or auto, got \"half\""},
         {{"--isa", "avx1"},
-         "--isa: must be portable, sse4.2, avx2 or avx512, got \"avx1\", did you mean \"avx2\"?"},
+         "--isa: must be portable, sse4.2, avx2, avx512 or neon, got \"avx1\", did you mean "
+         "\"avx2\"?"},
         {{"--isa", "avx2", "--engine", "reference"}, "--isa: goes with --engine vector"},
         {{"--tile", "7"}, "--tile: must be a whole number from 8 to 64, got \"7\""},
         {{"--tile", "65"}, "--tile: must be a whole number from 8 to 64, got \"65\""},
