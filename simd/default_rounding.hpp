@@ -2,6 +2,8 @@
 
 #if defined(__x86_64__)
 #include <xmmintrin.h>
+#elif defined(__aarch64__)
+#include <cstdint>
 #else
 #include <cfenv>
 #endif
@@ -28,6 +30,27 @@ class DefaultRounding {
     /// What has happened, and all exceptions masked.
     static constexpr unsigned flags = 0x3F, standard = 0x1F80;
     unsigned before_;
+#elif defined(__aarch64__)
+    // What has happened is in a register of its own.
+    DefaultRounding() : before_(control()) {
+        if (before_ != standard) set_control(standard);
+    }
+    ~DefaultRounding() {
+        if (before_ != standard) set_control(before_);
+    }
+
+  private:
+    static std::uint64_t control() {
+        std::uint64_t fpcr = 0;
+        __asm__ volatile("mrs %0, fpcr" : "=r"(fpcr));
+        return fpcr;
+    }
+    static void set_control(std::uint64_t fpcr) {
+        __asm__ volatile("msr fpcr, %0" : : "r"(fpcr));
+    }
+
+    static constexpr std::uint64_t standard = 0;
+    std::uint64_t before_;
 #else
     DefaultRounding() {
         std::fegetenv(&before_);

@@ -21,6 +21,8 @@ class OddRounding {
         std::fesetround(FE_UPWARD);
 #if defined(__x86_64__)
         _mm_setcsr(_mm_getcsr() | 0x8040);
+#elif defined(__aarch64__)
+        set_control(control() | flush_to_zero);
 #endif
     }
     ~OddRounding() {
@@ -32,11 +34,24 @@ class OddRounding {
     static bool is_on() {
 #if defined(__x86_64__)
         if ((_mm_getcsr() & 0xFFC0) != (0x1F80 | 0x8040 | 0x4000)) return false;
+#elif defined(__aarch64__)
+        if ((control() & flush_to_zero) == 0) return false;
 #endif
         return std::fegetround() == FE_UPWARD;
     }
 
   private:
+#if defined(__aarch64__)
+    static constexpr std::uint64_t flush_to_zero = 1U << 24;
+    static std::uint64_t control() {
+        std::uint64_t fpcr = 0;
+        __asm__ volatile("mrs %0, fpcr" : "=r"(fpcr));
+        return fpcr;
+    }
+    static void set_control(std::uint64_t fpcr) {
+        __asm__ volatile("msr fpcr, %0" : : "r"(fpcr));
+    }
+#endif
     std::fenv_t before_{};
 };
 
