@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <iterator>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,6 +17,15 @@ namespace raylane::tests {
 namespace {
 
 constexpr std::chrono::minutes patience{2};
+
+/// What is started: raylane, or what runs a program for another processor.
+#ifdef RAYLANE_EMULATOR
+constexpr const char* first_words[] = {RAYLANE_EMULATOR, RAYLANE_TOOL};
+constexpr const char* started = first_words[0];
+#else
+constexpr const char* first_words[] = {"raylane"};
+constexpr const char* started = RAYLANE_TOOL;
+#endif
 
 int checked(int result, const char* what) {
     if (result < 0) throw std::system_error(errno, std::generic_category(), what);
@@ -59,7 +69,7 @@ bool read_some(int descriptor, std::string& text) {
 } // namespace
 
 Process::Process(const std::vector<std::string>& arguments, const Setup& setup) {
-    std::vector<std::string> words = {"raylane"};
+    std::vector<std::string> words(std::begin(first_words), std::end(first_words));
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words)
@@ -67,7 +77,7 @@ Process::Process(const std::vector<std::string>& arguments, const Setup& setup) 
     argv.push_back(nullptr);
 
     // Opened here, because the child may become a user who does not get as far as there.
-    const int program = checked(::open(RAYLANE_TOOL, O_RDONLY | O_CLOEXEC), RAYLANE_TOOL);
+    const int program = checked(::open(started, O_RDONLY | O_CLOEXEC), started);
     const Ends out = pipe_ends();
     const Ends err = setup.terminal ? terminal_ends() : pipe_ends();
     sigset_t all, mask;

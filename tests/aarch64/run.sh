@@ -1,0 +1,90 @@
+#!/bin/sh
+# raylane for AArch64, by Debian's cross compiler and qemu's emulation: it builds without warnings, its short tests
+# pass by NEON's lanes and portable ones, and its pictures have the bits that build/release draws here.
+#
+#   tests/aarch64/run.sh          all programs of tests, and all scenes
+#   tests/aarch64/run.sh quick    simd's tests (of lanes, filters, finishers and the like), and one scene
+#
+# [native] tests compare builds or processors that there are not here, or take minutes by emulation. The tool's look
+# at processes, memory and signals from outside, and would see the emulator's.
+set -eu
+cd "$(dirname "$0")/../.."
+form=${1-full}
+
+missing=
+for package in g++-aarch64-linux-gnu cmake ninja-build qemu-user; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing="$missing $package"
+done
+if [ -n "$missing" ]; then
+    as_root=
+    [ "$(id -u)" -eq 0 ] || as_root=sudo
+    $as_root apt-get update
+    # shellcheck disable=SC2086 # a list of words
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $missing
+fi
+tests/aarch64/root.sh >build/aarch64-root.log 2>&1 || { cat build/aarch64-root.log; exit 1; }
+emulate() { # program of build/aarch64, arguments...
+    program=$1
+    shift
+    RAYLANE_TEST_ROUNDS=${RAYLANE_TEST_ROUNDS:-3} \
+        qemu-aarch64 -L build/aarch64-root "build/aarch64/bin/$program" "$@"
+}
+
+echo "== build"
+generator=-GNinja
+[ ! -f build/aarch64/CMakeCache.txt ] || generator=
+cmake --preset aarch64 $generator >build/aarch64.log 2>&1 || { cat build/aarch64.log; exit 1; }
+programs=simd
+[ "$form" = quick ] || programs="core simd simd-threads simd-allocation scenes scenes-threads scenes-memory \
+    scenes-library scenes-library-threads"
+# shellcheck disable=SC2046,SC2086 # lists of words
+cmake --build --preset aarch64 --parallel "$(nproc)" --target raylane $(printf 'raylane-test-%s ' $programs)
+
+echo "== tests"
+failed=
+for program in $programs; do
+    log=build/aarch64-$program.log
+    emulate "raylane-test-$program" '~[long]~[native]' >"$log" 2>&1 || failed="$failed $program"
+    echo "$program: $(tail -n 2 "$log" | tr '\n' ' ')"
+done
+for program in $failed; do
+    cat "build/aarch64-$program.log"
+done
+
+echo "== pictures"
+pictures=$(mktemp -d)
+trap 'rm -rf "$pictures"' EXIT
+draw() { # picture, scene, command and options...
+    picture=$pictures/$1.pfm
+    scene=$2
+    shift 2
+    # shellcheck disable=SC2086 # a list of options
+    "$@" $options -o "$picture" "$scene"
+}
+same() { # what
+    echo "$1:"
+    build/release/bin/raylane compare "$pictures/here.pfm" "$pictures/there.pfm" || failed="$failed $1"
+}
+scenes=scenes/birthday.json
+[ "$form" = quick ] || scenes=$(git ls-files 'scenes/*.json' ':!scenes/*/*' ':!*.schema.json')
+for scene in $scenes; do
+    options="--size 120x120 --spp 1"
+    draw here "$scene" build/release/bin/raylane render
+    for isa in neon portable; do
+        draw there "$scene" emulate raylane render --isa $isa
+        same "$scene, $isa"
+    done
+done
+for options in "--engine reference" "--engine reference --precision robust" "--precision fast" "--precision double"; do
+    options="--size 60x60 --spp 1 $options"
+    draw here scenes/birthday.json build/release/bin/raylane render
+    draw there scenes/birthday.json emulate raylane render
+    same "scenes/birthday.json $options"
+done
+
+if emulate raylane render scenes/birthday.json --isa avx2 -o "$pictures/none.png" 2>"$pictures/refusal" ||
+    ! grep -F "raylane: --isa: this processor has no avx2, but portable, neon" "$pictures/refusal"; then
+    cat "$pictures/refusal"
+    failed="$failed refusal"
+fi
+[ -z "$failed" ] || { echo "failed: $failed"; exit 1; }
