@@ -332,7 +332,7 @@ TEMPLATE_TEST_CASE("the finish is certain of ordinary rays", "", RAYLANE_ALL_SHA
 TEST_CASE("the finish sorts out packets of many kinds, and leaves lanes without a shape alone") {
     Random random(23);
     Share share;
-    for (int round = 0; round < rounds() / 5 + 1; ++round) {
+    for (int round = 0; round < rounds() / 5 + 4; ++round) { // one alone may have no hit
         Tables tables;
         Rays by_kind;
         for_each_table(tables, [&]<class Shape>(Table<Shape>&) {
