@@ -65,12 +65,12 @@ std::optional<Turn> FrameArguments::turning() const {
     if (!turn) return std::nullopt;
     const std::vector<std::string_view> parts = parts_of(*turn, '/');
     const std::optional<float> degrees = to_float(parts[0]);
-    const std::optional<int> count = parts.size() == 2 ? to_int(parts[1]) : std::nullopt;
-    if (!degrees || !count || *count < 1 || *count > most_pictures)
+    const int count = parts.size() == 2 ? to_int(parts[1]).value_or(0) : 0;
+    if (!degrees || count < 1 || count > most_pictures)
         throw BadInput("--turn", "",
                        "must be DEGREES/PICTURES, such as 360/120, got \"" + printable(*turn) +
                            "\"");
-    return Turn{static_cast<double>(*degrees), static_cast<std::size_t>(*count)};
+    return Turn{static_cast<double>(*degrees), static_cast<std::size_t>(count)};
 }
 
 FitTo FrameArguments::fit_to() const {
