@@ -17,6 +17,11 @@ namespace raylane::simd {
         RAYLANE_UNIT(name, portable), RAYLANE_UNIT(name, sse42), RAYLANE_UNIT(name, avx2),         \
             RAYLANE_UNIT(name, avx512)                                                             \
     }
+#elif defined(__wasm__)
+#define RAYLANE_BY_ISA(name)                                                                       \
+    std::array {                                                                                   \
+        RAYLANE_UNIT(name, portable), RAYLANE_UNIT(name, sse42)                                    \
+    }
 #elif defined(__aarch64__)
 #define RAYLANE_BY_ISA(name)                                                                       \
     std::array {                                                                                   \

@@ -26,4 +26,4 @@ set(STB_INCLUDE_DIR ${headers}/stb)
 target_compile_options(raylane_flags INTERFACE
   -fwasm-exceptions -include ${PROJECT_SOURCE_DIR}/scenes/web/standard_library.hpp)
 # What LLVM has optimised, binaryen would take minutes to look at again, for nothing (-O1). fma.cpp.
-target_link_options(raylane_flags INTERFACE -fwasm-exceptions -O1 LINKER:--wrap=fma)
+target_link_options(raylane_flags INTERFACE -fwasm-exceptions -O1 LINKER:--wrap=fma LINKER:--wrap=fmaf)

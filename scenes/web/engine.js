@@ -11,11 +11,13 @@ class Engine {
 
     // A WebAssembly.Module, which several engines may share.
     static async start(code) {
-        return new Engine(await makeRaylane({
-            instantiateWasm(imports, ready) {
-                WebAssembly.instantiate(code, imports).then(ready);
-                return {};
-            },
+        return new Engine(await new Promise((made, failed) => {
+            makeRaylane({
+                instantiateWasm(imports, ready) {
+                    WebAssembly.instantiate(code, imports).then(ready, failed);
+                    return {};
+                },
+            }).then(made, failed);
         }));
     }
 
@@ -26,9 +28,8 @@ class Engine {
     // The ending of `name` tells the format, or else the text does. Answers what there is to know.
     load(text, name) {
         const bytes = new TextEncoder().encode(text);
-        const place = this.module._malloc(bytes.length);
         const name_bytes = new TextEncoder().encode(name + "\0");
-        const name_place = this.module._malloc(name_bytes.length);
+        const [place, name_place] = [this.room(bytes.length), this.room(name_bytes.length)];
         this.module.HEAPU8.set(bytes, place);
         this.module.HEAPU8.set(name_bytes, name_place);
         const good = this.module._web_load(place, bytes.length, name_place);
@@ -45,8 +46,15 @@ class Engine {
         };
     }
 
+    // Places are of 32 bits, and signed as calls answer them.
+    room(size) {
+        const place = this.module._malloc(size) >>> 0;
+        if (place === 0 && size > 0) throw new Error("out of memory");
+        return place;
+    }
+
     numbers() {
-        const first = this.module._web_camera() / 4;
+        const first = (this.module._web_camera() >>> 0) / 4;
         return this.module.HEAPF32.subarray(first, first + CAMERA_NUMBERS);
     }
 
@@ -72,7 +80,7 @@ class Engine {
     render({ width, height, grid = 0, first = 0, rows = height }) {
         this.require(this.module._web_render(width, height, grid, first, rows));
         const pixels = width * rows;
-        const bytes = this.module._web_bytes(), film = this.module._web_film() / 4;
+        const bytes = this.module._web_bytes() >>> 0, film = (this.module._web_film() >>> 0) / 4;
         return {
             bytes: this.module.HEAPU8.subarray(bytes, bytes + 4 * pixels),
             film: this.module.HEAPF32.subarray(film, film + 3 * pixels),

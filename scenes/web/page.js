@@ -97,6 +97,26 @@ async function draw(stage, moves) {
 
 const next_frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
 
+// What is to be seen now, and better as long as it is left alone. Answers whether it took long.
+async function show() {
+    const version = view.version, began = performance.now();
+    const [quick, ...better] = stages();
+    let alone = await draw(quick, true);
+    const is_long = performance.now() - began >= 16;
+    if (turning || !alone) return is_long;
+    await new Promise((resolve) => setTimeout(resolve, 80)); // a hand may be about to go on
+    if (view.version !== version) return is_long;
+    times.length = 0;
+    if (coarseness > 1) alone = await draw(quick, false);
+    for (const stage of better) {
+        const begins = performance.now();
+        alone = alone && view.version === version && await draw(stage, false);
+        if (performance.now() - begins > PATIENCE) break;
+    }
+    if (alone && view.version === version) document.body.dataset.state = "done";
+    return is_long;
+}
+
 async function run() {
     let drawn = -1;
     let waits = true; // for the display, where frames are quick or there is nothing to do
@@ -110,33 +130,21 @@ async function run() {
             continue;
         }
         drawn = view.version;
-        const [quick, ...better] = stages();
-        let alone = await draw(quick, true);
-        waits = performance.now() - now < 16;
-        if (turning || !alone) continue;
-        await new Promise((resolve) => setTimeout(resolve, 80)); // a hand may be about to go on
-        if (view.version !== drawn) continue;
-        times.length = 0;
-        if (coarseness > 1) alone = await draw(quick, false);
-        for (const stage of better) {
-            const began = performance.now();
-            alone = alone && view.version === drawn && await draw(stage, false);
-            if (performance.now() - began > PATIENCE) break;
-        }
-        if (alone && view.version === drawn) document.body.dataset.state = "done";
+        await attempt(async () => { // the next one may do better
+            waits = !await show();
+        });
     }
 }
 
+let loaded = null; // the last scene that could be read
 async function load(text, name) {
     say(`Reading ${name}…`);
-    const before = scene;
     scene = null; // nothing is drawn meanwhile
     changed();
     try {
-        scene = await pool.load(text, name);
-    } catch (failure) {
-        scene = before;
-        throw failure;
+        loaded = await pool.load(text, name);
+    } finally {
+        scene = loaded;
     }
     coarseness = 1;
     $("shapes").textContent = scene.shapes.toLocaleString("en");
@@ -150,6 +158,7 @@ function home() {
 }
 
 function resize() {
+    if (scene === null) return; // which is about to come
     const chosen = $("size").value;
     size = chosen === "own" ? { width: scene.width, height: scene.height } : { width: +chosen, height: +chosen };
     Object.assign(canvas, size);

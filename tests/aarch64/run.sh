@@ -4,12 +4,26 @@
 #
 #   tests/aarch64/run.sh          all programs of tests, and all scenes
 #   tests/aarch64/run.sh quick    simd's tests (of lanes, filters, finishers and the like), and one scene
+#   tests/aarch64/run.sh lanes    tests of registers alone, which want no kernels: some minutes
+#
+# On Debian 12, whose libraries for arm64 it takes, and beside a build/release of here for the pictures.
 #
 # [native] tests compare builds or processors that there are not here, or take minutes by emulation. The tool's look
 # at processes, memory and signals from outside, and would see the emulator's.
 set -eu
 cd "$(dirname "$0")/../.."
 form=${1-full}
+case $form in
+full | quick)
+    [ -x build/release/bin/raylane ] || { echo "run.sh: no build/release/bin/raylane, whose pictures these are held to"; exit 2; }
+    ;;
+lanes) ;;
+*)
+    echo "usage: tests/aarch64/run.sh [quick|lanes]"
+    exit 2
+    ;;
+esac
+mkdir -p build
 
 missing=
 for package in g++-aarch64-linux-gnu cmake ninja-build qemu-user; do
@@ -24,16 +38,21 @@ if [ -n "$missing" ]; then
 fi
 tests/aarch64/root.sh >build/aarch64-root.log 2>&1 || { cat build/aarch64-root.log; exit 1; }
 emulate() { # program of build/aarch64, arguments...
-    program=$1
+    emulated=$1
     shift
     RAYLANE_TEST_ROUNDS=${RAYLANE_TEST_ROUNDS:-3} \
-        qemu-aarch64 -L build/aarch64-root "build/aarch64/bin/$program" "$@"
+        qemu-aarch64 -L build/aarch64-root "build/aarch64/bin/$emulated" "$@"
 }
 
 echo "== build"
 generator=-GNinja
 [ ! -f build/aarch64/CMakeCache.txt ] || generator=
 cmake --preset aarch64 $generator >build/aarch64.log 2>&1 || { cat build/aarch64.log; exit 1; }
+if [ "$form" = lanes ]; then
+    cmake --build --preset aarch64 --parallel "$(nproc)" --target raylane-test-lanes
+    emulate raylane-test-lanes
+    exit
+fi
 programs=simd
 [ "$form" = quick ] || programs="core simd simd-threads simd-allocation scenes scenes-threads scenes-memory \
     scenes-library scenes-library-threads"

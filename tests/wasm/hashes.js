@@ -29,6 +29,34 @@ function native(command, ...rest) {
     execFileSync(raylane, [command, "--quiet", ...rest], { stdio: ["ignore", "ignore", "inherit"] });
 }
 
+// a * b + c rounded once to so many bits, of exponents from `least` on: by whole numbers.
+function fused(a, b, c, bits, least) {
+    const view = new DataView(new ArrayBuffer(8));
+    const parts = (x) => { // x = m * 2 ** e
+        view.setFloat64(0, x);
+        const word = view.getBigUint64(0), exponent = Number((word >> 52n) & 0x7FFn);
+        const fraction = word & 0xFFFFFFFFFFFFFn;
+        const m = exponent === 0 ? fraction : fraction | (1n << 52n);
+        return [word >> 63n ? -m : m, Math.max(exponent, 1) - 1075];
+    };
+    const [[ma, ea], [mb, eb], [mc, ec]] = [a, b, c].map(parts);
+    const low = Math.min(ea + eb, ec);
+    let sum = (ma * mb << BigInt(ea + eb - low)) + (mc << BigInt(ec - low));
+    if (sum === 0n) return a * b + c; // whose sign is right
+    const sign = sum < 0n ? -1 : 1;
+    if (sum < 0n) sum = -sum;
+    const length = sum.toString(2).length;
+    const dropped = Math.max(length - bits, least - low);
+    if (dropped > 0) {
+        const half = 1n << BigInt(dropped - 1), rest = sum & (2n * half - 1n);
+        sum >>= BigInt(dropped);
+        if (rest > half || (rest === half && (sum & 1n) === 1n)) sum += 1n;
+    }
+    // Exactly, but for what is too large: in two steps, as one of them may be no number by itself.
+    const exponent = low + Math.max(dropped, 0), first = Math.trunc(exponent / 2);
+    return sign * Number(sum) * 2 ** first * 2 ** (exponent - first);
+}
+
 // A native picture: rows of floats, from the top down, as a PFM has them from the bottom up; or bytes.
 function native_film(scene, options, width, height) {
     const file = path.join(temporary, "picture.pfm");
@@ -191,6 +219,38 @@ function compare_numbers(lanes) {
         same(`"${text}"`, Object.is(read_float(text), number), true);
 }
 
+// Sums that are all but halfway between two numbers, denormal ones, and what is no number.
+function compare_fused(lanes) {
+    const { _lanes_fma: fma, _lanes_fmaf: fmaf } = lanes.module;
+    let state = 7;
+    const random = () => {
+        state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+        return state / 2 ** 32;
+    };
+    const whole = (bits) => Math.floor(random() * 2 ** Math.min(bits, 30)) + (bits > 30 ? Math.floor(random() * 2 ** 30) * 2 ** (bits - 30) : 0);
+    const compare = (bits, least, round, call, what) => {
+        for (let i = 0; i < 20000; ++i) {
+            const scale = Math.floor(random() * (i % 4 === 3 ? 60 - least : 40)) - (i % 4 === 3 ? 30 : 20);
+            const one = 2 ** (bits - 1);
+            const a = round((one + whole(bits - 1)) / one * (random() < 0.5 ? -1 : 1));
+            const b = i % 2 === 0 ? round((one + whole(bits - 1)) / one) : round(1 + (1 - Math.floor(random() * 3)) / one);
+            // Half of its last place is a * b, and a little more or less.
+            const c = i % 4 < 2 ? round((one + whole(bits - 1)) * 2) : round((one + whole(bits - 1)) / one * 2 ** (bits - Math.floor(random() * 4)));
+            const factor = i % 4 === 3 ? 2 ** Math.max(least + bits - 2, -scale - bits) : 1;
+            const [x, z] = [round(a * factor), round(c * factor)];
+            same(`${what}(${x}, ${b}, ${z})`, call(x, b, z), round(fused(x, b, z, bits, least)));
+        }
+    };
+    compare(24, -149, Math.fround, fmaf, "fmaf");
+    compare(53, -1074, (x) => x, fma, "fma");
+    same("fmaf just below halfway", fmaf((1 - 2 ** -23) * 2 ** -24, 1 + 2 ** -23, 1), 1);
+    const specials = [0, -0, 1, -1, Infinity, -Infinity, NaN];
+    for (const a of specials)
+        for (const b of specials)
+            for (const c of specials)
+                for (const call of [fma, fmaf]) same(`fused ${a} ${b} ${c}`, Object.is(call(a, b, c), a * b + c), true);
+}
+
 async function main() {
     const load = (name) => WebAssembly.compile(fs.readFileSync(path.join(folder, name)));
     globalThis.makeRaylane = require(path.join(folder, "raylane.js"));
@@ -199,6 +259,7 @@ async function main() {
     console.log(`instruction sets: ${lanes.isas.join(", ")}`);
     compare_numbers(lanes);
     console.log(`${compared} numbers as files have them`);
+    compare_fused(lanes);
     const scenes = fs.readdirSync(source).filter((name) => name.endsWith(".json") && !name.includes("schema"));
     for (const name of scenes) compare_scene(name, lanes, engine);
     if (!(scenes.length > 0)) wrong.push("no scenes");

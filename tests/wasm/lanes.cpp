@@ -41,6 +41,13 @@ void append(const Number& number) {
     bytes.append(raw, sizeof number);
 }
 
+std::vector<simd::Isa> available() {
+    std::vector<simd::Isa> isas;
+    for (const simd::Isa isa : simd::all_isas)
+        if (simd::is_available(isa)) isas.push_back(isa);
+    return isas;
+}
+
 } // namespace
 
 extern "C" {
@@ -52,9 +59,16 @@ EMSCRIPTEN_KEEPALIVE const char* lanes_error() {
 /// Names of the instruction sets, one a line.
 EMSCRIPTEN_KEEPALIVE const char* lanes_isas() {
     bytes.clear();
-    for (const simd::Isa isa : simd::all_isas)
-        if (simd::is_available(isa)) bytes.append(simd::name_of(isa)).append("\n");
+    for (const simd::Isa isa : available())
+        bytes.append(simd::name_of(isa)).append("\n");
     return bytes.c_str();
+}
+
+EMSCRIPTEN_KEEPALIVE double lanes_fma(double a, double b, double c) {
+    return std::fma(a, b, c);
+}
+EMSCRIPTEN_KEEPALIVE float lanes_fmaf(float a, float b, float c) {
+    return std::fma(a, b, c);
 }
 
 EMSCRIPTEN_KEEPALIVE const char* lanes_load(const char* text, std::size_t length,
@@ -74,7 +88,7 @@ EMSCRIPTEN_KEEPALIVE const float* lanes_draw(int isa, int width, int height, int
         settings.grid = grid;
         settings.quality = 0.0F;
         simd::RenderOptions options;
-        options.isa = simd::all_isas[isa];
+        options.isa = available()[static_cast<std::size_t>(isa)];
         const simd::Rendering rendering = simd::render(*scene, settings, options);
         floats.clear();
         for (const core::Color& pixel : rendering.film.pixels())
@@ -95,7 +109,7 @@ EMSCRIPTEN_KEEPALIVE const char* lanes_trace(int isa, const float* rays, std::si
             component.resize(count);
         std::vector<core::ShapeId> shape(count);
         std::vector<std::uint8_t> entering(count), face(count);
-        const simd::StreamTracer tracer(*scene, 1, simd::all_isas[isa]);
+        const simd::StreamTracer tracer(*scene, 1, available()[static_cast<std::size_t>(isa)]);
         simd::RayStream<float> stream{};
         stream.count = count;
         simd::HitStream hits{};

@@ -223,12 +223,14 @@ void Exam::check(Questions& questions, std::size_t i, const Answers& answers, Ta
 /// StreamTracer gives the same bits with each instruction set, by one and by several threads.
 void Exam::check_others(const Rays& rays, const Answers& answers, Ways ways, Tally& tally) const {
     static std::size_t turn = 0;
-    const std::size_t only = turn++ % (2 * std::size(simd::all_isas));
-    std::size_t way = 0;
+    std::vector<simd::Isa> isas;
     for (const simd::Isa isa : simd::all_isas)
+        if (simd::is_available(isa)) isas.push_back(isa);
+    const std::size_t only = turn++ % (2 * isas.size());
+    std::size_t way = 0;
+    for (const simd::Isa isa : isas)
         for (const int threads : {1, 3}) {
             if (ways == Ways::one && way++ != only) continue;
-            if (!simd::is_available(isa)) continue;
             const simd::StreamTracer tracer(library::Internals::of(scene_), threads, isa);
             const simd::RayStream<float> stream{rays.size(),
                                                 {rays.x.data(), rays.y.data(), rays.z.data()},
