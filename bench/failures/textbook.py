@@ -15,6 +15,7 @@ Arrays of n rays: origins and directions (n, 3), t (n,), in float32.
 """
 
 import json
+import math
 import re
 
 import numpy as np
@@ -314,7 +315,7 @@ def camera_rays(scene):
     if camera.get("type") == "orthographic":
         half = camera["height"] / 2
         return start + half * (x * right + y * up), np.broadcast_to(forward, (len(x), 3)).copy()
-    half = np.tan(np.radians(camera["field_of_view"]) / 2)
+    half = math.tan(math.radians(camera["field_of_view"]) / 2)
     return np.broadcast_to(start, (len(x), 3)).copy(), unit(forward + half * (x * right + y * up))
 
 
