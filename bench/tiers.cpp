@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <string>
 #include <vector>
 
 /// How the rays of each pixel were decided, those of reflections, refractions and shadows included:
@@ -24,7 +23,7 @@ enum Tier : std::uint8_t {
               ///< rays from surface to surface
     scalar,   ///< one crossing by the scalar code, in double with bounds
     widened,  ///< the same with more than double has, or exactly
-    followed, ///< the whole path by the reference, where surfaces meet
+    followed, ///< the whole path by the reference: surfaces meet, or too many follow each other
 };
 
 Tier tier_of(const simd::EngineCounters& counters) {

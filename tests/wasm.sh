@@ -7,19 +7,9 @@ set -eu
 cd "$(dirname "$0")/.."
 raylane=${1:-build/release/bin/raylane}
 
-missing=
-for package in cmake make emscripten nodejs libglm-dev libxsimd-dev nlohmann-json3-dev libstb-dev \
-    chromium chromium-driver python3-selenium; do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
-        missing="$missing $package"
-done
-if [ -n "$missing" ]; then
-    root=
-    [ "$(id -u)" -eq 0 ] || root=sudo
-    $root apt-get update
-    # shellcheck disable=SC2086 # a list of words
-    $root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $missing
-fi
+. tests/have.sh
+have cmake make emscripten nodejs libglm-dev libxsimd-dev nlohmann-json3-dev libstb-dev chromium chromium-driver \
+    python3-selenium
 
 cmake --preset wasm
 cmake --build --preset wasm --parallel "$(nproc)"

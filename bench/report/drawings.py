@@ -63,15 +63,17 @@ def draw_failure(build, failure):
     path = BENCH / "failures" / (failure["name"] + ".json")
     description = textbook.read(path)
     scene = raylane.load(path)
-    exact = raylane.render(scene).rgb
-    exact_hits = first_hits(scene, "exact", *textbook.camera_rays(description))
+    rays = textbook.camera_rays(description)
     rgb, t, shape = textbook.draw(description, failure["textbook"])
-    numbers = {"off": steps(rgb, exact), **compare_hits(t.ravel(), shape.ravel(), *exact_hits)}
-    pictures = [Picture("textbook", "textbook float", rgb, numbers)]
-    for precision, title in PRECISIONS.items():
-        rgb = raylane.render(scene, precision=precision).rgb
-        hits = first_hits(scene, precision, *textbook.camera_rays(description))
-        pictures.append(Picture(precision, title, rgb, {"off": steps(rgb, exact), **compare_hits(*hits, *exact_hits)}))
+    drawn = {"textbook": (rgb, t.ravel(), shape.ravel())}
+    for precision in PRECISIONS:
+        drawn[precision] = (raylane.render(scene, precision=precision).rgb, *first_hits(scene, precision, *rays))
+    exact, *exact_hits = drawn["exact"]
+    titles = {"textbook": "textbook float", **PRECISIONS}
+    pictures = [
+        Picture(name, titles[name], rgb, {"off": steps(rgb, exact), **compare_hits(*hits, *exact_hits)})
+        for name, (rgb, *hits) in drawn.items()
+    ]
     height, width = exact.shape[:2]
     maps = tiers_of(build, path, width, height)
     return Set(failure["name"], f"{failure['title']} ({failure['reference']})", pictures, maps, "exact")

@@ -25,17 +25,8 @@ lanes) ;;
 esac
 mkdir -p build
 
-missing=
-for package in g++-aarch64-linux-gnu cmake ninja-build qemu-user; do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing="$missing $package"
-done
-if [ -n "$missing" ]; then
-    as_root=
-    [ "$(id -u)" -eq 0 ] || as_root=sudo
-    $as_root apt-get update
-    # shellcheck disable=SC2086 # a list of words
-    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes --no-install-recommends $missing
-fi
+. tests/have.sh
+have g++-aarch64-linux-gnu cmake ninja-build qemu-user
 tests/aarch64/root.sh >build/aarch64-root.log 2>&1 || { cat build/aarch64-root.log; exit 1; }
 emulate() { # program of build/aarch64, arguments...
     emulated=$1

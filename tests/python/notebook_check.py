@@ -18,10 +18,11 @@ import time
 import urllib.request
 
 import raylane
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from chromium import browser, wait  # noqa: E402
 
 SCENE = str(pathlib.Path(__file__).parents[2] / "scenes" / "birthday.json")
 CELLS = [
@@ -48,30 +49,11 @@ def free_port():
         return server.getsockname()[1]
 
 
-def wait(what, found, seconds=90):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        value = found()
-        if value:
-            return value
-        time.sleep(0.2)
-    raise AssertionError(f"{what}: not within {seconds} s")
-
-
 def answers(url):
     try:
         return urllib.request.urlopen(url + "/api", timeout=2).status == 200
     except OSError:
         return False
-
-
-def browser(folder):
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for each in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--window-size=1000,1400", f"--user-data-dir={folder}/browser"):
-        options.add_argument(each)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
 
 
 def errors(driver):
@@ -131,7 +113,7 @@ def main(picture=None):
             server = subprocess.Popen(command, stdout=log, stderr=log, env=environment)
             try:
                 wait("the server", lambda: answers(url))
-                driver = browser(folder)
+                driver = browser(folder, "--window-size=1000,1400")
                 try:
                     look(driver, url, picture)
                 finally:

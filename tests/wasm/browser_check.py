@@ -14,33 +14,15 @@ import sys
 import tempfile
 import time
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from chromium import browser, wait  # noqa: E402
+
 SCENES = pathlib.Path(__file__).parents[2] / "scenes"
-
-
-def browser(folder, *arguments):
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for each in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", f"--user-data-dir={folder}/browser", *arguments):
-        options.add_argument(each)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
-
-
-def wait(what, found, seconds=120):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        value = found()
-        if value:
-            return value
-        time.sleep(0.1)
-    raise AssertionError(f"{what}: not within {seconds} s")
 
 
 class Page:
@@ -57,7 +39,7 @@ class Page:
         return self.driver.find_element(By.ID, id).text
 
     def done(self):
-        state = wait("a picture", lambda: self.state() in ("done", "failed") and self.state())
+        state = wait("a picture", lambda: self.state() in ("done", "failed") and self.state(), 120)
         assert state == "done", self.text("message")
 
     def canvas(self):

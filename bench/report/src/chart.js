@@ -7,23 +7,30 @@ use([BarChart, LineChart, ScatterChart, GridComponent, MarkLineComponent, TitleC
 
 const shown = new Map();
 
+function draw({ made, options }) {
+    made.setOption({ animation: false, ...options() }, true);
+}
+
 /** Draws what options() says in a place, and again where colours or sizes change. */
 export function chart(place, options) {
     if (!shown.has(place)) {
         const made = init(place, null, { renderer: "svg" });
-        new ResizeObserver(() => made.resize()).observe(place);
-        shown.set(place, { made });
+        const sizes = new ResizeObserver(() => made.resize());
+        sizes.observe(place);
+        shown.set(place, { made, sizes });
     }
     const entry = shown.get(place);
     entry.options = options;
-    entry.made.setOption({ animation: false, ...options() }, true);
+    draw(entry);
 }
 
 export function forget(place) {
-    shown.get(place)?.made.dispose();
+    const { made, sizes } = shown.get(place);
+    sizes.disconnect();
+    made.dispose();
     shown.delete(place);
 }
 
 export function redraw() {
-    for (const { made, options } of shown.values()) made.setOption({ animation: false, ...options() }, true);
+    shown.forEach(draw);
 }

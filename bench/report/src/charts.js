@@ -1,6 +1,6 @@
 import { chart, forget } from "./chart.js";
 import { color } from "./colors.js";
-import { element, escaped } from "./html.js";
+import { element, escaped, many } from "./html.js";
 
 // Colour and mark of each method, program and way.
 const looks = {
@@ -22,7 +22,7 @@ const lookOf = (name) => looks[name] ?? ["ink", "circle"];
 const marks = { triangle: "\u25b2", diamond: "\u25c6", circle: "\u25cf", rect: "\u25a0", pin: "\u2666", arrow: "\u25bc" };
 
 /** Numbers as people read them. */
-export function told(value) {
+function told(value) {
     if (value === null || value === undefined) return "";
     if (typeof value !== "number") return `${value}`;
     return Number.isInteger(value) ? `${value}` : `${Number(value.toPrecision(4))}`;
@@ -231,7 +231,7 @@ function showCounts(place, rows) {
         x: "spheres",
         y: "million rays/s",
         series: series(of, "by", (row) => [row.count, row.mrays, row]),
-        tip: (name, [, , row]) => [`${name}, ${row.count.toLocaleString("en")} spheres`, `${told(row.mrays)} million rays/s`],
+        tip: (name, [, , row]) => [`${name}, ${many(row.count)} spheres`, `${told(row.mrays)} million rays/s`],
     }));
     made.append(table(["rays", "by", "spheres", "million rays/s"], rows.map((row) => [row.rays, row.by, row.count, row.mrays])));
 }

@@ -1,12 +1,11 @@
 import { chart } from "./chart.js";
 import { color } from "./colors.js";
 import { listen } from "./gestures.js";
-import { element } from "./html.js";
+import { element, many } from "./html.js";
 import { colorsOf, legendOf } from "./maps.js";
 import { differences, read, shown, unpack } from "./pictures.js";
 
 const $ = (id) => document.getElementById(id);
-const many = (count) => count.toLocaleString("en");
 const untold = "Point at a pixel for its values.";
 
 /** Looks at two pictures of a set. */

@@ -1,13 +1,13 @@
-import { element } from "./html.js";
+import { element, many } from "./html.js";
 import { shown, unpack } from "./pictures.js";
 
 function numbers({ off, wrong, ulps }) {
     const lines = [];
-    if (off !== undefined) lines.push(element("span", { className: off ? "bad" : "" }, `${off.toLocaleString("en")} pixels off`));
+    if (off !== undefined) lines.push(element("span", { className: off ? "bad" : "" }, `${many(off)} pixels off`));
     if (wrong !== undefined)
-        lines.push(element("br"), element("span", { className: wrong ? "bad" : "" }, `${wrong.toLocaleString("en")} rays wrong`));
+        lines.push(element("br"), element("span", { className: wrong ? "bad" : "" }, `${many(wrong)} rays wrong`));
     if (ulps) {
-        const [median, most99, most] = ulps.map((each) => Number(each.toPrecision(3)).toLocaleString("en"));
+        const [median, most99, most] = ulps.map((each) => many(Number(each.toPrecision(3))));
         lines.push(element("br"), `t off by ${median}, ${most99}, ${most} ulps`);
     }
     return lines;

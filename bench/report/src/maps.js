@@ -1,11 +1,10 @@
 // What is drawn in place of a picture: a colour for each pixel, and what it stands for.
 import { css, heat } from "./colors.js";
-import { element } from "./html.js";
+import { element, many } from "./html.js";
 
 const tierColors = [[54, 92, 141], [38, 166, 154], [250, 193, 39], [245, 125, 21], [214, 39, 40]];
 const same = [0, 0, 0];
 const noNumber = [255, 0, 255];
-const many = (count) => count.toLocaleString("en");
 
 const ofUlps = (ulps) => heat(0.15 + (0.85 * Math.log2(ulps)) / 31);
 const ofDifference = (difference) => heat(0.15 + 0.85 * Math.max(0, 1 + Math.log10(difference) / 8));

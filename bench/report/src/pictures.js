@@ -34,7 +34,7 @@ async function inflate(base64) {
     return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-export function encoded(linear) {
+function encoded(linear) {
     const x = Math.min(Math.max(linear, 0), 1);
     return x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
 }
@@ -61,7 +61,7 @@ const word = new Uint32Array(1);
 const real = new Float32Array(word.buffer);
 
 /** Floats in order: their distance is one of ulps. */
-export function order(value) {
+function order(value) {
     real[0] = value;
     return word[0] & 0x80000000 ? -(word[0] & 0x7fffffff) : word[0];
 }
