@@ -141,7 +141,7 @@ def test_ctrl_c_stops_at_once(scenes, work):
         import raylane, numpy as np, time
         scene = raylane.load({str(scenes / 'birthday.json')!r})
         many = np.broadcast_to(np.array([0, -2, 30.0]), (1 << 25, 3))
-        columns = np.zeros((3, 1 << 22)).T
+        columns = np.zeros((3, 1 << 25)).T
         print("begins", flush=True)
         try:
             {work}
