@@ -1,5 +1,6 @@
 #include "scenes/generators.hpp"
 
+#include "core/numbers/elementary.hpp"
 #include "core/scene/validate.hpp"
 
 #include <array>
@@ -47,12 +48,12 @@ std::array<Vec3d, 9> nine_directions() {
     std::array<Vec3d, 9> directions;
     for (int i = 0; i < 3; ++i) {
         const double azimuth = (45.0 + 120.0 * i) * degree;
-        directions[i] = {std::cos(azimuth) / std::sqrt(3.0), std::sin(azimuth) / std::sqrt(3.0),
+        directions[i] = {core::cos(azimuth) / std::sqrt(3.0), core::sin(azimuth) / std::sqrt(3.0),
                          std::sqrt(2.0 / 3.0)};
     }
     for (int i = 0; i < 6; ++i) {
         const double azimuth = (15.0 + 60.0 * i) * degree;
-        directions[3 + i] = {std::cos(azimuth), std::sin(azimuth), 0.0};
+        directions[3 + i] = {core::cos(azimuth), core::sin(azimuth), 0.0};
     }
     return directions;
 }

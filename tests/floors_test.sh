@@ -25,4 +25,11 @@ forbid scenes/python 'core|simd|scenes' # it is a user of the library
 for folder in json nff export image; do
     forbid "scenes/$folder" 'simd|scenes/(library|tool)'
 done
+
+# Whose last bits depend on the C library, and of one on the processor: core/numbers has them with the same.
+if grep -rnE 'std::(a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p)?|pow|cbrt|hypot|[lt]gamma|erfc?)\(' \
+    core simd scenes --include='*.hpp' --include='*.cpp' --exclude-dir=examples --exclude='more_functions.cpp'; then
+    echo "what core/numbers/elementary.hpp or more_functions.hpp has is not to be asked of the C library"
+    failed=1
+fi
 exit $failed

@@ -46,4 +46,11 @@ float atan(float x) {
     return static_cast<float>(atan(static_cast<double>(x)));
 }
 
+double log(double x) {
+    return Elementary<double>::log(x);
+}
+double log10(double x) {
+    return Elementary<double>::log10(x);
+}
+
 } // namespace raylane::core

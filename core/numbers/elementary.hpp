@@ -29,6 +29,15 @@ struct Elementary {
     /// largest double. 1.6 ulps; 1.1 down to 2^-126, the least float.
     static Number pow(const Number& x, const Number& y);
 
+    /// The logarithm to the base e, and to 10, where powers of ten have theirs exactly: NaN below
+    /// 0, of which it is -infinity. 0.6 ulp.
+    static Number log(const Number& x) {
+        return of_log2(x, 0x1.62e42f8000000p-1, 0x1.be8e7bcd5e4f2p-27);
+    }
+    static Number log10(const Number& x) {
+        return of_log2(x, 0x1.3441350000000p-2, 0x1.3ef3fde623e25p-31);
+    }
+
     struct SineCosine {
         Number sine, cosine;
     };
@@ -72,6 +81,7 @@ struct Elementary {
         Number value, head, rest; ///< value is head + rest, rounded
     };
     [[gnu::always_inline]] static inline Logarithm log2(const Number& x);
+    static Number of_log2(const Number& x, double head, double rest);
     [[gnu::always_inline]] static inline ReducedAngle<Number> reduced(const Number& x);
 };
 
@@ -88,6 +98,8 @@ double cos(double x);
 float cos(float x);
 double atan(double x);
 float atan(float x);
+double log(double x);
+double log10(double x);
 
 // Steps that they share.
 
@@ -246,6 +258,21 @@ Number Elementary<Number>::pow(const Number& x, const Number& y) {
     const Number bounded = P::select(product < Number(1024.0), not_tiny, Number(__builtin_inf()));
     const Number of_zero = P::select(y > Number(0.0), Number(0.0), Number(1.0));
     return P::select(x > Number(0.0), bounded, of_zero);
+}
+
+// log, log10
+
+/// The logarithm to the base 2 times a number: 26 bits of it, and the rest.
+template <class Number>
+Number Elementary<Number>::of_log2(const Number& x, double head, double rest) {
+    const Logarithm log2_x = log2(x);
+    const Number high = Number(head) * log2_x.head; // exact
+    const Number low = Number(rest) * log2_x.head + Number(head + rest) * log2_x.rest;
+    const Number infinity(__builtin_inf());
+    const Number of_positive = P::select(x < infinity, high + low, x);
+    const Number of_others =
+        P::select(x == Number(0.0), Number(0.0) - infinity, Number(__builtin_nan("")));
+    return P::select(x > Number(0.0), of_positive, of_others);
 }
 
 // sin, cos

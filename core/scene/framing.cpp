@@ -1,5 +1,8 @@
 #include "core/scene/framing.hpp"
 
+#include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -24,7 +27,7 @@ constexpr NamedView views[] = {
 
 /// Of the picture's upper edge.
 double slope_of(const Framing& framing) {
-    return std::tan(static_cast<double>(framing.field_of_view) * std::numbers::pi / 360.0);
+    return tan(static_cast<double>(framing.field_of_view) * std::numbers::pi / 360.0);
 }
 
 } // namespace
@@ -35,7 +38,8 @@ std::span<const NamedView> named_views() {
 
 /// y; if that is what one looks along, the next.
 Vec3f upright(const Vec3f& direction) {
-    const bool is_steep = std::abs(direction.y) > 100.0F * std::hypot(direction.x, direction.z);
+    const Vec3d d = convert<double>(direction);
+    const bool is_steep = std::abs(d.y) > 100.0 * std::sqrt(d.x * d.x + d.z * d.z);
     return is_steep ? Vec3f(0, 0, -1) : Vec3f(0, 1, 0);
 }
 
@@ -148,7 +152,7 @@ Camera Frame::camera() const {
         depth = std::max(eye, depth + closest * size);
         const double slope = slope_of(framing_);
         camera.field_of_view =
-            static_cast<float>(2.0 * std::atan(slope / zoom) * 180.0 / std::numbers::pi);
+            static_cast<float>(2.0 * atan(slope / zoom) * 180.0 / std::numbers::pi);
     }
     const Vec3d in_plane = places[0] * right_ + places[1] * up_;
     const double middle = 0.5 * (along_.positive - along_.negative);

@@ -1,3 +1,5 @@
+#include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
 #include "scenes/export/writers.hpp"
 
 #include <algorithm>
@@ -67,13 +69,13 @@ class NffWriter {
         if (camera.lens_radius > 0.0F) differences_.insert("the camera's lens");
         constexpr double radians = 3.14159265358979323846 / 180.0;
         const int rows = scene_.settings().height;
-        double half = std::tan(static_cast<double>(camera.field_of_view) / 2.0 * radians);
+        double half = core::tan(static_cast<double>(camera.field_of_view) / 2.0 * radians);
         if (rows > 1) half *= static_cast<double>(rows - 1) / rows;
         file_ << "v\nfrom ";
         file_.list(camera.from, " ") << "\nat ";
         file_.list(camera.at, " ") << "\nup ";
         file_.list(camera.up, " ")
-            << "\nangle " << static_cast<float>(2.0 * std::atan(half) / radians)
+            << "\nangle " << static_cast<float>(2.0 * core::atan(half) / radians)
             << "\nhither 0\nresolution " << scene_.settings().width << " " << rows << "\n";
     }
 

@@ -1,5 +1,6 @@
 #include "scenes/image/compare.hpp"
 
+#include "core/numbers/elementary.hpp"
 #include "scenes/errors.hpp"
 
 #include <algorithm>
@@ -85,7 +86,7 @@ Comparison compare(const Image& a, const Image& b, float tolerance) {
     }
     result.rmse = std::sqrt(squares / (static_cast<double>(differences.channels()) *
                                        static_cast<double>(result.pixels)));
-    result.psnr = -20.0 * std::log10(result.rmse); // log10(0) is -infinity
+    result.psnr = -20.0 * core::log10(result.rmse); // log10(0) is -infinity
     return result;
 }
 

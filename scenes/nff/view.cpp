@@ -1,11 +1,12 @@
 #include "scenes/nff/view.hpp"
 
+#include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
 #include "core/scene/validate.hpp"
 #include "scenes/number.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 
 namespace raylane::scenes {
@@ -17,8 +18,8 @@ namespace {
 float field_of_view(float angle, int rows) {
     if (rows == 1) return angle;
     constexpr double radians = std::numbers::pi / 180.0;
-    const double half = std::tan(static_cast<double>(angle) / 2.0 * radians) * rows / (rows - 1);
-    return static_cast<float>(2.0 * std::atan(half) / radians);
+    const double half = core::tan(static_cast<double>(angle) / 2.0 * radians) * rows / (rows - 1);
+    return static_cast<float>(2.0 * core::atan(half) / radians);
 }
 
 constexpr std::array<std::string_view, 6> names = {"from",  "at",     "up",

@@ -22,7 +22,7 @@ Tuple combined(const Tuple& a, const Tuple& b, const Operation& operation) {
 }
 
 double from_srgb(double value) {
-    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+    return value <= 0.04045 ? value / 12.92 : core::pow((value + 0.055) / 1.055, 2.4);
 }
 
 /// What "rgbt" and the like make of numbers: red, green, blue, filter, transmit.

@@ -1,9 +1,9 @@
 #include "scenes/pov/finishes.hpp"
 
+#include "core/numbers/more_functions.hpp"
 #include "scenes/pov/expressions.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace raylane::scenes::pov {
@@ -180,7 +180,7 @@ void set_by_albedo(Finish& finish, const Albedo& is) {
     const double n = 1.0 / finish.roughness;
     if (is.diffuse) finish.diffuse *= 0.5 * (finish.brilliance + 1.0);
     if (is.phong) finish.phong *= 0.5 * (finish.phong_size + 1.0);
-    if (is.specular) finish.specular *= (n + 2.0) / (4.0 * (2.0 - std::pow(2.0, -0.5 * n)));
+    if (is.specular) finish.specular *= (n + 2.0) / (4.0 * (2.0 - core::power(2.0, -0.5 * n)));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "scenes/pov/functions.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
 #include "scenes/pov/expressions.hpp"
 
 #include <algorithm>
@@ -50,44 +51,34 @@ const Constant constants[] = {
 using OfOne = double (*)(double);
 using OfTwo = double (*)(double, double);
 
-double sine(double a) {
-    return core::sin(a);
-}
-double cosine(double a) {
-    return core::cos(a);
-}
-double tangent(double a) {
-    return core::sin(a) / core::cos(a);
-}
-
 struct FunctionOfOne {
     std::string_view name;
     OfOne call;
 };
 const FunctionOfOne functions_of_one[] = {
     {"abs", [](double a) { return std::abs(a); }},
-    {"acos", [](double a) { return std::acos(a); }},
-    {"acosh", [](double a) { return std::acosh(a); }},
-    {"asin", [](double a) { return std::asin(a); }},
-    {"asinh", [](double a) { return std::asinh(a); }},
-    {"atan", [](double a) { return std::atan(a); }},
-    {"atanh", [](double a) { return std::atanh(a); }},
+    {"acos", [](double a) { return core::acos(a); }},
+    {"acosh", [](double a) { return core::acosh(a); }},
+    {"asin", [](double a) { return core::asin(a); }},
+    {"asinh", [](double a) { return core::asinh(a); }},
+    {"atan", [](double a) { return core::atan(a); }},
+    {"atanh", [](double a) { return core::atanh(a); }},
     {"ceil", [](double a) { return std::ceil(a); }},
-    {"cos", cosine},
-    {"cosh", [](double a) { return std::cosh(a); }},
+    {"cos", [](double a) { return core::cos(a); }},
+    {"cosh", [](double a) { return core::cosh(a); }},
     {"degrees", [](double a) { return a / degree; }},
-    {"exp", [](double a) { return std::exp(a); }},
+    {"exp", [](double a) { return core::exp(a); }},
     {"floor", [](double a) { return std::floor(a); }},
     {"int", [](double a) { return std::trunc(a); }},
-    {"ln", [](double a) { return std::log(a); }},
-    {"log", [](double a) { return std::log10(a); }},
+    {"ln", [](double a) { return core::log(a); }},
+    {"log", [](double a) { return core::log10(a); }},
     {"radians", [](double a) { return a * degree; }},
-    {"sin", sine},
-    {"sinh", [](double a) { return std::sinh(a); }},
+    {"sin", [](double a) { return core::sin(a); }},
+    {"sinh", [](double a) { return core::sinh(a); }},
     {"sqr", [](double a) { return a * a; }},
     {"sqrt", [](double a) { return std::sqrt(a); }},
-    {"tan", tangent},
-    {"tanh", [](double a) { return std::tanh(a); }},
+    {"tan", [](double a) { return core::tan(a); }},
+    {"tanh", [](double a) { return core::tanh(a); }},
 };
 
 struct FunctionOfTwo {
@@ -95,12 +86,12 @@ struct FunctionOfTwo {
     OfTwo call;
 };
 const FunctionOfTwo functions_of_two[] = {
-    {"atan2", [](double a, double b) { return std::atan2(a, b); }},
+    {"atan2", [](double a, double b) { return core::atan2(a, b); }},
     {"div", [](double a, double b) { return std::trunc(a / b); }},
     {"max", [](double a, double b) { return std::max(a, b); }},
     {"min", [](double a, double b) { return std::min(a, b); }},
     {"mod", [](double a, double b) { return std::fmod(a, b); }},
-    {"pow", [](double a, double b) { return std::pow(a, b); }},
+    {"pow", [](double a, double b) { return core::power(a, b); }},
 };
 
 constexpr std::string_view of_vectors[] = {"vlength", "vnormalize",   "vdot",    "vcross",

@@ -1,6 +1,7 @@
 #include "scenes/pov/surroundings.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/objects.hpp"
@@ -149,7 +150,7 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
         camera.height = static_cast<float>(core::length(up) * size);
     else
         camera.field_of_view =
-            static_cast<float>(std::atan2(0.5 * core::length(up), focus) / half_degree);
+            static_cast<float>(core::atan2(0.5 * core::length(up), focus) / half_degree);
     return view;
 }
 

@@ -20,9 +20,9 @@ bool to_axes(std::array<Vec3d, 3>& rows, double times) {
                 const double off = row_p[q];
                 if (off == 0.0) continue;
                 const double theta = (row_q[q] - row_p[p]) / (2.0 * off);
-                const double t =
-                    (theta >= 0.0 ? 1.0 : -1.0) / (std::abs(theta) + std::hypot(theta, 1.0));
-                const double c = 1.0 / std::hypot(t, 1.0), s = t * c;
+                const double t = (theta >= 0.0 ? 1.0 : -1.0) /
+                                 (std::abs(theta) + std::sqrt(theta * theta + 1.0));
+                const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
                 const Vec3d old_p = row_p, old_q = row_q;
                 row_p = c * old_p - s * old_q;
                 row_q = s * old_p + c * old_q;

@@ -1,5 +1,6 @@
 #include "scenes/structure/drawing.hpp"
 
+#include "core/numbers/elementary.hpp"
 #include "core/shapes/checks.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/structure/bonds.hpp"
@@ -163,7 +164,7 @@ class Artist {
             }
         if (dimensions > 0)
             scale_.usual_radius = static_cast<float>(
-                0.5 * std::pow(volume / static_cast<double>(structure_.size()), 1.0 / dimensions));
+                0.5 * core::pow(volume / static_cast<double>(structure_.size()), 1.0 / dimensions));
     }
 
     void find_images() {

@@ -1,5 +1,7 @@
 #include "scenes/tool/view_arguments.hpp"
 
+#include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
 #include "scenes/tool/arguments.hpp"
 
 #include <cmath>
@@ -59,8 +61,8 @@ core::NamedView view_argument(const std::string& text) {
 void zoom_in(core::Camera& camera, float zoom) {
     camera.height /= zoom;
     const double slope =
-        std::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0);
-    camera.field_of_view = static_cast<float>(2.0 * std::atan(slope / static_cast<double>(zoom)) *
+        core::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0);
+    camera.field_of_view = static_cast<float>(2.0 * core::atan(slope / static_cast<double>(zoom)) *
                                               180.0 / std::numbers::pi);
 }
 
@@ -72,7 +74,7 @@ void make_orthographic(core::Camera& camera) {
     camera.projection = core::Projection::orthographic;
     camera.height = static_cast<float>(
         2.0 * distance *
-        std::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0));
+        core::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0));
 }
 
 } // namespace

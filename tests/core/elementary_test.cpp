@@ -1,14 +1,11 @@
 #include "core/numbers/elementary.hpp"
 #include "tests/catch.hpp"
+#include "tests/core/ulps.hpp"
 
 #include <boost/math/constants/constants.hpp>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -16,59 +13,8 @@ using namespace raylane;
 
 namespace {
 
-namespace mp = boost::multiprecision;
-using Number = mp::number<mp::cpp_bin_float<256, mp::digit_base_2>, mp::et_off>;
 /// Holds the digits of pi that the reduction of the largest doubles needs.
 using LongNumber = mp::number<mp::cpp_bin_float<1400, mp::digit_base_2>, mp::et_off>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-#ifdef RAYLANE_FEW_RAYS
-constexpr int rounds = 1000;
-#else
-constexpr int rounds = 20000;
-#endif
-
-class Random {
-  public:
-    double uniform(double low, double high) {
-        return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-    }
-    double sign() { return engine_() % 2 == 0 ? 1.0 : -1.0; }
-
-  private:
-    std::mt19937_64 engine_{1};
-};
-
-/// Errors in ulps of the exact result.
-class Errors {
-  public:
-    void add(double computed, const Number& exact) {
-        if (exact == 0) {
-            ulps_.push_back(computed == 0.0 ? 0.0 : infinity);
-            return;
-        }
-        const Number ulp = mp::ldexp(Number(1), mp::ilogb(exact) - 52);
-        const Number error = mp::abs((Number(computed) - exact) / ulp);
-        ulps_.push_back(static_cast<double>(error));
-    }
-
-    void check(const std::string& name, double most) {
-        std::sort(ulps_.begin(), ulps_.end());
-        const auto at = [&](double part) {
-            return ulps_[static_cast<std::size_t>(part * static_cast<double>(ulps_.size() - 1))];
-        };
-        const std::string report = name + ": ulps median " + std::to_string(at(0.5)) +
-                                   ", 99th percentile " + std::to_string(at(0.99)) + ", largest " +
-                                   std::to_string(at(1.0));
-        INFO(report);
-        CHECK(at(1.0) <= most);
-        CHECK(at(0.5) <= 0.3);
-        if (std::getenv("RAYLANE_TEST_REPORT") != nullptr) WARN(report);
-    }
-
-  private:
-    std::vector<double> ulps_;
-};
 
 struct SineCosine {
     Number sine, cosine;
@@ -196,7 +142,38 @@ TEST_CASE("atan is within two ulps") {
     tiny.check("atan, tiny", 1.5);
 }
 
+TEST_CASE("logarithms are within an ulp") {
+    Random random;
+    Errors usual, near_one, of_ten;
+    for (int i = 0; i < rounds / 4; ++i) {
+        for (const double x : {random.uniform(0.0, 3.0), std::exp(random.uniform(-740.0, 709.0)),
+                               std::sqrt(0.5) + random.uniform(-1e-9, 1e-9)}) {
+            usual.add(core::log(x), mp::log(Number(x)));
+            of_ten.add(core::log10(x), mp::log10(Number(x)));
+        }
+        const double near = 1.0 + random.sign() * std::exp(random.uniform(-36.0, -1.0));
+        near_one.add(core::log(near), mp::log(Number(near)));
+        near_one.add(core::log10(near), mp::log10(Number(near)));
+    }
+    usual.check("log", 0.75);
+    of_ten.check("log10", 0.75);
+    near_one.check("log near 1", 0.75);
+    // Powers of ten that doubles hold.
+    double power = 1.0;
+    for (int n = 0; n <= 22; ++n, power *= 10.0)
+        CHECK(core::log10(power) == n);
+    for (int n = -1074; n < 1024; n += 7)
+        CHECK(core::log(std::ldexp(1.0, n)) == static_cast<double>(n * mp::log(Number(2))));
+}
+
 TEST_CASE("elementary functions at the ends of their domains") {
+    CHECK(core::log(0.0) == -infinity);
+    CHECK(core::log(-0.0) == -infinity);
+    CHECK(core::log(infinity) == infinity);
+    CHECK(core::log(1.0) == 0.0);
+    CHECK(std::isnan(core::log(-0x1p-1074)));
+    CHECK(std::isnan(core::log10(-infinity)));
+    CHECK(std::isnan(core::log10(std::numeric_limits<double>::quiet_NaN())));
     CHECK(core::exp(0.0) == 1.0);
     CHECK(core::exp(-0.0) == 1.0);
     CHECK(core::exp(-infinity) == 0.0);

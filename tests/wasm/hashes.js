@@ -136,8 +136,8 @@ class Lanes {
     }
 }
 
-function compare_scene(name, lanes, engine) {
-    const scene = path.join(source, name), text = fs.readFileSync(scene, "utf8");
+function compare_scene(scene, lanes, engine) {
+    const name = path.basename(scene), text = fs.readFileSync(scene, "utf8");
     const began = performance.now();
     const [width, height, grid] = [160, 120, 2];
     const expected = hash(native_film(scene, ["--spp", String(grid ** 2)], width, height));
@@ -260,9 +260,11 @@ async function main() {
     compare_numbers(lanes);
     console.log(`${compared} numbers as files have them`);
     compare_fused(lanes);
-    const scenes = fs.readdirSync(source).filter((name) => name.endsWith(".json") && !name.includes("schema"));
-    for (const name of scenes) compare_scene(name, lanes, engine);
-    if (!(scenes.length > 0)) wrong.push("no scenes");
+    const shipped = fs.readdirSync(source).filter((name) => name.endsWith(".json") && !name.includes("schema"));
+    const others = ["pov/openbabel.pov", "pov/vmd.pov", "tachyon/data/vmd.dat"].map((name) => path.join(__dirname, "../scenes", name));
+    const scenes = [...shipped.map((name) => path.join(source, name)), ...others];
+    for (const scene of scenes) compare_scene(scene, lanes, engine);
+    if (!(shipped.length > 0)) wrong.push("no scenes");
     for (const each of wrong.slice(0, 20)) console.error(each);
     console.log(`${scenes.length} scenes, ${compared} comparisons, ${wrong.length} wrong`);
     process.exitCode = wrong.length === 0 ? 0 : 1;

@@ -1,5 +1,7 @@
 #include "scenes/tool/view/orbit.hpp"
 
+#include "core/numbers/more_functions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -27,7 +29,7 @@ double picture_height(const core::Camera& camera) {
     if (camera.projection == core::Projection::orthographic)
         return static_cast<double>(camera.height);
     return 2.0 * core::length(arm_of(camera)) *
-           std::tan(0.5 * static_cast<double>(camera.field_of_view) / degrees);
+           core::tan(0.5 * static_cast<double>(camera.field_of_view) / degrees);
 }
 
 } // namespace
@@ -35,7 +37,7 @@ double picture_height(const core::Camera& camera) {
 Orbit::Orbit(core::View start) : start_(std::move(start)), axis_(start_.camera.up) {
     const double sine = core::dot(core::normalized(arm_of(start_.camera)),
                                   core::normalized(core::convert<double>(axis_)));
-    elevation_ = std::asin(std::clamp(sine, -1.0, 1.0)) * degrees;
+    elevation_ = core::asin(std::clamp(sine, -1.0, 1.0)) * degrees;
 }
 
 core::View Orbit::view() const {

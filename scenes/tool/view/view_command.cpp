@@ -1,3 +1,4 @@
+#include "core/numbers/more_functions.hpp"
 #include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/image/writer.hpp"
@@ -128,7 +129,7 @@ class Viewer {
             orbit_->pan(-event.across / height, event.down / height);
             break;
         case Kind::zoomed:
-            orbit_->zoom(std::exp2(event.notches / 4.0));
+            orbit_->zoom(core::power(2.0, event.notches / 4.0));
             break;
         case Kind::resized:
             settings_.width = window_->width();

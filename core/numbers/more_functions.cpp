@@ -1,0 +1,126 @@
+#include "core/numbers/more_functions.hpp"
+
+#include "core/numbers/double_double.hpp"
+#include "core/numbers/elementary.hpp"
+#include "core/numbers/primitives.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace raylane::core {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+/// Beyond it, e^x is infinite, or e^-x of no account beside it.
+constexpr double large = 709.0;
+
+/// x^n, n >= 0, by squares; not finite where these, or their parts, leave the range of doubles.
+DoubleDouble whole_power(double x, double n) {
+    DoubleDouble result(1.0), square(x);
+    while (true) {
+        if (std::fmod(n, 2.0) != 0.0) result = result * square;
+        n = std::floor(0.5 * n);
+        if (n == 0.0) return result;
+        square = square * square;
+    }
+}
+
+/// log(1 + x), x >= 0. Source: Kahan; the error of 1 + x is in both factors.
+double log1p(double x) {
+    const double sum = 1.0 + x;
+    return sum == 1.0 || sum > 0x1p60 ? (sum == 1.0 ? x : log(x)) : log(sum) * (x / (sum - 1.0));
+}
+
+/// The power by logarithms, of finite x > 0.
+double power_of_positive(double x, double y) {
+    return y < 0.0 ? 1.0 / pow(x, -y) : pow(x, y);
+}
+
+} // namespace
+
+double power(double x, double y) {
+    // Exact by any library.
+    if (!std::isfinite(x) || !std::isfinite(y) || x == 0.0 || y == 0.0) return std::pow(x, y);
+    const double size = std::abs(y);
+    const bool is_whole = std::floor(size) == size;
+    if (x < 0.0 && !is_whole) return std::numeric_limits<double>::quiet_NaN();
+    if (y == 0.5) return std::sqrt(x);
+    constexpr double most_squares = 1024.0; // which lose 2^-90 of it
+    if (is_whole && size <= most_squares) {
+        const DoubleDouble result = whole_power(x, size);
+        // With room for the rests that products leave.
+        if (std::abs(result.high) < 0x1p900 && std::abs(result.high) > 0x1p-900)
+            return static_cast<double>(y < 0.0 ? DoubleDouble(1.0) / result : result);
+    }
+    const double result = power_of_positive(std::abs(x), y);
+    return x < 0.0 && std::fmod(size, 2.0) != 0.0 ? -result : result;
+}
+
+double tan(double x) {
+    const auto [sine, cosine] = Elementary<double>::sin_cos(x);
+    return sine / cosine;
+}
+
+double asin(double x) {
+    return atan(x / std::sqrt((1.0 - x) * (1.0 + x)));
+}
+
+double acos(double x) {
+    return 2.0 * atan(std::sqrt((1.0 - x) / (1.0 + x)));
+}
+
+double atan2(double y, double x) {
+    // Exact but for multiples of pi / 4.
+    if (!std::isfinite(x) || !std::isfinite(y) || x == 0.0 || y == 0.0) return std::atan2(y, x);
+    const double angle = atan(std::abs(y / x));
+    return std::copysign(x < 0.0 ? pi - angle : angle, y);
+}
+
+double sinh(double x) {
+    const double size = std::abs(x);
+    if (size > large) {
+        const double root = exp(0.5 * size);
+        return std::copysign(0.5 * root * root, x);
+    }
+    const double less_one = expm1(size);
+    return std::copysign(0.5 * (less_one + less_one / (less_one + 1.0)), x);
+}
+
+double cosh(double x) {
+    const double size = std::abs(x);
+    if (size > large) {
+        const double root = exp(0.5 * size);
+        return 0.5 * root * root;
+    }
+    const double power = exp(size);
+    return 0.5 * (power + 1.0 / power);
+}
+
+double tanh(double x) {
+    const double less_one = expm1(-2.0 * std::abs(x));
+    return std::copysign(-less_one / (2.0 + less_one), x);
+}
+
+double asinh(double x) {
+    const double size = std::abs(x);
+    if (size > 0x1p30) return std::copysign(log(size) + std::numbers::ln2, x);
+    const double square = size * size;
+    return std::copysign(log1p(size + square / (1.0 + std::sqrt(1.0 + square))), x);
+}
+
+double acosh(double x) {
+    if (x < 1.0) return std::numeric_limits<double>::quiet_NaN();
+    if (x > 0x1p30) return log(x) + std::numbers::ln2;
+    const double beyond = x - 1.0;
+    return log1p(beyond + std::sqrt(2.0 * beyond + beyond * beyond));
+}
+
+double atanh(double x) {
+    const double size = std::abs(x);
+    if (size > 1.0) return std::numeric_limits<double>::quiet_NaN();
+    return std::copysign(0.5 * log1p(2.0 * size / (1.0 - size)), x);
+}
+
+} // namespace raylane::core

@@ -1,0 +1,147 @@
+#include "core/numbers/more_functions.hpp"
+#include "tests/catch.hpp"
+#include "tests/core/ulps.hpp"
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+using namespace raylane;
+
+namespace {
+
+using Function = double (*)(double);
+using Exact = Number (*)(const Number&);
+
+struct Domain {
+    double least, most;
+    bool logarithmic; ///< of all sizes between these, of both signs
+};
+
+double draw(Random& random, const Domain& of) {
+    if (!of.logarithmic) return random.uniform(of.least, of.most);
+    return random.sign() * std::exp(random.uniform(std::log(of.least), std::log(of.most)));
+}
+
+void check(const char* name, Function computed, Exact exact, double most_ulps,
+           std::initializer_list<Domain> domains) {
+    Random random;
+    Errors errors;
+    for (const Domain& of : domains)
+        for (int i = 0; i < rounds / 4; ++i) {
+            const double x = draw(random, of);
+            errors.add(computed(x), exact(Number(x)));
+        }
+    errors.check(name, most_ulps, 0.5);
+}
+
+constexpr double nan_ = std::numeric_limits<double>::quiet_NaN();
+
+/// The same number or both none, and the same sign.
+bool same(double a, double b) {
+    return std::isnan(a) ? std::isnan(b) : a == b && std::signbit(a) == std::signbit(b);
+}
+
+} // namespace
+
+TEST_CASE("trigonometric functions of readers are within three ulps") {
+    check("tan", core::tan, [](const Number& x) -> Number { return mp::tan(x); }, 2.3,
+          {{-1.6, 1.6, false}, {0x1p-600, 1.5, true}, {-30.0, 30.0, false}});
+    check("asin", core::asin, [](const Number& x) -> Number { return mp::asin(x); }, 2.4,
+          {{-1.0, 1.0, false}, {0x1p-600, 1.0, true}, {0.999, 1.0, false}});
+    check("acos", core::acos, [](const Number& x) -> Number { return mp::acos(x); }, 2.4,
+          {{-1.0, 1.0, false}, {0x1p-600, 1.0, true}, {0.999, 1.0, false}, {-1.0, -0.999, false}});
+}
+
+TEST_CASE("hyperbolic functions of readers and their inverses are within three ulps") {
+    check("sinh", core::sinh, [](const Number& x) -> Number { return mp::sinh(x); }, 2.7,
+          {{-3.0, 3.0, false}, {0x1p-600, 710.4, true}, {708.0, 710.4, false}});
+    check("cosh", core::cosh, [](const Number& x) -> Number { return mp::cosh(x); }, 2.7,
+          {{-3.0, 3.0, false}, {0x1p-600, 710.4, true}, {708.0, 710.4, false}});
+    check("tanh", core::tanh, [](const Number& x) -> Number { return mp::tanh(x); }, 2.7,
+          {{-3.0, 3.0, false}, {0x1p-600, 100.0, true}});
+    check("asinh", core::asinh, [](const Number& x) -> Number { return mp::asinh(x); }, 2.8,
+          {{-3.0, 3.0, false}, {0x1p-600, 0x1p1000, true}});
+    check("acosh", core::acosh, [](const Number& x) -> Number { return mp::acosh(x); }, 2.8,
+          {{1.0, 3.0, false}, {1.0, 1e6, false}, {1.0, 1.0001, false}, {1e9, 1e300, false}});
+    check("atanh", core::atanh, [](const Number& x) -> Number { return mp::atanh(x); }, 2.8,
+          {{-1.0, 1.0, false}, {0x1p-600, 1.0, true}, {0.999, 1.0, false}});
+}
+
+TEST_CASE("angles of points are within three ulps, all around") {
+    Random random;
+    Errors errors;
+    for (int i = 0; i < rounds; ++i) {
+        const double y = draw(random, {1e-3, 1e3, true}), x = draw(random, {1e-3, 1e3, true});
+        errors.add(core::atan2(y, x), mp::atan2(Number(y), Number(x)));
+    }
+    errors.check("atan2", 2.4, 0.5);
+    const double values[] = {0.0, -0.0, 1.0, -1.0, infinity, -infinity, nan_};
+    for (const double y : values)
+        for (const double x : values) {
+            INFO("atan2 of " << y << ", " << x);
+            CHECK(same(core::atan2(y, x), std::atan2(y, x)));
+        }
+}
+
+TEST_CASE("powers of readers are exact where doubles hold them") {
+    // All whole numbers to whole powers that are less than 2^53, and their inverses as near as can
+    // be.
+    for (int base = -60; base <= 60; ++base) {
+        double exact = 1.0;
+        for (int n = 0; std::abs(exact) < 0x1p53; ++n, exact *= base) {
+            INFO(base << " to the " << n);
+            CHECK(core::power(base, n) == exact);
+            if (base != 0) CHECK(core::power(base, -n) == 1.0 / exact);
+            if (std::abs(base) < 2 && n > 40) break;
+        }
+    }
+    for (int root = 1; root < 2000; ++root) {
+        INFO("square of " << root);
+        CHECK(core::power(static_cast<double>(root) * root, 0.5) == root);
+        CHECK(core::power(static_cast<double>(root) * root, 1.5) ==
+              static_cast<double>(root) * root * root);
+    }
+    Random random;
+    Errors whole, others, negative;
+    for (int i = 0; i < rounds / 2; ++i) {
+        const double base = random.sign() * random.uniform(0.3, 3.0);
+        const double n = std::floor(random.uniform(-500.0, 500.0));
+        whole.add(core::power(base, n), mp::pow(Number(base), static_cast<int>(n)));
+        const double x = draw(random, {1e-5, 1e5, true}), y = random.uniform(-20.0, 20.0);
+        others.add(core::power(std::abs(x), y), mp::pow(Number(std::abs(x)), Number(y)));
+        const double most = std::floor(random.uniform(1100.0, 2000.0));
+        negative.add(core::power(-1.25, most), mp::pow(Number(-1.25), static_cast<int>(most)));
+    }
+    whole.check("whole powers", 0.501);
+    others.check("powers", 2.1);
+    negative.check("large whole powers", 2.0, 0.5);
+}
+
+TEST_CASE("functions of readers at the ends of their domains") {
+    const double values[] = {0.0, -0.0, 0.5, -0.5, 1.0,      -1.0,      2.0, -2.0,
+                             3.0, -3.0, 1e6, -1e6, infinity, -infinity, nan_};
+    for (const double x : values)
+        for (const double y : values) {
+            // Those that are exact, by all libraries.
+            const double exact = std::pow(x, y);
+            if (std::isfinite(x) && std::isfinite(y) && (exact != 0.0 && std::isfinite(exact)))
+                continue;
+            INFO(x << " to the " << y);
+            CHECK(same(core::power(x, y), exact));
+        }
+    struct Pair {
+        Function ours, usual;
+    };
+    const Pair pairs[] = {{core::asin, std::asin},   {core::acos, std::acos},
+                          {core::sinh, std::sinh},   {core::cosh, std::cosh},
+                          {core::tanh, std::tanh},   {core::asinh, std::asinh},
+                          {core::acosh, std::acosh}, {core::atanh, std::atanh}};
+    for (std::size_t i = 0; i < std::size(pairs); ++i)
+        for (const double x : {0.0, -0.0, 1.0, -1.0, 1e300, -1e300, infinity, -infinity, nan_}) {
+            const double expected = pairs[i].usual(x), got = pairs[i].ours(x);
+            INFO("function " << i << " of " << x << ": " << got << " for " << expected);
+            CHECK((same(got, expected) || std::abs(got - expected) <= 1e-15 * std::abs(expected)));
+        }
+    CHECK(core::tan(0.0) == 0.0);
+}
