@@ -15,6 +15,7 @@ template <class Arch, class Solver>
 struct DoubleFilter {
     using D = Double<Arch>;
     static constexpr bool is_of_spheres = of_spheres<Solver>();
+    static constexpr bool is_solver = true;
     Solver halves[2];
 
     template <class Reader>

@@ -10,6 +10,7 @@ namespace raylane::simd {
 template <class Arch, class Solver>
 struct PlainFilter {
     static constexpr bool is_of_spheres = of_spheres<Solver>();
+    static constexpr bool is_solver = true;
     Solver solver;
 
     template <class Reader>

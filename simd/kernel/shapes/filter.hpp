@@ -68,6 +68,14 @@ constexpr bool of_spheres() {
         return false;
 }
 
+/// True of filters that are made of solvers.
+template <class Filter>
+constexpr bool solves_shapes() {
+    return requires {
+        Filter::is_solver;
+    };
+}
+
 /// Obstacle of lanes that are asked about, as bits: whether the shape may be entered before one t,
 /// and is before another, which is not later. By the filter's own way, or its bounds.
 template <class Arch, class Filter, class Rays>

@@ -146,11 +146,15 @@ struct Streams {
         else
             return block_of(table, block);
     }
-    /// Visits the lanes of a block, for one ray: unpacked in registers where that can be.
+    /// Visits the lanes of a block, for one ray: unpacked in registers where that can be, and in
+    /// memory for solvers, whose code is long and would be there twice.
     template <class Filter, class Visit>
     [[gnu::always_inline]] static auto with_lanes(const TableView& table, std::uint32_t number,
                                                   const Visit& visit) {
-        if constexpr (of_spheres<Filter>()) {
+        if constexpr (solves_shapes<Filter>()) {
+            BlockRoom<Arch> room;
+            return visit(PlainLanes<Arch>(table, block_for<Filter>(table, number, room)));
+        } else if constexpr (of_spheres<Filter>()) {
             if (table.is_packed()) {
                 const PackedBlockView& block = table.packed.blocks[number];
                 if (PackedSpheres<Arch>::is_of_steps(block)) [[likely]]
@@ -160,6 +164,15 @@ struct Streams {
                 return visit(PlainLanes<Arch>(table, room.rows[0]));
             }
         }
+        return visit(PlainLanes<Arch>(table, block_of(table, number)));
+    }
+    /// The same for those who ask for its ids alone.
+    template <class Filter, class Visit>
+    [[gnu::always_inline]] static auto with_ids(const TableView& table, std::uint32_t number,
+                                                const Visit& visit) {
+        if constexpr (of_spheres<Filter>())
+            if (table.is_packed())
+                return visit(PackedLanes<Arch>{table.packed, table.packed.blocks[number]});
         return visit(PlainLanes<Arch>(table, block_of(table, number)));
     }
     /// Fetches what of a packed block is not in it, once that is there.

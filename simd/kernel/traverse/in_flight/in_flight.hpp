@@ -130,11 +130,16 @@ struct InFlight : Streams<Arch> {
             for (int k = 0; k < count; ++k) {
                 const Traveller& ray = rays[which[k]];
                 some[found] = which[k];
-                const std::uint32_t bits = S::template with_lanes<Filter>(
-                    table, ray.child & child_index, [&](const auto& block) {
-                        return Leaf<Arch, Method>::template may_meet<Filter>(block, stream, ray.i);
-                    });
-                found += static_cast<int>(bits != 0);
+                const std::uint32_t number = ray.child & child_index;
+                const auto may_meet = [&](const auto& block) {
+                    return Leaf<Arch, Method>::template may_meet<Filter>(block, stream, ray.i);
+                };
+                if constexpr (has_may_meet<Filter, typename Method::Rays>)
+                    found += static_cast<int>(
+                        S::template with_lanes<Filter>(table, number, may_meet) != 0);
+                else
+                    found += static_cast<int>(
+                        S::template with_ids<Filter>(table, number, may_meet) != 0);
             }
             for (int k = 0; k < found; ++k)
                 visit.template all<Filter>(rays[some[k]], table);
