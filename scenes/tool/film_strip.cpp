@@ -16,6 +16,7 @@ namespace {
 
 /// A picture that is to be drawn.
 struct Picture {
+    std::size_t place;
     std::string name;
     std::optional<core::Scene> scene; ///< none: it is there already
 };
@@ -49,7 +50,8 @@ class Stage {
             }
             const std::size_t place = made_++;
             const bool is_ours = place % strip_.share.of == strip_.share.number;
-            Picture picture{strip_.name(is_still() && strip_.turn ? place : number_), std::nullopt};
+            Picture picture{place, strip_.name(is_still() && strip_.turn ? place : number_),
+                            std::nullopt};
             if (is_ours && is_wanted(picture.name)) picture.scene = scene(place);
             // The others need to know what the first one is like.
             else if (place == 0 && strip_.fit_to == FitTo::first && !is_still())
@@ -183,7 +185,7 @@ void draw(const FilmStrip& strip) {
             // What is the same scene cannot be made anew before it has been drawn.
             if (!stage.is_still()) next = std::async(std::launch::async, make_next);
             if (picture->scene) {
-                strip.draw(*picture->scene, picture->name,
+                strip.draw(*picture->scene, picture->place, picture->name,
                            progress.of_picture(strip.settings(picture->scene->settings())));
                 progress.drawn();
                 stage.take_back(*std::move(picture->scene));

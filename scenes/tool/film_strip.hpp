@@ -29,8 +29,10 @@ struct FilmStrip {
     Verbosity verbosity = Verbosity::normal;
     /// What a scene's settings become.
     std::function<core::Settings(const core::Settings&)> settings;
-    /// Draws a scene into a file.
-    std::function<void(const core::Scene&, const std::string& name, simd::Progress&)> draw;
+    /// Draws the scene of the picture at a place, from 0, into a file.
+    std::function<void(const core::Scene&, std::size_t place, const std::string& name,
+                       simd::Progress&)>
+        draw;
 };
 
 /// Draws all of them; while one is drawn the scene of the next is made. Throws what the source and

@@ -39,6 +39,15 @@ void FrameArguments::add_to(CLI::App& command) {
     command.get_option("--overwrite")->group(group_of_several);
 }
 
+std::vector<std::pair<std::string, std::string>> FrameArguments::given() const {
+    std::vector<std::pair<std::string, std::string>> all;
+    const std::pair<const char*, const Argument&> values[] = {
+        {"--frames", frames}, {"--turn", turn}, {"--camera-from", camera_from}};
+    for (const auto& [name, value] : values)
+        if (value) all.emplace_back(name, *value);
+    return all;
+}
+
 std::optional<FrameRange> FrameArguments::range() const {
     if (!frames) return std::nullopt;
     const auto refuse = [&] {

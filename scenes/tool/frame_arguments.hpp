@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -39,6 +41,8 @@ struct FrameArguments {
     bool overwrite = false; ///< files that are there already
 
     void add_to(CLI::App& command);
+    /// Those that are given, of which a picture of a film is made again: names and values.
+    std::vector<std::pair<std::string, std::string>> given() const;
     // Throw BadInput.
     std::optional<FrameRange> range() const;
     std::optional<Turn> turning() const;

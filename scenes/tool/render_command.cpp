@@ -129,7 +129,10 @@ std::string text_of(const RenderArguments& arguments, const simd::RenderOptions&
         if (*arguments.engine == "vector")
             text += " --isa " + std::string(simd::name_of(options.isa));
     }
-    for (const auto& [name, value] : arguments.scene_arguments.given()) {
+    auto given = arguments.scene_arguments.given();
+    for (auto& each : arguments.frames.given())
+        given.push_back(std::move(each));
+    for (const auto& [name, value] : given) {
         text += " " + name;
         if (value.empty()) continue;
         const bool is_word = value.find(' ') == std::string::npos;
@@ -179,10 +182,10 @@ int render(const RenderArguments& arguments) {
         picture.apply_to(options, settings);
         options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     };
-    bool is_of_a_film = false;
+    std::optional<std::size_t> place; // in a film
     const auto resumable = [&](const std::string& name, const core::Scene& scene,
                                const core::Settings& settings, const std::string& fingerprint) {
-        const bool is_resumable = !arguments.no_resume && (is_of_a_film || job.is_first());
+        const bool is_resumable = !arguments.no_resume && (place || job.is_first());
         return ResumableRendering(name, is_resumable, scene, fingerprint, settings, options,
                                   part_of_tiles, verbosity);
     };
@@ -191,7 +194,7 @@ int render(const RenderArguments& arguments) {
                            const std::string& fingerprint) {
         PictureOptions how =
             picture.options(files.scene, settings, own, text_of(arguments, options, settings));
-        if (is_of_a_film) how.texts.emplace_back("Film", "one of several pictures");
+        if (place) how.texts.emplace_back("Film", std::to_string(*place));
         if (part_of_tiles)
             how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +
                                                std::to_string(simd::tile_of(settings, options)));
@@ -213,11 +216,11 @@ int render(const RenderArguments& arguments) {
         picture.require_fit(writable.format());
     });
     if (strip) {
-        is_of_a_film = true;
         strip->share = share_of(job, part_asked.value_or(PicturePart{1, 1}));
         strip->settings = settings_of;
-        strip->draw = [&](const core::Scene& scene, const std::string& name,
+        strip->draw = [&](const core::Scene& scene, std::size_t at, const std::string& name,
                           simd::Progress& progress) {
+            place = at;
             OutputFile output(name, exr_of);
             const core::Settings settings = settings_of(scene.settings());
             prepare(scene, settings);

@@ -4,6 +4,7 @@
 #include "scenes/number.hpp"
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
+#include "scenes/tool/film_strip_arguments.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/picture_texts.hpp"
@@ -74,9 +75,6 @@ Image whole_picture(const std::string& name) {
     Image image = read_image(name);
     if (has_text(image.texts, "Part"))
         throw BadInput(image.name, "", "is a part of a picture, to be merged first");
-    if (has_text(image.texts, "Film"))
-        throw BadInput(image.name, "",
-                       "is one of several pictures, which cannot be drawn again alone");
     return image;
 }
 
@@ -97,7 +95,8 @@ class Verifier {
           image_(whole_picture(file_argument("PICTURE", *arguments.picture))),
           render_(
               arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
-          picture_(render_.picture), scene_(seen_scene()) {
+          picture_(render_.picture),
+          scene_(has_text(image_.texts, "Film") ? seen_scene_of_film() : seen_scene()) {
         options_ = options_of(render_);
         options_.precision =
             precision_argument(*render_.precision).value_or(core::Precision::exact);
@@ -170,9 +169,37 @@ class Verifier {
     core::Scene seen_scene() {
         const LoadOptions load_options = render_.scene_arguments.load_options(true);
         core::Scene scene = load_with_progress(*render_.scene, load_options, verbosity_, threads_);
-        settings_ = Overrides(render_).applied_to(scene.settings());
-        picture_.apply_to(settings_);
+        settings_ = settings_of(scene.settings());
         return seen(std::move(scene), render_.scene_arguments.view.change(), settings_);
+    }
+    core::Settings settings_of(const core::Settings& own) const {
+        core::Settings settings = Overrides(render_).applied_to(own);
+        picture_.apply_to(settings);
+        return settings;
+    }
+
+    /// That of a picture of a film, which is made as if all others were drawn by other processes.
+    core::Scene seen_scene_of_film() {
+        const std::optional<int> place = to_int(text_in(image_.name, image_.texts, "Film"));
+        std::optional<FilmStrip> strip =
+            film_strip_of(render_.frames, render_.scene_arguments, *render_.scene, std::nullopt,
+                          threads_, Verbosity::quiet);
+        if (!strip || !place || *place < 0)
+            throw BadInput(image_.name, "",
+                           "has a Film that is no number of a picture, or a Comment of no film");
+        constexpr std::size_t more_than_all = std::size_t{1} << 40;
+        strip->share = {static_cast<std::size_t>(*place), more_than_all};
+        strip->overwrites = true;
+        strip->settings = [&](const core::Settings& own) { return settings_of(own); };
+        std::optional<core::Scene> result;
+        strip->draw = [&](const core::Scene& scene, std::size_t, const std::string&,
+                          simd::Progress&) { result = scene; };
+        scenes::draw(*strip);
+        if (!result)
+            throw BadInput(image_.name, "",
+                           "is picture " + std::to_string(*place) + ", from 0, of fewer");
+        settings_ = settings_of(result->settings());
+        return *std::move(result);
     }
 
     simd::Rendering draw(simd::RenderOptions options) const {

@@ -164,6 +164,63 @@ TEST_CASE("which pixels are drawn again is chance, or told by a seed") {
     CHECK(found < 18);
 }
 
+TEST_CASE("each picture of a film is drawn again as if it were alone") {
+    const Workshop workshop(R"({"image": {"width": 16, "height": 12}, "camera": "auto",
+        "parameters": {"r": 1},
+        "objects": [{"type": "sphere", "material": {"color": [1, 0, 0]}, "center": [0, 0, 0], "radius": "$r"},
+                    {"type": "sphere", "material": {}, "center": [1, 0, 1], "radius": 1}]})");
+    std::string atoms;
+    for (const char* at : {"1", "2", "4"})
+        atoms += std::string("3\n\nO 0 0 0\nH ") + at + " 0 0\nH 0 " + at + " 0\n";
+    workshop.write("move.xyz", atoms);
+    struct Film {
+        const char* scene;
+        Options options;
+        int count;
+    };
+    for (const Film& film :
+         {Film{"scene.json", {"--turn", "90/3"}, 3}, Film{"scene.json", {"--set", "r=1:2:3"}, 3},
+          Film{"scene.json", {"--set", "r=1:2:3", "--camera-from", "all", "--turn", "360/3"}, 3},
+          Film{"scene.json", {"--set", "r=1:2:3", "--camera-from", "each", "--spp", "9"}, 3},
+          Film{"move.xyz", {"--frames", ":", "--size", "16x12", "--spp", "4"}, 3},
+          Film{"move.xyz", {"--frames", "-2:", "--size", "16x12", "--spp", "4", "--alpha"}, 3},
+          Film{"move.xyz", {"--frames", ":", "--size", "16x12", "--camera-from", "all"}, 3}}) {
+        CAPTURE(film.scene, film.options);
+        REQUIRE(
+            workshop
+                .run(joined({"render", film.scene, "-o", "f%d.png", "--overwrite"}, film.options))
+                .code == 0);
+        for (int i = 0; i < film.count; ++i) {
+            const std::string name = "f" + std::to_string(i) + ".png";
+            if (!std::filesystem::exists(workshop.path() / name)) continue; // frames -2:
+            const Outcome outcome =
+                workshop.run({"verify", name, film.scene, "--quiet", "--whole"});
+            CHECK(outcome.out == right + std::string("all bits   drawn again as they were\n"));
+            CHECK(outcome.code == 0);
+        }
+        // The picture of another place is another one.
+        scenes::PictureOptions swapped;
+        const scenes::Image last = scenes::read_image(workshop.path() / "f2.png");
+        swapped.texts = last.texts;
+        for (auto& [key, text] : swapped.texts)
+            if (key == "Film") text = "0";
+        core::Film pixels(last.width, last.height);
+        scenes::OutputFile(workshop.path() / "other.png").commit(pixels, swapped);
+        CHECK(workshop.run({"verify", "other.png", film.scene, "--quiet"}).code == 1);
+        for (const char* place : {"3", "-1", "one", ""}) {
+            for (auto& [key, text] : swapped.texts)
+                if (key == "Film") text = place;
+            scenes::OutputFile(workshop.path() / "other.png").commit(pixels, swapped);
+            const Outcome outcome = workshop.run({"verify", "other.png", film.scene, "--quiet"});
+            CAPTURE(place, outcome.err);
+            CHECK(outcome.code == 2);
+            CHECK(is_one_line(outcome.err));
+        }
+        for (int i = 0; i < film.count; ++i)
+            std::filesystem::remove(workshop.path() / ("f" + std::to_string(i) + ".png"));
+    }
+}
+
 TEST_CASE("pictures that say nothing of themselves are refused in one line") {
     const Workshop workshop;
     const auto refused = [&](const std::string& name, const std::string& with) {
@@ -183,8 +240,6 @@ TEST_CASE("pictures that say nothing of themselves are refused in one line") {
         options.texts = {{"Comment", comment}, {"Scene", "0"}};
         scenes::OutputFile(workshop.path() / "b.png").commit(core::Film(16, 12), options);
     };
-    REQUIRE(workshop.render("f%d.png", {"--turn", "90/2"}).code == 0);
-    refused("f1.png", "f1.png: is one of several pictures, which cannot be drawn again alone");
     with_comment("made by hand");
     refused("b.png", "b.png: has a Comment that is no list of render's options");
     with_comment("--help");
