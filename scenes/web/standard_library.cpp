@@ -11,8 +11,6 @@
 #include <string_view>
 #include <system_error>
 
-#ifndef __cpp_lib_to_chars
-
 namespace {
 
 // musl's, which rounds correctly, and knows no locale.
@@ -23,6 +21,8 @@ Number nearest(const std::string& text) {
     else
         return std::strtod(text.c_str(), nullptr);
 }
+
+#ifdef RAYLANE_LACKS_FROM_CHARS
 
 /// The decimal number that a text begins with, as from_chars takes it; nothing if there is none.
 std::string_view decimal(std::string_view text) {
@@ -93,6 +93,9 @@ std::from_chars_result read(const char* first, const char* last, Number& value) 
     value = result;
     return {end, std::errc()};
 }
+
+#endif
+#ifdef RAYLANE_LACKS_TO_CHARS
 
 /// digits * 10^exponent.
 struct Decimal {
@@ -181,16 +184,21 @@ std::to_chars_result write(char* first, char* last, Number value) {
     return {std::copy(text.begin(), text.end(), first), std::errc()};
 }
 
+#endif
+
 } // namespace
 
 namespace std {
 
+#ifdef RAYLANE_LACKS_FROM_CHARS
 from_chars_result from_chars(const char* first, const char* last, float& value) {
     return read(first, last, value);
 }
 from_chars_result from_chars(const char* first, const char* last, double& value) {
     return read(first, last, value);
 }
+#endif
+#ifdef RAYLANE_LACKS_TO_CHARS
 to_chars_result to_chars(char* first, char* last, float value) {
     return write(first, last, value);
 }
@@ -198,6 +206,6 @@ to_chars_result to_chars(char* first, char* last, double value) {
     return write(first, last, value);
 }
 
-} // namespace std
-
 #endif
+
+} // namespace std

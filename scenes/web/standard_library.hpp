@@ -36,10 +36,17 @@ constexpr void transform(const Range& range, Out out, Function function) {
 } // namespace ranges
 #endif
 
-#ifndef __cpp_lib_to_chars
+// libc++ has to_chars of 14 and from_chars of 20, and says so by its macro only once long double is
+// there, too.
+#if !defined(__cpp_lib_to_chars) && !(defined(_LIBCPP_VERSION) && _LIBCPP_VERSION >= 200000)
+#define RAYLANE_LACKS_FROM_CHARS
 /// The nearest number to a decimal one, in no locale.
 from_chars_result from_chars(const char* first, const char* last, float& value);
 from_chars_result from_chars(const char* first, const char* last, double& value);
+#endif
+
+#if !defined(__cpp_lib_to_chars) && !(defined(_LIBCPP_VERSION) && _LIBCPP_VERSION >= 14000)
+#define RAYLANE_LACKS_TO_CHARS
 /// The shortest decimal number that leads back to `value`, and of these the nearest.
 to_chars_result to_chars(char* first, char* last, float value);
 to_chars_result to_chars(char* first, char* last, double value);
