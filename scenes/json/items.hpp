@@ -39,6 +39,7 @@ struct Outline {
     TextPosition root;
     std::map<std::string_view, TextPosition> values; ///< by root key
 
+    bool has(std::string_view key) const { return values.contains(key); }
     /// Of the value with this key, or of the object that lacks it.
     TextPosition of(std::string_view key) const {
         const auto found = values.find(key);

@@ -330,9 +330,11 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
         if (!unknown.reported && !materials_.contains(name))
             errors.add(
                 {unknown.file, unknown.position, unknown.pointer, complaint_about_name(name)});
-    // A camera that finds its place by itself has light, too.
-    if (!has_lights_ && builder_.staging.framing) builder_.staging.lights = true;
-    if (has_objects_ && !has_lights_ && !builder_.staging.lights)
+    // A camera that finds its place by itself has light, too. A list that is empty is meant to be.
+    builder_.wants_light = has_lights_ || !outline.has("lights");
+    if (!has_lights_ && builder_.wants_light && builder_.staging.framing)
+        builder_.staging.lights = true;
+    if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.staging.lights)
         errors.add({file_, outline.of("lights"), "/lights",
                     "must have at least one light where there are objects, got none"});
     errors.report();

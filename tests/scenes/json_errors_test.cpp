@@ -395,3 +395,16 @@ TEST_CASE("complaints about cameras, fogs and lights") {
          "/lights: must have at least one light where there are objects, got none"},
     });
 }
+
+TEST_CASE("a list of lights that is empty is meant to be") {
+    const auto lights = [](const std::string& all) {
+        return scene_of(
+                   "{" + all +
+                   R"(, "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})")
+            .lights()
+            .size();
+    };
+    CHECK(lights(camera + R"(, "lights": [])") == 0);
+    CHECK(lights(R"("camera": "auto")") > 0);
+    CHECK(lights(R"("camera": "auto", "lights": [])") == 0);
+}
