@@ -410,6 +410,10 @@ raylane_status raylane_parse(const char* text, size_t length, const char* name,
     });
 }
 
+raylane_status raylane_save(const raylane_scene* scene, const char* path) {
+    return guarded([&] { save(checked("scene", scene).scene, &checked("path", path)); });
+}
+
 void raylane_scene_release(raylane_scene* scene) {
     delete scene;
 }

@@ -2,6 +2,7 @@
 
 #include "core/scene/staging.hpp"
 #include "raylane/scene.hpp"
+#include "scenes/export/export.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
@@ -11,6 +12,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace raylane {
 
@@ -222,6 +224,17 @@ Scene parse(std::string_view text, const std::string& name, const OnRemark& on_r
         return owning(
             scenes::parse_scene(name, text, {.workers = &workers, .on_remark = on_remark}));
     });
+}
+
+void save(const Scene& scene, const std::filesystem::path& path, const OnRemark& on_remark) {
+    // To the exporter, - is standard output.
+    const std::filesystem::path file = path == "-" ? "./-" : path;
+    const std::vector<std::string> differences =
+        translated([&] { return scenes::export_scene(file, library::Internals::of(scene)); });
+    if (on_remark)
+        for (const std::string& what : differences)
+            on_remark(file.string() +
+                      ": not as in the scene, for want of a word in the format: " + what);
 }
 
 } // namespace raylane

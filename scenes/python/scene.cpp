@@ -481,6 +481,12 @@ void bind_scene(py::module_& module) {
                    const py::gil_scoped_release free;
                    return parse(view, name, remarks);
                });
+    module.def("save", [](const Scene& scene, const std::filesystem::path& path,
+                          const py::object& on_remark) {
+        const OnRemark remarks = remarks_to(on_remark);
+        const py::gil_scoped_release free;
+        save(scene, path, remarks);
+    });
 }
 
 } // namespace raylane::python

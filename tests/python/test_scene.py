@@ -215,6 +215,43 @@ def test_files(scenes, tmp_path):
     assert raylane.load(tmp_path / "a.xyz").shape_count >= 2
 
 
+@pytest.mark.parametrize("name", ["birthday", "lens", "protein", "cutaway", "many"])
+def test_saved_and_pickled(scenes, tmp_path, name):
+    if name == "many":
+        builder = SceneBuilder()
+        red = builder.add_material(raylane.Material(color=(1, 0, 0)))
+        builder.add_spheres(np.random.default_rng(1).uniform(-9, 9, (10_000, 3)), 0.25, material=red)
+        scene = builder.build()
+    else:
+        scene = raylane.load(scenes / f"{name}.json")
+    camera = np.array(scene.camera.position)
+    towards = np.array(scene.camera.at) - camera + np.random.default_rng(2).normal(size=(2000, 3)) * np.linalg.norm(camera) / 9
+    expected = Tracer(scene).intersect(camera, towards, double=True)
+    again = [pickle.loads(pickle.dumps(scene)), copy.deepcopy(scene)]
+    for ending in ("json", "rl"):
+        path = tmp_path / f"a.{ending}"
+        try:
+            scene.save(path)
+        except raylane.BadInput as error:
+            assert ending == "rl" and name in ("lens", "cutaway") and "solids" in str(error) and not path.exists()
+            continue
+        again.append(raylane.load(path))
+    assert len(again) == (3 if name in ("lens", "cutaway") else 4)
+    for other in again:
+        hits = Tracer(other).intersect(camera, towards, double=True)
+        assert np.array_equal(hits.t, expected.t) and np.array_equal(hits.shape, expected.shape)
+        assert other.camera == scene.camera and other.settings == scene.settings and other.material(0) == scene.material(0)
+
+
+def test_saved_for_others(scenes, tmp_path):
+    with pytest.warns(UserWarning, match="not as in the scene"):
+        raylane.load(scenes / "glass-block.json").save(tmp_path / "a.nff")
+    with pytest.raises(raylane.BadInput, match="must end in"):
+        raylane.load(scenes / "sphere.json").save(tmp_path / "a.obj")
+    with pytest.raises(raylane.SystemRefused):
+        raylane.load(scenes / "sphere.json").save(tmp_path / "none" / "a.json")
+
+
 def test_remarks(tmp_path):
     text = 'camera { location <0, 0, -5> look_at 0 }\nsphere { 0, 1 pigment { rgb 1 } finish { brilliance 2 } }\nlight_source { <1, 2, -3> rgb 1 }\n'
     told = []

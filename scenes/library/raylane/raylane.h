@@ -229,6 +229,9 @@ RAYLANE_API raylane_status raylane_build(raylane_builder* builder, raylane_scene
 RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene);
 RAYLANE_API raylane_status raylane_parse(const char* text, size_t length, const char* name,
                                          raylane_scene** scene);
+/** Writes a scene to a file, in the format of its ending: .json, .rl, .nff or .pov, as save() of
+ * scene.hpp. */
+RAYLANE_API raylane_status raylane_save(const raylane_scene* scene, const char* path);
 RAYLANE_API void raylane_scene_release(raylane_scene* scene);
 RAYLANE_API size_t raylane_shape_count(const raylane_scene* scene);
 RAYLANE_API size_t raylane_material_count(const raylane_scene* scene);

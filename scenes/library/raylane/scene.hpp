@@ -136,15 +136,24 @@ class SceneBuilder {
 using OnRemark = std::function<void(const std::string& remark)>;
 
 /// Reads a scene from a file: JSON (scenes/raylane-scene.schema.json describes it), NFF, POV-Ray's
-/// language or Tachyon's; or atoms, of which it makes one: PDB, mmCIF, CIF, XYZ, GRO, LAMMPS' dump
-/// or data. The format follows its ending or else its content. What the file includes is read as
-/// well. Throws BadInput for what is malformed, in JSON for up to ten mistakes at once,
-/// SystemRefused, and std::bad_alloc.
+/// language or Tachyon's, or what save() has made; or atoms, of which it makes one: PDB, mmCIF,
+/// CIF, XYZ, GRO, LAMMPS' dump or data. The format follows its ending or else its content. What the
+/// file includes is read as well. Throws BadInput for what is malformed, in JSON for up to ten
+/// mistakes at once, SystemRefused, and std::bad_alloc.
 RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_remark = {});
 
 /// The same for a scene in memory. `name` is what messages call it, and where included files are
 /// looked for; the format follows its ending, or else the content.
 RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene",
                         const OnRemark& on_remark = {});
+
+/// Writes a scene to a file, which appears whole or not at all, in the format of its ending: .json,
+/// which has all of it to the bit but which triangles make a polygon; .rl, which has that, too, and
+/// the hierarchy, and which load() maps rather than reads, but no solids that are made of others;
+/// .nff and .pov (POV-Ray 3.7), which have less. What is not in the file as it is in the scene, for
+/// want of a word in the format, is told to `on_remark`. Throws BadInput for another ending, or for
+/// shapes that the format does not have, and SystemRefused.
+RAYLANE_API void save(const Scene& scene, const std::filesystem::path& path,
+                      const OnRemark& on_remark = {});
 
 } // namespace raylane

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 import warnings
 from typing import TYPE_CHECKING, Any, Callable, List, Optional, Sequence, Tuple, Union, overload
 
@@ -10,12 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
+from ._errors import BadInput
 from ._values import Camera, Fog, Light, Material, Settings, Vector
 
 if TYPE_CHECKING:
     from ._image import Image
 
 Ids = NDArray[np.uint32]
+
+
+def _warn(remark: str) -> None:
+    warnings.warn(remark, stacklevel=3)
 
 
 class Scene:
@@ -109,6 +115,28 @@ class Scene:
 
     def _repr_png_(self) -> bytes:
         return self.render()._repr_png_()
+
+    def save(self, path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> None:
+        """Writes a file that :func:`load` and ``raylane render`` read, in the format of its ending.
+
+        ``.json`` has all of the scene to the bit, but which triangles make a polygon; ``.rl`` has that, too, and is
+        mapped into memory rather than read, but has no solids that are made of others; ``.nff`` and ``.pov``, for other
+        programs, have less. What is left out there is warned of, or told to ``on_remark``. The file appears whole or
+        not at all. Raises :class:`BadInput` for shapes that the format does not have.
+        """
+        _raylane.save(self._scene, os.fspath(path), on_remark)
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        """Pickled as ``.rl`` or, with solids, as ``.json``."""
+        with tempfile.TemporaryDirectory() as room:
+            try:
+                name = "scene.rl"
+                self.save(os.path.join(room, name))
+            except BadInput:
+                name = "scene.json"
+                self.save(os.path.join(room, name))
+            with open(os.path.join(room, name), "rb") as file:
+                return parse, (file.read(), name)
 
     def __repr__(self) -> str:
         return f"<raylane.Scene: {self.shape_count} shapes, {self.material_count} materials>"
@@ -313,12 +341,8 @@ class SceneBuilder:
 
 
 # What a file says and the scene does not have.
-def _warn(remark: str) -> None:
-    warnings.warn(remark, stacklevel=3)
-
-
 def load(path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> Scene:
-    """Reads a scene: JSON, NFF, POV-Ray's language, Tachyon's, what ``raylane build`` has made; or atoms.
+    """Reads a scene: JSON, NFF, POV-Ray's language, Tachyon's, what ``raylane build`` or :meth:`Scene.save` has made; or atoms.
 
     The format follows the file's ending or else its content. Raises :class:`BadInput` with all mistakes of a
     file, and :class:`SystemRefused`. What a file says and the scene does not have is warned of, or told to

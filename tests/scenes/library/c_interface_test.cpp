@@ -187,6 +187,12 @@ TEST_CASE("what goes wrong in C has a code and a line of text") {
     const char text[] = "{\"objects\": 3}";
     CHECK(raylane_parse(text, std::strlen(text), "mine.json", &none) == RAYLANE_BAD_INPUT);
     CHECK(std::string(raylane_error_text()).starts_with("mine.json"));
+    CHECK(raylane_save(balls_in_c().get(), "no/such.json") == RAYLANE_SYSTEM_REFUSED);
+    says(raylane_save(balls_in_c().get(), "such.txt"), RAYLANE_BAD_INPUT,
+         "such.txt: must end in .json, .nff, .pov or .rl");
+    says(raylane_save(nullptr, "such.json"), RAYLANE_INVALID_VALUE, "scene: must not be NULL");
+    says(raylane_save(balls_in_c().get(), nullptr), RAYLANE_INVALID_VALUE,
+         "path: must not be NULL");
 
     const SceneHandle scene = balls_in_c();
     raylane_tracer* tracer = nullptr;

@@ -3,7 +3,10 @@
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace raylane;
 
@@ -93,6 +96,79 @@ TEST_CASE("the README's program is the one that is tested") {
     REQUIRE(!program.empty());
     const std::string readme = tests::content_of(RAYLANE_SOURCE_DIR "/README.md");
     CHECK(readme.find("```cpp\n" + program + "```") != std::string::npos);
+}
+
+TEST_CASE("scenes are saved, and are the same when they are loaded again") {
+    const tests::TemporaryDirectory directory;
+    const auto hits_of = [](const Scene& scene) {
+        const float origins[3][3] = {{0, 0, 9}, {0.5F, 0.25F, 9}, {3, 0.125F, 9}};
+        float x[3], y[3], z[3], zero[3] = {0, 0, 0}, back[3] = {-1, -1, -1};
+        for (int i = 0; i < 3; ++i) {
+            x[i] = origins[i][0];
+            y[i] = origins[i][1];
+            z[i] = origins[i][2];
+        }
+        const Tracer tracer(scene);
+        std::vector<float> t(3);
+        std::vector<ShapeId> shape(3);
+        RaySpan rays;
+        rays.origin_x = x;
+        rays.origin_y = y;
+        rays.origin_z = z;
+        rays.direction_x = rays.direction_y = zero;
+        rays.direction_z = back;
+        HitSpan hits;
+        hits.t = t;
+        hits.shape = shape;
+        tracer.intersect(rays, hits);
+        return std::pair(t, shape);
+    };
+    const std::string balls =
+        R"({"type": "sphere", "material": "m", "center": [0.1, 0, 0], "radius": 1},
+        {"type": "sphere", "material": "m", "center": [3, 0, 0], "radius": 0.3})";
+    const std::string solid = R"({"type": "difference", "material": "m", "objects": [
+        {"type": "sphere", "center": [0.1, 0, 0], "radius": 1},
+        {"type": "sphere", "center": [0, 0, 1], "radius": 0.5}]})";
+    const auto path = [&](const char* name) { return directory.path() / name; };
+    for (const std::string& objects : {balls, balls + "," + solid}) {
+        const Scene scene = parse(with_objects(objects), "x.json");
+        for (const char* name : {"a.json", "a.rl"}) {
+            CAPTURE(objects, name);
+            if (objects != balls && std::string(name) == "a.rl") {
+                CHECK(refusal_of([&] { save(scene, path(name)); })
+                          .ends_with("cannot have solids that are made of others, which are built "
+                                     "anew each time"));
+                continue;
+            }
+            save(scene, path(name), [](const std::string& remark) { FAIL(remark); });
+            const Scene again = load(path(name));
+            CHECK(again.shape_count() == scene.shape_count());
+            CHECK(hits_of(again) == hits_of(scene));
+            std::filesystem::remove(path(name));
+        }
+    }
+    const Scene scene = parse(
+        R"({"camera": {"type": "orthographic", "from": [0, 0, 9], "at": [0, 0, 0], "height": 4},
+        "fog": {"type": "linear", "start": 1, "end": 9}, "lights": [{"type": "point", "position": [1, 1, 1]}],
+        "materials": {"m": {}}, "objects": [)" +
+            balls + "]}",
+        "x.json");
+    std::vector<std::string> remarks;
+    save(scene, path("a.pov"), [&](const std::string& remark) { remarks.push_back(remark); });
+    REQUIRE(!remarks.empty());
+    CHECK(remarks[0].starts_with(path("a.pov").string() +
+                                 ": not as in the scene, for want of a word in the format: "));
+    CHECK(refusal_of([&] {
+              save(scene, path("a.xyz"));
+          }).ends_with("must end in .json, .nff, .pov or .rl"));
+    CHECK(refusal_of([&] { save(scene, "-"); }).ends_with("must end in .json, .nff, .pov or .rl"));
+    CHECK_THROWS_AS(save(scene, path("none/a.json")), SystemRefused);
+    CHECK(directory.names() == std::vector<std::string>{"a.pov"});
+
+    SceneBuilder dark; // for rays alone
+    dark.add(Sphere{{0, 0, 0}, 1}, dark.add_material(Material()));
+    save(dark.build(), path("dark.json"));
+    CHECK(load(path("dark.json")).shape_count() == 1);
 }
 
 TEST_CASE("what a file says and a scene does not have is told to who loads it") {
