@@ -317,7 +317,7 @@ TEST_CASE("a PNG ends where its picture does") {
     CHECK(error_of(png_of(1, 2, 8, pixel)) == damaged);
 }
 
-TEST_CASE("a PNG takes the memory of its codes, and says so if there is none") {
+TEST_CASE("a PNG takes the memory of its codes, and says so if there is none", "[native]") {
     const TemporaryDirectory directory;
     constexpr std::uint32_t side = 4096;
     std::string rows;
