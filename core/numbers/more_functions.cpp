@@ -16,26 +16,32 @@ constexpr double pi = std::numbers::pi;
 /// Beyond it, e^x is infinite, or e^-x of no account beside it.
 constexpr double large = 709.0;
 
-/// x^n, n >= 0, by squares; not finite where these, or their parts, leave the range of doubles.
-DoubleDouble whole_power(double x, double n) {
-    DoubleDouble result(1.0), square(x);
-    while (true) {
-        if (std::fmod(n, 2.0) != 0.0) result = result * square;
-        n = std::floor(0.5 * n);
-        if (n == 0.0) return result;
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr int most_squared = 1024; // by squares, which lose 2^-90 of it
+
+/// x^n for finite x != 0 and |n| <= most_squared.
+double whole_power(double x, int n) {
+    int exponent = 0;
+    double m = std::frexp(x, &exponent);
+    if (std::abs(m) < std::numbers::sqrt2 / 2.0) { // m^n and what it loses stay in range
+        m *= 2.0;
+        --exponent;
+    }
+    DoubleDouble result(1.0), square(m);
+    for (int rest = std::abs(n);;) {
+        if (rest % 2 != 0) result = result * square;
+        rest /= 2;
+        if (rest == 0) break;
         square = square * square;
     }
+    if (n < 0) result = DoubleDouble(1.0) / result;
+    return std::ldexp(static_cast<double>(result), exponent * n);
 }
 
 /// log(1 + x), x >= 0. Source: Kahan; the error of 1 + x is in both factors.
 double log1p(double x) {
     const double sum = 1.0 + x;
     return sum == 1.0 || sum > 0x1p60 ? (sum == 1.0 ? x : log(x)) : log(sum) * (x / (sum - 1.0));
-}
-
-/// The power by logarithms, of finite x > 0.
-double power_of_positive(double x, double y) {
-    return y < 0.0 ? 1.0 / pow(x, -y) : pow(x, y);
 }
 
 } // namespace
@@ -45,20 +51,15 @@ double power(double x, double y) {
     if (!std::isfinite(x) || !std::isfinite(y) || x == 0.0 || y == 0.0) return std::pow(x, y);
     const double size = std::abs(y);
     const bool is_whole = std::floor(size) == size;
-    if (x < 0.0 && !is_whole) return std::numeric_limits<double>::quiet_NaN();
+    if (x < 0.0 && !is_whole) return not_a_number;
     if (y == 0.5) return std::sqrt(x);
-    constexpr double most_squares = 1024.0; // which lose 2^-90 of it
-    if (is_whole && size <= most_squares) {
-        const DoubleDouble result = whole_power(x, size);
-        // With room for the rests that products leave.
-        if (std::abs(result.high) < 0x1p900 && std::abs(result.high) > 0x1p-900)
-            return static_cast<double>(y < 0.0 ? DoubleDouble(1.0) / result : result);
-    }
-    const double result = power_of_positive(std::abs(x), y);
+    if (is_whole && size <= most_squared) return whole_power(x, static_cast<int>(y));
+    const double result = pow(std::abs(x), y); // for x > 0 it does not ask for the sign of y
     return x < 0.0 && std::fmod(size, 2.0) != 0.0 ? -result : result;
 }
 
 double tan(double x) {
+    if (!std::isfinite(x)) return not_a_number;
     const auto [sine, cosine] = Elementary<double>::sin_cos(x);
     return sine / cosine;
 }
@@ -79,6 +80,7 @@ double atan2(double y, double x) {
 }
 
 double sinh(double x) {
+    if (std::isnan(x)) return x;
     const double size = std::abs(x);
     if (size > large) {
         const double root = exp(0.5 * size);
@@ -89,6 +91,7 @@ double sinh(double x) {
 }
 
 double cosh(double x) {
+    if (std::isnan(x)) return x;
     const double size = std::abs(x);
     if (size > large) {
         const double root = exp(0.5 * size);
@@ -99,6 +102,7 @@ double cosh(double x) {
 }
 
 double tanh(double x) {
+    if (std::isnan(x)) return x;
     const double less_one = expm1(-2.0 * std::abs(x));
     return std::copysign(-less_one / (2.0 + less_one), x);
 }
@@ -111,7 +115,7 @@ double asinh(double x) {
 }
 
 double acosh(double x) {
-    if (x < 1.0) return std::numeric_limits<double>::quiet_NaN();
+    if (x < 1.0) return not_a_number;
     if (x > 0x1p30) return log(x) + std::numbers::ln2;
     const double beyond = x - 1.0;
     return log1p(beyond + std::sqrt(2.0 * beyond + beyond * beyond));
@@ -119,7 +123,7 @@ double acosh(double x) {
 
 double atanh(double x) {
     const double size = std::abs(x);
-    if (size > 1.0) return std::numeric_limits<double>::quiet_NaN();
+    if (size > 1.0) return not_a_number;
     return std::copysign(0.5 * log1p(2.0 * size / (1.0 - size)), x);
 }
 

@@ -217,7 +217,9 @@ void write_settings(Object& root, TextFile& file, const core::Settings& settings
         if (settings.max_see_through != core::Settings::see_through_limit)
             limits.number("max_see_through", settings.max_see_through);
     }
-    if (const core::Outline& outline = settings.outline; outline.any()) {
+    // Also of lines that are not there, for whoever asks for some.
+    const core::Outline &outline = settings.outline, usual{};
+    if (outline.any() || outline.color != usual.color || outline.creases != usual.creases) {
         root.key("outline");
         Object object(file);
         object.number("width", outline.width);

@@ -22,6 +22,8 @@ class NffWriter {
         file_ << "b ";
         file_.list(scene_.background(), " ") << "\n";
         if (scene_.fog().kind != core::FogKind::none) differences_.insert("fog");
+        if (scene_.lights().empty())
+            differences_.insert("that there is no light, without which raylane does not read it");
         for (const core::Light& light : scene_.lights()) {
             if (light.kind != core::LightKind::point) {
                 differences_.insert(core::is_soft(light.kind) ? "lights with a size"

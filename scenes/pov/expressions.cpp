@@ -1,6 +1,6 @@
 #include "scenes/pov/expressions.hpp"
 
-#include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
 #include "scenes/pov/functions.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Tuple combined(const Tuple& a, const Tuple& b, const Operation& operation) {
 }
 
 double from_srgb(double value) {
-    return value <= 0.04045 ? value / 12.92 : core::pow((value + 0.055) / 1.055, 2.4);
+    return value <= 0.04045 ? value / 12.92 : core::power((value + 0.055) / 1.055, 2.4);
 }
 
 /// What "rgbt" and the like make of numbers: red, green, blue, filter, transmit.

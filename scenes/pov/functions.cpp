@@ -51,6 +51,14 @@ const Constant constants[] = {
 using OfOne = double (*)(double);
 using OfTwo = double (*)(double, double);
 
+// Of what is no finite number it is none, which a scene is refused for.
+double sine(double a) {
+    return std::isfinite(a) ? core::sin(a) : a - a;
+}
+double cosine(double a) {
+    return std::isfinite(a) ? core::cos(a) : a - a;
+}
+
 struct FunctionOfOne {
     std::string_view name;
     OfOne call;
@@ -64,16 +72,16 @@ const FunctionOfOne functions_of_one[] = {
     {"atan", [](double a) { return core::atan(a); }},
     {"atanh", [](double a) { return core::atanh(a); }},
     {"ceil", [](double a) { return std::ceil(a); }},
-    {"cos", [](double a) { return core::cos(a); }},
+    {"cos", cosine},
     {"cosh", [](double a) { return core::cosh(a); }},
     {"degrees", [](double a) { return a / degree; }},
-    {"exp", [](double a) { return core::exp(a); }},
+    {"exp", [](double a) { return std::isnan(a) ? a : core::exp(a); }},
     {"floor", [](double a) { return std::floor(a); }},
     {"int", [](double a) { return std::trunc(a); }},
     {"ln", [](double a) { return core::log(a); }},
     {"log", [](double a) { return core::log10(a); }},
     {"radians", [](double a) { return a * degree; }},
-    {"sin", [](double a) { return core::sin(a); }},
+    {"sin", sine},
     {"sinh", [](double a) { return core::sinh(a); }},
     {"sqr", [](double a) { return a * a; }},
     {"sqrt", [](double a) { return std::sqrt(a); }},
@@ -110,7 +118,7 @@ auto* entry(Table& table, std::string_view name) {
 Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
     if (axis == Vec3d(0.0)) return v;
     const Vec3d k = core::normalized(axis);
-    const double c = core::cos(degrees * degree), s = core::sin(degrees * degree);
+    const double c = cosine(degrees * degree), s = sine(degrees * degree);
     return c * v + s * core::cross(k, v) + ((1.0 - c) * core::dot(k, v)) * k;
 }
 

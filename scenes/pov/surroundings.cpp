@@ -111,9 +111,7 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
     }
     if (!(width > 0.0 && height > 0.0 && core::length(direction) > 0.0))
         fail(place, "must have a right, an up and a direction that have lengths");
-    if (given.angle)
-        focus = 0.5 * width /
-                (core::sin(*given.angle * half_degree) / core::cos(*given.angle * half_degree));
+    if (given.angle) focus = 0.5 * width / core::tan(*given.angle * half_degree);
     double size = 1.0; // of an orthographic picture, by what right and up say
     if (given.look_at && (!given.has_size || given.angle)) size = core::length(direction) / focus;
     Vec3d at = location + direction, sky = given.look_at ? given.sky : up;

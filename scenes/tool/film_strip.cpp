@@ -40,6 +40,7 @@ class Stage {
 
     std::optional<Picture> next() {
         for (;;) {
+            if (strip_.only && made_ > *strip_.only) return std::nullopt;
             if (is_still() && made_ > 0) {
                 if (made_ >= count()) return std::nullopt;
                 number_ = made_;
@@ -49,7 +50,8 @@ class Stage {
                 number_ = *number;
             }
             const std::size_t place = made_++;
-            const bool is_ours = place % strip_.share.of == strip_.share.number;
+            const bool is_ours = strip_.only ? place == *strip_.only
+                                             : place % strip_.share.of == strip_.share.number;
             Picture picture{place, strip_.name(is_still() && strip_.turn ? place : number_),
                             std::nullopt};
             if (is_ours && is_wanted(picture.name)) picture.scene = scene(place);

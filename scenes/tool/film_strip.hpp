@@ -26,6 +26,7 @@ struct FilmStrip {
     struct Share {
         std::size_t number = 0, of = 1;
     } share;
+    std::optional<std::size_t> only; ///< the picture at this place alone, whoever's it is
     Verbosity verbosity = Verbosity::normal;
     /// What a scene's settings become.
     std::function<core::Settings(const core::Settings&)> settings;

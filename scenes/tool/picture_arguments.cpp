@@ -66,12 +66,14 @@ std::string text_of(const core::Color& color) {
 }
 
 /// The settings as options of the tool, for a scene that has these of its own.
-std::string text_of(const core::Settings& settings, const core::Settings& own) {
+std::string text_of(const core::Settings& settings, const core::Settings& own, bool names_size) {
     static constexpr const char* filters[] = {"box", "gaussian", "blackman-harris"};
-    std::string text =
-        "--size " + std::to_string(settings.width) + "x" + std::to_string(settings.height);
-    text += settings.quality != 0.0F ? " --quality " + to_text(settings.quality)
-                                     : " --spp " + std::to_string(settings.grid * settings.grid);
+    std::string text;
+    if (names_size)
+        text = "--size " + std::to_string(settings.width) + "x" + std::to_string(settings.height) +
+               " ";
+    text += settings.quality != 0.0F ? "--quality " + to_text(settings.quality)
+                                     : "--spp " + std::to_string(settings.grid * settings.grid);
     text += " --filter " + std::string(filters[static_cast<int>(settings.filter)]);
     text += " --light-samples " + std::to_string(settings.light_samples);
     text += " --max-depth " + std::to_string(settings.max_depth);
@@ -180,18 +182,20 @@ void PictureChoice::apply_to(simd::RenderOptions& options, const core::Settings&
 }
 
 PictureOptions PictureChoice::options(const std::string& scene, const core::Settings& settings,
-                                      const core::Settings& own, const std::string& others) const {
+                                      const core::Settings& own, const std::string& others,
+                                      bool names_size) const {
     PictureOptions options{settings.transfer, bits, dpi, {}};
     if (scene != "-")
         options.texts.emplace_back(
             "Title", printable(std::filesystem::path(scene).filename().string(), 4096));
     options.texts.emplace_back("Software", "raylane " RAYLANE_VERSION);
-    options.texts.emplace_back("Comment", text(settings, own) + others);
+    options.texts.emplace_back("Comment", text(settings, own, names_size) + others);
     return options;
 }
 
-std::string PictureChoice::text(const core::Settings& settings, const core::Settings& own) const {
-    return text_of(settings, own) + (crop ? " --crop " + text_of(*crop) : "");
+std::string PictureChoice::text(const core::Settings& settings, const core::Settings& own,
+                                bool names_size) const {
+    return text_of(settings, own, names_size) + (crop ? " --crop " + text_of(*crop) : "");
 }
 
 } // namespace raylane::scenes

@@ -30,12 +30,14 @@ struct PictureChoice {
     /// Throws BadInput for a crop that does not lie in the picture.
     void apply_to(simd::RenderOptions& options, const core::Settings& settings) const;
     /// How the file has a picture of the scene with this name, of which it says what would draw it
-    /// again: these options, and `others` (" --style sticks").
+    /// again: these options, of which `names_size` is the first, and `others` (" --style sticks").
     PictureOptions options(const std::string& scene, const core::Settings& settings,
-                           const core::Settings& own, const std::string& others) const;
+                           const core::Settings& own, const std::string& others,
+                           bool names_size) const;
 
     /// The settings and crop as options of the tool, for a scene that has `own` settings.
-    std::string text(const core::Settings& settings, const core::Settings& own) const;
+    std::string text(const core::Settings& settings, const core::Settings& own,
+                     bool names_size) const;
 
     bool layers, alpha;
     int bits = 0;

@@ -193,7 +193,9 @@ int render(const RenderArguments& arguments) {
                            const core::Settings& settings, const core::Settings& own,
                            const std::string& fingerprint) {
         PictureOptions how =
-            picture.options(files.scene, settings, own, text_of(arguments, options, settings));
+            picture.options(files.scene, settings, own, text_of(arguments, options, settings),
+                            // Pictures of a film may have sizes of their own.
+                            !place || arguments.size);
         if (place) how.texts.emplace_back("Film", std::to_string(*place));
         if (part_of_tiles)
             how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +

@@ -178,7 +178,7 @@ class Verifier {
         return settings;
     }
 
-    /// That of a picture of a film, which is made as if all others were drawn by other processes.
+    /// That of a picture of a film.
     core::Scene seen_scene_of_film() {
         const std::optional<int> place = to_int(text_in(image_.name, image_.texts, "Film"));
         std::optional<FilmStrip> strip =
@@ -187,9 +187,9 @@ class Verifier {
         if (!strip || !place || *place < 0)
             throw BadInput(image_.name, "",
                            "has a Film that is no number of a picture, or a Comment of no film");
-        constexpr std::size_t more_than_all = std::size_t{1} << 40;
-        strip->share = {static_cast<std::size_t>(*place), more_than_all};
+        strip->only = static_cast<std::size_t>(*place);
         strip->overwrites = true;
+        strip->name = [](std::size_t) { return std::string(); }; // nothing is written
         strip->settings = [&](const core::Settings& own) { return settings_of(own); };
         std::optional<core::Scene> result;
         strip->draw = [&](const core::Scene& scene, std::size_t, const std::string&,

@@ -45,26 +45,26 @@ bool same(double a, double b) {
 } // namespace
 
 TEST_CASE("trigonometric functions of readers are within three ulps") {
-    check("tan", core::tan, [](const Number& x) -> Number { return mp::tan(x); }, 2.3,
+    check("tan", core::tan, [](const Number& x) -> Number { return mp::tan(x); }, 3.0,
           {{-1.6, 1.6, false}, {0x1p-600, 1.5, true}, {-30.0, 30.0, false}});
-    check("asin", core::asin, [](const Number& x) -> Number { return mp::asin(x); }, 2.4,
+    check("asin", core::asin, [](const Number& x) -> Number { return mp::asin(x); }, 3.0,
           {{-1.0, 1.0, false}, {0x1p-600, 1.0, true}, {0.999, 1.0, false}});
-    check("acos", core::acos, [](const Number& x) -> Number { return mp::acos(x); }, 2.4,
+    check("acos", core::acos, [](const Number& x) -> Number { return mp::acos(x); }, 3.0,
           {{-1.0, 1.0, false}, {0x1p-600, 1.0, true}, {0.999, 1.0, false}, {-1.0, -0.999, false}});
 }
 
 TEST_CASE("hyperbolic functions of readers and their inverses are within three ulps") {
-    check("sinh", core::sinh, [](const Number& x) -> Number { return mp::sinh(x); }, 2.7,
+    check("sinh", core::sinh, [](const Number& x) -> Number { return mp::sinh(x); }, 3.0,
           {{-3.0, 3.0, false}, {0x1p-600, 710.4, true}, {708.0, 710.4, false}});
-    check("cosh", core::cosh, [](const Number& x) -> Number { return mp::cosh(x); }, 2.7,
+    check("cosh", core::cosh, [](const Number& x) -> Number { return mp::cosh(x); }, 3.0,
           {{-3.0, 3.0, false}, {0x1p-600, 710.4, true}, {708.0, 710.4, false}});
-    check("tanh", core::tanh, [](const Number& x) -> Number { return mp::tanh(x); }, 2.7,
+    check("tanh", core::tanh, [](const Number& x) -> Number { return mp::tanh(x); }, 3.0,
           {{-3.0, 3.0, false}, {0x1p-600, 100.0, true}});
-    check("asinh", core::asinh, [](const Number& x) -> Number { return mp::asinh(x); }, 2.8,
+    check("asinh", core::asinh, [](const Number& x) -> Number { return mp::asinh(x); }, 3.0,
           {{-3.0, 3.0, false}, {0x1p-600, 0x1p1000, true}});
-    check("acosh", core::acosh, [](const Number& x) -> Number { return mp::acosh(x); }, 2.8,
+    check("acosh", core::acosh, [](const Number& x) -> Number { return mp::acosh(x); }, 3.0,
           {{1.0, 3.0, false}, {1.0, 1e6, false}, {1.0, 1.0001, false}, {1e9, 1e300, false}});
-    check("atanh", core::atanh, [](const Number& x) -> Number { return mp::atanh(x); }, 2.8,
+    check("atanh", core::atanh, [](const Number& x) -> Number { return mp::atanh(x); }, 3.0,
           {{-1.0, 1.0, false}, {0x1p-600, 1.0, true}, {0.999, 1.0, false}});
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("angles of points are within three ulps, all around") {
         const double y = draw(random, {1e-3, 1e3, true}), x = draw(random, {1e-3, 1e3, true});
         errors.add(core::atan2(y, x), mp::atan2(Number(y), Number(x)));
     }
-    errors.check("atan2", 2.4, 0.5);
+    errors.check("atan2", 3.0, 0.5);
     const double values[] = {0.0, -0.0, 1.0, -1.0, infinity, -infinity, nan_};
     for (const double y : values)
         for (const double x : values) {
@@ -102,8 +102,25 @@ TEST_CASE("powers of readers are exact where doubles hold them") {
         CHECK(core::power(static_cast<double>(root) * root, 1.5) ==
               static_cast<double>(root) * root * root);
     }
+    // Of all sizes; those near 0 are given by fewer bits, and rounded twice.
     Random random;
-    Errors whole, others, negative;
+    Errors whole, others, negative, first;
+    for (int i = 0; i < rounds; ++i) {
+        const double n = std::floor(random.uniform(1.0, 60.0)) * random.sign();
+        const double x = std::exp(random.uniform(-1021.0, 1023.9) * 0.6931471805599453 / n);
+        whole.add(core::power(x, n), mp::pow(Number(x), static_cast<int>(n)));
+        const double any = std::exp(random.uniform(-744.0, 709.0));
+        first.add(core::power(any, 1.0), Number(any));
+        const double y = random.uniform(-3.0, 3.0);
+        const double z = std::exp(random.uniform(-1020.0, 1023.9) * 0.6931471805599453 / y);
+        if (std::isfinite(z) && z > 0.0)
+            others.add(core::power(z, y), mp::pow(Number(z), Number(y)));
+    }
+    first.check("first powers", 0.0);
+    for (const double y : {-1023.0, -1022.5, -1000.25, 1000.0})
+        CHECK(core::power(0.5, y) == Approx(std::pow(0.5, y)).epsilon(1e-14));
+    CHECK(core::power(10.0, 308.0) == 1e308);
+    CHECK(core::power(0.1, -308.0) == Approx(1e308).epsilon(1e-13));
     for (int i = 0; i < rounds / 2; ++i) {
         const double base = random.sign() * random.uniform(0.3, 3.0);
         const double n = std::floor(random.uniform(-500.0, 500.0));
@@ -114,7 +131,7 @@ TEST_CASE("powers of readers are exact where doubles hold them") {
         negative.add(core::power(-1.25, most), mp::pow(Number(-1.25), static_cast<int>(most)));
     }
     whole.check("whole powers", 0.501);
-    others.check("powers", 2.1);
+    others.check("powers", 2.0);
     negative.check("large whole powers", 2.0, 0.5);
 }
 
@@ -144,4 +161,6 @@ TEST_CASE("functions of readers at the ends of their domains") {
             CHECK((same(got, expected) || std::abs(got - expected) <= 1e-15 * std::abs(expected)));
         }
     CHECK(core::tan(0.0) == 0.0);
+    for (const double x : {infinity, -infinity, nan_})
+        CHECK(std::isnan(core::tan(x)));
 }

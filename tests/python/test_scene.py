@@ -227,7 +227,8 @@ def test_saved_and_pickled(scenes, tmp_path, name):
     camera = np.array(scene.camera.position)
     towards = np.array(scene.camera.at) - camera + np.random.default_rng(2).normal(size=(2000, 3)) * np.linalg.norm(camera) / 9
     expected = Tracer(scene).intersect(camera, towards, double=True)
-    again = [pickle.loads(pickle.dumps(scene)), copy.deepcopy(scene)]
+    assert copy.copy(scene) is scene and copy.deepcopy(scene) is scene
+    again = [pickle.loads(pickle.dumps(scene))]
     for ending in ("json", "rl"):
         path = tmp_path / f"a.{ending}"
         try:
@@ -236,7 +237,7 @@ def test_saved_and_pickled(scenes, tmp_path, name):
             assert ending == "rl" and name in ("lens", "cutaway") and "solids" in str(error) and not path.exists()
             continue
         again.append(raylane.load(path))
-    assert len(again) == (3 if name in ("lens", "cutaway") else 4)
+    assert len(again) == (2 if name in ("lens", "cutaway") else 3)
     for other in again:
         hits = Tracer(other).intersect(camera, towards, double=True)
         assert np.array_equal(hits.t, expected.t) and np.array_equal(hits.shape, expected.shape)

@@ -239,6 +239,24 @@ TEST_CASE("POV-Ray is told every shape and material") {
     CHECK(count("{") == count("}"));
 }
 
+TEST_CASE("lines that are not there keep their colour, and NFF says what it lacks") {
+    const tests::TemporaryDirectory directory;
+    core::SceneBuilder builder;
+    builder.wants_light = false;
+    builder.settings.outline = {0.0F, core::Color(0.25F, 0.5F, 1.0F), 30.0F};
+    builder.add(core::Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    const core::Scene scene = std::move(builder).build();
+    export_scene(directory.path() / "a.json", scene);
+    const core::Outline again = load_scene(directory.path() / "a.json").settings().outline;
+    CHECK(again.width == 0.0F);
+    CHECK(again.color == core::Color(0.25F, 0.5F, 1.0F));
+    CHECK(again.creases == 30.0F);
+    const auto told = export_scene(directory.path() / "a.nff", scene);
+    CHECK(std::find(told.begin(), told.end(),
+                    "that there is no light, without which raylane does not read it") !=
+          told.end());
+}
+
 TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "scene.pov";

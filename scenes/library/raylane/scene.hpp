@@ -148,9 +148,10 @@ RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene"
                         const OnRemark& on_remark = {});
 
 /// Writes a scene to a file, which appears whole or not at all, in the format of its ending: .json,
-/// which has all of it to the bit but which triangles make a polygon; .rl, which has that, too, and
-/// the hierarchy, and which load() maps rather than reads, but no solids that are made of others;
-/// .nff and .pov (POV-Ray 3.7), which have less. What is not in the file as it is in the scene, for
+/// which has all of it that counts, to the bit, but which triangles make a polygon; .rl, which has
+/// that, too, and the hierarchy, and which load() maps rather than reads, if it is of the same
+/// format's version, but no solids that are made of others; .nff and .pov (POV-Ray 3.7), for other
+/// programs, which have less. What is not in the file as it is in the scene, for
 /// want of a word in the format, is told to `on_remark`. Throws BadInput for another ending, or for
 /// shapes that the format does not have, and SystemRefused.
 RAYLANE_API void save(const Scene& scene, const std::filesystem::path& path,

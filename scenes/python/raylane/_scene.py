@@ -117,17 +117,23 @@ class Scene:
         return self.render()._repr_png_()
 
     def save(self, path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> None:
-        """Writes a file that :func:`load` and ``raylane render`` read, in the format of its ending.
+        """Writes a file, in the format of its ending.
 
-        ``.json`` has all of the scene to the bit, but which triangles make a polygon; ``.rl`` has that, too, and is
-        mapped into memory rather than read, but has no solids that are made of others; ``.nff`` and ``.pov``, for other
-        programs, have less. What is left out there is warned of, or told to ``on_remark``. The file appears whole or
+        ``.json`` has all of the scene that counts, to the bit, but which triangles make a polygon; ``.rl`` has that,
+        too, and is mapped into memory rather than read, but has no solids that are made of others and is for this
+        version of raylane alone; ``.nff`` and ``.pov``, for other programs, have less. What is left out there is warned of, or told to ``on_remark``. The file appears whole or
         not at all. Raises :class:`BadInput` for shapes that the format does not have.
         """
         _raylane.save(self._scene, os.fspath(path), on_remark)
 
+    def __copy__(self) -> Scene:
+        return self
+
+    def __deepcopy__(self, memo: Any) -> Scene:
+        return self
+
     def __reduce__(self) -> Tuple[Any, ...]:
-        """Pickled as ``.rl`` or, with solids, as ``.json``."""
+        """Pickled as ``.rl`` or, with solids, as ``.json``: not to be kept for another version of raylane."""
         with tempfile.TemporaryDirectory() as room:
             try:
                 name = "scene.rl"

@@ -50,6 +50,14 @@ TEST_CASE("POV-Ray: str makes of a number what POV-Ray does") {
     CHECK(text("vstr(3, <1, 2, 3>, \", \", 0, 1)") == "1.0, 2.0, 3.0");
     CHECK(text("concat(strupr(\"ab\"), substr(\"abcdef\", 2, 3), strlwr(\"XY\"))") == "ABbcdxy");
     CHECK(number("strlen(str(7, 0, 0))") == "1");
+    for (const char* number : {"2 + tan(1e308*10)", "2 + sin(1e308*10)", "2 + cos(-1e308*10)",
+                               "2 + exp(1e308*10 - 1e308*10)", "2 + cosh(1e308*10 - 1e308*10)"}) {
+        CAPTURE(number);
+        CHECK(complaint("sphere { 0, " + std::string(number) + " }")
+                  .ends_with("must be a finite number"));
+    }
+    CHECK(complaint("sphere { 0, 1 pigment { color srgb <1e308*10 - 1e308*10, 0.5, 0.5> } }")
+              .ends_with("must be of finite numbers"));
     CHECK(complaint("#debug str(1") == "a.pov:1:13: must be \",\", got the end of the file");
 }
 

@@ -122,6 +122,8 @@ TEST_CASE("expressions, macros, conditions and loops are carried out") {
     CHECK(radius("vlength(<3, 4, 0>)") == "5");
     CHECK(radius("vdot(<1, 2, 3>, <1, 1, 1>) + vcross(x, y).z + <7, 8, 9>.y") == "15");
     CHECK(radius("sqrt(16) + pow(2, 3) + abs(-1) + min(4, 2, 3) + max(1, 5) + floor(2.5)") == "22");
+    CHECK(radius("log(1000) + pow(10, -3)*1000 + pow(0.1, -308)*1e-308 + pow(1e-308, 1)*1e308") ==
+          "6");
     CHECK(radius("sin(radians(90)) + cos(0) + degrees(pi)") == "182");
     CHECK(radius("(2 > 1 ? 3 : 4) + (1 = 1 & !false)") == "4");
     CHECK(radius("(rgb <0.25, 0.5, 1>).green + (rgbt <0, 0, 0, 0.5>).transmit") == "1");

@@ -219,6 +219,20 @@ TEST_CASE("each picture of a film is drawn again as if it were alone") {
         for (int i = 0; i < film.count; ++i)
             std::filesystem::remove(workshop.path() / ("f" + std::to_string(i) + ".png"));
     }
+
+    // Of sizes of their own, by the camera of the first.
+    workshop.write("wide.json", R"({"image": {"width": "$w", "height": 12}, "camera": "auto",
+        "parameters": {"w": 16},
+        "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})");
+    REQUIRE(workshop.run({"render", "wide.json", "-o", "w%d.png", "--set", "w=6:40:3"}).code == 0);
+    for (const char* name : {"w0.png", "w1.png", "w2.png"})
+        CHECK(workshop.run({"verify", name, "wide.json", "--quiet", "--whole"}).code == 0);
+
+    // What is behind the picture is not asked for.
+    workshop.write("broken.xyz", atoms + "3\n\nO here 0 0\n");
+    const Options first = {"--size", "16x12", "--spp", "1", "--frames", ":"};
+    CHECK(workshop.run(joined({"render", "broken.xyz", "-o", "b%d.png"}, first)).code == 2);
+    CHECK(workshop.run({"verify", "b1.png", "broken.xyz", "--quiet"}).code == 0);
 }
 
 TEST_CASE("pictures that say nothing of themselves are refused in one line") {
