@@ -91,7 +91,7 @@ void check_shared(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("the vector engine draws what the reference draws") {
+TEST_CASE("the vector engine draws what the reference draws", "[native]") {
     int scenes = 0;
     for (const auto& entry : std::filesystem::directory_iterator(RAYLANE_SOURCE_DIR "/scenes")) {
         if (entry.path().extension() != ".json" ||
