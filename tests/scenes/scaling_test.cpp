@@ -62,7 +62,7 @@ void for_each_scene(const Visit& visit) {
 
 } // namespace
 
-TEST_CASE("the vector engine's pictures have no scale") {
+TEST_CASE("the vector engine's pictures have no scale", "[native]") {
     for_each_scene([](const auto& path) { check(path, simd::Engine::vector, 200); });
 }
 
