@@ -38,10 +38,17 @@ double whole_power(double x, int n) {
     return std::ldexp(static_cast<double>(result), exponent * n);
 }
 
+/// e^x / 2, which may be finite where e^x is not.
+double half_of_large_exp(double x) {
+    const double root = exp(0.5 * x);
+    return 0.5 * root * root;
+}
+
 /// log(1 + x), x >= 0. Source: Kahan; the error of 1 + x is in both factors.
 double log1p(double x) {
     const double sum = 1.0 + x;
-    return sum == 1.0 || sum > 0x1p60 ? (sum == 1.0 ? x : log(x)) : log(sum) * (x / (sum - 1.0));
+    if (sum == 1.0) return x;
+    return sum > 0x1p60 ? log(x) : log(sum) * (x / (sum - 1.0));
 }
 
 } // namespace
@@ -82,10 +89,7 @@ double atan2(double y, double x) {
 double sinh(double x) {
     if (std::isnan(x)) return x;
     const double size = std::abs(x);
-    if (size > large) {
-        const double root = exp(0.5 * size);
-        return std::copysign(0.5 * root * root, x);
-    }
+    if (size > large) return std::copysign(half_of_large_exp(size), x);
     const double less_one = expm1(size);
     return std::copysign(0.5 * (less_one + less_one / (less_one + 1.0)), x);
 }
@@ -93,10 +97,7 @@ double sinh(double x) {
 double cosh(double x) {
     if (std::isnan(x)) return x;
     const double size = std::abs(x);
-    if (size > large) {
-        const double root = exp(0.5 * size);
-        return 0.5 * root * root;
-    }
+    if (size > large) return half_of_large_exp(size);
     const double power = exp(size);
     return 0.5 * (power + 1.0 / power);
 }

@@ -9,8 +9,8 @@
 # On Debian 12, whose libraries for arm64 it takes, and beside a build/release of here for the pictures.
 #
 # [native] tests compare builds or processors that there are not here, take minutes by emulation, or set limits of
-# memory, which the emulator does not hold them to. The tool's look
-# at processes, memory and signals from outside, and would see the emulator's.
+# memory, which the emulator does not hold them to. The tool's look at processes, memory and signals from outside, and
+# would see the emulator's.
 set -eu
 cd "$(dirname "$0")/../.."
 form=${1-full}
