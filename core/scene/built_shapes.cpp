@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <iterator>
@@ -137,12 +138,19 @@ class Checker {
             shapes += static_cast<std::size_t>(count);
             if (count == 0) return false;
             for (int lane = 0; lane < block_size; ++lane)
-                if (!(lane < count ? is_right(table, block, index, lane)
-                                   : block.ids[lane] == no_shape))
+                if (!(lane < count ? is_right(table, block, index, lane) : is_empty(block, lane)))
                     return false;
             return true;
         });
         if (shapes > table.size()) refuse("more shapes than there are");
+    }
+
+    /// Filters look at ids of what they meet alone.
+    template <class Shape>
+    static bool is_empty(const Block<Shape>& block, int lane) {
+        return block.ids[lane] == no_shape &&
+               std::ranges::all_of(block.values,
+                                   [&](const auto& row) { return std::isnan(row[lane]); });
     }
 
     template <class Shape>
@@ -208,13 +216,19 @@ class Checker {
         return is_in;
     }
 
+    /// Traversals ask the bounds of an entry, not whether a child is there.
+    static bool is_of_nothing(const Bounds& bounds) {
+        const Bounds nothing = WideNode().bounds(0);
+        return bounds.lower == nothing.lower && bounds.upper == nothing.upper;
+    }
+
     void check_bounds() {
         require_all(nodes().size(), "a shape outside of its bounds", [&](std::size_t index) {
             const WideNode& node = nodes()[index];
             for (int entry = 0; entry < block_size; ++entry) {
                 const Child child = node.children[entry];
                 const Bounds bounds = node.bounds(entry);
-                const bool is_right = child.empty() ? bounds.lower.x > bounds.upper.x
+                const bool is_right = child.empty() ? is_of_nothing(bounds)
                                                     : is_finite(bounds) && is_within(bounds, child);
                 if (!is_right) return false;
             }

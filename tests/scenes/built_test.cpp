@@ -9,6 +9,7 @@
 #include "tests/sanitized.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 #include <string>
@@ -262,6 +263,18 @@ TEST_CASE("a built file with any byte changed is refused, or a scene that can be
     }
 }
 
+namespace {
+
+/// Copies of an array have the same elements: this one has others like them.
+template <class T>
+core::BigArray<T> with_own(const core::BigArray<T>& all) {
+    core::BigArray<T> own(all.size());
+    std::copy(all.begin(), all.end(), own.begin());
+    return own;
+}
+
+} // namespace
+
 TEST_CASE("what a built file says of its shapes is held to what a builder makes") {
     core::Workers alone;
     const auto shapes_of = [](const core::Scene& scene) {
@@ -278,6 +291,7 @@ TEST_CASE("what a built file says of its shapes is held to what a builder makes"
     CHECK_THROWS_AS(check(right, 2, alone), core::InvalidValue);
     const auto refused = [&](const auto& change) {
         core::BuiltShapes shapes = right;
+        shapes.hierarchy.nodes = with_own(right.hierarchy.nodes);
         change(shapes);
         try {
             check(shapes, 3, alone);
@@ -289,6 +303,23 @@ TEST_CASE("what a built file says of its shapes is held to what a builder makes"
     const auto nodes = [](core::BuiltShapes& shapes) { return shapes.hierarchy.nodes.data(); };
     CHECK(refused([&](auto& shapes) { nodes(shapes)[0].upper[1][0] -= 1.0F; }) ==
           "a shape outside of its bounds");
+    CHECK(refused([](auto& shapes) {
+              core::BigArray<core::WideNode>& all = shapes.hierarchy.nodes;
+              constexpr int last = core::block_size - 1;
+              core::WideNode* const node = std::find_if(
+                  all.begin(), all.end(), [](const auto& of) { return of.children[last].empty(); });
+              REQUIRE(node != all.end());
+              node->lower[2][last] = -1.0F;
+          }) == "a shape outside of its bounds");
+    // A filter met it: there was no shape to be exact about.
+    CHECK(refused([](auto& shapes) {
+              auto& planes = std::get<core::Table<core::Plane>>(shapes.tables);
+              core::Blocks<core::Plane> blocks;
+              blocks.floats = with_own(planes.plain_blocks());
+              for (auto& row : blocks.floats[0].values)
+                  row[1] = row[0];
+              planes = {std::move(blocks), planes.size()};
+          }) == "a shape that is none");
     CHECK(refused([&](auto& shapes) { nodes(shapes)[0].children[0] = core::Child::node(0); }) ==
           "nodes that are no tree");
     CHECK(refused([&](auto& shapes) { nodes(shapes)[0].children[0] = core::Child(); }) ==
