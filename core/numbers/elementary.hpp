@@ -25,8 +25,8 @@ struct Elementary {
     /// e^x - 1. For all x, but infinity from 709 on. 0.9 ulp for x < 0, else 1.7.
     static Number expm1(const Number& x);
 
-    /// x^y for finite x >= 0 and y >= 0; 1 if both are 0. 0 below 2^-1021, infinity beyond the
-    /// largest double. 1.6 ulps; 1.1 down to 2^-126, the least float.
+    /// x^y for finite x and y, of which x > 0, or x = 0 and y >= 0; 1 if both are 0. 0 below
+    /// 2^-1021, infinity beyond the largest double. 1.6 ulps; 1.1 down to 2^-126, the least float.
     static Number pow(const Number& x, const Number& y);
 
     /// The logarithm to the base e, and to 10, where powers of ten have theirs exactly: NaN below

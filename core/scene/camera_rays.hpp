@@ -2,6 +2,7 @@
 
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/sample_sequence.hpp"
+#include "core/scene/field_of_view.hpp"
 #include "core/scene/pixel_filter.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/ray.hpp"
@@ -43,10 +44,8 @@ class CameraRays {
         const Vec3d right = normalized(cross(forward, convert<double>(camera.up)));
         const Vec3d up = cross(right, forward);
         // Half of the picture's height, in the plane at distance 1 or, orthographic, anywhere.
-        constexpr double degree = 3.14159265358979323846 / 180.0;
-        const double half_view = 0.5 * degree * static_cast<double>(camera.field_of_view);
         const double half = orthographic_ ? 0.5 * static_cast<double>(camera.height)
-                                          : core::sin(half_view) / core::cos(half_view);
+                                          : slope_of_view(camera.field_of_view);
         const double per_half_pixel = half / settings.height;
         from_ = convert<Real>(from);
         forward_ = convert<Real>(forward);

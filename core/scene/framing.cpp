@@ -1,11 +1,9 @@
 #include "core/scene/framing.hpp"
 
-#include "core/numbers/elementary.hpp"
-#include "core/numbers/more_functions.hpp"
+#include "core/scene/field_of_view.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace raylane::core {
 
@@ -24,11 +22,6 @@ constexpr NamedView views[] = {
     {"x", {-1, 0, 0}, {0, 0, 1}},     {"y", {0, -1, 0}, {0, 0, 1}},
     {"z", {0, 0, -1}, {0, 1, 0}},     {"corner", {-1, -side, -0.7F}, {0, 1, 0}},
 };
-
-/// Of the picture's upper edge.
-double slope_of(const Framing& framing) {
-    return tan(static_cast<double>(framing.field_of_view) * std::numbers::pi / 360.0);
-}
 
 } // namespace
 
@@ -62,7 +55,7 @@ Frame::Frame(const Framing& framing, double aspect) : framing_(framing), aspect_
         cosine_[0] = cosine_[1] = 1.0;
         return;
     }
-    const double upward = slope_of(framing) / margin;
+    const double upward = slope_of_view(framing.field_of_view) / margin;
     const double slopes[2] = {upward * aspect, upward};
     for (int axis = 0; axis < 2; ++axis) {
         cosine_[axis] = 1.0 / std::sqrt(1.0 + slopes[axis] * slopes[axis]);
@@ -150,9 +143,7 @@ Camera Frame::camera() const {
                 std::max(eye, 0.5 * (reach_[axis].positive + reach_[axis].negative) / sine_[axis]);
         // What is flat, and seen from its side, still has a place before it.
         depth = std::max(eye, depth + closest * size);
-        const double slope = slope_of(framing_);
-        camera.field_of_view =
-            static_cast<float>(2.0 * atan(slope / zoom) * 180.0 / std::numbers::pi);
+        camera.field_of_view = field_of_view(slope_of_view(framing_.field_of_view) / zoom);
     }
     const Vec3d in_plane = places[0] * right_ + places[1] * up_;
     const double middle = 0.5 * (along_.positive - along_.negative);

@@ -1,5 +1,4 @@
-#include "core/numbers/elementary.hpp"
-#include "core/numbers/more_functions.hpp"
+#include "core/scene/field_of_view.hpp"
 #include "scenes/export/writers.hpp"
 
 #include <algorithm>
@@ -69,16 +68,15 @@ class NffWriter {
         if (camera.projection != core::Projection::perspective)
             throw core::InvalidValue("camera", "must be a perspective one, for NFF has no other");
         if (camera.lens_radius > 0.0F) differences_.insert("the camera's lens");
-        constexpr double radians = 3.14159265358979323846 / 180.0;
         const int rows = scene_.settings().height;
-        double half = core::tan(static_cast<double>(camera.field_of_view) / 2.0 * radians);
-        if (rows > 1) half *= static_cast<double>(rows - 1) / rows;
+        double slope = core::slope_of_view(camera.field_of_view);
+        if (rows > 1) slope *= static_cast<double>(rows - 1) / rows;
         file_ << "v\nfrom ";
         file_.list(camera.from, " ") << "\nat ";
         file_.list(camera.at, " ") << "\nup ";
         file_.list(camera.up, " ")
-            << "\nangle " << static_cast<float>(2.0 * core::atan(half) / radians)
-            << "\nhither 0\nresolution " << scene_.settings().width << " " << rows << "\n";
+            << "\nangle " << core::field_of_view(slope) << "\nhither 0\nresolution "
+            << scene_.settings().width << " " << rows << "\n";
     }
 
     void write_fill(const core::Material& m) {

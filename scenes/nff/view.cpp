@@ -1,13 +1,11 @@
 #include "scenes/nff/view.hpp"
 
-#include "core/numbers/elementary.hpp"
-#include "core/numbers/more_functions.hpp"
+#include "core/scene/field_of_view.hpp"
 #include "core/scene/validate.hpp"
 #include "scenes/number.hpp"
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 namespace raylane::scenes {
 
@@ -17,9 +15,7 @@ namespace {
 /// from edge to edge, both in degrees.
 float field_of_view(float angle, int rows) {
     if (rows == 1) return angle;
-    constexpr double radians = std::numbers::pi / 180.0;
-    const double half = core::tan(static_cast<double>(angle) / 2.0 * radians) * rows / (rows - 1);
-    return static_cast<float>(2.0 * core::atan(half) / radians);
+    return core::field_of_view(core::slope_of_view(angle) * rows / (rows - 1));
 }
 
 constexpr std::array<std::string_view, 6> names = {"from",  "at",     "up",

@@ -1,22 +1,18 @@
 #include "scenes/pov/surroundings.hpp"
 
-#include "core/numbers/elementary.hpp"
-#include "core/numbers/more_functions.hpp"
+#include "core/scene/field_of_view.hpp"
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/objects.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace raylane::scenes::pov {
 
 namespace {
 
 using core::Vec3d, core::Vec3f;
-
-constexpr double half_degree = std::numbers::pi / 360.0;
 
 Vec3d color_of(const Tuple& tuple) {
     return {tuple.at[0], tuple.at[1], tuple.at[2]};
@@ -111,7 +107,7 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
     }
     if (!(width > 0.0 && height > 0.0 && core::length(direction) > 0.0))
         fail(place, "must have a right, an up and a direction that have lengths");
-    if (given.angle) focus = 0.5 * width / core::tan(*given.angle * half_degree);
+    if (given.angle) focus = 0.5 * width / core::slope_of_view(*given.angle);
     double size = 1.0; // of an orthographic picture, by what right and up say
     if (given.look_at && (!given.has_size || given.angle)) size = core::length(direction) / focus;
     Vec3d at = location + direction, sky = given.look_at ? given.sky : up;
@@ -147,8 +143,7 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
     if (given.orthographic)
         camera.height = static_cast<float>(core::length(up) * size);
     else
-        camera.field_of_view =
-            static_cast<float>(core::atan2(0.5 * core::length(up), focus) / half_degree);
+        camera.field_of_view = core::field_of_view(0.5 * core::length(up) / focus);
     return view;
 }
 

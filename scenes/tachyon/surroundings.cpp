@@ -1,12 +1,11 @@
 #include "scenes/tachyon/surroundings.hpp"
 
-#include "core/numbers/elementary.hpp"
+#include "core/scene/field_of_view.hpp"
 #include "core/scene/validate.hpp"
 #include "scenes/number.hpp"
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 namespace raylane::scenes {
 
@@ -159,8 +158,7 @@ void set_camera(core::SceneBuilder& builder, const TachyonCamera& camera) {
                               ? static_cast<double>(camera.top) - static_cast<double>(camera.bottom)
                               : 1.0 / static_cast<double>(camera.zoom);
     result.height = static_cast<float>(height);
-    constexpr double degree = std::numbers::pi / 180.0;
-    result.field_of_view = static_cast<float>(2.0 * core::atan(0.5 * height) / degree);
+    result.field_of_view = core::field_of_view(0.5 * height);
     if (camera.aperture > 0.0F) {
         result.lens_radius = 0.5F * camera.aperture;
         result.focus_distance = 1.0F; // as 0.99 has it, whatever FOCALLENGTH says

@@ -1,11 +1,9 @@
 #include "scenes/tool/view_arguments.hpp"
 
-#include "core/numbers/elementary.hpp"
-#include "core/numbers/more_functions.hpp"
+#include "core/scene/field_of_view.hpp"
 #include "scenes/tool/arguments.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace raylane::scenes {
 
@@ -60,10 +58,8 @@ core::NamedView view_argument(const std::string& text) {
 /// What a camera shows of where it looks to, `zoom` times as large.
 void zoom_in(core::Camera& camera, float zoom) {
     camera.height /= zoom;
-    const double slope =
-        core::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0);
-    camera.field_of_view = static_cast<float>(2.0 * core::atan(slope / static_cast<double>(zoom)) *
-                                              180.0 / std::numbers::pi);
+    camera.field_of_view =
+        core::field_of_view(core::slope_of_view(camera.field_of_view) / static_cast<double>(zoom));
 }
 
 /// As large where it looks to.
@@ -72,9 +68,7 @@ void make_orthographic(core::Camera& camera) {
     const double distance =
         core::length(core::convert<double>(camera.at) - core::convert<double>(camera.from));
     camera.projection = core::Projection::orthographic;
-    camera.height = static_cast<float>(
-        2.0 * distance *
-        core::tan(static_cast<double>(camera.field_of_view) * std::numbers::pi / 360.0));
+    camera.height = static_cast<float>(2.0 * distance * core::slope_of_view(camera.field_of_view));
 }
 
 } // namespace

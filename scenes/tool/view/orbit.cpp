@@ -1,6 +1,7 @@
 #include "scenes/tool/view/orbit.hpp"
 
 #include "core/numbers/more_functions.hpp"
+#include "core/scene/field_of_view.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +29,7 @@ Vec3d right_of(const core::Camera& camera) {
 double picture_height(const core::Camera& camera) {
     if (camera.projection == core::Projection::orthographic)
         return static_cast<double>(camera.height);
-    return 2.0 * core::length(arm_of(camera)) *
-           core::tan(0.5 * static_cast<double>(camera.field_of_view) / degrees);
+    return 2.0 * core::length(arm_of(camera)) * core::slope_of_view(camera.field_of_view);
 }
 
 } // namespace

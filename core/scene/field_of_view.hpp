@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/numbers/elementary.hpp"
+#include "core/numbers/more_functions.hpp"
+
+#include <numbers>
+
+namespace raylane::core {
+
+/// Angle in radians of half a field of view of one degree.
+inline constexpr double half_degree = std::numbers::pi / 360.0;
+
+/// Half of the picture's height, at distance 1: the slope of its upper edge. Of a field of view in
+/// degrees, from the lower to the upper edge.
+inline double slope_of_view(double field_of_view) {
+    return tan(half_degree * field_of_view);
+}
+inline double slope_of_view(float field_of_view) {
+    return slope_of_view(static_cast<double>(field_of_view));
+}
+
+/// Field of view in degrees, as a camera has it, by the slope of the picture's upper edge.
+inline float field_of_view(double slope) {
+    return static_cast<float>(atan(slope) / half_degree);
+}
+
+} // namespace raylane::core
