@@ -9,7 +9,7 @@
 #include "core/shapes/invalid_value.hpp"
 #include "core/shapes/material_indices.hpp"
 #include "core/shapes/shape_table.hpp"
-#include "core/solids/solids.hpp"
+#include "core/solids/solid_collector.hpp"
 
 #include <cstddef>
 #include <functional>

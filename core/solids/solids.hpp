@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 /// Solids that are made of others, in a scene. Each is an expression of `all` (intersections) and
@@ -133,112 +132,5 @@ class Solids {
     std::vector<MaterialIndex> media_; // by node, of those that are whole solids
     std::vector<Index> counted_;       // by node, of the same; empty if there is none
 };
-
-/// Collects solids while a scene is built.
-class SolidCollector {
-  public:
-    bool any() const { return !solids_.nodes_.empty(); }
-
-    /// Adds a solid, all of whose shapes are valid. Calls add_part(material) for each that is to be
-    /// a shape of the scene, which returns its id. Throws InvalidValue, and is as before, for what
-    /// has no bounds and would need some.
-    template <class AddPart>
-    void add(const Solid& solid, MaterialIndex material, const AddPart& add_part);
-
-    void renumber_materials(std::span<const MaterialIndex> new_index) {
-        for (MaterialIndex& medium : solids_.media_)
-            if (medium != no_material) medium = new_index[medium];
-    }
-
-    /// Finds out which parts of shapes may be seen, and puts those that may into the lists.
-    void list(ShapeLists& lists);
-    /// As far as they are known before the tables are filled.
-    const Solids& solids() const { return solids_; }
-    /// Once the tables are filled. What is not traced is put into them, too.
-    Solids finish(Tables& tables);
-
-  private:
-    using Node = Solids::Node;
-    using Index = Solids::Index;
-
-    template <class AddPart>
-    void add_node(const Solid& solid, MaterialIndex material, bool reversed, bool traced,
-                  Index parent, const AddPart& add_part);
-    Index begin(Solids::Op op, Index parent);
-    static PartShape as_half_space(const PartShape& shape);
-    void find_bounds(Index solid);
-    void note_counted(Index solid);
-    Bounds bounds_of_part(Index index, bool outside) const;
-    void find_hulls(Index first);
-    Bounds allowed(Index part) const;
-    bool has_bounds(Index solid) const;
-    Value value_in(Index index, const Somewhere& point) const;
-    Value matters_in(Index part, const Somewhere& point) const;
-    void put(Index part, const Bounds& of_solid, ShapeLists& lists);
-    bool is_covered(Index index) const;
-    void cover(Index index, const Bounds& bounds);
-
-    Solids solids_;
-    /// Bounds of what is in a node, and of what is not.
-    struct Hulls {
-        Bounds inside, outside;
-    };
-    std::vector<PartShape> shapes_;              // by node
-    std::vector<Hulls> hulls_;                   // the same
-    MaterialIndex first_material_ = no_material; // of the solid that is being added
-};
-
-template <class AddPart>
-void SolidCollector::add(const Solid& solid, MaterialIndex material, const AddPart& add_part) {
-    const auto root = static_cast<Index>(solids_.nodes_.size());
-    first_material_ = no_material;
-    add_node(solid, material, false, true, Solids::none, add_part);
-    find_hulls(root);
-    if (!has_bounds(root)) {
-        solids_.nodes_.resize(root);
-        shapes_.resize(root);
-        hulls_.resize(root);
-        throw InvalidValue("", "must have bounds, for it is made of a quadric: intersect it with "
-                               "a box");
-    }
-    if (solid.material != no_material) material = solid.material;
-    solids_.media_.resize(solids_.nodes_.size(), no_material);
-    solids_.media_[root] = material != no_material ? material : first_material_;
-}
-
-template <class AddPart>
-void SolidCollector::add_node(const Solid& solid, MaterialIndex material, bool reversed,
-                              bool traced, Index parent, const AddPart& add_part) {
-    if (solid.material != no_material) material = solid.material;
-    if (solid.endless_as_part && parent != Solids::none)
-        return add_node(solid.parts.front(), material, reversed, traced, parent, add_part);
-    if (solid.made == Made::of_shape) {
-        const Index index = begin(Solids::Op::part, parent);
-        Node& node = solids_.nodes_[index];
-        node.reversed = reversed;
-        node.traced = traced;
-        node.cuts_nothing = solid.cuts_nothing;
-        shapes_[index] = as_half_space(solid.shape);
-        node.kind = static_cast<Kind>(shapes_[index].index());
-        if (traced) {
-            node.shape = add_part(material);
-            if (first_material_ == no_material) first_material_ = material;
-        }
-        return;
-    }
-    // The outside of an intersection is the union of what is outside of its parts.
-    const Solids::Op op =
-        (solid.made != Made::by_union) != reversed ? Solids::Op::all : Solids::Op::any;
-    const bool is_of_parent = parent != Solids::none && solids_.nodes_[parent].op == op;
-    const Index index = is_of_parent ? parent : begin(op, parent);
-    bool first = true;
-    for (const Solid& part : solid.parts) {
-        const bool is_other = !std::exchange(first, false);
-        const bool is_taken_away = solid.made == Made::by_difference && is_other;
-        const bool cuts = solid.made == Made::by_clip && is_other;
-        add_node(part, material, reversed != is_taken_away, traced && !cuts, index, add_part);
-    }
-    if (!is_of_parent) solids_.nodes_[index].end = static_cast<Index>(solids_.nodes_.size());
-}
 
 } // namespace raylane::core

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "core/solids/solids.hpp"
+
+#include <algorithm>
+#include <limits>
+
+/// Bounds that solids are found in.
+namespace raylane::core {
+
+inline Bounds everywhere() {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return {Vec3f(-infinity), Vec3f(infinity)};
+}
+
+inline Bounds common(const Bounds& a, const Bounds& b) {
+    Bounds both;
+    for (int axis = 0; axis < 3; ++axis) {
+        both.lower[axis] = std::max(a.lower[axis], b.lower[axis]);
+        both.upper[axis] = std::min(a.upper[axis], b.upper[axis]);
+    }
+    return both;
+}
+
+inline bool is_empty(const Bounds& bounds) {
+    return !(bounds.lower.x <= bounds.upper.x && bounds.lower.y <= bounds.upper.y &&
+             bounds.lower.z <= bounds.upper.z);
+}
+
+/// Bounds of all points in a box where something may be; where that is, is found out by halves.
+template <class MayBe>
+class Hull {
+  public:
+    Hull(const Bounds& box, const MayBe& may_be) : may_be_(may_be) { add(box, 3); }
+    const Bounds& bounds() const { return hull_; }
+
+  private:
+    void add(const Bounds& cell, int halvings) {
+        if (!is_empty(hull_) && hull_.contains(cell.lower) && hull_.contains(cell.upper)) return;
+        if (!may_be_(somewhere_in(cell))) return;
+        if (halvings == 0) {
+            hull_.include(cell);
+            return;
+        }
+        const Vec3f middle = 0.5F * cell.lower + 0.5F * cell.upper;
+        for (int octant = 0; octant < 8; ++octant) {
+            Bounds part = cell;
+            for (int axis = 0; axis < 3; ++axis)
+                ((octant >> axis & 1) != 0 ? part.lower : part.upper)[axis] = middle[axis];
+            add(part, halvings - 1);
+        }
+    }
+
+    const MayBe& may_be_;
+    Bounds hull_;
+};
+
+/// The same again and again, while it shrinks.
+template <class MayBe>
+Bounds hull_in(Bounds box, const MayBe& may_be) {
+    for (int turn = 0; turn < 4 && !is_empty(box); ++turn) {
+        const double before = box.half_area();
+        box = Hull<MayBe>(box, may_be).bounds();
+        if (!(box.half_area() < 0.75 * before)) break;
+    }
+    return box;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,155 @@
+#include "core/solids/hull.hpp"
+#include "core/solids/solid_collector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+/// Where a solid and its parts may be, and where it matters.
+namespace raylane::core {
+
+namespace {
+
+/// What is in front of, or behind, a plane at right angles to an axis has bounds on one side.
+Bounds bounds_of_half_space(const PlaneOf<double>& plane, bool reversed) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Bounds bounds = everywhere();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (plane.normal[(axis + 1) % 3] != 0.0 || plane.normal[(axis + 2) % 3] != 0.0) continue;
+        const auto at = static_cast<float>(plane.point[axis]);
+        if ((plane.normal[axis] > 0.0) != reversed)
+            bounds.upper[axis] = std::nextafter(at, infinity);
+        else
+            bounds.lower[axis] = std::nextafter(at, -infinity);
+    }
+    return bounds;
+}
+
+} // namespace
+
+/// The halves of sums and differences of floats, off by less than an ulp of the larger one.
+Somewhere somewhere_in(const Bounds& bounds) {
+    Somewhere point;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto lower = static_cast<double>(bounds.lower[axis]);
+        const auto upper = static_cast<double>(bounds.upper[axis]);
+        const double error =
+            (0.5 * upper - 0.5 * lower) + 0x1p-50 * std::max(std::abs(lower), std::abs(upper));
+        point[axis] = {0.5 * upper + 0.5 * lower, error * (1.0 + 0x1p-50)};
+    }
+    return point;
+}
+
+/// Of what is inside of a part, or of what is not.
+Bounds SolidCollector::bounds_of_part(Index index, bool outside) const {
+    const bool reversed = solids_.nodes_[index].reversed != outside;
+    return std::visit(
+        [&]<class Shape>(const Shape& shape) {
+            if constexpr (kind_of<Shape> == Kind::plane)
+                return bounds_of_half_space(shape, reversed);
+            else if constexpr (kind_of<Shape> == Kind::quadric)
+                return everywhere();
+            else
+                return reversed ? everywhere() : core::bounds_of(shape);
+        },
+        shapes_[index]);
+}
+
+/// Of nodes from one on.
+void SolidCollector::find_hulls(Index first) {
+    hulls_.resize(solids_.nodes_.size());
+    for (auto index = static_cast<Index>(solids_.nodes_.size()); index-- > first;) {
+        const Node& node = solids_.nodes_[index];
+        if (node.op == Solids::Op::part) {
+            hulls_[index] = {bounds_of_part(index, false), bounds_of_part(index, true)};
+            continue;
+        }
+        const bool of_all = node.op == Solids::Op::all;
+        Bounds common_to_all = everywhere(), around_any;
+        solids_.each_child(index, [&](Index child) {
+            const Hulls& of = hulls_[child];
+            common_to_all = common(common_to_all, of_all ? of.inside : of.outside);
+            const Bounds& more = of_all ? of.outside : of.inside;
+            if (!is_empty(more)) around_any.include(more);
+            return true;
+        });
+        hulls_[index] =
+            of_all ? Hulls{common_to_all, around_any} : Hulls{around_any, common_to_all};
+    }
+}
+
+/// Bounds of where it may matter that one is inside of a part, and of where it has a surface:
+/// inside of all with which it is intersected, outside of what it is united with.
+Bounds SolidCollector::allowed(Index part) const {
+    Bounds bounds = everywhere();
+    for (Index above = solids_.nodes_[part].parent; above != Solids::none;
+         above = solids_.nodes_[above].parent) {
+        const Node& node = solids_.nodes_[above];
+        bounds = common(bounds, node.op == Solids::Op::all ? hulls_[above].inside
+                                : node.many                ? everywhere()
+                                                           : hulls_[above].outside);
+    }
+    return bounds;
+}
+
+/// True if all quadrics of a solid have bounds.
+bool SolidCollector::has_bounds(Index solid) const {
+    for (Index part = solid; part < solids_.nodes_[solid].end; ++part) {
+        const Node& node = solids_.nodes_[part];
+        if (node.op == Solids::Op::part && node.traced && node.kind == Kind::quadric &&
+            !is_finite(common(allowed(part), hulls_[solid].inside)))
+            return false;
+    }
+    return true;
+}
+
+Value SolidCollector::value_in(Index index, const Somewhere& point) const {
+    const Node& node = solids_.nodes_[index];
+    if (node.op == Solids::Op::part) {
+        const Value inside =
+            std::visit([&](const auto& shape) { return inside_of(shape, point); }, shapes_[index]);
+        return node.reversed ? !inside : inside;
+    }
+    if (node.many) return Value::unknown;
+    const Value decides = node.op == Solids::Op::all ? Value::no : Value::yes;
+    Value value = !decides;
+    solids_.each_child(index, [&](Index child) {
+        const Value of_child = value_in(child, point);
+        if (of_child != !decides) value = of_child;
+        return of_child != decides;
+    });
+    return value;
+}
+
+/// Whether it matters there if one is inside or outside of a part; of many, others are not looked
+/// at.
+Value SolidCollector::matters_in(Index part, const Somewhere& point) const {
+    Value matters = Value::yes;
+    for (Index index = part; solids_.nodes_[index].parent != Solids::none;
+         index = solids_.nodes_[index].parent) {
+        const Index parent = solids_.nodes_[index].parent;
+        if (solids_.nodes_[parent].many) continue;
+        const Value decides = solids_.nodes_[parent].op == Solids::Op::all ? Value::no : Value::yes;
+        solids_.each_child(parent, [&](Index child) {
+            if (child == index) return true;
+            const Value other = value_in(child, point);
+            if (other == decides)
+                matters = Value::no;
+            else if (other == Value::unknown && matters == Value::yes)
+                matters = other;
+            return matters != Value::no;
+        });
+        if (matters == Value::no) break;
+    }
+    return matters;
+}
+
+void SolidCollector::find_bounds(Index solid) {
+    Bounds bounds = hulls_[solid].inside;
+    if (is_finite(bounds) && !solids_.nodes_[solid].many)
+        bounds = hull_in(
+            bounds, [&](const Somewhere& point) { return value_in(solid, point) != Value::no; });
+    solids_.bounds_[solid] = bounds;
+}
+
+} // namespace raylane::core

@@ -1,0 +1,242 @@
+#include "core/solids/solid_collector.hpp"
+
+#include "core/solids/hull.hpp"
+#include "core/solids/transform.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace raylane::core {
+
+/// Open cylinders and cones have none by themselves.
+PartShape SolidCollector::as_half_space(const PartShape& shape) {
+    return std::visit(
+        []<class Shape>(const Shape& of) -> PartShape {
+            if constexpr (kind_of<Shape> == Kind::open_cylinder ||
+                          kind_of<Shape> == Kind::open_cone)
+                return half_space_of(of);
+            else
+                return of;
+        },
+        shape);
+}
+
+SolidCollector::Index SolidCollector::begin(Solids::Op op, Index parent) {
+    const auto index = static_cast<Index>(solids_.nodes_.size());
+    Node node{op};
+    node.parent = parent;
+    node.end = index + 1;
+    solids_.nodes_.push_back(node);
+    shapes_.emplace_back();
+    return index;
+}
+
+/// Puts a part into the list of its kind, or of one that is the same half-space and can have
+/// bounds.
+void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) {
+    Node& node = solids_.nodes_[part];
+    const auto in_list = [&]<class Shape>(const Shape& shape) {
+        std::get<ShapeList<InFloat<Shape>>>(lists).add(shape, node.shape);
+    };
+    const auto with_bounds = [&](QuadricOf<double> quadric, const Bounds& bounds) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto lower = static_cast<double>(bounds.lower[axis]) - quadric.center[axis];
+            const auto upper = static_cast<double>(bounds.upper[axis]) - quadric.center[axis];
+            const double beside = 0x1p-20 * (upper - lower) + 0x1p-20 * std::abs(lower) +
+                                  0x1p-20 * std::abs(upper) + 0x1p-100;
+            quadric.lower[axis] = static_cast<double>(static_cast<float>(lower - beside));
+            quadric.upper[axis] = static_cast<double>(static_cast<float>(upper + beside));
+        }
+        shapes_[part] = quadric;
+        node.kind = Kind::quadric;
+        in_list(quadric);
+    };
+    std::visit(
+        [&]<class Shape>(const Shape& shape) {
+            // Its surface; and the inside, too, where it is found to be around points by that.
+            bool with_inside = is_solid<Shape> && !node.reversed;
+            for (Index above = node.parent; above != Solids::none;
+                 above = solids_.nodes_[above].parent)
+                with_inside = with_inside || solids_.nodes_[above].many;
+
+            Bounds& bounds = solids_.bounds_[part];
+            bounds = common(of_solid, allowed(part));
+            // All crossings of those that count are to be found, wherever they are.
+            const bool is_counted =
+                node.parent != Solids::none && solids_.nodes_[node.parent].counts;
+            if constexpr (is_bounded<InFloat<Shape>> && kind_of<Shape> != Kind::quadric) {
+                const Bounds of_shape = core::bounds_of(shape);
+                if (!with_inside || !node.reversed) bounds = common(bounds, of_shape);
+                node.fills = is_solid<Shape> && !node.reversed &&
+                             matters_in(part, somewhere_in(of_shape)) == Value::yes;
+            }
+            if (is_empty(bounds)) {
+                node.traced = false;
+                return;
+            }
+            if (is_finite(bounds)) {
+                const Value matters = matters_in(part, somewhere_in(bounds));
+                if (matters == Value::unknown)
+                    bounds = hull_in(bounds, [&](const Somewhere& point) {
+                        const Value inside = value_in(part, point);
+                        return (inside == Value::unknown ||
+                                (with_inside && inside == Value::yes)) &&
+                               matters_in(part, point) != Value::no;
+                    });
+                if (matters == Value::no || is_empty(bounds)) {
+                    node.traced = false;
+                    return;
+                }
+                if constexpr (is_solid<Shape>)
+                    if (is_counted) bounds = core::bounds_of(shape);
+            }
+            if constexpr (kind_of<Shape> == Kind::quadric) {
+                assert(is_finite(bounds)); // as add() has seen to
+                with_bounds(shape, bounds);
+            } else if constexpr (kind_of<Shape> == Kind::plane) {
+                node.flat = true;
+                if (is_finite(bounds)) {
+                    QuadricOf<double> half_space{};
+                    half_space.center = shape.point;
+                    half_space.x = shape.normal.x;
+                    half_space.y = shape.normal.y;
+                    half_space.z = shape.normal.z;
+                    with_bounds(half_space, bounds);
+                } else {
+                    in_list(shape);
+                }
+            } else {
+                in_list(shape);
+            }
+        },
+        PartShape(shapes_[part]));
+}
+
+/// True if all that is inside of a node is in the bounds of a part that rays cross.
+bool SolidCollector::is_covered(Index index) const {
+    const Node& node = solids_.nodes_[index];
+    if (node.op == Solids::Op::part)
+        return node.traced && !node.reversed &&
+               with_shape_type(node.kind, []<class Shape>(std::type_identity<Shape>) {
+                   return is_solid<Shape>;
+               });
+    const bool of_all = node.op == Solids::Op::all;
+    bool covered = !of_all;
+    solids_.each_child(index, [&](Index child) {
+        covered = is_covered(child);
+        return covered != of_all;
+    });
+    return covered;
+}
+
+/// Has its first part found wherever something is inside of it.
+void SolidCollector::cover(Index index, const Bounds& bounds) {
+    if (is_covered(index)) return;
+    for (Index part = index; part < solids_.nodes_[index].end; ++part)
+        if (solids_.nodes_[part].op == Solids::Op::part && solids_.nodes_[part].traced) {
+            solids_.bounds_[part].include(bounds);
+            return;
+        }
+}
+
+void SolidCollector::note_counted(Index solid) {
+    Index counted = Solids::none;
+    int of_many = 0;
+    for (Index index = solid; index < solids_.nodes_[solid].end; ++index) {
+        if (!solids_.nodes_[index].many) continue;
+        ++of_many;
+        counted = index;
+    }
+    if (of_many != 1 || !solids_.nodes_[counted].counts) return;
+    solids_.counted_.resize(solids_.nodes_.size(), Solids::none);
+    solids_.counted_[solid] = counted;
+    Bounds all;
+    for (Index part = counted + 1; part < solids_.nodes_[counted].end; ++part)
+        if (solids_.nodes_[part].traced) all.include(solids_.bounds_[part]);
+    if (counted != solid)
+        solids_.bounds_[counted] = all;
+    else
+        solids_.bounds_[solid].include(all);
+}
+
+void SolidCollector::list(ShapeLists& lists) {
+    std::vector<Node>& nodes = solids_.nodes_;
+    solids_.media_.resize(nodes.size(), no_material);
+    solids_.bounds_.resize(nodes.size());
+    for (auto index = static_cast<Index>(nodes.size()); index-- > 0;) {
+        Node& node = nodes[index];
+        if (node.op == Solids::Op::part) {
+            if (node.shape == no_shape) continue;
+            if (node.shape >= solids_.node_of_.size())
+                solids_.node_of_.resize(std::size_t{node.shape} + 1, Solids::none);
+            solids_.node_of_[node.shape] = index;
+            continue;
+        }
+        Index children = 0;
+        solids_.each_child(index, [&](Index child) {
+            node.shape = std::min(node.shape, nodes[child].shape);
+            ++children;
+            return true;
+        });
+        // What no ray crosses is in no hierarchy.
+        const bool is_traced =
+            std::all_of(nodes.begin() + index, nodes.begin() + node.end, [](const Node& part) {
+                return part.op != Solids::Op::part || part.traced;
+            });
+        node.many = node.op == Solids::Op::any && children > Solids::few_parts && is_traced;
+        node.counts =
+            node.many && node.end - index == children + 1 &&
+            std::none_of(nodes.begin() + index + 1, nodes.begin() + node.end, [](const Node& part) {
+                return part.reversed || part.kind == Kind::plane || part.kind == Kind::quadric;
+            });
+    }
+    for (Index solid = 0; solid < nodes.size(); solid = nodes[solid].end) {
+        find_bounds(solid);
+        const Bounds whole = solids_.bounds_[solid];
+        // What has no bounds is in no hierarchy.
+        if (!is_finite(whole))
+            for (Index index = solid; index < nodes[solid].end; ++index)
+                if (nodes[index].many && !nodes[index].counts)
+                    solids_.each_child(index, [&](Index child) {
+                        return nodes[index].many = is_finite(common(hulls_[child].inside, whole));
+                    });
+        for (Index part = solid; part < nodes[solid].end; ++part)
+            if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, whole, lists);
+        note_counted(solid);
+        nodes[solid].open = std::any_of(
+            nodes.begin() + solid, nodes.begin() + nodes[solid].end, [](const Node& node) {
+                return node.op == Solids::Op::part && node.shape == no_shape && !node.cuts_nothing;
+            });
+        if (is_finite(whole)) cover(solid, whole);
+        for (Index index = solid; index < nodes[solid].end; ++index)
+            if (nodes[index].many)
+                solids_.each_child(index, [&](Index child) {
+                    cover(child, common(hulls_[child].inside, whole));
+                    return true;
+                });
+    }
+}
+
+Solids SolidCollector::finish(Tables& tables) {
+    for_each_table(tables, [&]<class Shape>(Table<Shape>& table) {
+        for (std::uint32_t block = 0; block < table.blocks().size(); ++block)
+            for_each_in_block(table, block, [&](Place place, ShapeId id) {
+                if (const Index part = solids_.part_of(id); part != Solids::none)
+                    solids_.nodes_[part].place = place;
+            });
+        ShapeList<Shape> hidden;
+        for (Index index = 0; index < solids_.nodes_.size(); ++index) {
+            Node& node = solids_.nodes_[index];
+            if (node.op != Solids::Op::part || node.traced || node.kind != kind_of<Shape>) continue;
+            node.place = table.hidden_place(hidden.size());
+            hidden.add(std::get<InDouble<Shape>>(shapes_[index]), no_shape);
+        }
+        if (hidden.size() != 0) table.hide(hidden);
+    });
+    shapes_ = {};
+    hulls_ = {};
+    return std::move(solids_);
+}
+
+} // namespace raylane::core
