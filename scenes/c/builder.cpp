@@ -1,0 +1,107 @@
+#include "calls.hpp"
+#include "values.hpp"
+
+#include <bit>
+#include <string>
+#include <vector>
+
+using namespace raylane;
+using namespace raylane::c;
+
+namespace {
+
+/// Adds shapes that have the same floats in the same order.
+template <class Shape, class CShape>
+raylane_status add(raylane_builder* builder, const CShape* shapes, std::size_t count,
+                   std::uint32_t material, std::uint32_t* first) noexcept {
+    return guarded([&] {
+        SceneBuilder& to = checked("builder", builder).builder;
+        if (count != 0) static_cast<void>(checked("shapes", shapes));
+        if (first != nullptr) *first = static_cast<std::uint32_t>(to.shape_count());
+        for (std::size_t i = 0; i < count; ++i)
+            try {
+                to.add(std::bit_cast<Shape>(shapes[i]), material);
+            } catch (const InvalidValue& error) {
+                std::string field = std::to_string(i);
+                if (!error.field.empty()) field.append("/").append(error.field);
+                throw InvalidValue(field, error.expectation);
+            }
+    });
+}
+
+} // namespace
+
+raylane_status raylane_builder_create(raylane_builder** builder) {
+    return guarded([&] {
+        raylane_builder*& to = checked("builder", builder);
+        to = nullptr;
+        to = new raylane_builder;
+    });
+}
+
+void raylane_builder_release(raylane_builder* builder) {
+    delete builder;
+}
+
+raylane_status raylane_add_material(raylane_builder* builder, const raylane_material* material,
+                                    uint32_t* index) {
+    return guarded([&] {
+        const MaterialIndex added =
+            checked("builder", builder).builder.add_material(from_c(checked("material", material)));
+        if (index != nullptr) *index = added;
+    });
+}
+
+raylane_status raylane_add_light(raylane_builder* builder, const raylane_light* light) {
+    return guarded(
+        [&] { checked("builder", builder).builder.add_light(from_c(checked("light", light))); });
+}
+
+raylane_status raylane_set_fog(raylane_builder* builder, const raylane_fog* fog) {
+    return guarded([&] { checked("builder", builder).builder.fog = from_c(checked("fog", fog)); });
+}
+
+raylane_status raylane_set_camera(raylane_builder* builder, const raylane_camera* camera) {
+    return guarded(
+        [&] { checked("builder", builder).builder.camera = from_c(checked("camera", camera)); });
+}
+
+raylane_status raylane_set_background(raylane_builder* builder, raylane_vec3 color) {
+    return guarded([&] { checked("builder", builder).builder.background = from_c(color); });
+}
+
+raylane_status raylane_set_settings(raylane_builder* builder, const raylane_settings* settings) {
+    return guarded([&] {
+        checked("builder", builder).builder.settings = from_c(checked("settings", settings));
+    });
+}
+
+#define RAYLANE_ADD(name, Shape, c_shape)                                                          \
+    raylane_status name(raylane_builder* builder, const c_shape* shapes, size_t count,             \
+                        uint32_t material, uint32_t* first) {                                      \
+        return add<Shape>(builder, shapes, count, material, first);                                \
+    }
+RAYLANE_ADD(raylane_add_spheres, Sphere, raylane_sphere)
+RAYLANE_ADD(raylane_add_planes, Plane, raylane_plane)
+RAYLANE_ADD(raylane_add_discs, Disc, raylane_disc)
+RAYLANE_ADD(raylane_add_triangles, Triangle, raylane_triangle)
+RAYLANE_ADD(raylane_add_smooth_triangles, SmoothTriangle, raylane_smooth_triangle)
+RAYLANE_ADD(raylane_add_boxes, Box, raylane_box)
+RAYLANE_ADD(raylane_add_open_cylinders, OpenCylinder, raylane_cylinder)
+RAYLANE_ADD(raylane_add_capped_cylinders, CappedCylinder, raylane_cylinder)
+RAYLANE_ADD(raylane_add_open_cones, OpenCone, raylane_cone)
+RAYLANE_ADD(raylane_add_capped_cones, CappedCone, raylane_cone)
+RAYLANE_ADD(raylane_add_quadrics, Quadric, raylane_quadric)
+RAYLANE_ADD(raylane_add_ellipsoids, Ellipsoid, raylane_ellipsoid)
+#undef RAYLANE_ADD
+
+raylane_status raylane_add_polygon(raylane_builder* builder, const raylane_triangle* triangles,
+                                   size_t count, uint32_t material, uint32_t* first) {
+    return guarded([&] {
+        std::vector<Triangle> all;
+        for (const raylane_triangle& triangle : span_of("triangles", triangles, count))
+            all.push_back(std::bit_cast<Triangle>(triangle));
+        const ShapeId id = checked("builder", builder).builder.add_polygon(all, material);
+        if (first != nullptr) *first = id;
+    });
+}

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "raylane/raylane.h"
+#include "raylane/raylane.hpp"
+
+#include <new>
+#include <span>
+#include <type_traits>
+
+/// What all calls of the interface for C share: handles, errors, and arguments that must be there.
+
+struct raylane_builder {
+    raylane::SceneBuilder builder;
+};
+struct raylane_scene {
+    raylane::Scene scene;
+};
+struct raylane_tracer {
+    raylane::Tracer tracer;
+};
+
+namespace raylane::c {
+
+/// Keeps the text. Without the memory for it there is a shorter one.
+raylane_status failed(raylane_status status, const char* text) noexcept;
+
+/// Calls it, and turns what it throws into what C understands.
+template <class Call>
+raylane_status guarded(const Call& call) noexcept {
+    try {
+        if constexpr (std::is_void_v<decltype(call())>) {
+            call();
+            return RAYLANE_OK;
+        } else {
+            return call();
+        }
+    } catch (const InvalidValue& error) {
+        return failed(RAYLANE_INVALID_VALUE, error.what());
+    } catch (const BadInput& error) {
+        return failed(RAYLANE_BAD_INPUT, error.what());
+    } catch (const SystemRefused& error) {
+        return failed(RAYLANE_SYSTEM_REFUSED, error.what());
+    } catch (const std::bad_alloc&) {
+        return failed(RAYLANE_OUT_OF_MEMORY, "out of memory");
+    } catch (const std::exception& error) {
+        return failed(RAYLANE_UNKNOWN, error.what());
+    } catch (...) {
+        return failed(RAYLANE_UNKNOWN, "unknown");
+    }
+}
+
+/// What a pointer points to, which must be there.
+template <class Value>
+Value& checked(const char* name, Value* pointer) {
+    if (pointer == nullptr) throw InvalidValue(name, "must not be NULL");
+    return *pointer;
+}
+
+template <class Value>
+std::span<Value> span_of(Value* values, std::size_t count) {
+    return values == nullptr ? std::span<Value>() : std::span<Value>(values, count);
+}
+
+/// The arrays of rays or hits that must be there: without them there are no rays to speak of.
+template <class Value>
+std::span<Value> span_of(const char* name, Value* values, std::size_t count) {
+    if (count == 0) return {};
+    return {&checked(name, values), count};
+}
+
+} // namespace raylane::c

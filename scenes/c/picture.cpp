@@ -1,0 +1,53 @@
+#include "calls.hpp"
+#include "values.hpp"
+
+#include <algorithm>
+#include <optional>
+
+using namespace raylane;
+using namespace raylane::c;
+
+namespace {
+
+raylane_progress to_c(const Progress& progress) {
+    const Tile& tile = progress.tile;
+    return {progress.pixels, progress.total_pixels, progress.rays, tile.x,           tile.y,
+            tile.width,      tile.height,           tile.rgb,      tile.floats_a_row};
+}
+
+} // namespace
+
+raylane_status raylane_render(const raylane_scene* scene, const raylane_settings* settings,
+                              int threads, int precision, raylane_progress_callback progress,
+                              void* user, float* rgb) {
+    return guarded([&] {
+        static_cast<void>(checked("rgb", rgb));
+        RenderOptions options;
+        if (settings != nullptr) options.settings = from_c(*settings);
+        options.threads = threads;
+        options.precision = enum_from_int<Precision>("precision", precision);
+        const std::optional<Image> image =
+            render(checked("scene", scene).scene, options, [&](const Progress& done) {
+                if (progress == nullptr) return true;
+                const raylane_progress told = to_c(done);
+                return progress(&told, user) != 0;
+            });
+        if (!image) return failed(RAYLANE_CANCELLED, "cancelled");
+        std::copy(image->rgb.begin(), image->rgb.end(), rgb);
+        return RAYLANE_OK;
+    });
+}
+
+raylane_status raylane_write_image(const char* path, int width, int height, const float* rgb,
+                                   int transfer) {
+    return guarded([&] {
+        Image image{width, height, {}};
+        if (width > 0 && height > 0) {
+            const std::size_t count =
+                3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+            const std::span<const float> all = span_of("rgb", rgb, count);
+            image.rgb.assign(all.begin(), all.end());
+        }
+        write_image(&checked("path", path), image, enum_from_int<Transfer>("transfer", transfer));
+    });
+}

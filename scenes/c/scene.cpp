@@ -1,0 +1,65 @@
+#include "calls.hpp"
+#include "values.hpp"
+
+#include <limits>
+#include <memory>
+
+using namespace raylane;
+using namespace raylane::c;
+
+namespace {
+
+/// A scene that `make` makes, as a handle.
+template <class Make>
+raylane_status scene_of(raylane_scene** scene, const Make& make) noexcept {
+    return guarded([&] {
+        raylane_scene*& to = checked("scene", scene);
+        to = nullptr;
+        to = std::make_unique<raylane_scene>(raylane_scene{make()}).release();
+    });
+}
+
+} // namespace
+
+raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene) {
+    return scene_of(scene, [&] { return checked("builder", builder).builder.build(); });
+}
+
+raylane_status raylane_load(const char* path, raylane_scene** scene) {
+    return scene_of(scene, [&] { return load(&checked("path", path)); });
+}
+
+raylane_status raylane_parse(const char* text, size_t length, const char* name,
+                             raylane_scene** scene) {
+    return scene_of(scene, [&] {
+        return parse({length != 0 ? &checked("text", text) : "", length}, &checked("name", name));
+    });
+}
+
+raylane_status raylane_save(const raylane_scene* scene, const char* path) {
+    return guarded([&] { save(checked("scene", scene).scene, &checked("path", path)); });
+}
+
+void raylane_scene_release(raylane_scene* scene) {
+    delete scene;
+}
+
+size_t raylane_shape_count(const raylane_scene* scene) {
+    return scene != nullptr ? scene->scene.shape_count() : 0;
+}
+
+size_t raylane_material_count(const raylane_scene* scene) {
+    return scene != nullptr ? scene->scene.material_count() : 0;
+}
+
+void raylane_scene_bounds(const raylane_scene* scene, raylane_vec3* lower, raylane_vec3* upper) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    if (scene != nullptr) bounds = scene->scene.bounds();
+    if (lower != nullptr) *lower = to_c(bounds.lower);
+    if (upper != nullptr) *upper = to_c(bounds.upper);
+}
+
+raylane_settings raylane_scene_settings(const raylane_scene* scene) {
+    return to_c(scene != nullptr ? scene->scene.settings() : Settings{});
+}
