@@ -242,7 +242,9 @@ inline void look_for_signals() {
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+void bind_builder(py::module_& module);
 void bind_scene(py::module_& module);
+void bind_solids(py::module_& module);
 void bind_tracer(py::module_& module);
 void bind_image(py::module_& module);
 

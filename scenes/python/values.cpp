@@ -1,6 +1,7 @@
 #include "values.hpp"
 
 #include <charconv>
+#include <limits>
 #include <pybind11/stl.h>
 #include <string_view>
 
@@ -323,6 +324,10 @@ Color color_from(const py::handle& color, const std::string& field) {
 }
 Precision precision_from(const std::string& name) {
     return enum_of<Precision>(name, "precision");
+}
+MaterialIndex one_material(const py::object& index) {
+    constexpr auto most = std::numeric_limits<MaterialIndex>::max();
+    return Values<MaterialIndex>(whole_numbers(index, "material", most), 1, "material")[0];
 }
 
 py::object to_python(const Material& material) {

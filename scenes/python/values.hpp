@@ -13,6 +13,7 @@ Camera camera_from(const py::handle& camera);
 Settings settings_from(const py::handle& settings);
 Color color_from(const py::handle& color, const std::string& field);
 Precision precision_from(const std::string& name);
+MaterialIndex one_material(const py::object& index);
 
 py::object to_python(const Material& material);
 py::object to_python(const Light& light);
