@@ -1,6 +1,7 @@
 #include "scenes/tool/interrupt.hpp"
 
 #include "scenes/atomic_file.hpp"
+#include "scenes/tool/failure.hpp"
 
 #include <atomic>
 #include <csignal>
@@ -17,15 +18,18 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not
 // In what follows, only calls that POSIX lists as safe in a signal handler.
 
 void say(const char* text) {
-    if (::isatty(STDERR_FILENO) != 1) return;
     const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
     static_cast<void>(written);
+}
+
+bool is_shown() {
+    return ::isatty(STDERR_FILENO) == 1;
 }
 
 extern "C" void end_process(int signal) {
     ending = true;
     remove_temporaries();
-    say("\n"); // the prompt shall not follow a progress bar
+    if (is_shown()) say("\n"); // the prompt shall not follow a progress bar
     ::_exit(128 + signal);
 }
 
@@ -37,7 +41,19 @@ extern "C" void stop_first(int signal) {
     if (flag == nullptr || stopped_by != 0) return end_process(signal);
     stopped_by = signal;
     *flag = true;
-    say("\nraylane: finishing what is under way; once more to end at once\n");
+    if (is_shown()) say("\nraylane: finishing what is under way; once more to end at once\n");
+}
+
+/// Pages of a built scene have gone, or cannot be read: all threads that ask for them come here.
+extern "C" void lose_pages(int) {
+    static std::atomic_flag is_said;
+    while (is_said.test_and_set())
+        ::pause();
+    ending = true;
+    remove_temporaries();
+    if (is_shown()) say("\n");
+    say("raylane: a built scene became shorter while it was in use, or can no longer be read\n");
+    ::_exit(refused);
 }
 
 void on(int signal, void (*handler)(int)) {
@@ -59,6 +75,7 @@ void catch_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2})
         if (!is_ignored(signal))
             on(signal, signal == SIGINT || signal == SIGTERM ? stop_first : end_process);
+    on(SIGBUS, lose_pages);
     on(SIGPIPE, SIG_IGN);
     on(SIGXFSZ, SIG_IGN);
 }

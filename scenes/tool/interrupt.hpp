@@ -7,7 +7,8 @@ namespace raylane::scenes {
 
 /// Makes SIGINT, SIGTERM, SIGHUP and all others that come from outside to end a process, from now
 /// on, remove the temporaries and end it at once, with 128 + the signal's number; and writes to
-/// closed pipes and beyond file size limits fail rather than kill.
+/// closed pipes and beyond file size limits fail rather than kill. What is mapped and then is no
+/// longer there ends a process as what the system refuses does.
 void catch_signals();
 
 /// While it lives, the first SIGINT or SIGTERM does not end the process but sets `stop`; the second

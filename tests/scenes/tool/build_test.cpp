@@ -1,6 +1,9 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
+#include <chrono>
+#include <thread>
+
 /// Scenes that are built once, for many pictures.
 using namespace raylane::tests;
 
@@ -46,6 +49,21 @@ TEST_CASE("build takes the name of its scene where no other is given, and says w
     check_same_file(workshop, "again.json", "once.json");
     CHECK(workshop.run({"build", "scene.rl", "-o", "other.rl", "-q"}).code == 0);
     check_same_file(workshop, "scene.rl", "other.rl");
+}
+
+TEST_CASE("a built scene that becomes shorter while it is in use ends the command in one line") {
+    const Workshop workshop;
+    REQUIRE(workshop.run({"build", "scene.json", "-o", "a.rl", "-q"}).code == 0);
+    Process process = workshop.start(joined({"render", "a.rl", "-o", "out/picture.png"}, hours));
+    REQUIRE(workshop.wait_for_files(process, 1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(200)); // amid the pixels
+    std::filesystem::resize_file(workshop.path() / "a.rl", 0);
+    const Outcome outcome = process.wait();
+    CHECK(outcome.code == 3);
+    CHECK(outcome.exited);
+    CHECK(outcome.err ==
+          "raylane: a built scene became shorter while it was in use, or can no longer be read\n");
+    CHECK(!std::filesystem::exists(workshop.output() / "picture.png"));
 }
 
 TEST_CASE("what cannot be built, or is no built scene, is refused in one line") {
