@@ -46,20 +46,20 @@ int build(const BuildArguments& arguments) {
 } // namespace
 
 Command add_build_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("build", "Build a large scene once, for all that is drawn of it");
+    CLI::App& command =
+        add_command(app, "build", "Build a large scene once, for all that is drawn of it",
+                    "raylane build scenes/lattice.json -o lattice.rl");
     auto arguments = std::make_shared<BuildArguments>();
-    add_positional(*command, "SCENE", arguments->scene,
+    add_positional(command, "SCENE", arguments->scene,
                    "A scene, or atoms, as render reads them; - is standard input");
-    add_option(*command, "-o,--output", arguments->output,
+    add_option(command, "-o,--output", arguments->output,
                "The file to write, a scene for all commands, which they need not read and build: "
                "the system maps it into memory, once for all processes of a host (default: the "
                "scene's name, here, with .rl)",
                "FILE");
-    add_option(*command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
-    arguments->scene_arguments.add_to(*command);
-    command->footer("Example: raylane build scenes/lattice.json -o lattice.rl");
-    return {command, [arguments] { return build(*arguments); }};
+    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    arguments->scene_arguments.add_to(command);
+    return {&command, [arguments] { return build(*arguments); }};
 }
 
 } // namespace raylane::scenes

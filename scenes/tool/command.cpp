@@ -2,6 +2,25 @@
 
 namespace raylane::scenes {
 
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help,
+                      const std::string& example) {
+    CLI::App* const command = app.add_subcommand(name, help);
+    command->footer("Example: " + example);
+    return *command;
+}
+
+bool take_options(const std::string& text, const std::function<void(CLI::App& command)>& add) {
+    CLI::App command;
+    add(command);
+    try {
+        command.parse(text);
+    } catch (const CLI::RequiredError&) { // is said elsewhere
+    } catch (const CLI::ParseError&) {
+        return false;
+    }
+    return true;
+}
+
 CLI::Option* add_option(CLI::App& command, const std::string& names, Argument& value,
                         const std::string& help, const std::string& type) {
     // CLI11 itself would take an empty text for no value.

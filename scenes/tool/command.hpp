@@ -32,6 +32,14 @@ struct Command {
 /// Value on the command line, for the command to judge; nothing if it is not there.
 using Argument = std::optional<std::string>;
 
+/// Adds a command, whose help says what it does and shows an example. CLI11's classes are compiled
+/// in what calls this alone, which takes seconds.
+CLI::App& add_command(CLI::App& app, const std::string& name, const std::string& help,
+                      const std::string& example);
+/// Has values of the options that add(command) adds, from what a command line would have. False
+/// without a list of them; what must be given may be missing.
+bool take_options(const std::string& text, const std::function<void(CLI::App& command)>& add);
+
 /// Adds an option that has a value; `type` is what the help calls that.
 CLI::Option* add_option(CLI::App& command, const std::string& names, Argument& value,
                         const std::string& help, const std::string& type);

@@ -75,19 +75,19 @@ int compare(const CompareArguments& arguments) {
 } // namespace
 
 Command add_compare_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "compare", "Say by how much two pictures differ; exit code 1 if they do");
+    CLI::App& command =
+        add_command(app, "compare", "Say by how much two pictures differ; exit code 1 if they do",
+                    "raylane compare before.png after.png --diff difference.png");
     auto arguments = std::make_shared<CompareArguments>();
-    add_positional(*command, "A", arguments->a, "A picture: PNG, EXR, HDR or PFM");
-    add_positional(*command, "B", arguments->b, "Another");
-    add_option(*command, "--tolerance", arguments->tolerance,
+    add_positional(command, "A", arguments->a, "A picture: PNG, EXR, HDR or PFM");
+    add_positional(command, "B", arguments->b, "Another");
+    add_option(command, "--tolerance", arguments->tolerance,
                "The largest difference of a component that does not count; 1 is white (default: 0)",
                "T");
-    add_option(*command, "--diff", arguments->difference,
+    add_option(command, "--diff", arguments->difference,
                "Write the differences as a picture, amplified to white", "FILE");
-    add_flag(*command, "--json", arguments->json, "Print the figures as JSON");
-    command->footer("Example: raylane compare before.png after.png --diff difference.png");
-    return {command, [arguments] { return compare(*arguments); }};
+    add_flag(command, "--json", arguments->json, "Print the figures as JSON");
+    return {&command, [arguments] { return compare(*arguments); }};
 }
 
 } // namespace raylane::scenes

@@ -41,17 +41,17 @@ int convert(const ConvertArguments& arguments) {
 } // namespace
 
 Command add_convert_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("convert", "Write a scene in another format");
+    CLI::App& command = add_command(app, "convert", "Write a scene in another format",
+                                    "raylane convert scenes/lattice.json lattice.pov");
     auto arguments = std::make_shared<ConvertArguments>();
-    add_positional(*command, "SCENE", arguments->scene,
+    add_positional(command, "SCENE", arguments->scene,
                    "A scene, or atoms, as render reads them; - is standard input");
     add_positional(
-        *command, "OUTPUT", arguments->output,
+        command, "OUTPUT", arguments->output,
         "The file to write: .json, .nff, .pov for POV-Ray 3.7, or .rl as build writes it; or - for "
         "JSON to standard output");
-    arguments->scene_arguments.add_to(*command);
-    command->footer("Example: raylane convert scenes/lattice.json lattice.pov");
-    return {command, [arguments] { return convert(*arguments); }};
+    arguments->scene_arguments.add_to(command);
+    return {&command, [arguments] { return convert(*arguments); }};
 }
 
 } // namespace raylane::scenes

@@ -50,15 +50,15 @@ int print_manual(const CLI::App& app, const ManualArguments& arguments) {
 } // namespace
 
 Command add_manual_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("manual", "Print the page of a command for man, or of the whole tool");
+    CLI::App& command =
+        add_command(app, "manual", "Print the page of a command for man, or of the whole tool",
+                    "raylane manual render | man -l -");
     auto arguments = std::make_shared<ManualArguments>();
-    add_option(*command, "COMMAND", arguments->command, "A command (default: the whole tool)", "");
-    add_option(*command, "--all", arguments->folder,
+    add_option(command, "COMMAND", arguments->command, "A command (default: the whole tool)", "");
+    add_option(command, "--all", arguments->folder,
                "Write the pages of all commands into a folder, as raylane.1, raylane-render.1, ...",
                "FOLDER");
-    command->footer("Example: raylane manual render | man -l -");
-    return {command, [&app, arguments] { return print_manual(app, *arguments); }};
+    return {&command, [&app, arguments] { return print_manual(app, *arguments); }};
 }
 
 void name_commands(CLI::App& app) {
@@ -69,13 +69,13 @@ void name_commands(CLI::App& app) {
 }
 
 Command add_completion_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "completion", "Print what a shell reads to complete commands, options and files");
+    CLI::App& command = add_command(
+        app, "completion", "Print what a shell reads to complete commands, options and files",
+        "source <(raylane completion bash)");
     auto shell = std::make_shared<Argument>();
-    add_option(*command, "SHELL", *shell, "The shell: bash, zsh or fish", "bash|zsh|fish")
+    add_option(command, "SHELL", *shell, "The shell: bash, zsh or fish", "bash|zsh|fish")
         ->required();
-    command->footer("Example: source <(raylane completion bash)");
-    return {command, [&app, shell] {
+    return {&command, [&app, shell] {
                 const auto which = choice_argument<Shell>(
                     "SHELL", **shell,
                     {{"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}});

@@ -192,14 +192,14 @@ int info(const InfoArguments& arguments) {
 } // namespace
 
 Command add_info_command(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("info", "Say what a scene holds and what its picture therefore needs");
+    CLI::App& command =
+        add_command(app, "info", "Say what a scene holds and what its picture therefore needs",
+                    "raylane info scenes/birthday.json");
     auto arguments = std::make_shared<InfoArguments>();
-    add_positional(*command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
-    add_flag(*command, "--json", arguments->json, "Print it as JSON");
-    arguments->scene_arguments.add_to(*command);
-    command->footer("Example: raylane info scenes/birthday.json");
-    return {command, [arguments] { return info(*arguments); }};
+    add_positional(command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
+    add_flag(command, "--json", arguments->json, "Print it as JSON");
+    arguments->scene_arguments.add_to(command);
+    return {&command, [arguments] { return info(*arguments); }};
 }
 
 } // namespace raylane::scenes

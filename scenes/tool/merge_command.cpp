@@ -159,25 +159,25 @@ int merge(const MergeArguments& arguments) {
 } // namespace
 
 Command add_merge_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "merge",
+    CLI::App& command = add_command(
+        app, "merge",
         "Put the parts of a picture together that render --part has drawn: the same bits as "
-        "if it had been drawn at once");
+        "if it had been drawn at once",
+        "raylane merge part-*.exr -o out.png");
     auto arguments = std::make_shared<MergeArguments>();
-    command->add_option("PARTS", arguments->parts, "All parts of one picture, in any order")
+    command.add_option("PARTS", arguments->parts, "All parts of one picture, in any order")
         ->required()
         ->type_name("");
-    add_option(*command, "-o,--output", arguments->output, "The picture, as render writes it",
+    add_option(command, "-o,--output", arguments->output, "The picture, as render writes it",
                "FILE")
         ->required();
-    add_option(*command, "--bits", arguments->bits,
+    add_option(command, "--bits", arguments->bits,
                "Of a component: 8 or 16 in PNG (default: 8), 16 (halves) or 32 (floats) in EXR "
                "(default: 16)",
                "N");
-    add_option(*command, "--dpi", arguments->dpi,
+    add_option(command, "--dpi", arguments->dpi,
                "Pixels per inch that PNG or EXR tells who prints it", "N");
-    command->footer("Example: raylane merge part-*.exr -o out.png");
-    return {command, [arguments] { return merge(*arguments); }};
+    return {&command, [arguments] { return merge(*arguments); }};
 }
 
 } // namespace raylane::scenes

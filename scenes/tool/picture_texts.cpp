@@ -23,14 +23,9 @@ const std::string& text_in(const std::string& picture, const PictureTexts& texts
 RenderArguments arguments_of(const std::string& picture, const PictureTexts& texts,
                              const std::string& scene) {
     RenderArguments arguments;
-    CLI::App command;
-    arguments.add_to(command);
-    try {
-        command.parse(text_in(picture, texts, "Comment"));
-    } catch (const CLI::RequiredError&) { // the scene comes from elsewhere
-    } catch (const CLI::ParseError&) {
+    if (!take_options(text_in(picture, texts, "Comment"),
+                      [&](CLI::App& command) { arguments.add_to(command); }))
         throw BadInput(picture, "", "has a Comment that is no list of render's options");
-    }
     arguments.scene = scene;
     return arguments;
 }

@@ -307,12 +307,13 @@ int render(const RenderArguments& arguments) {
 } // namespace
 
 Command add_render_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("render", "Draw the picture of a scene");
-    auto arguments = std::make_shared<RenderArguments>();
-    arguments->add_to(*command);
-    command->footer("Example: raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
+    CLI::App& command =
+        add_command(app, "render", "Draw the picture of a scene",
+                    "raylane render scenes/birthday.json -o birthday.png --size 1000x1000 "
                     "--spp 16");
-    return {command, [arguments] { return render(*arguments); }};
+    auto arguments = std::make_shared<RenderArguments>();
+    arguments->add_to(command);
+    return {&command, [arguments] { return render(*arguments); }};
 }
 
 } // namespace raylane::scenes

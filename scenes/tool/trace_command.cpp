@@ -215,25 +215,25 @@ int trace(const TraceArguments& arguments) {
 } // namespace
 
 Command add_trace_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("trace", "Find what rays of a file hit in a scene");
+    CLI::App& command = add_command(app, "trace", "Find what rays of a file hit in a scene",
+                                    "raylane trace scenes/birthday.json rays.npy -o hits.npy");
     auto arguments = std::make_shared<TraceArguments>();
-    add_positional(*command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
-    add_positional(*command, "RAYS", arguments->rays,
+    add_positional(command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
+    add_positional(command, "RAYS", arguments->rays,
                    "Rays in NumPy's format (.npy): an array of float32 or float64 with a shape of "
                    "(n, 6), origins and directions, or (n, 8), with t_min and t_max");
-    add_option(*command, "-o,--output", arguments->output,
+    add_option(command, "-o,--output", arguments->output,
                "What they hit, in NumPy's format, an element for each ray: t, normal, shape, "
                "entering and face (default: RAYS-hits.npy)",
                "FILE");
-    add_flag(*command, "--occluded", arguments->occluded,
+    add_flag(command, "--occluded", arguments->occluded,
              "Say of each ray whether it hits anything, and no more");
-    add_option(*command, "--precision", arguments->precision,
+    add_option(command, "--precision", arguments->precision,
                "What decides where rays hit, as render has it (default: exact)",
                "fast|robust|exact|double|auto");
-    add_option(*command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
-    arguments->scene_arguments.add_to(*command);
-    command->footer("Example: raylane trace scenes/birthday.json rays.npy -o hits.npy");
-    return {command, [arguments] { return trace(*arguments); }};
+    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    arguments->scene_arguments.add_to(command);
+    return {&command, [arguments] { return trace(*arguments); }};
 }
 
 } // namespace raylane::scenes

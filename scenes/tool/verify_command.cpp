@@ -270,21 +270,22 @@ int verify(const VerifyArguments& arguments) {
 } // namespace
 
 Command add_verify_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "verify", "Draw random pixels of a picture again, by the scalar reference with exact "
-                  "numbers, and say whether they are what it shows; exit code 1 if not");
+    CLI::App& command =
+        add_command(app, "verify",
+                    "Draw random pixels of a picture again, by the scalar reference with exact "
+                    "numbers, and say whether they are what it shows; exit code 1 if not",
+                    "raylane verify birthday.png scenes/birthday.json");
     auto arguments = std::make_shared<VerifyArguments>();
-    add_positional(*command, "PICTURE", arguments->picture,
+    add_positional(command, "PICTURE", arguments->picture,
                    "A PNG or EXR that raylane has drawn, which says with which options");
-    add_positional(*command, "SCENE", arguments->scene, "What it was drawn of");
-    add_option(*command, "--pixels", arguments->pixels, "How many (default: 1000)", "N");
-    add_option(*command, "--seed", arguments->seed, "Which; without it, others each time", "N");
-    add_flag(*command, "--whole", arguments->whole,
+    add_positional(command, "SCENE", arguments->scene, "What it was drawn of");
+    add_option(command, "--pixels", arguments->pixels, "How many (default: 1000)", "N");
+    add_option(command, "--seed", arguments->seed, "Which; without it, others each time", "N");
+    add_flag(command, "--whole", arguments->whole,
              "Draw all of it again as well, and compare its bits before they were written");
-    add_option(*command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
-    arguments->verbosity.add_to(*command);
-    command->footer("Example: raylane verify birthday.png scenes/birthday.json");
-    return {command, [arguments] { return verify(*arguments); }};
+    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    arguments->verbosity.add_to(command);
+    return {&command, [arguments] { return verify(*arguments); }};
 }
 
 } // namespace raylane::scenes

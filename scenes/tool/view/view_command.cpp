@@ -209,19 +209,20 @@ class Viewer {
 } // namespace
 
 Command add_view_command(CLI::App& app) {
-    CLI::App* command = app.add_subcommand(
-        "view", "Show a scene in a window: drag to go around, with shift to move along, turn the "
-                "wheel to come nearer, click to ask what is there; keys: s saves the picture, c "
-                "prints the camera, r resets it, q ends");
+    CLI::App& command = add_command(
+        app, "view",
+        "Show a scene in a window: drag to go around, with shift to move along, turn the "
+        "wheel to come nearer, click to ask what is there; keys: s saves the picture, c "
+        "prints the camera, r resets it, q ends",
+        "raylane view scenes/birthday.json");
     auto arguments = std::make_shared<ViewCommandArguments>();
-    add_positional(*command, "SCENE", arguments->scene,
+    add_positional(command, "SCENE", arguments->scene,
                    "A scene, or atoms, as render reads them; it is read anew when it is written");
-    add_option(*command, "--size", arguments->size,
+    add_option(command, "--size", arguments->size,
                "The window's, in pixels (default: as the scene says)", "WxH");
-    add_option(*command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
-    arguments->scene_arguments.add_to(*command);
-    command->footer("Example: raylane view scenes/birthday.json");
-    return {command, [arguments] {
+    add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
+    arguments->scene_arguments.add_to(command);
+    return {&command, [arguments] {
                 Viewer(*arguments).run();
                 return 0;
             }};
