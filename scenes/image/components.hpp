@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -26,6 +27,18 @@ class Components {
         if (const auto* words = std::get_if<std::vector<std::uint16_t>>(&components_))
             return static_cast<float>((*words)[i]) / 65535.0F;
         return (*std::get_if<std::vector<float>>(&components_))[i];
+    }
+
+    /// True if they are as many, and the same to the bit.
+    bool is_same(const Components& other) const {
+        return std::visit(
+            [&]<class Component>(const std::vector<Component>& all) {
+                const auto* others = std::get_if<std::vector<Component>>(&other.components_);
+                return others != nullptr && others->size() == all.size() &&
+                       (all.empty() ||
+                        std::memcmp(others->data(), all.data(), all.size() * sizeof all[0]) == 0);
+            },
+            components_);
     }
 
     /// All of them as floats.

@@ -224,6 +224,8 @@ void read_pixels(Imf::InputFile& file, Image& image) {
     std::vector<const char*> names = {"R", "G", "B"};
     if (is_grey) names = {"Y"};
     if (has_alpha) names.push_back("A");
+    const Imf::Channel* const first = file.header().channels().findChannel(names.front());
+    image.bits = first != nullptr && first->type == Imf::HALF ? 16 : 32;
 
     const std::size_t step = names.size();
     std::vector<float> held(step * columns * rows);

@@ -158,7 +158,8 @@ void read_png(ByteSource& source, Image& image) {
     image.width = static_cast<int>(reading.width);
     image.height = static_cast<int>(reading.height);
     constexpr int most_bits_of_a_byte = 8;
-    if (reading.bits > most_bits_of_a_byte)
+    image.bits = std::max(reading.bits, most_bits_of_a_byte);
+    if (image.bits > most_bits_of_a_byte)
         read_codes<std::uint16_t>(reading, image);
     else
         read_codes<std::uint8_t>(reading, image);

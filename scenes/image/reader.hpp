@@ -22,6 +22,7 @@ struct Image {
     std::string name; ///< of its file, for messages
     /// What PNG or EXR say beside the pixels, as PictureOptions has it.
     std::vector<std::pair<std::string, std::string>> texts{};
+    int bits = 0; ///< of a component in the file: of PNG 8 or 16, of EXR 16 or 32; else 0
 };
 
 /// Reads a PNG, EXR, HDR or PFM picture; the content tells which. Grey becomes RGB. Throws BadInput

@@ -1,5 +1,6 @@
 #include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/image/exr.hpp"
 #include "scenes/image/reader.hpp"
 #include "scenes/number.hpp"
 #include "scenes/tool/arguments.hpp"
@@ -9,14 +10,19 @@
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/picture_texts.hpp"
 #include "scenes/tool/progress_bar.hpp"
+#include "scenes/tool/ray_tiers.hpp"
 #include "scenes/tool/render_arguments.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 #include <numeric>
 #include <random>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <unordered_set>
 
 namespace raylane::scenes {
@@ -29,11 +35,14 @@ struct VerifyArguments {
     VerbosityArguments verbosity;
 };
 
-/// A pixel's components as a picture would have them: codes divided by the largest, or floats.
+/// A pixel's components as a picture would have them: codes divided by the largest, or floats,
+/// which may be rounded to halves. `is_exact`: no other precision has drawn it.
 class AsWritten {
   public:
-    AsWritten(const Image& image, core::Transfer transfer)
-        : is_float_(image.linear_float), encode_(transfer), has_alpha_(image.alpha.size() > 0) {}
+    AsWritten(const Image& image, core::Transfer transfer, bool is_exact)
+        : is_float_(image.linear_float), halves_(is_float_ && image.bits == 16),
+          is_exact_(is_exact), bits_(image.bits), transfer_(transfer), encode_(transfer),
+          has_alpha_(image.alpha.size() > 0) {}
 
     std::array<float, 4> operator()(const core::Color& color, float alpha) const {
         std::array<float, 4> all{};
@@ -42,37 +51,83 @@ class AsWritten {
             const float component = is_float_      ? color[channel]
                                     : alpha > 0.0F ? color[channel] / alpha
                                                    : 0.0F;
-            all[channel] = is_float_ ? component : code(encode_(component));
+            all[channel] = is_float_ ? component : code(component);
         }
-        all[3] = !has_alpha_ ? 1.0F
-                 : is_float_ ? alpha
-                             : code(core::encode(alpha, core::Transfer::linear));
+        all[3] = !has_alpha_ ? 1.0F : is_float_ ? alpha : code_of_alpha(alpha);
         return all;
     }
 
-    /// The bits, or what halves have no number for.
+    /// The bits; of halves, and of what is not exact, what rounds to them.
     bool is_same(float there, float expected) const {
-        constexpr float largest_half = 65504.0F;
-        return there == expected ||
-               (is_float_ && std::isinf(there) && std::abs(expected) > largest_half);
+        if (there == expected) return true;
+        return (halves_ || !is_exact_) && is_within(0.5F, there, expected);
     }
-    /// By how much two components may differ that are the same but for rounding: one code of 8
-    /// bits, or what halves and twice as many steps of rounding are off by.
-    float step(float component) const {
-        return is_float_ ? 0x1p-9F * std::max(std::abs(component), 0x1p-14F) : 1.0F / 255.0F;
-    }
+    bool is_near(float there, float expected) const { return is_within(1.5F, there, expected); }
 
   private:
-    static float code(std::uint8_t byte) { return static_cast<float>(byte) / 255.0F; }
+    bool is_within(float steps, float there, float expected) const {
+        constexpr float largest_half = 65504.0F;
+        if (halves_) expected = std::clamp(expected, -largest_half, largest_half);
+        return std::abs(there - expected) <= steps * step(expected);
+    }
+    /// From one component that the file can have to the next; of what is not exact, a code of 8
+    /// bits, or twice a half's.
+    float step(float component) const {
+        if (!is_float_) return bits_ == 8 || !is_exact_ ? 1.0F / 255.0F : 1.0F / 65535.0F;
+        const float size = std::max(std::abs(component), 0x1p-14F);
+        return (!is_exact_ ? 0x1p-9F : halves_ ? 0x1p-10F : 0x1p-23F) * size;
+    }
 
-    bool is_float_;
+    float code(float component) const {
+        return bits_ == 8 ? static_cast<float>(encode_(component)) / 255.0F
+                          : words(component, transfer_);
+    }
+    float code_of_alpha(float alpha) const {
+        return bits_ == 8 ? static_cast<float>(core::encode(alpha, core::Transfer::linear)) / 255.0F
+                          : words(alpha, core::Transfer::linear);
+    }
+    static float words(float component, core::Transfer transfer) {
+        return static_cast<float>(core::encode_in_16_bits(component, transfer)) / 65535.0F;
+    }
+
+    bool is_float_, halves_, is_exact_;
+    int bits_;
+    core::Transfer transfer_;
     core::Encoder encode_;
     bool has_alpha_;
 };
 
+/// Where nobody else has one: for what is written to be read again.
+class MemoryFile {
+  public:
+    MemoryFile() : descriptor_(::memfd_create("raylane picture", MFD_CLOEXEC)) {
+        if (descriptor_ < 0) throw SystemRefused("a file of memory", "open", errno);
+    }
+    ~MemoryFile() { ::close(descriptor_); }
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+  private:
+    int descriptor_;
+};
+
+template <class T>
+bool has_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool has_same_bits(const core::Layers& a, const core::Layers& b) {
+    return has_same_bits(a.depth, b.depth) && has_same_bits(a.normal, b.normal) &&
+           has_same_bits(a.shape, b.shape) && has_same_bits(a.material, b.material) &&
+           has_same_bits(a.samples, b.samples);
+}
+
 /// Read, and refused, before the scene.
-Image whole_picture(const std::string& name) {
-    Image image = read_image(name);
+Image whole_picture(InputFile file) {
+    Image image = read_image(file);
     if (has_text(image.texts, "Part"))
         throw BadInput(image.name, "", "is a part of a picture, to be merged first");
     return image;
@@ -92,7 +147,8 @@ class Verifier {
                                      whole_argument("--seed", *arguments.seed, 0, 2'147'483'647))
                                : std::random_device()()),
           threads_(threads_argument(arguments.threads)),
-          image_(whole_picture(file_argument("PICTURE", *arguments.picture))),
+          name_(file_argument("PICTURE", *arguments.picture)), bytes_(InputFile(name_).read_all()),
+          image_(whole_picture(picture_file())),
           render_(
               arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
           picture_(render_.picture),
@@ -117,7 +173,8 @@ class Verifier {
         simd::RenderOptions options = options_;
         options.engine = simd::Engine::reference;
         options.precision = core::Precision::exact;
-        options.tile = 0;
+        options.layers = false;
+        options.tile = 8; // the fewest others
         const simd::TileGrid tiles = simd::grid_of(settings_, options);
         std::unordered_set<std::size_t> wanted;
         for (const std::size_t pixel : chosen) {
@@ -130,19 +187,46 @@ class Verifier {
         return compared(draw(options).film, chosen);
     }
 
-    /// Draws all of it again, as it was drawn: true if all of its bits are those that it had, and
-    /// all that the file shows is made of these.
-    bool has_its_bits() {
-        const core::Film film = draw(options_).film;
-        return fingerprint_of(film) == text_in(image_.name, image_.texts, "Pixels") &&
-               compared(film, all_pixels()).same == film.pixels().size();
+    struct Whole {
+        bool has_its_bits;
+        bool has_its_tiers; ///< as many rays were decided by each tier as it says
+    };
+    /// Draws and writes all of it again, as it was drawn: it has its bits if all are those that it
+    /// had, and all that the file holds is what is written of these.
+    Whole again() {
+        std::optional<core::Layers> layers;
+        if (image_.linear_float) {
+            InputFile file = picture_file();
+            layers = read_own_exr(file).layers;
+        }
+        simd::RenderOptions options = options_;
+        options.layers = layers.has_value();
+        const simd::Rendering rendering = draw(options);
+        const std::optional<RayTiers> tiers =
+            ray_tiers_of(text_in(image_.name, image_.texts, "Rays"));
+        return {fingerprint_of(rendering.film) == text_in(image_.name, image_.texts, "Pixels") &&
+                    tiers && is_as_written(rendering.film) &&
+                    (!layers || has_same_bits(*layers, rendering.layers)),
+                tiers && tiers->text() == RayTiers(rendering.counters).text()};
     }
 
   private:
+    /// As render would write it, and compare reads it.
+    bool is_as_written(const core::Film& film) const {
+        const MemoryFile memory;
+        OutputFile output(memory.path(),
+                          image_.linear_float ? PictureFormat::exr : PictureFormat::png, exr_of);
+        output.commit(
+            film, {.transfer = settings_.transfer, .bits = image_.bits, .dpi = {}, .texts = {}});
+        const Image written = read_image(memory.path());
+        return written.rgb.is_same(image_.rgb) && written.alpha.is_same(image_.alpha);
+    }
+
     /// Some pixels of the picture with those of a film.
     Verdict compared(const core::Film& film, const std::vector<std::size_t>& pixels) const {
         Verdict verdict;
-        const AsWritten as_written(image_, settings_.transfer);
+        const AsWritten as_written(image_, settings_.transfer,
+                                   options_.precision == core::Precision::exact);
         for (const std::size_t pixel : pixels) {
             const int x = x_of(pixel) - part_.x0, y = y_of(pixel) - part_.y0;
             const std::array<float, 4> expected = as_written(film.at(x, y), film.alpha_at(x, y));
@@ -151,10 +235,8 @@ class Verifier {
                 const float there = channel < 3               ? image_.rgb[3 * pixel + channel]
                                     : image_.alpha.size() > 0 ? image_.alpha[pixel]
                                                               : 1.0F;
-                if (as_written.is_same(there, expected[channel])) continue;
-                const float off = std::abs(there - expected[channel]);
-                is_same = is_same && off <= 0.5F * as_written.step(expected[channel]);
-                is_near = is_near && off <= 1.5F * as_written.step(expected[channel]);
+                is_same = is_same && as_written.is_same(there, expected[channel]);
+                is_near = is_near && as_written.is_near(there, expected[channel]);
             }
             if (is_near) {
                 ++(is_same ? verdict.same : verdict.within_a_step);
@@ -164,6 +246,10 @@ class Verifier {
             }
         }
         return verdict;
+    }
+
+    InputFile picture_file() const {
+        return {name_ == "-" ? "standard input" : name_, std::string_view(bytes_)};
     }
 
     core::Scene seen_scene() {
@@ -238,6 +324,7 @@ class Verifier {
     int count_;
     unsigned seed_;
     int threads_;
+    std::string name_, bytes_; // of the picture
     Image image_;
     RenderArguments render_;
     PictureChoice picture_;
@@ -252,6 +339,7 @@ int verify(const VerifyArguments& arguments) {
     const bool is_same_scene = verifier.scene_is_the_same();
     std::printf("scene      %s\n", is_same_scene ? "the one that the picture names"
                                                  : "another one than the picture names");
+    std::fflush(stdout); // what follows may take as long as the picture
     const Verdict verdict = verifier.sample();
     std::printf("pixels     %zu drawn again by the reference: %zu the same, %zu within a step, %zu "
                 "others\n",
@@ -260,7 +348,12 @@ int verify(const VerifyArguments& arguments) {
     if (verdict.differing > 0) std::printf("first      at pixel %d, %d\n", verdict.x, verdict.y);
     bool has_its_bits = true;
     if (arguments.whole) {
-        has_its_bits = verifier.has_its_bits();
+        const Verifier::Whole again = verifier.again();
+        has_its_bits = again.has_its_bits;
+        std::printf("rays       %s\n", again.has_its_tiers
+                                           ? "decided as the picture says"
+                                           : "decided otherwise than the picture says, as by "
+                                             "another instruction set they may be");
         std::printf("all bits   %s\n",
                     has_its_bits ? "drawn again as they were" : "others than the picture had");
     }

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <bit>
+
 using namespace raylane;
 using namespace raylane::tests;
 
@@ -21,6 +23,9 @@ Outcome verify(const Workshop& workshop, const std::string& picture, const Optio
 constexpr const char* right = "scene      the one that the picture names\n"
                               "pixels     192 drawn again by the reference: 192 the same, 0 within "
                               "a step, 0 others\n";
+
+constexpr const char* again = "rays       decided as the picture says\n"
+                              "all bits   drawn again as they were\n";
 
 /// Writes a picture again with one pixel turned over, and what it says of itself.
 void turn_one_over(const std::filesystem::path& path) {
@@ -75,8 +80,7 @@ TEST_CASE("a picture is what its scene and its options draw, pixel by pixel") {
         const Outcome outcome = verify(workshop, "a.png");
         CHECK(outcome.out == right);
         CHECK(outcome.code == 0);
-        CHECK(verify(workshop, "a.png", {"--whole"}).out ==
-              right + std::string("all bits   drawn again as they were\n"));
+        CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
     }
     REQUIRE(workshop.render("a.png", {"--crop", "3,4,5x6"}).code == 0);
     CHECK(verify(workshop, "a.png", {"--pixels", "7"}).out.find("7 the same") != std::string::npos);
@@ -84,7 +88,87 @@ TEST_CASE("a picture is what its scene and its options draw, pixel by pixel") {
     for (const Options& options : {Options{}, {"--bits", "32", "--layers"}, {"--alpha"}}) {
         CAPTURE(options);
         REQUIRE(workshop.render("a.exr", options).code == 0);
-        CHECK(verify(workshop, "a.exr").out == right);
+        CHECK(verify(workshop, "a.exr", {"--whole"}).out == right + std::string(again));
+    }
+}
+
+namespace {
+
+/// The lowest bit of a float, or of a half, which has 13 fewer.
+float with_another_bit(float value, int fewer_bits) {
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ 1U << fewer_bits);
+}
+
+} // namespace
+
+TEST_CASE("one bit of a picture that is another is found, in whichever format") {
+    const Workshop workshop;
+    const auto others = [&](const std::string& name) {
+        const Outcome outcome = verify(workshop, name, {"--whole", "--pixels", "1"});
+        CHECK(outcome.code == 1);
+        CHECK(outcome.out.ends_with("all bits   others than the picture had\n"));
+    };
+    {
+        REQUIRE(workshop.render("a.png", {"--bits", "16", "--transfer", "linear"}).code == 0);
+        const scenes::Image image = scenes::read_image(workshop.path() / "a.png");
+        core::Film film(image.width, image.height);
+        for (std::size_t i = 0; i < film.pixels().size(); ++i)
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                film.at(static_cast<int>(i) % image.width,
+                        static_cast<int>(i) / image.width)[static_cast<int>(channel)] =
+                    image.rgb[3 * i + channel];
+        scenes::PictureOptions options{core::Transfer::linear, 16, {}, image.texts};
+        scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
+        CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
+        core::Color& one = film.at(3, 4);
+        one.y += one.y > 0.5F ? -1.0F / 65535.0F : 1.0F / 65535.0F;
+        scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
+        others("a.png");
+        // It is 257 of the steps that there are, if one of 8 bits.
+        one.y += one.y > 0.5F ? -0.5F / 255.0F : 0.5F / 255.0F;
+        scenes::OutputFile(workshop.path() / "a.png").commit(film, options);
+        CHECK(verify(workshop, "a.png").out.find("191 the same, 0 within a step, 1 others") !=
+              std::string::npos);
+    }
+    if (!scenes::has_exr()) return;
+    for (const int bits : {16, 32}) {
+        CAPTURE(bits);
+        REQUIRE(workshop.render("a.exr", {"--bits", std::to_string(bits), "--layers"}).code == 0);
+        scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "a.exr");
+        scenes::PictureOptions options;
+        options.bits = bits;
+        options.texts = picture.texts;
+        const auto written = [&] {
+            workshop.write("a.exr", scenes::exr_of(picture.film, &*picture.layers, options));
+        };
+        written();
+        CHECK(verify(workshop, "a.exr", {"--whole"}).out == right + std::string(again));
+        float& number = picture.film.at(7, 5).x;
+        const float right_number = number;
+        number = with_another_bit(number, bits == 16 ? 13 : 0);
+        written();
+        others("a.exr");
+        number = right_number;
+        core::Layers& layers = *picture.layers;
+        const std::size_t pixel = layers.index(8, 6);
+        for (float* const layer : {&layers.depth[pixel], &layers.normal[pixel].y}) {
+            const float before = *layer;
+            *layer = with_another_bit(before, 0);
+            written();
+            others("a.exr");
+            *layer = before;
+        }
+        for (std::uint32_t* const layer :
+             {&layers.shape[pixel], &layers.material[pixel], &layers.samples[pixel]}) {
+            *layer ^= 1U;
+            written();
+            others("a.exr");
+            *layer ^= 1U;
+        }
+        for (auto& [key, text] : options.texts)
+            if (key == "Rays") text = "all of them, by magic";
+        written();
+        others("a.exr");
     }
 }
 
@@ -195,7 +279,7 @@ TEST_CASE("each picture of a film is drawn again as if it were alone") {
             if (!std::filesystem::exists(workshop.path() / name)) continue; // frames -2:
             const Outcome outcome =
                 workshop.run({"verify", name, film.scene, "--quiet", "--whole"});
-            CHECK(outcome.out == right + std::string("all bits   drawn again as they were\n"));
+            CHECK(outcome.out == right + std::string(again));
             CHECK(outcome.code == 0);
         }
         // The picture of another place is another one.
