@@ -22,7 +22,7 @@ zlib1g-dev          reads what gzip compressed
 libpng-dev          writes and reads PNG
 libopenexr-dev      writes and reads OpenEXR
 libsdl2-dev         opens windows
-libxxhash-dev       checksums of what is kept of a picture
+libxxhash-dev       checksums of what is kept of a picture, and of built scenes
 xvfb                the test of these
 gemmi-dev           reads PDB and mmCIF,
 tao-pegtl-dev       which needs this

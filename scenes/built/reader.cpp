@@ -1,6 +1,7 @@
 #include "scenes/json/reader.hpp"
 
 #include "scenes/built/built_file.hpp"
+#include "scenes/built/checksum.hpp"
 #include "scenes/built/layout.hpp"
 #include "scenes/errors.hpp"
 
@@ -18,7 +19,8 @@ namespace {
 /// The sections of a file.
 class Directory {
   public:
-    Directory(std::string name, FileBytes file) : name_(std::move(name)), file_(std::move(file)) {
+    Directory(std::string name, FileBytes file, core::Workers& workers)
+        : name_(std::move(name)), file_(std::move(file)) {
         layout::Header header{};
         if (file_.bytes.size() < sizeof header)
             refuse("must be whole, got " + std::to_string(file_.bytes.size()) + " bytes");
@@ -32,6 +34,9 @@ class Directory {
         if (header.bytes != file_.bytes.size())
             refuse("must be whole: it should have " + std::to_string(header.bytes) +
                    " bytes, and has " + std::to_string(file_.bytes.size()));
+        if (std::ranges::any_of(header.unused, [](std::uint64_t number) { return number != 0; }) ||
+            header.checksum != checksum_of(file_.bytes.subspan(sizeof header), workers))
+            refuse_damaged("its bytes have another checksum");
         if (header.section_count > file_.bytes.size() / sizeof(layout::Section) - 1)
             refuse_damaged("its directory is too long");
         sections_ = {reinterpret_cast<const layout::Section*>(file_.bytes.data() + sizeof header),
@@ -170,7 +175,8 @@ bool looks_built(std::string_view head) {
 }
 
 core::Scene read_built(InputFile& file, core::Workers* workers) {
-    const Directory directory(file.name(), file.whole());
+    core::Workers alone;
+    const Directory directory(file.name(), file.whole(), workers != nullptr ? *workers : alone);
     const auto json = directory.array<char>(layout::scene);
     InputFile scene(file.name(), std::string_view(json.data(), json.size()));
     return read_json_with(scene, Reader(directory).shapes(), workers);

@@ -1,10 +1,12 @@
 #include "scenes/built/built_file.hpp"
+#include "scenes/built/checksum.hpp"
 #include "scenes/built/layout.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/export/writers.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,18 +43,27 @@ class Writer {
         header.format = layout::format;
         header.section_count = static_cast<std::uint32_t>(sections_.size());
         header.bytes = place;
+        Checksum checksum;
+        each_piece([&](std::span<const char> piece) { checksum.add(std::as_bytes(piece)); });
+        header.checksum = checksum.result();
         file.reserve(static_cast<std::int64_t>(place));
         file.write({reinterpret_cast<const char*>(&header), sizeof header});
-        file.write({reinterpret_cast<const char*>(sections_.data()),
-                    sections_.size() * sizeof(layout::Section)});
-        static constexpr char zeros[layout::alignment] = {};
-        for (const std::string_view content : contents_) {
-            file.write(content);
-            file.write({zeros, layout::rounded_up(content.size()) - content.size()});
-        }
+        each_piece([&](std::span<const char> piece) { file.write(piece); });
     }
 
   private:
+    /// Of what is behind the header, one after the other.
+    template <class Visit>
+    void each_piece(const Visit& visit) const {
+        visit(std::span(reinterpret_cast<const char*>(sections_.data()),
+                        sections_.size() * sizeof(layout::Section)));
+        static constexpr char zeros[layout::alignment] = {};
+        for (const std::string_view content : contents_) {
+            visit(std::span(content));
+            visit(std::span(zeros, layout::rounded_up(content.size()) - content.size()));
+        }
+    }
+
     std::vector<layout::Section> sections_;
     std::vector<std::string_view> contents_; // of each
 };
@@ -77,6 +88,16 @@ std::vector<double> numbers_of(const core::Scene& scene) {
 }
 
 } // namespace
+
+void seal(std::string& built_file) {
+    layout::Header header{};
+    if (built_file.size() < sizeof header) return;
+    std::memcpy(&header, built_file.data(), sizeof header);
+    core::Workers alone;
+    header.checksum =
+        checksum_of(std::as_bytes(std::span(built_file)).subspan(sizeof header), alone);
+    std::memcpy(built_file.data(), &header, sizeof header);
+}
 
 void write_built(AtomicFile& file, const core::Scene& scene) {
     if (scene.solids().any())

@@ -39,7 +39,7 @@ foreach(part MAJOR MINOR RELEASE)
   list(APPEND version ${number})
 endforeach()
 list(JOIN version "." version)
-component(xxHash "${version}" BSD-2-Clause github/Cyan4973/xxHash "libxxhash[.]" raylane)
+component(xxHash "${version}" BSD-2-Clause github/Cyan4973/xxHash "libxxhash[.]" raylane libraylane)
 
 get_target_property(sources raylane_scenes SOURCES)
 if(sources MATCHES "gemmi_files")

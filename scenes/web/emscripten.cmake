@@ -20,6 +20,9 @@ foreach(package glm nlohmann_json xsimd)
   file(WRITE ${CMAKE_FIND_PACKAGE_REDIRECTS_DIR}/${package}-config-version.cmake
        "set(PACKAGE_VERSION_COMPATIBLE TRUE)\n")
 endforeach()
+find_path(xxhash_FOLDER xxhash.h PATHS /usr/local/include /usr/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+file(CREATE_LINK ${xxhash_FOLDER}/xxhash.h ${headers}/xxhash.h SYMBOLIC)
+set(XXHASH_INCLUDE_DIR ${headers})
 set(STB_INCLUDE_DIR ${headers}/stb)
 
 # An exception costs what the engine's own do, and a call that throws none, nothing.

@@ -1,3 +1,4 @@
+#include "scenes/built/built_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/format.hpp"
 #include "scenes/scene_file.hpp"
@@ -5,6 +6,7 @@
 #include "simd/render.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 /// One reader, for any bytes: a scene or all frames, or one complaint that names the file. Anything
@@ -68,7 +70,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     if (asks_for_much(text)) return 0;
     try {
-        read(text, Format::RAYLANE_FUZZ_FORMAT);
+        if constexpr (Format::RAYLANE_FUZZ_FORMAT == Format::built) {
+            std::string sealed(text); // or all that is found is the checksum
+            scenes::seal(sealed);
+            read(sealed, Format::built);
+        } else {
+            read(text, Format::RAYLANE_FUZZ_FORMAT);
+        }
     } catch (const scenes::BadInput& bad) {
         const std::string_view message = bad.what();
         constexpr Format format = Format::RAYLANE_FUZZ_FORMAT;

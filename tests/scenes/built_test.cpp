@@ -1,3 +1,4 @@
+#include "scenes/built/built_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/export/export.hpp"
 #include "scenes/export/writers.hpp"
@@ -230,7 +231,7 @@ bool is_read(const tests::TemporaryDirectory& directory, const std::string& cont
 
 } // namespace
 
-TEST_CASE("a built file with any byte changed is refused, or a scene that can be drawn") {
+TEST_CASE("a built file with any byte changed is refused, and behind that so is what is no scene") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";
     std::mt19937 engine(9);
@@ -255,6 +256,8 @@ TEST_CASE("a built file with any byte changed is refused, or a scene that can be
                 for (std::size_t i = at / 4 * 4; i < std::min(other.size(), at / 4 * 4 + 4); ++i)
                     other[i] = engine() % 2 == 0 ? '\xFF' : '\0';
             }
+            if (other != whole) CHECK(!is_read(directory, other));
+            seal(other);
             (is_read(directory, other) ? read : refused) += 1;
         }
         CAPTURE(refused, read);
