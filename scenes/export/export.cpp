@@ -11,7 +11,9 @@ enum class Format { json, nff, pov, built };
 
 Format format_of(const std::filesystem::path& path) {
     if (path == "-") return Format::json;
-    const std::string ending = path.extension().string();
+    std::string ending = path.extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     if (ending == ".json") return Format::json;
     if (ending == ".nff") return Format::nff;
     if (ending == ".pov") return Format::pov;
@@ -33,7 +35,7 @@ std::vector<std::string> export_scene(const std::filesystem::path& path, const c
     try {
         switch (format) {
         case Format::json:
-            write_json(text, scene);
+            differences = write_json(text, scene);
             break;
         case Format::nff:
             write_nff(text, scene, differences);

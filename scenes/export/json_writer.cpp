@@ -1,10 +1,16 @@
+#include "scenes/export/staging_in_json.hpp"
 #include "scenes/export/writers.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace raylane::scenes {
 
 namespace {
+
+/// Levels of objects and lists that an object of a file may have.
+constexpr int most_levels = 256;
 
 /// Writes objects, one key after the other.
 class Object {
@@ -228,22 +234,43 @@ void write_settings(Object& root, TextFile& file, const core::Settings& settings
     }
 }
 
-void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) {
+void write_camera(Object& object, const core::Camera& camera) {
+    const bool perspective = camera.projection == core::Projection::perspective;
+    object.text("type", perspective ? "perspective" : "orthographic");
+    object.vector("from", camera.from);
+    object.vector("at", camera.at);
+    object.vector("up", camera.up);
+    if (perspective)
+        object.number("field_of_view", camera.field_of_view);
+    else
+        object.number("height", camera.height);
+    if (camera.lens_radius > 0.0F) object.number("lens_radius", camera.lens_radius);
+    if (camera.focus_distance > 0.0F) object.number("focus_distance", camera.focus_distance);
+}
+
+void write_framing(Object& object, const core::Framing& framing, float depth_cue) {
+    const core::Framing usual;
+    object.text("type", "auto");
+    object.vector("view", framing.direction);
+    object.vector("up", framing.up);
+    if (framing.zoom != usual.zoom) object.number("zoom", framing.zoom);
+    if (framing.projection == core::Projection::orthographic)
+        object.key("orthographic") << "true";
+    else if (framing.field_of_view != usual.field_of_view)
+        object.number("field_of_view", framing.field_of_view);
+    if (depth_cue > 0.0F) object.number("depth_cue", depth_cue);
+}
+
+/// What of it follows from `staging` is left for the reader to find.
+void write_surroundings(Object& root, TextFile& file, const core::Scene& scene,
+                        const core::Staging& staging) {
     root.key("camera");
     {
-        const core::Camera& camera = scene.camera();
-        const bool perspective = camera.projection == core::Projection::perspective;
         Object object(file);
-        object.text("type", perspective ? "perspective" : "orthographic");
-        object.vector("from", camera.from);
-        object.vector("at", camera.at);
-        object.vector("up", camera.up);
-        if (perspective)
-            object.number("field_of_view", camera.field_of_view);
+        if (staging.framing)
+            write_framing(object, *staging.framing, staging.depth_cue);
         else
-            object.number("height", camera.height);
-        if (camera.lens_radius > 0.0F) object.number("lens_radius", camera.lens_radius);
-        if (camera.focus_distance > 0.0F) object.number("focus_distance", camera.focus_distance);
+            write_camera(object, scene.camera());
     }
     root.vector("background", scene.background());
     if (!scene.wavelengths().empty()) {
@@ -254,7 +281,7 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
         list << "]}";
     }
     const core::Fog& fog = scene.fog();
-    if (fog.kind != core::FogKind::none) {
+    if (fog.kind != core::FogKind::none && !(staging.depth_cue > 0.0F)) {
         root.key("fog");
         Object object(file);
         object.text("type", fog.kind == core::FogKind::linear_z ? "linear-z"
@@ -270,10 +297,14 @@ void write_surroundings(Object& root, TextFile& file, const core::Scene& scene) 
     }
 }
 
-void write_lights(Object& root, TextFile& file, const core::Scene& scene) {
+/// Without those that the camera brings along, if the reader is to find them.
+void write_lights(Object& root, TextFile& file, const core::Scene& scene,
+                  const core::Staging& staging) {
     root.key("lights") << "[";
     const char* separator = "\n";
-    for (const core::Light& light : scene.lights()) {
+    const std::size_t count = staging.lights ? scene.own_light_count() : scene.lights().size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const core::Light& light = scene.lights()[i];
         file << std::exchange(separator, ",\n");
         Object object(file);
         switch (light.kind) {
@@ -312,6 +343,7 @@ void write_lights(Object& root, TextFile& file, const core::Scene& scene) {
         }
         object.vector("color", light.color);
     }
+    if (staging.lights) file << separator << R"({"type": "camera"})";
     file << "]";
 }
 
@@ -322,6 +354,24 @@ void write_part(Object& object, const core::QuadricOf<double>& s) {
 template <class Shape>
 void write_part(Object& object, const Shape& shape) {
     write_shape(object, shape);
+}
+
+/// Levels of objects and lists that it is written with.
+int levels_of(const core::Solid& solid) {
+    if (solid.made == core::Made::of_shape)
+        return std::visit(
+            []<class Shape>(const Shape&) {
+                constexpr core::Kind kind = core::kind_of<Shape>;
+                constexpr bool has_rows = kind == core::Kind::box ||
+                                          kind == core::Kind::ellipsoid ||
+                                          kind == core::Kind::quadric;
+                return has_rows ? 3 : 2;
+            },
+            solid.shape);
+    int levels = 0;
+    for (const core::Solid& part : solid.parts)
+        levels = std::max(levels, levels_of(part));
+    return levels + 2;
 }
 
 void write_solid(TextFile& file, const core::Solid& solid) {
@@ -358,19 +408,23 @@ void write_materials(Object& root, TextFile& file, const core::Scene& scene) {
     file << "}";
 }
 
-void write_all_but_objects(Object& root, TextFile& file, const core::Scene& scene) {
+void write_all_but_objects(Object& root, TextFile& file, const core::Scene& scene,
+                           const core::Staging& staging) {
     write_settings(root, file, scene.settings());
-    write_surroundings(root, file, scene);
-    write_lights(root, file, scene);
+    write_surroundings(root, file, scene, staging);
+    write_lights(root, file, scene, staging);
     write_materials(root, file, scene);
 }
 
 } // namespace
 
-void write_json(TextFile& file, const core::Scene& scene) {
+Differences write_json(TextFile& file, const core::Scene& scene) {
+    const core::Staging staging = staging_in_json(scene);
+    Differences differences = lost_staging(scene.staging(), staging);
+    if (!scene.polygons().empty()) differences.insert(lost_polygons);
     Object root(file, ",\n");
     file << "\n";
-    write_all_but_objects(root, file, scene);
+    write_all_but_objects(root, file, scene, staging);
     root.key("objects") << "[";
     const char* separator = "\n";
     for_each_by_id(
@@ -383,16 +437,22 @@ void write_json(TextFile& file, const core::Scene& scene) {
             object.text("material", std::to_string(scene.material_index_of(id)));
         },
         [&](const core::Solid& solid, core::ShapeId) {
+            if (const int levels = levels_of(solid); levels > most_levels)
+                throw core::InvalidValue(
+                    "", "cannot have a solid of more than " + std::to_string(most_levels) +
+                            " levels of objects and lists, for none is read, got " +
+                            std::to_string(levels));
             file << std::exchange(separator, ",\n");
             write_solid(file, solid);
         });
     file << "\n]";
+    return differences;
 }
 
 void write_json_without_objects(TextFile& file, const core::Scene& scene) {
     Object root(file, ",\n");
     file << "\n";
-    write_all_but_objects(root, file, scene);
+    write_all_but_objects(root, file, scene, {});
     root.key("objects") << "[]";
 }
 
@@ -404,8 +464,8 @@ void write_json_settings(TextFile& file, const core::Settings& settings) {
 void write_json_without_shapes(TextFile& file, const core::Scene& scene) {
     Object root(file, ",\n");
     file << "\n";
-    write_surroundings(root, file, scene);
-    write_lights(root, file, scene);
+    write_surroundings(root, file, scene, {});
+    write_lights(root, file, scene, {});
     write_materials(root, file, scene);
     root.key("objects") << "[";
     const char* separator = "\n";

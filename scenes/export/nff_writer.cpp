@@ -21,18 +21,21 @@ class NffWriter {
         file_ << "b ";
         file_.list(scene_.background(), " ") << "\n";
         if (scene_.fog().kind != core::FogKind::none) differences_.insert("fog");
-        if (scene_.lights().empty())
-            differences_.insert("that there is no light, without which raylane does not read it");
+        bool has_light = false;
         for (const core::Light& light : scene_.lights()) {
             if (light.kind != core::LightKind::point) {
                 differences_.insert(core::is_soft(light.kind) ? "lights with a size"
                                                               : "directional lights");
                 continue;
             }
+            has_light = true;
             file_ << "l ";
             file_.list(light.position, " ") << " ";
             file_.list(light.color, " ") << "\n";
         }
+        if (!has_light)
+            differences_.insert("that there is no light, without which raylane does not read it");
+        if (!scene_.polygons().empty()) differences_.insert(lost_polygons);
         core::MaterialIndex filled = ~core::MaterialIndex{0};
         for_each_by_id(
             scene_,

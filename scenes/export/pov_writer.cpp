@@ -1,4 +1,5 @@
 #include "core/scene/camera_rays.hpp"
+#include "core/solids/solid_size.hpp"
 #include "scenes/export/writers.hpp"
 
 #include <algorithm>
@@ -9,6 +10,9 @@ namespace raylane::scenes {
 namespace {
 
 using core::Vec3d, core::Vec3f;
+
+/// Levels of solids that raylane reads of it.
+constexpr int most_depth = 125;
 
 class PovWriter {
   public:
@@ -29,6 +33,7 @@ class PovWriter {
         if (scene_.settings().outline.any())
             differences_.insert("the outline: there is none there");
         if (scene_.settings().alpha) differences_.insert("the alpha, which +ua has drawn there");
+        if (!scene_.polygons().empty()) differences_.insert(lost_polygons);
         write_camera();
         write_fog();
         for (const core::Light& light : scene_.lights())
@@ -36,6 +41,11 @@ class PovWriter {
         for (std::size_t i = 0; i < scene_.materials().size(); ++i)
             write_material(i, scene_.materials()[i]);
         const auto write_solid_of_others = [&](const core::Solid& solid, core::ShapeId id) {
+            if (const int depth = core::depth_of(solid); depth > most_depth)
+                throw core::InvalidValue("", "cannot have solids that are nested more than " +
+                                                 std::to_string(most_depth) +
+                                                 " deep, for none is read, got " +
+                                                 std::to_string(depth));
             write_solid(solid, scene_.materials()[scene_.medium_index_of(id)].transmits());
             file_ << "\n";
         };

@@ -10,16 +10,21 @@
 
 namespace raylane::scenes {
 
-/// What another program would not do as the scene has it, in words.
+/// What another program, or whoever reads the file, would not do as the scene has it, in words.
 using Differences = std::set<std::string>;
+inline constexpr const char* lost_polygons = "which triangles make a polygon";
 
-void write_json(TextFile& file, const core::Scene& scene);
+/// What of the view follows from the shapes is written as that, so far as JSON can say it. Returns
+/// what it cannot. Throws core::InvalidValue for a solid that is nested deeper than any that is
+/// read.
+Differences write_json(TextFile& file, const core::Scene& scene);
 /// Settings alone, in one line.
 void write_json_settings(TextFile& file, const core::Settings& settings);
-/// All but its settings and the shapes that are no solids, likewise.
+/// All but its settings and the shapes that are no solids; the view as it is.
 void write_json_without_shapes(TextFile& file, const core::Scene& scene);
-/// All but the objects.
+/// All but the objects; the view as it is.
 void write_json_without_objects(TextFile& file, const core::Scene& scene);
+/// These throw core::InvalidValue, too, for what the format has no word for at all.
 void write_nff(TextFile& file, const core::Scene& scene, Differences& differences);
 void write_pov(TextFile& file, const core::Scene& scene, Differences& differences);
 

@@ -1,0 +1,99 @@
+#include "scenes/export/staging_in_json.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace raylane::scenes {
+
+namespace {
+
+/// In all bits: zeros have signs.
+bool is_same(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+
+bool is_same(const core::Vec3f& a, const core::Vec3f& b) {
+    return is_same(a.x, b.x) && is_same(a.y, b.y) && is_same(a.z, b.z);
+}
+
+/// Of a projection's own numbers the other has none in a file.
+bool is_same(const core::Camera& a, const core::Camera& b) {
+    const bool perspective = a.projection == core::Projection::perspective;
+    return a.projection == b.projection && is_same(a.from, b.from) && is_same(a.at, b.at) &&
+           is_same(a.up, b.up) &&
+           (perspective ? is_same(a.field_of_view, b.field_of_view)
+                        : is_same(a.height, b.height)) &&
+           is_same(a.lens_radius, b.lens_radius) && is_same(a.focus_distance, b.focus_distance);
+}
+
+bool is_same(const core::Fog& a, const core::Fog& b) {
+    return a.kind == b.kind && is_same(a.color, b.color) && is_same(a.start, b.start) &&
+           is_same(a.end, b.end) && is_same(a.density, b.density);
+}
+
+bool is_same(const core::Light& a, const core::Light& b) {
+    return a.kind == b.kind && is_same(a.position, b.position) &&
+           is_same(a.direction, b.direction) && is_same(a.color, b.color) &&
+           is_same(a.radius, b.radius) && is_same(a.edge_u, b.edge_u) &&
+           is_same(a.edge_v, b.edge_v) && is_same(a.ground, b.ground) && is_same(a.reach, b.reach);
+}
+
+std::span<const core::Light> brought_lights(const core::Scene& scene) {
+    return std::span(scene.lights()).subspan(scene.own_light_count());
+}
+
+/// True for what scenes/json/surroundings.cpp takes.
+bool is_read(const core::Framing& framing) {
+    const bool perspective = framing.projection == core::Projection::perspective;
+    const auto across =
+        core::cross(core::convert<double>(framing.up), core::convert<double>(framing.direction));
+    return framing.direction != core::Vec3f(0.0F) && across != core::Vec3d(0.0) &&
+           framing.zoom >= 0.01F && framing.zoom <= 1000.0F &&
+           (!perspective || (framing.field_of_view >= 0.01F && framing.field_of_view <= 179.0F));
+}
+
+/// None where nothing has bounds by which a camera could find its place.
+std::optional<core::View> found_by(const core::Scene& scene, const core::Staging& staging) {
+    core::Frame frame = core::empty_frame(scene, staging, scene.settings());
+    core::include_shapes(scene, frame);
+    if (staging.framing && frame.empty()) return std::nullopt;
+    return core::staged(scene, staging, frame);
+}
+
+} // namespace
+
+core::Staging staging_in_json(const core::Scene& scene) {
+    core::Staging said = scene.staging();
+    said.turning = false;
+    std::optional<core::View> view;
+    if (said.framing && is_read(*said.framing)) {
+        // The one that goes with an angle, which is not written where there is none.
+        if (said.framing->projection == core::Projection::orthographic)
+            said.framing->field_of_view = core::Framing{}.field_of_view;
+        view = found_by(scene, said);
+    }
+    if (!view || !is_same(view->camera, scene.camera())) {
+        said.framing.reset();
+        if (said.lights) view = found_by(scene, said);
+    }
+    const bool is_cue_read = said.framing && said.depth_cue <= 0.99F;
+    if (!is_cue_read || !is_same(view->fog, scene.fog())) said.depth_cue = 0.0F;
+    const auto same = [](const core::Light& a, const core::Light& b) { return is_same(a, b); };
+    said.lights = said.lights && std::ranges::equal(view->lights, brought_lights(scene), same);
+    return said;
+}
+
+Differences lost_staging(const core::Staging& staging, const core::Staging& said) {
+    Differences lost;
+    if (staging.framing && !said.framing) lost.insert("a camera that finds its place by itself");
+    if (staging.lights && !said.lights) lost.insert("lights that go with the camera");
+    if (staging.depth_cue > 0.0F && !(said.depth_cue > 0.0F))
+        lost.insert("fog that goes with the camera");
+    return lost;
+}
+
+} // namespace raylane::scenes
