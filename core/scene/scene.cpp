@@ -144,8 +144,15 @@ ShapeId SceneBuilder::add(const Shape& shape, MaterialIndex material) {
 template <class AnyTriangle>
 ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material) {
     if (triangles.empty()) throw InvalidValue("", "must have at least one triangle, got none");
-    for (const AnyTriangle& triangle : triangles)
-        validate(triangle);
+    std::size_t number = 0;
+    try {
+        for (; number < triangles.size(); ++number)
+            validate(triangles[number]);
+    } catch (const InvalidValue& invalid) {
+        throw InvalidValue(std::to_string(number) + (invalid.field.empty() ? "" : "/") +
+                               invalid.field,
+                           invalid.expectation);
+    }
     require_material(material);
     require_room(triangles.size());
     const ShapeId first = append(triangles.front(), material);

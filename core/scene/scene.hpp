@@ -139,6 +139,7 @@ class SceneBuilder {
 
     /// Triangles that tile one flat polygon. A ray that leaves one of them can hit none of the
     /// others, however close to a common edge it starts. Returns the first id; the others follow.
+    /// Fields of a triangle are behind its number: "1/normals/0".
     template <class AnyTriangle>
     ShapeId add_polygon(std::span<const AnyTriangle> triangles, MaterialIndex material);
 

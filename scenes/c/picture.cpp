@@ -22,16 +22,19 @@ raylane_status raylane_render(const raylane_scene* scene, const raylane_settings
                               void* user, float* rgb) {
     return guarded([&] {
         static_cast<void>(checked("rgb", rgb));
+        const Scene& drawn = checked("scene", scene).scene;
         RenderOptions options;
-        if (settings != nullptr) options.settings = from_c(*settings);
+        if (settings != nullptr) {
+            options.settings = from_c(*settings);
+            options.settings->alpha = drawn.settings().alpha;
+        }
         options.threads = threads;
         options.precision = enum_from_int<Precision>("precision", precision);
-        const std::optional<Image> image =
-            render(checked("scene", scene).scene, options, [&](const Progress& done) {
-                if (progress == nullptr) return true;
-                const raylane_progress told = to_c(done);
-                return progress(&told, user) != 0;
-            });
+        const std::optional<Image> image = render(drawn, options, [&](const Progress& done) {
+            if (progress == nullptr) return true;
+            const raylane_progress told = to_c(done);
+            return progress(&told, user) != 0;
+        });
         if (!image) return failed(RAYLANE_CANCELLED, "cancelled");
         std::copy(image->rgb.begin(), image->rgb.end(), rgb);
         return RAYLANE_OK;

@@ -6,6 +6,7 @@
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
 #include "simd/render.hpp"
+#include "simd/threads.hpp"
 
 #include <algorithm>
 #include <mutex>
@@ -34,6 +35,8 @@ core::Precision precision_for(const Scene& scene, const core::Settings& settings
 simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
                             const simd::RenderOptions& options) {
     library::require_threads(options.threads);
+    if (options.threads == 0)
+        translated([] { static_cast<void>(simd::default_threads()); }); // it is no setting
     try {
         return simd::render(library::Internals::of(scene), settings, options);
     } catch (const core::InvalidValue& invalid) {

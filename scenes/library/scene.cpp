@@ -31,6 +31,11 @@ Scene owning(core::Scene&& scene) {
     return library::Internals::scene(std::make_shared<const core::Scene>(std::move(scene)));
 }
 
+/// To those who read and write, - is no file.
+std::filesystem::path file_named(const std::filesystem::path& path) {
+    return path == "-" ? "./-" : path;
+}
+
 } // namespace
 
 Scene::Scene(std::shared_ptr<const core::Scene> scene) : scene_(std::move(scene)) {}
@@ -198,37 +203,39 @@ std::size_t SceneBuilder::shape_count() const {
 }
 
 Scene SceneBuilder::build() {
-    SceneBuilder taken = std::move(*this);
-    core::SceneBuilder& builder = taken.builder();
-    library::copy(taken.camera, builder.camera);
-    library::copy(taken.background, builder.background);
-    library::copy(taken.fog, builder.fog);
-    library::copy(taken.settings, builder.settings);
-    builder.wavelengths = taken.wavelengths;
-    builder.wants_light = false;
-    simd::ParallelWorkers workers;
-    builder.workers = &workers;
-    return translated([&] { return owning(std::move(builder).build()); });
+    return translated([&] {
+        simd::ParallelWorkers workers; // before anything is taken
+        SceneBuilder taken = std::move(*this);
+        core::SceneBuilder& builder = taken.builder();
+        library::copy(taken.camera, builder.camera);
+        library::copy(taken.background, builder.background);
+        library::copy(taken.fog, builder.fog);
+        library::copy(taken.settings, builder.settings);
+        builder.wavelengths = taken.wavelengths;
+        builder.wants_light = false;
+        builder.workers = &workers;
+        return owning(std::move(builder).build());
+    });
 }
 
 Scene load(const std::filesystem::path& path, const OnRemark& on_remark) {
-    simd::ParallelWorkers workers;
     return translated([&] {
-        return owning(scenes::load_scene(path, {.workers = &workers, .on_remark = on_remark}));
+        simd::ParallelWorkers workers;
+        return owning(
+            scenes::load_scene(file_named(path), {.workers = &workers, .on_remark = on_remark}));
     });
 }
 
 Scene parse(std::string_view text, const std::string& name, const OnRemark& on_remark) {
-    simd::ParallelWorkers workers;
     return translated([&] {
+        simd::ParallelWorkers workers;
         return owning(
             scenes::parse_scene(name, text, {.workers = &workers, .on_remark = on_remark}));
     });
 }
 
 void save(const Scene& scene, const std::filesystem::path& path, const OnRemark& on_remark) {
-    // To the exporter, - is standard output.
-    const std::filesystem::path file = path == "-" ? "./-" : path;
+    const std::filesystem::path file = file_named(path);
     const std::vector<std::string> differences =
         translated([&] { return scenes::export_scene(file, library::Internals::of(scene)); });
     if (on_remark)

@@ -2,7 +2,6 @@
 
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
-#include "simd/default_rounding.hpp"
 #include "simd/stream/row_worker.hpp"
 #include "simd/stream_tracer.hpp"
 #include "simd/threads.hpp"
@@ -128,10 +127,14 @@ std::optional<core::Precision> library::core_precision(Precision precision) {
 
 Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene) {
     library::require_threads(options.threads);
-    const simd::DefaultRounding rounding;
-    tracer_ = std::make_shared<const simd::StreamTracer>(
-        library::Internals::of(scene_), options.threads, simd::best_isa(),
-        library::core_precision(options.precision).value_or(core::Precision::exact));
+    const core::Precision precision =
+        library::core_precision(options.precision).value_or(core::Precision::exact);
+    tracer_ = library::translated([&] {
+        return std::make_shared<const simd::StreamTracer>(
+            library::Internals::of(scene_),
+            options.threads > 0 ? options.threads : simd::default_threads(), simd::best_isa(),
+            precision);
+    });
 }
 
 void Tracer::intersect(const RaySpan& rays, const HitSpan& hits) const {

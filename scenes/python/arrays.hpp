@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /// NumPy's arrays as the library's spans. What lies one after the other in memory is taken as it
@@ -62,18 +63,22 @@ py::object whole_numbers(const py::handle& values, const char* field, Value most
     const char kind = array.dtype().kind();
     if (kind != 'b' && kind != 'i' && kind != 'u' && array.size() > 0)
         throw InvalidValue(field, "must be a whole number, or an array of them");
-    const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> numbers(array);
-    py::array_t<Value> result(
-        std::vector<py::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
-    Value* to = result.mutable_data();
-    for (py::ssize_t i = 0; i < numbers.size(); ++i) {
-        const std::int64_t number = numbers.data()[i];
-        if (number < 0 || number > std::int64_t{most})
-            throw InvalidValue(field, "must be from 0 to " + std::to_string(most) + ", got " +
-                                          std::to_string(number));
-        to[i] = static_cast<Value>(number);
-    }
-    return result;
+    const auto all_in = [&]<class Wide>(std::type_identity<Wide>) {
+        const py::array_t<Wide, py::array::c_style | py::array::forcecast> numbers(array);
+        py::array_t<Value> result(
+            std::vector<py::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
+        Value* to = result.mutable_data();
+        for (py::ssize_t i = 0; i < numbers.size(); ++i) {
+            const Wide number = numbers.data()[i];
+            if (std::cmp_less(number, 0) || std::cmp_greater(number, most))
+                throw InvalidValue(field, "must be from 0 to " + std::to_string(most) + ", got " +
+                                              std::to_string(number));
+            to[i] = static_cast<Value>(number);
+        }
+        return result;
+    };
+    return kind == 'u' ? all_in(std::type_identity<std::uint64_t>())
+                       : all_in(std::type_identity<std::int64_t>());
 }
 
 inline std::string shape_text(const py::array& array) {

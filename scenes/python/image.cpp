@@ -123,7 +123,7 @@ py::object render_picture(const Scene& scene, const py::object& settings, int th
             told = state;
             const py::gil_scoped_acquire lock;
             const py::object answer = progress(state.pixels, state.total_pixels);
-            if (is_done || answer.is_none()) continue; // what is done is not cancelled
+            if (answer.is_none()) continue;
             const int goes_on = PyObject_IsTrue(answer.ptr());
             if (goes_on < 0) throw py::error_already_set();
             if (goes_on == 0) return py::none();

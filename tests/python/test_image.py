@@ -106,7 +106,8 @@ def test_progress(birthday):
     for no in (False, 0, np.False_):
         with pytest.raises(raylane.Cancelled):
             raylane.render(birthday, width=900, height=900, grid=8, progress=lambda done, total: no)
-    raylane.render(birthday, width=32, height=32, progress=lambda done, total: done < total)  # it is done
+    with pytest.raises(raylane.Cancelled):  # at the last call, too
+        raylane.render(birthday, width=32, height=32, progress=lambda done, total: done < total)
 
     def refuse(done, total):
         raise KeyError(done)

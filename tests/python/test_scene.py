@@ -150,6 +150,8 @@ def test_solids():
 def test_what_is_not_valid_says_where():
     builder = SceneBuilder()
     material = builder.add_material()
+    bad_normals = np.ones((2, 3, 3))
+    bad_normals[1, 1] = 0
     for call, field in (
         (lambda: builder.add_spheres([[0, 0, 0], [1, 1, 1]], [1, -1], material=material), "1/radius"),
         (lambda: builder.add_spheres([[0, 0, 0]], 1, material=7), "0/material"),
@@ -177,11 +179,15 @@ def test_what_is_not_valid_says_where():
         (lambda: builder.add_spheres([[0, 0, 0], [1]], 1, material=material), "centers"),
         (lambda: builder.add_spheres(np.zeros((4, 3)), 1, material=[0, 0, 0]), "material"),
         (lambda: builder.add_polygon(np.zeros((1, 3, 3)), material=-1), "material"),
+        (lambda: builder.add_polygon(np.stack([np.eye(3), np.eye(3)]), normals=bad_normals, material=0), "1/normals/1"),
+        (lambda: builder.add_spheres([[0, 0, 0]], 1, material=np.uint64(2**64 - 1)), "material"),
     ):
         with pytest.raises(ValueError) as error:
             call()
         assert isinstance(error.value, InvalidValue) and error.value.field == field, str(error.value)
         assert error.value.expectation and str(error.value) == f"{field}: {error.value.expectation}"
+    with pytest.raises(InvalidValue, match=f"got {2**64 - 1}"):
+        builder.add_spheres([[0, 0, 0]], 1, material=np.uint64(2**64 - 1))
     for call in (
         lambda: builder.add_material(colour=(1, 0, 0)),
         lambda: builder.add_material(raylane.Material(), color=(1, 0, 0)),
@@ -242,6 +248,61 @@ def test_saved_and_pickled(scenes, tmp_path, name):
         hits = Tracer(other).intersect(camera, towards, double=True)
         assert np.array_equal(hits.t, expected.t) and np.array_equal(hits.shape, expected.shape)
         assert other.camera == scene.camera and other.settings == scene.settings and other.material(0) == scene.material(0)
+
+
+def test_light_goes_with_the_camera(tmp_path):
+    """Whether a scene of atoms has been saved, or pickled, or is looked at as it was read."""
+    scene = raylane.from_atoms(["O", "H", "H"], [[0, 0, 0.1], [0, 0.77, -0.46], [0, -0.77, -0.46]])
+    path = tmp_path / "a.JSON"  # in any case
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        scene.save(path)
+        again = [raylane.load(path), pickle.loads(pickle.dumps(scene))]
+        seen = scene.seen_by(scene.camera_on_all((0, -1, 0)))
+        again_seen = [pickle.loads(pickle.dumps(seen))]
+    size = {"width": 40, "height": 30, "quality": 0}
+    camera = scene.camera_on_all((-1, 0.5, 0))
+    for other in again:
+        assert other.lights == scene.lights
+        assert np.array_equal(other.render(camera=camera, **size).rgb, scene.render(camera=camera, **size).rgb)
+    for other in again_seen:
+        assert other.lights == seen.lights
+        assert np.array_equal(other.render(**size).rgb, seen.render(**size).rgb)
+    with pytest.warns(UserWarning, match="fog that goes with the camera"):
+        seen.save(path)
+    other = raylane.load(path)
+    assert other.lights == seen.lights and other.fog == seen.fog
+    assert np.array_equal(other.render(**size).rgb, seen.render(**size).rgb)
+
+
+def test_pickles_say_what_they_lose():
+    corners = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]], np.float32)
+    builder = SceneBuilder()
+    builder.add_polygon(corners, material=builder.add_material())
+    builder.add_solid(Solid.sphere((5, 0, 0), 1) - Solid.sphere((5, 0, 1), 0.5), material=0)
+    with pytest.warns(UserWarning, match="which triangles make a polygon"):
+        assert pickle.loads(pickle.dumps(builder.build())).shape_count == 4
+    solid = Solid.sphere((0, 0, 0), 1)
+    for i in range(150):
+        solid = (solid - Solid.sphere((1, 0.001 * i, 0), 0.25)) | Solid.sphere((-1, 0.001 * i, 0), 0.25)
+    builder.add_material()
+    builder.add_solid(solid, material=0)
+    with pytest.raises(raylane.BadInput, match="more than 256 levels"):
+        pickle.dumps(builder.build())
+
+
+def test_threads_in_the_environment(scenes, monkeypatch):
+    scene = raylane.load(scenes / "sphere.json")
+    monkeypatch.setenv("RAYLANE_THREADS", "abc")
+    for act in (
+        lambda: raylane.load(scenes / "sphere.json"),
+        lambda: SceneBuilder().build(),
+        lambda: raylane.render(scene, width=8, height=8),
+        lambda: Tracer(scene),
+    ):
+        with pytest.raises(InvalidValue) as error:
+            act()
+        assert error.value.field == "RAYLANE_THREADS"
 
 
 def test_saved_for_others(scenes, tmp_path):

@@ -36,9 +36,9 @@ struct InputError {
     std::string message;    ///< "must be positive, got -1"
 };
 
-/// A file that cannot be meant: a malformed scene, an unknown format. The text names the file, the
-/// place in it and what was expected there:
-/// "a.json:12:34: /objects/3/radius: must be positive, got -1".
+/// A file that cannot be meant: a malformed scene, an unknown format, one that is not there. The
+/// text names the file, the place in it and what was expected there: "a.json:12:34:
+/// /objects/3/radius: must be positive, got -1".
 ///
 /// A scene in JSON is read on behind a mistake. Up to ten are told, each on a line of its own (the
 /// last has no line end), in the order of the file; then "a.json: and more" if there are more.
@@ -56,7 +56,8 @@ class BadInput : public std::runtime_error {
     std::shared_ptr<const std::vector<InputError>> errors_;
 };
 
-/// The system would not read or write: "out.png: cannot write: No space left on device".
+/// The system would not read or write a file that is there, or a new one: "out.png: cannot write:
+/// No space left on device".
 class SystemRefused : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

@@ -2,9 +2,10 @@
  * The library for C, and for all that can call C. Handles are opaque, no exception comes across,
  * and arrays are the caller's.
  *
- * Each call returns RAYLANE_OK, or what went wrong; raylane_error_text() says it in one line. What
- * a value may be, what the answers mean and how threads may call is what the C++ headers say of the
- * same names: shapes.hpp, material.hpp, surroundings.hpp, scene.hpp, tracer.hpp, image.hpp.
+ * Each call returns RAYLANE_OK, or what went wrong; raylane_error_text() says it in one line, but
+ * for a file with several mistakes, each of which has a line. What a value may be, what the answers
+ * mean and how threads may call is what the C++ headers say of the same names: shapes.hpp,
+ * material.hpp, surroundings.hpp, scene.hpp, tracer.hpp, image.hpp.
  *
  * Handles that a call makes are released by the caller. A tracer keeps its scene. NULL is no
  * handle; to release it does nothing. */
@@ -28,7 +29,7 @@ RAYLANE_API const char* raylane_version(void);
 typedef enum raylane_status {
     RAYLANE_OK = 0,
     RAYLANE_INVALID_VALUE = 1,  /**< a value that no scene may hold, or no call may be made with */
-    RAYLANE_BAD_INPUT = 2,      /**< a file that cannot be meant */
+    RAYLANE_BAD_INPUT = 2,      /**< a file that cannot be meant, or is not there */
     RAYLANE_SYSTEM_REFUSED = 3, /**< the system would not read or write */
     RAYLANE_OUT_OF_MEMORY = 4,
     RAYLANE_CANCELLED = 5, /**< by the callback */
@@ -147,7 +148,7 @@ typedef struct raylane_outline {
     float creases;
 } raylane_outline;
 
-/** All but alpha: a scene that has it is drawn over black. */
+/** All but alpha, which is the scene's whatever these say: one that has it is drawn over black. */
 typedef struct raylane_settings {
     int width, height, grid;
     uint8_t samples, transfer;
@@ -217,15 +218,17 @@ RAYLANE_API raylane_status raylane_add_quadrics(raylane_builder* builder,
 RAYLANE_API raylane_status raylane_add_ellipsoids(raylane_builder* builder,
                                                   const raylane_ellipsoid* shapes, size_t count,
                                                   uint32_t material, uint32_t* first);
-/** Triangles that tile one flat polygon. */
+/** Triangles that tile one flat polygon: all of them are added or, if one is not valid, none; the
+ * text says which one it is. */
 RAYLANE_API raylane_status raylane_add_polygon(raylane_builder* builder,
                                                const raylane_triangle* triangles, size_t count,
                                                uint32_t material, uint32_t* first);
 
-/** The builder is new then, whether this succeeds or not. */
+/** The builder is new then, whether this succeeds or not, unless it is RAYLANE_THREADS in the
+ * environment that is no number of threads. */
 RAYLANE_API raylane_status raylane_build(raylane_builder* builder, raylane_scene** scene);
-/** A file, by its path in the system's encoding; or a text in memory, which messages call `name`.
- */
+/** A file, by its path in the system's encoding ("-" is one of that name); or a text in memory,
+ * which messages call `name`. */
 RAYLANE_API raylane_status raylane_load(const char* path, raylane_scene** scene);
 RAYLANE_API raylane_status raylane_parse(const char* text, size_t length, const char* name,
                                          raylane_scene** scene);
@@ -293,7 +296,7 @@ typedef struct raylane_progress {
 typedef int (*raylane_progress_callback)(const raylane_progress* progress, void* user);
 
 /** The picture, into height x width x 3 floats of the caller's: rows from the top down, linear RGB.
- * settings: NULL for the scene's own. progress: NULL for none. */
+ * settings: NULL for the scene's own; its alpha counts in any case. progress: NULL for none. */
 RAYLANE_API raylane_status raylane_render(const raylane_scene* scene,
                                           const raylane_settings* settings, int threads,
                                           int precision, raylane_progress_callback progress,

@@ -108,7 +108,8 @@ class SceneBuilder {
     ShapeId add(const Solid& solid, MaterialIndex material);
 
     /// One or more triangles that tile one flat polygon: no reflection or shadow of one of them
-    /// falls on another. Returns the first id; the others follow.
+    /// falls on another. Returns the first id; the others follow. Fields of a triangle are behind
+    /// its number: "1/normals/0".
     ShapeId add_polygon(std::span<const Triangle> triangles, MaterialIndex material);
     ShapeId add_polygon(std::span<const SmoothTriangle> triangles, MaterialIndex material);
     ShapeId add_polygon(std::span<const TriangleOf<double>> triangles, MaterialIndex material);
@@ -119,8 +120,9 @@ class SceneBuilder {
 
     /// Checks what concerns the scene as a whole (fields are those above, and
     /// "lights/0/position", ...), builds the hierarchy, and hands the scene over. The builder is
-    /// new then, whether this succeeds or throws. A scene without lights shows ambient terms,
-    /// reflections and refractions alone.
+    /// new then, whether this succeeds or throws, unless the field is "RAYLANE_THREADS": it has
+    /// threads, as many as that says in the environment. A scene without lights shows ambient
+    /// terms, reflections and refractions alone.
     Scene build();
 
   private:
@@ -137,9 +139,10 @@ using OnRemark = std::function<void(const std::string& remark)>;
 
 /// Reads a scene from a file: JSON (scenes/raylane-scene.schema.json describes it), NFF, POV-Ray's
 /// language or Tachyon's, or what save() has made; or atoms, of which it makes one: PDB, mmCIF,
-/// CIF, XYZ, GRO, LAMMPS' dump or data. The format follows its ending or else its content. What the
-/// file includes is read as well. Throws BadInput for what is malformed, in JSON for up to ten
-/// mistakes at once, SystemRefused, and std::bad_alloc.
+/// CIF, XYZ, GRO, LAMMPS' dump or data. The format follows its ending or else its content; "-" is a
+/// file of that name. What the file includes is read as well. Throws BadInput for what is
+/// malformed, in JSON for up to ten mistakes at once, or not there, SystemRefused, std::bad_alloc,
+/// and InvalidValue, field "RAYLANE_THREADS", where that is no number of threads.
 RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_remark = {});
 
 /// The same for a scene in memory. `name` is what messages call it, and where included files are
@@ -147,13 +150,15 @@ RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_rem
 RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene",
                         const OnRemark& on_remark = {});
 
-/// Writes a scene to a file, which appears whole or not at all, in the format of its ending: .json,
-/// which has all of it that counts, to the bit, but which triangles make a polygon; .rl, which has
-/// that, too, and the hierarchy, and which load() maps rather than reads, if it is of the same
-/// format's version, but no solids that are made of others; .nff and .pov (POV-Ray 3.7), for other
-/// programs, which have less. What is not in the file as it is in the scene, for
-/// want of a word in the format, is told to `on_remark`. Throws BadInput for another ending, or for
-/// shapes that the format does not have, and SystemRefused.
+/// Writes a scene to a file, which appears whole or not at all, in the format of its ending (in any
+/// case): .json, which has all of it that counts, to the bit, but which triangles make a polygon
+/// and, of what goes with a camera, that fog goes with one that has been given its place; .rl,
+/// which has these, too, and the hierarchy, and which load() maps rather than reads, but no solids
+/// that are made of others, and is for versions of raylane with the same format of it; .nff and
+/// .pov (POV-Ray 3.7), for other programs, which have less. What is not in the file as it is in the
+/// scene, for want of a word in the format, is told to `on_remark`. Throws BadInput for another
+/// ending, for shapes that the format does not have, or for solids that are nested deeper than is
+/// read of it (in JSON some 127 levels, in .pov 125), and SystemRefused.
 RAYLANE_API void save(const Scene& scene, const std::filesystem::path& path,
                       const OnRemark& on_remark = {});
 

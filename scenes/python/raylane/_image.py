@@ -157,7 +157,7 @@ def render(
     ``settings`` are the scene's unless they are given; further arguments change them: ``render(scene,
     width=800, height=600, grid=4)``. ``camera``: another one (:meth:`Scene.seen_by`). ``crop`` is a part of the picture: x, y, width, height. ``progress`` is
     called with pixels that are done, and all, every now and then; True: tqdm's bar, if that is installed. If it
-    returns False, :class:`Cancelled` is raised; Ctrl-C stops at once.
+    returns False, even at last, :class:`Cancelled` is raised; Ctrl-C stops at once.
     """
     chosen = dataclasses.replace(scene.settings if settings is None else settings, **changed)
     if camera is not None:

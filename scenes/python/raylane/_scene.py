@@ -119,10 +119,12 @@ class Scene:
     def save(self, path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> None:
         """Writes a file, in the format of its ending.
 
-        ``.json`` has all of the scene that counts, to the bit, but which triangles make a polygon; ``.rl`` has that,
-        too, and is mapped into memory rather than read, but has no solids that are made of others and is for this
-        version of raylane alone; ``.nff`` and ``.pov``, for other programs, have less. What is left out there is warned of, or told to ``on_remark``. The file appears whole or
-        not at all. Raises :class:`BadInput` for shapes that the format does not have.
+        ``.json`` has all of the scene that counts, to the bit, but which triangles make a polygon and, of what goes
+        with a camera, that fog goes with one that has been given its place; ``.rl`` has these, too, and is mapped
+        into memory rather than read, but has no solids that are made of others, and is for versions of raylane with
+        the same format of it; ``.nff`` and ``.pov``, for other programs, have less. What is left out is warned of,
+        or told to ``on_remark``. The file appears whole or not at all. Raises :class:`BadInput` for shapes that the
+        format does not have, and for solids that are nested deeper than is read of it.
         """
         _raylane.save(self._scene, os.fspath(path), on_remark)
 
@@ -133,7 +135,10 @@ class Scene:
         return self
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        """Pickled as ``.rl`` or, with solids, as ``.json``: not to be kept for another version of raylane."""
+        """Pickled as ``.rl``, for versions of raylane with the same format of it, or, with solids, as ``.json``.
+
+        What that does not have (:meth:`save`), as which triangles make a polygon, is warned of.
+        """
         with tempfile.TemporaryDirectory() as room:
             try:
                 name = "scene.rl"
@@ -291,7 +296,10 @@ class SceneBuilder:
         return range(*self._builder.add_triangles(corners, normals, material, False))
 
     def add_polygon(self, corners: ArrayLike, *, material: int, normals: Optional[ArrayLike] = None) -> range:
-        """(n, 3, 3): triangles that tile one flat polygon. No reflection or shadow of one falls on another."""
+        """(n, 3, 3): triangles that tile one flat polygon. No reflection or shadow of one falls on another.
+
+        If one is not valid, none is added, and the error's field says which one it is.
+        """
         return range(*self._builder.add_triangles(corners, normals, material, True))
 
     def add_boxes(self, corners: ArrayLike, edges: ArrayLike, *, material: ArrayLike) -> range:
@@ -350,8 +358,9 @@ class SceneBuilder:
 def load(path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] = _warn) -> Scene:
     """Reads a scene: JSON, NFF, POV-Ray's language, Tachyon's, what ``raylane build`` or :meth:`Scene.save` has made; or atoms.
 
-    The format follows the file's ending or else its content. Raises :class:`BadInput` with all mistakes of a
-    file, and :class:`SystemRefused`. What a file says and the scene does not have is warned of, or told to
+    The format follows the file's ending or else its content; ``"-"`` is a file of that name. Raises
+    :class:`BadInput` for a file that is malformed, in JSON with up to ten of its mistakes, or not there, and
+    :class:`SystemRefused`. What a file says and the scene does not have is warned of, or told to
     ``on_remark``.
     """
     return Scene(_raylane.load(os.fspath(path), on_remark))

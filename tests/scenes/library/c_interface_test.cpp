@@ -145,6 +145,26 @@ TEST_CASE("what C builds, asks and draws is what C++ does") {
     CHECK(rgb == image.rgb);
 }
 
+TEST_CASE("a scene's alpha counts in C, whoever's the settings are") {
+    const std::string text = R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+        "image": {"width": 16, "height": 12, "alpha": true}, "background": [1, 0.5, 0],
+        "lights": [{"type": "point", "position": [4, 6, 5]}], "materials": {"m": {}},
+        "objects": [{"type": "sphere", "material": "m", "center": [0, 0, 0], "radius": 1}]})";
+    raylane_scene* made = nullptr;
+    REQUIRE(raylane_parse(text.data(), text.size(), "a.json", &made) == RAYLANE_OK);
+    const SceneHandle scene(made);
+    const raylane_settings own = raylane_scene_settings(scene.get());
+    std::vector<float> pictures[2];
+    for (const raylane_settings* settings : {static_cast<const raylane_settings*>(nullptr), &own}) {
+        std::vector<float>& rgb = pictures[settings != nullptr ? 1 : 0];
+        rgb.resize(std::size_t{16} * 12 * 3);
+        CHECK(raylane_render(scene.get(), settings, 1, RAYLANE_EXACT, nullptr, nullptr,
+                             rgb.data()) == RAYLANE_OK);
+    }
+    CHECK(pictures[0] == pictures[1]);
+    CHECK(pictures[0][0] == 0.0F); // over black
+}
+
 TEST_CASE("C has the defaults of C++") {
     const raylane_material material = raylane_default_material();
     CHECK(material.diffuse == Material{}.diffuse);
@@ -180,6 +200,10 @@ TEST_CASE("what goes wrong in C has a code and a line of text") {
     says(raylane_add_spheres(builder.get(), nullptr, 1, material, nullptr), RAYLANE_INVALID_VALUE,
          "shapes: must not be NULL");
     CHECK(raylane_add_spheres(builder.get(), nullptr, 0, material, nullptr) == RAYLANE_OK);
+    const raylane_triangle halves[] = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+                                       {{0, 0, 0}, {1, 1, 0}, {0, 1e31F, 0}}};
+    says(raylane_add_polygon(builder.get(), halves, 2, material, nullptr), RAYLANE_INVALID_VALUE,
+         "1/c/1: must be a number from -1e30 to 1e30, got 1e+31");
 
     raylane_scene* none = nullptr;
     CHECK(raylane_load("no/such.json", &none) == RAYLANE_BAD_INPUT);

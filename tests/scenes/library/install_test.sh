@@ -87,6 +87,27 @@ cmp sphere.png ball.png || fail "another picture from C"
 "$folder/examples/path" || fail "another picture than raylane's"
 [ -s path.png ] || fail "no picture of paths"
 
+# A sanitizer of C++ wants its compiler.
+in_c=yes
+case $flags in *-fsanitize*) in_c= ;; esac
+if [ -n "$in_c" ]; then
+    echo "a project in C alone finds it, builds and runs"
+    mkdir in_c
+    cat >in_c/CMakeLists.txt <<EOF
+cmake_minimum_required(VERSION 3.25)
+project(in_c LANGUAGES C)
+find_package(raylane REQUIRED)
+add_executable(hits_in_c "$source/scenes/examples/hits_in_c.c")
+target_link_libraries(hits_in_c PRIVATE raylane::raylane)
+EOF
+    quietly "$cmake" -S in_c -B in_c/build -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" \
+        -DCMAKE_C_COMPILER="$c_compiler" -DCMAKE_C_FLAGS="$flags"
+    quietly "$cmake" --build in_c/build
+    rm ball.png
+    in_c/build/hits_in_c
+    [ -s ball.png ] || fail "no picture from C alone"
+fi
+
 echo "pkg-config finds it"
 if command -v pkg-config >/dev/null; then
     pc=$(find "$prefix" -name raylane.pc)
@@ -96,6 +117,13 @@ if command -v pkg-config >/dev/null; then
     rm sphere.png
     ./hits.pc
     [ -s sphere.png ] || fail "no picture"
+    if [ -n "$in_c" ]; then
+        eval "quietly \"$c_compiler\" $flags -std=c99 \"$source/scenes/examples/hits_in_c.c\" -o hits_in_c.pc \
+            $words ${run_path:+\"$run_path\"}"
+        rm ball.png
+        ./hits_in_c.pc
+        [ -s ball.png ] || fail "no picture from C"
+    fi
 else
     echo "(there is none)"
 fi

@@ -3,7 +3,9 @@
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -169,6 +171,87 @@ TEST_CASE("scenes are saved, and are the same when they are loaded again") {
     dark.add(Sphere{{0, 0, 0}, 1}, dark.add_material(Material()));
     save(dark.build(), path("dark.json"));
     CHECK(load(path("dark.json")).shape_count() == 1);
+}
+
+TEST_CASE("to the library, - is a file as any other") {
+    CHECK(refusal_of([] { load("-"); }) == "./-: no such file");
+}
+
+namespace {
+
+/// RAYLANE_THREADS as it says, until it ends.
+class ThreadsInEnvironment {
+  public:
+    explicit ThreadsInEnvironment(const char* text) {
+        if (const char* before = std::getenv("RAYLANE_THREADS")) before_ = before;
+        ::setenv("RAYLANE_THREADS", text, 1);
+    }
+    ~ThreadsInEnvironment() {
+        if (before_)
+            ::setenv("RAYLANE_THREADS", before_->c_str(), 1);
+        else
+            ::unsetenv("RAYLANE_THREADS");
+    }
+    ThreadsInEnvironment(const ThreadsInEnvironment&) = delete;
+    ThreadsInEnvironment& operator=(const ThreadsInEnvironment&) = delete;
+
+  private:
+    std::optional<std::string> before_;
+};
+
+} // namespace
+
+TEST_CASE(
+    "threads in the environment that are none are an invalid value, wherever they are asked for") {
+    const Scene scene = parse(with_objects(""));
+    SceneBuilder builder;
+    builder.add(Sphere{{0, 0, 0}, 1}, builder.add_material({}));
+    for (const char* text : {"abc", "0", "99999"}) {
+        const ThreadsInEnvironment environment(text);
+        const auto field_of = [](const auto& act) -> std::string {
+            try {
+                act();
+            } catch (const InvalidValue& invalid) {
+                return invalid.field;
+            }
+            return "";
+        };
+        CHECK(field_of([] { load(RAYLANE_SOURCE_DIR "/scenes/sphere.json"); }) ==
+              "RAYLANE_THREADS");
+        CHECK(field_of([] { parse(with_objects("")); }) == "RAYLANE_THREADS");
+        CHECK(field_of([&] { builder.build(); }) == "RAYLANE_THREADS");
+        CHECK(builder.shape_count() == 1); // that it has still
+        CHECK(field_of([&] { render(scene); }) == "RAYLANE_THREADS");
+        CHECK(field_of([&] { Tracer asked(scene); }) == "RAYLANE_THREADS");
+        CHECK(field_of([&] {
+                  render(scene, {.threads = 1});
+                  Tracer asked(scene, {.threads = 1});
+              }).empty());
+    }
+    CHECK(builder.build().shape_count() == 1);
+}
+
+TEST_CASE("a scene of atoms that is saved as JSON is lit from wherever it is looked at") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "a.json";
+    const Scene scene = parse("3\n\nC 0 0 0\nO 2 1 -3\nN 0 3 1\n", "atoms.xyz");
+    save(scene, path, [](const std::string& remark) { FAIL(remark); });
+    const Scene again = load(path);
+    Settings settings = scene.settings();
+    settings.width = 40;
+    settings.height = 30;
+    const auto drawn = [&](const Scene& of) { return render(of, {.settings = settings}).rgb; };
+    CHECK(drawn(again) == drawn(scene));
+    for (const Vec3 direction : {Vec3{0, -1, 0}, Vec3{1, 2, -3}}) {
+        const Camera camera = scene.camera_on_all(direction);
+        const Scene seen = scene.seen_by(camera);
+        CHECK(drawn(again.seen_by(camera)) == drawn(seen));
+        std::vector<std::string> remarks;
+        save(seen, path, [&](const std::string& remark) { remarks.push_back(remark); });
+        REQUIRE(remarks.size() == 1);
+        CHECK(remarks[0].ends_with(": fog that goes with the camera"));
+        CHECK(drawn(load(path)) == drawn(seen));
+    }
 }
 
 TEST_CASE("what a file says and a scene does not have is told to who loads it") {

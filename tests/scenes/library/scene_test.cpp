@@ -232,6 +232,12 @@ TEST_CASE("a value that no scene may hold is refused, and the builder stays") {
     }
     const auto message = [](const auto& act) { return message_of<InvalidValue>(act); };
     CHECK(message([&] { builder.add(Sphere{}, m); }) == "radius: must be positive, got 0");
+    CHECK(message([&] {
+              builder.add(SphereOf<double>{{0, 0, 0}, 1e-40}, m);
+          }) == "radius: must be at least 1.2e-38, got 1e-40");
+    CHECK(message([&] {
+              builder.add(SphereOf<double>{{1e-40, 0, 0}, 1}, m);
+          }) == "center/0: must be 0 or at least 1.2e-38 in size, got 1e-40");
     CHECK(message([&] { builder.add(Plane{}, m); }) ==
           "normal: must not be the zero vector, got [0, 0, 0]");
     CHECK(message([&] {
@@ -257,6 +263,16 @@ TEST_CASE("polygons are numbered and known as such") {
     const Vec3 up{0, 0, 1};
     const std::array<SmoothTriangle, 2> smooth = {{{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, up, up, up},
                                                    {{0, 0, 2}, {1, 1, 2}, {0, 1, 2}, up, up, up}}};
+    const auto message = [](const auto& act) { return message_of<InvalidValue>(act); };
+    std::array<SmoothTriangle, 2> wrong = smooth;
+    wrong[1].normal_b = {};
+    CHECK(message([&] { builder.add_polygon(wrong, m); }) ==
+          "1/normals/1: must not be the zero vector, got [0, 0, 0]");
+    const std::array<Triangle, 2> thin = {halves[0], {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}};
+    CHECK(message([&] {
+              builder.add_polygon(thin, m);
+          }).starts_with("1: must have three corners that are not in one line"));
+    CHECK(builder.shape_count() == 0);
     CHECK(builder.add(Sphere{{0, 0, 0}, 1}, m) == 0);
     CHECK(builder.add_polygon(halves, m) == 1);
     CHECK(builder.add_polygon(smooth, m) == 3);
