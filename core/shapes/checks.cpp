@@ -33,13 +33,22 @@ void require(bool good, const Field& field, const char* must, Number got) {
     if (!good) refuse(field, must, got);
 }
 
+namespace {
+
+/// `least`: what is wrong with a double that is too small.
 template <class Number>
-void require_coordinate(const Field& field, Number value) {
+void require_in_range(const Field& field, Number value, const char* least) {
     require(std::abs(value) <= Number(coordinate_limit), field,
             "must be a number from -1e30 to 1e30", value);
     if constexpr (std::is_same_v<Number, double>)
-        require(std::abs(value) >= least_double || is_float(value), field,
-                "must be 0 or at least 1.2e-38 in size", value);
+        require(std::abs(value) >= least_double || is_float(value), field, least, value);
+}
+
+} // namespace
+
+template <class Number>
+void require_coordinate(const Field& field, Number value) {
+    require_in_range(field, value, "must be 0 or at least 1.2e-38 in size");
 }
 
 template <class Number>
@@ -58,7 +67,7 @@ void require_direction(const Field& field, const Vec3<Number>& direction) {
 template <class Number>
 void require_positive(const Field& field, Number value) {
     require(value > Number(0), field, "must be positive", value);
-    require_coordinate(field, value);
+    require_in_range(field, value, "must be at least 1.2e-38");
 }
 
 template <class Number>

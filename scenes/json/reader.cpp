@@ -336,7 +336,8 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
         builder_.staging.lights = true;
     if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.staging.lights)
         errors.add({file_, outline.of("lights"), "/lights",
-                    "must have at least one light where there are objects, got none"});
+                    "must have at least one light where there are objects, or be [] where none is "
+                    "meant to be, got none"});
     errors.report();
     if (const auto unused = parameters_.first_unused()) {
         std::vector<std::string_view> others = parameters_.names();

@@ -392,7 +392,8 @@ TEST_CASE("complaints about cameras, fogs and lights") {
          "/lights/0/position: must not be on a surface, got a point of /objects/0"},
         {"{" + camera +
              R"(, "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})",
-         "/lights: must have at least one light where there are objects, got none"},
+         "/lights: must have at least one light where there are objects, or be [] where none is "
+         "meant to be, got none"},
     });
 }
 

@@ -61,7 +61,9 @@ TEST_CASE("a missing key is where the object begins that lacks it") {
           "2:2: must have the key \"camera\"");
     CHECK(placed_complaint_about_text(start.substr(0, start.find("\"lights\"")) + "\"objects\": [" +
                                       sphere("1", "{}") + "]}") ==
-          "1:1: /lights: must have at least one light where there are objects, got none");
+          "1:1: /lights: must have at least one light where there are objects, or be [] where none "
+          "is "
+          "meant to be, got none");
 }
 
 TEST_CASE("a key that should not be there is where it begins") {
@@ -122,7 +124,9 @@ TEST_CASE("up to ten mistakes are told, in the order of the file") {
                                       sphere("4", "\"clay\"") +
                                       "],\n\"materials\": {\"clay\": 3}}") ==
           "1:1: must have the key \"camera\"\n"
-          "1:1: /lights: must have at least one light where there are objects, got none\n"
+          "1:1: /lights: must have at least one light where there are objects, or be [] where none "
+          "is "
+          "meant to be, got none\n"
           "1:64: /objects/0/radius: must be positive, got 0\n"
           "1:79: /objects/0/material: must be the name of a material, got \"b\"\n"
           "2:66: /objects/1/material: must be the name of a material, got \"a\"\n"

@@ -207,7 +207,8 @@ TEST_CASE("a camera, fog, light or setting that is none is told in one line") {
         {"no light", "a.json",
          R"({"camera": {"from": [0, 0, 9], "at": [0, 0, 0]}, "objects": [
             {"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})",
-         "/lights: must have at least one light where there are objects, got none"},
+         "/lights: must have at least one light where there are objects, or be [] where none is "
+         "meant to be, got none"},
     });
 }
 
