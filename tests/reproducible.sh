@@ -4,6 +4,7 @@
 #
 #   tests/reproducible.sh                  all of it
 #   KERNELS=BUILD tests/reproducible.sh    but the kernels, which are those of that build
+#   tests/reproducible.sh kernels          these alone
 #   tests/reproducible.sh quick            a few objects, with debugging information, which tells of paths
 set -eu
 cd "$(dirname "$0")/.."
@@ -42,6 +43,12 @@ if [ "${1-}" = quick ]; then
         scenes/CMakeFiles/raylane_scenes.dir/format.cpp.o \
         scenes/library/CMakeFiles/raylane_api.dir/version.cpp.o
     build() { quietly cmake --build build/own --target "$@"; }
+elif [ "${1-}" = kernels ]; then
+    set --
+    for isa in portable sse42 avx2 avx512; do
+        set -- "$@" "simd/CMakeFiles/raylane_kernels.dir/kernels_$isa.cpp.o"
+    done
+    build() { quietly cmake --build build/own --target raylane_kernels; }
 else
     set -- bin/raylane bin/raylane-window.so scenes/library/libraylane.a \
         scenes/packages/raylane.spdx.json scenes/tool/manual/raylane-render.1 scenes/tool/completions/raylane
