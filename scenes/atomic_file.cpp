@@ -176,8 +176,16 @@ void AtomicFile::write(std::span<const char> bytes) {
     }
 }
 
+bool AtomicFile::restart() {
+    buffer_.clear();
+    return has_temporary() && ::ftruncate(descriptor_, 0) == 0 &&
+           ::lseek(descriptor_, 0, SEEK_SET) == 0;
+}
+
 void AtomicFile::commit() {
     flush();
+    if (durable_ && has_temporary() && ::fdatasync(descriptor_) != 0 && errno != EINVAL)
+        refuse(errno);
     if (keeps_target_) {
         copy_temporary();
         discard_temporary();

@@ -35,6 +35,10 @@ class AtomicFile {
     /// Claims room on the disk, where the file system can tell.
     void reserve(std::int64_t bytes);
     void write(std::span<const char> bytes);
+    /// Throws away what has been written. False where that cannot be (a pipe).
+    bool restart();
+    /// It is to survive a loss of power as soon as it has its name: takes milliseconds.
+    void be_durable() { durable_ = true; }
     /// Once, at the end.
     void commit();
 
@@ -55,6 +59,7 @@ class AtomicFile {
     std::string temporary_;     // its name, once it has one
     bool unnamed_ = false;      // it has none; where there is none at all, the target is written
     bool keeps_target_ = false; // its content alone is replaced
+    bool durable_ = false;
     int descriptor_ = -1;
     std::vector<char> buffer_;
 };

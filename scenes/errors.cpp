@@ -108,12 +108,12 @@ void InputErrors::report() const {
     throw BadInput(std::move(sorted), overflowed_);
 }
 
-SystemRefused::SystemRefused(std::string_view file, std::string_view action, int error_number)
-    : std::runtime_error(
-          text_of({std::string(file),
-                   {},
-                   "",
-                   "cannot " + std::string(action) + ": " + std::strerror(error_number)})) {}
+SystemRefused::SystemRefused(std::string_view file, std::string_view action, int number)
+    : std::runtime_error(text_of({std::string(file),
+                                  {},
+                                  "",
+                                  "cannot " + std::string(action) + ": " + std::strerror(number)})),
+      error_number(number) {}
 
 std::string printable(std::string_view text, std::size_t most) {
     static constexpr std::array<char, 17> hex = {"0123456789ABCDEF"};

@@ -68,6 +68,8 @@ class SystemRefused : public std::runtime_error {
     using std::runtime_error::runtime_error;
     /// "file: cannot `action`: what strerror says of `error_number`".
     SystemRefused(std::string_view file, std::string_view action, int error_number);
+
+    int error_number = 0; ///< errno's, where it is known
 };
 
 /// `text` fit for one line of a message: control characters and bytes that are not UTF-8 as \xNN,

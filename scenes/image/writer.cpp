@@ -109,6 +109,8 @@ void OutputFile::commit(const core::Film& film, core::Transfer transfer) {
 
 void OutputFile::commit(const core::Film& film, const PictureOptions& options,
                         const core::Layers* layers) {
+    if (std::exchange(has_failed_, true) && !file_.restart())
+        throw SystemRefused(file_.name(), "write", ESPIPE);
     switch (format_) {
     case PictureFormat::png:
         write_png(file_, film, options);

@@ -37,8 +37,11 @@ class OutputFile {
     /// there is none.
     void reserve(int width, int height);
 
+    /// It is to survive a loss of power as soon as it is there: takes milliseconds.
+    void be_durable() { file_.be_durable(); }
+
     /// Writes the picture, and into .exr its layers, unless that is null; once. Throws
-    /// SystemRefused, and then there is no new file.
+    /// SystemRefused, and then there is no new file; it may be tried again.
     void commit(const core::Film& film, const PictureOptions& options,
                 const core::Layers* layers = nullptr);
     void commit(const core::Film& film, core::Transfer transfer);
@@ -53,6 +56,7 @@ class OutputFile {
     EncodeExr encode_exr_;
     PictureFormat format_; // before the file: a wrong ending leaves no trace
     AtomicFile file_;
+    bool has_failed_ = false;
 };
 
 } // namespace raylane::scenes

@@ -8,21 +8,19 @@
 #include "scenes/tool/film_strip_arguments.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/loading.hpp"
+#include "scenes/tool/memory_file.hpp"
 #include "scenes/tool/picture_texts.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ray_tiers.hpp"
 #include "scenes/tool/render_arguments.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <numeric>
 #include <random>
-#include <sys/mman.h>
-#include <unistd.h>
 #include <unordered_set>
 
 namespace raylane::scenes {
@@ -95,22 +93,6 @@ class AsWritten {
     core::Transfer transfer_;
     core::Encoder encode_;
     bool has_alpha_;
-};
-
-/// Where nobody else has one: for what is written to be read again.
-class MemoryFile {
-  public:
-    MemoryFile() : descriptor_(::memfd_create("raylane picture", MFD_CLOEXEC)) {
-        if (descriptor_ < 0) throw SystemRefused("a file of memory", "open", errno);
-    }
-    ~MemoryFile() { ::close(descriptor_); }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-
-    std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-
-  private:
-    int descriptor_;
 };
 
 template <class T>

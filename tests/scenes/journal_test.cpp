@@ -98,6 +98,34 @@ TEST_CASE("a journal that ends at any byte gives the picture its bits, and so do
     }
 }
 
+TEST_CASE("what is damaged of a journal is one tile, and what is another's is none of its") {
+    const core::Scene scene = scene_of(text);
+    const tests::TemporaryDirectory directory;
+    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
+    drawing.options.threads = 1;
+    drawing.options.tile = 8;
+    {
+        Journal journal(drawing.path, drawing.subject(), drawing.records());
+        static_cast<void>(drawing.draw(&journal));
+        CHECK(journal.keep());
+    }
+    const std::string content = tests::content_of(drawing.path.string() + ".part");
+    const std::size_t head = content.find("\n\n") + 2;
+    const auto pixels_of = [&](const std::string& with, const scenes::JournalSubject& subject) {
+        directory.write("picture.part", with);
+        return Journal(drawing.path, subject, drawing.records()).found_pixels();
+    };
+    CHECK(pixels_of(content, drawing.subject()) == 20 * 12);
+    std::string damaged = content;
+    damaged[head + 100] ^= 0x10; // in the first tile's pixels
+    CHECK(pixels_of(damaged, drawing.subject()) == 20 * 12 - 8 * 8);
+    // Records that another picture's journal has left behind this one's head.
+    const scenes::JournalSubject other{drawing.subject().scene, "others"};
+    std::string mixed = content;
+    mixed.replace(mixed.find("options options"), 15, "options others");
+    CHECK(pixels_of(mixed, other) == 0);
+}
+
 TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
     const core::Scene scene = scene_of(text);
     const tests::TemporaryDirectory directory;
@@ -118,7 +146,12 @@ TEST_CASE("a journal goes on with the same scene, options and tiles alone") {
     CHECK(found(drawing.subject()) == Journal::Found::same);
     CHECK(found({drawing.subject().scene, "others"}) == Journal::Found::other_options);
     CHECK(found({"0", "options"}) == Journal::Found::other_scene);
-    for (const char* content_of_another : {"", "mine", "raylane", "raylane journey", "\x89PNG"}) {
+    for (const std::size_t end : {0, 7, 15, 16, 30}) {
+        directory.write("picture.part", content.substr(0, end));
+        CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
+              Journal::Found::cut_off);
+    }
+    for (const char* content_of_another : {"mine", "raylanes", "raylane journey", "\x89PNG"}) {
         directory.write("picture.part", content_of_another);
         CHECK(Journal(drawing.path, drawing.subject(), drawing.records()).found() ==
               Journal::Found::none_of_ours);

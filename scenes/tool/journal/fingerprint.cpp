@@ -100,8 +100,8 @@ std::string fingerprint_of(const core::Film& film) {
     return hash.text();
 }
 
-std::uint64_t checksum_of(std::span<const char> bytes) {
-    return XXH3_64bits(bytes.data(), bytes.size());
+std::uint64_t checksum_of(std::span<const char> bytes, std::uint64_t seed) {
+    return XXH3_64bits_withSeed(bytes.data(), bytes.size(), seed);
 }
 
 } // namespace raylane::scenes

@@ -18,6 +18,7 @@ std::string fingerprint_of(const core::Scene& scene);
 /// Of a picture's size and the bits of its colours and alphas.
 std::string fingerprint_of(const core::Film& film);
 
-std::uint64_t checksum_of(std::span<const char> bytes);
+/// Other ones by other seeds.
+std::uint64_t checksum_of(std::span<const char> bytes, std::uint64_t seed);
 
 } // namespace raylane::scenes

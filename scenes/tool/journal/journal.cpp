@@ -12,6 +12,7 @@
 #include <string_view>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 #include <utility>
 
@@ -71,12 +72,13 @@ bool take_lock(int descriptor) {
     return result == 0 || errno != EWOULDBLOCK;
 }
 
-std::string record_of(std::size_t number, std::string_view bytes) {
+/// A tile's bytes as the file has them. `seed`: of the journal, whose records alone are read again.
+std::string record_of(std::size_t number, std::string_view bytes, std::uint64_t seed) {
     const RecordHead head{static_cast<std::uint32_t>(number),
                           static_cast<std::uint32_t>(bytes.size())};
     std::string record(reinterpret_cast<const char*>(&head), sizeof head);
     record += bytes;
-    const std::uint64_t checksum = checksum_of(record);
+    const std::uint64_t checksum = checksum_of(record, seed);
     record.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
     return record;
 }
@@ -86,11 +88,17 @@ std::string record_of(std::size_t number, std::string_view bytes) {
 Journal::Journal(const std::filesystem::path& picture, const JournalSubject& subject,
                  TileRecords records)
     : picture_(picture), path_(picture.string() + ".part"), records_(records),
-      head_(head_of(subject)), places_(records_.grid().count(), -1) {
+      head_(head_of(subject)), seed_(checksum_of(head_, 0)), places_(records_.grid().count(), -1) {
     open();
 }
 
 Journal::~Journal() {
+    {
+        const std::lock_guard lock(mutex_);
+        is_ending_ = true;
+    }
+    ends_.notify_all();
+    if (keeping_.joinable()) keeping_.join();
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
@@ -98,14 +106,17 @@ Journal::~Journal() {
 void Journal::open() {
     const int descriptor = ::open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) {
-        if (errno != ENOENT) found_ = Found::none_of_ours;
+        // A name that is too long is nobody's: what is said of it is what the system says.
+        if (errno != ENOENT && errno != ENAMETOOLONG) found_ = Found::none_of_ours;
         return;
     }
     struct stat status {};
     const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
                          status.st_uid == ::geteuid(); // others may write what they like
     const std::string head = is_file ? bytes_at(descriptor, 0, head_.size()) : "";
-    if (!head.starts_with(magic))
+    const bool may_be_ours =
+        is_file && (head.starts_with(magic) || magic.starts_with(head)); // or cut off in it
+    if (!may_be_ours)
         found_ = Found::none_of_ours;
     else if (!take_lock(descriptor))
         found_ = Found::in_use;
@@ -134,13 +145,18 @@ bool Journal::read(const std::string& head) {
             const std::span<const char> summed(all.data(), sizeof record + record.bytes);
             std::uint64_t checksum;
             std::memcpy(&checksum, summed.data() + summed.size(), sizeof checksum);
-            if (checksum != checksum_of(summed)) break;
-            places_[record.number] = end_ + static_cast<std::int64_t>(sizeof record);
+            // What has been damaged is drawn again; the next ones may be whole.
+            if (checksum == checksum_of(summed, seed_))
+                places_[record.number] = end_ + static_cast<std::int64_t>(sizeof record);
             end_ += static_cast<std::int64_t>(all.size());
         }
         // What is behind it was being written when its process ended.
         if (::ftruncate(descriptor_, end_) != 0) fail();
         return true;
+    }
+    if (head_.starts_with(head)) {
+        found_ = Found::cut_off;
+        return false;
     }
     const std::size_t options = head_.find("options ");
     const bool is_of_version = head.starts_with(std::string(magic) + RAYLANE_VERSION "\n");
@@ -174,38 +190,52 @@ void Journal::note(const simd::FinishedTile& tile) {
 
 void Journal::note(std::size_t number, std::string_view bytes) {
     if (is_left_alone()) return;
-    const std::string record = record_of(number, bytes);
-    const auto now = std::chrono::steady_clock::now();
-    const auto seconds_since = [&](auto then) {
-        return std::chrono::duration<double>(now - then).count();
-    };
-    {
-        const std::lock_guard lock(mutex_);
-        if (!problem_.empty()) return;
-        if (!is_ours_) {
-            waiting_ += record;
-            if (seconds_since(start_) >= begin_seconds) begin();
-        } else {
-            write(record);
+    const std::string record = record_of(number, bytes, seed_);
+    const std::lock_guard lock(mutex_);
+    if (!problem_.empty()) return;
+    if (!keeping_.joinable()) try {
+            keeping_ = std::thread([this] { keep_up(); });
+        } catch (const std::exception&) { // no thread, or no memory for it
         }
-        if (!is_writable() || seconds_since(synced_) < sync_seconds) return;
-        synced_ = now;
-    }
-    static_cast<void>(::fdatasync(descriptor_)); // others may go on
+    if (is_ours_) return write(record);
+    waiting_ += record;
+    if (std::chrono::steady_clock::now() >= start_ + begin_after) begin();
 }
 
 /// Makes the file, or empties it, and writes what has been waiting.
 void Journal::begin() {
-    if (descriptor_ < 0 && !make()) return fail();
-    if (::ftruncate(descriptor_, 0) != 0) return fail();
+    if (descriptor_ < 0) {
+        if (!make()) return;
+        end_ = static_cast<std::int64_t>(head_.size());
+    } else {
+        if (::ftruncate(descriptor_, 0) != 0) return fail();
+        end_ = 0;
+        write(head_);
+        static_cast<void>(::fdatasync(descriptor_));
+    }
     is_ours_ = true;
-    end_ = 0;
-    write(head_);
     if (!waiting_.empty()) write(std::exchange(waiting_, {}));
 }
 
+/// Tiles may be minutes apart: whoever writes the next one is no help to the last.
+void Journal::keep_up() {
+    std::unique_lock lock(mutex_);
+    const auto is_ending = [this] { return is_ending_; };
+    bool ends = ends_.wait_until(lock, start_ + begin_after, is_ending);
+    while (!ends) {
+        if (!is_ours_ && !waiting_.empty() && problem_.empty()) begin();
+        if (std::exchange(is_to_be_synced_, false) && is_writable()) {
+            lock.unlock();
+            static_cast<void>(::fdatasync(descriptor_)); // others may go on
+            lock.lock();
+        }
+        ends = ends_.wait_for(lock, sync_every, is_ending);
+    }
+}
+
 /// With the head in it before it has a name, where the system can do that: so no file is there that
-/// is not known for what it is. As private as the picture that is there.
+/// is not known for what it is. As private as the picture that is there. False, and that is told,
+/// if it cannot be.
 bool Journal::make() {
     struct stat picture {};
     const bool is_there = ::stat(picture_.c_str(), &picture) == 0;
@@ -221,20 +251,29 @@ bool Journal::make() {
         if (!done) ::close(made);
         if (!done && error_number != ENOENT) { // or else there is no /proc
             errno = error_number;
+            fail();
             return false;
         }
         if (!done) made = -1;
     }
-    if (made < 0) made = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    if (made < 0) return false;
+    if (made < 0) {
+        made = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        if (made < 0 || !take_lock(made) || !write_at(made, 0, head_) || ::fsync(made) != 0) {
+            fail();
+            if (made >= 0) ::close(made);
+            return false;
+        }
+    }
     descriptor_ = made;
-    static_cast<void>(take_lock(made));
     sync_folder_of(path_);
     return true;
 }
 
 void Journal::fail() {
-    problem_ = SystemRefused(path_.string(), "write", errno).what();
+    problem_ = errno == EEXIST // since this began
+                   ? printable(path_.string(), 4096) +
+                         ": is in use by another process, so this one kept none"
+                   : SystemRefused(path_.string(), "write", errno).what();
 }
 
 /// All of it or nothing.
@@ -242,6 +281,7 @@ void Journal::write(const std::string& bytes) {
     if (!problem_.empty()) return;
     if (write_at(descriptor_, end_, bytes)) {
         end_ += static_cast<std::int64_t>(bytes.size());
+        is_to_be_synced_ = true;
         return;
     }
     fail();
@@ -255,6 +295,20 @@ bool Journal::keep() {
     if (!is_ours_ && !waiting_.empty()) begin();
     if (is_ours_) static_cast<void>(::fsync(descriptor_));
     return is_writable();
+}
+
+bool Journal::give_room(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    struct statvfs disk {};
+    struct stat own {};
+    if (!is_ours_ || ::fstatvfs(descriptor_, &disk) != 0 || ::fstat(descriptor_, &own) != 0)
+        return false;
+    constexpr std::uint64_t block = 512; // as POSIX counts
+    const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize +
+                               block * static_cast<std::uint64_t>(own.st_blocks);
+    if (room < bytes || ::ftruncate(descriptor_, 0) != 0) return false;
+    if (problem_.empty()) problem_ = path_.string() + ": has given its room to the picture";
+    return true;
 }
 
 /// Somebody may have put another file in its place.

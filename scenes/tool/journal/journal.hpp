@@ -3,11 +3,13 @@
 #include "scenes/tool/journal/tile_records.hpp"
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace raylane::scenes {
@@ -21,15 +23,15 @@ struct JournalSubject {
 /// The finished tiles of a picture that is being drawn, in a file beside it, from which another
 /// process can go on when this one ends before its time, however that be. Each tile is written as
 /// it comes, with a checksum, and at most the tiles under way are lost with the process; what is
-/// lost with the power are the last `sync_seconds`. There is no file as long as the picture takes
-/// less than `begin_seconds`; so long what is there of another picture stays, and so it does if
+/// lost with the power is what the last `sync_every` wrote. There is no file as long as the picture
+/// takes less than `begin_after`; so long what is there of another picture stays, and so it does if
 /// this one is done sooner.
 ///
 /// To be used by one process at a time, which the file's lock sees to. Nothing that goes wrong with
 /// the file ends the drawing: problem() tells it.
 class Journal {
   public:
-    static constexpr double begin_seconds = 2.0, sync_seconds = 3.0;
+    static constexpr std::chrono::seconds begin_after{2}, sync_every{3};
 
     /// What there was of a file.
     enum class Found : std::uint8_t {
@@ -37,6 +39,7 @@ class Journal {
         same,          ///< goes on with it
         other_scene,   ///< stays until another journal takes its place; so do the next ones
         other_options, ///< or another version's
+        cut_off,       ///< in its first lines, likewise
         none_of_ours,  ///< leaves it alone, and keeps no journal
         in_use,        ///< likewise
     };
@@ -64,6 +67,9 @@ class Journal {
 
     /// Writes what is not written yet, for the drawing ends before its time. False if it could not.
     bool keep();
+    /// The drawing is done, and there is no room on the disk for so many bytes of a picture: gives
+    /// its own, if that is enough.
+    bool give_room(std::size_t bytes);
     /// The picture is there: removes the journal, once that is sure to survive it.
     void remove();
     /// What the system said where it would not write; empty as long as all is well. One line.
@@ -77,13 +83,14 @@ class Journal {
     bool is_still_there() const;
     void fail();
     void write(const std::string& bytes);
-    void sync_now_and_then();
+    void keep_up();
     bool is_writable() const { return is_ours_ && problem_.empty(); }
     bool is_left_alone() const { return found_ == Found::none_of_ours || found_ == Found::in_use; }
 
     std::filesystem::path picture_, path_;
     TileRecords records_;
     std::string head_;
+    std::uint64_t seed_; // of checksums: another journal's records are none of this one's
     Found found_ = Found::nothing;
     std::vector<std::int64_t> places_; // of the tiles' bytes in the file; -1: not there
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -94,7 +101,10 @@ class Journal {
     std::string waiting_;  // records, as long as there is no file
     std::int64_t end_ = 0;
     std::string problem_;
-    std::chrono::steady_clock::time_point synced_ = start_;
+    std::thread
+        keeping_; // up with what is noted; without one, it is up to who notes, and the system
+    std::condition_variable ends_;
+    bool is_ending_ = false, is_to_be_synced_ = false;
 };
 
 } // namespace raylane::scenes

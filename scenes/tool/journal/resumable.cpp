@@ -2,11 +2,14 @@
 
 #include "scenes/errors.hpp"
 #include "scenes/export/writers.hpp"
+#include "scenes/image/exr.hpp"
 #include "scenes/tool/interrupt.hpp"
+#include "scenes/tool/memory_file.hpp"
 #include "scenes/tool/ranks/ranked_tiles.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -70,6 +73,8 @@ void ResumableRendering::say_found() const {
         return say("is of another scene, and not gone on with");
     case Journal::Found::other_options:
         return say("is of other options or another version, and not gone on with");
+    case Journal::Found::cut_off:
+        return say("has been cut off at its beginning, and is not gone on with");
     case Journal::Found::none_of_ours:
         return say("is none of raylane's, so the picture is drawn without a journal");
     case Journal::Found::in_use:
@@ -167,6 +172,21 @@ void ResumableRendering::stopped() const {
                                                  printable(journal_->path().string(), 4096)
                           : journal_->problem().empty() ? done + ", without a journal to go on with"
                                                         : done + "; " + journal_->problem());
+}
+
+void ResumableRendering::write(OutputFile& output, const core::Film& film,
+                               const PictureOptions& options, const core::Layers* layers) {
+    try {
+        return output.commit(film, options, layers);
+    } catch (const SystemRefused& refused) {
+        const bool is_full = refused.error_number == ENOSPC || refused.error_number == EDQUOT;
+        if (!is_full || !journal_) throw;
+        // Not before it is known that this helps.
+        const MemoryFile memory;
+        OutputFile(memory.path(), output.format(), exr_of).commit(film, options, layers);
+        if (!journal_->give_room(memory.bytes())) throw;
+    }
+    output.commit(film, options, layers);
 }
 
 void ResumableRendering::finished() {

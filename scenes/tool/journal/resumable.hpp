@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scenes/image/writer.hpp"
 #include "scenes/tool/journal/journal.hpp"
 #include "scenes/tool/picture_part.hpp"
 #include "scenes/tool/ranks/job.hpp"
@@ -36,6 +37,10 @@ class ResumableRendering {
     /// Throws Stopped. With a job of several ranks, together, which part then: rank 0 has the
     /// picture.
     simd::Rendering draw(simd::Progress& progress, Job* job = nullptr);
+    /// Writes the picture; where the disk is full, in the room that its journal gives. Throws
+    /// SystemRefused.
+    void write(OutputFile& output, const core::Film& film, const PictureOptions& options,
+               const core::Layers* layers);
     /// The picture has been written.
     void finished();
     /// Behind that: throws Stopped if a signal has come while the last tiles were drawn.
