@@ -3,13 +3,16 @@
 # folder:
 #
 #   slurm.sh N SCENE OUTPUT [OPTIONS...]
-#       one picture in N parts, which are put together at the end
+#       one picture in N parts, which are put together at the end; a scene of atoms may be one frame
+#       of several, by --frames 7
 #   slurm.sh N --film SCENE OUTPUT-%05d.png --frames 0:100 [OPTIONS...]
 #       several pictures, by --frames, --turn or --set, of which each job draws every N-th
 #
 # OPTIONS are render's; those of sbatch come by its own variables, such as SBATCH_PARTITION,
 # SBATCH_TIMELIMIT. A job that Slurm is about to end, or that a host's failure has ended, begins again
-# where it was. RAYLANE names the program if it is not in PATH. Prints the number of the last job.
+# where it was. Where one has failed, all can be submitted again: with the same N, and what was begun
+# goes on, or with another. Parts are in the folder OUTPUT.parts, which goes once they are put together.
+# RAYLANE names the program if it is not in PATH. Prints the number of the last job.
 set -eu
 
 raylane=${RAYLANE:-raylane}
@@ -18,7 +21,7 @@ raylane=${RAYLANE:-raylane}
 if [ -n "${SLURM_ARRAY_TASK_ID:-}" ] && [ -n "${RAYLANE_FARM:-}" ]; then
     count=$1 what=$2 scene=$3 output=$4
     shift 4
-    [ "$what" = film ] || output=$output.parts/$SLURM_ARRAY_TASK_ID.exr
+    [ "$what" = film ] || output=$output.parts/$SLURM_ARRAY_TASK_ID-of-$count.exr
     code=0
     srun --ntasks=1 --kill-on-bad-exit=0 "$raylane" render "$scene" -o "$output" \
         --part "$SLURM_ARRAY_TASK_ID/$count" "$@" || code=$?
@@ -28,15 +31,20 @@ if [ -n "${SLURM_ARRAY_TASK_ID:-}" ] && [ -n "${RAYLANE_FARM:-}" ]; then
     exit "$code"
 fi
 
-# Behind all parts.
+# Behind all parts. Others may be there, of a farm of another N that has failed.
 if [ "${RAYLANE_FARM:-}" = merge ]; then
-    "$raylane" merge "$2".parts/*.exr -o "$2"
-    rm -r "$2.parts"
+    count=$2 output=$3
+    set --
+    for number in $(seq "$count"); do
+        set -- "$@" "$output.parts/$number-of-$count.exr"
+    done
+    "$raylane" merge "$@" -o "$output"
+    rm -r "$output.parts"
     exit
 fi
 
 usage() {
-    sed -n '2,14s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,17s/^# \{0,1\}//p' "$0" >&2
     exit 2
 }
 [ $# -ge 3 ] || usage
@@ -63,5 +71,6 @@ jobs=$(RAYLANE_FARM=draw RAYLANE=$raylane submit --array="1-$count" --requeue --
     echo "${jobs%%;*}"
     exit
 }
-last=$(RAYLANE_FARM=merge RAYLANE=$raylane submit --dependency="afterok:${jobs%%;*}" "$0" merge "$output")
+last=$(RAYLANE_FARM=merge RAYLANE=$raylane submit --dependency="afterok:${jobs%%;*}" "$0" merge \
+    "$count" "$output")
 echo "${last%%;*}"

@@ -14,6 +14,10 @@ namespace raylane::scenes {
 
 namespace {
 
+[[noreturn]] void refuse_none() {
+    throw BadInput("--frames", "", "must be of at least one picture, got none");
+}
+
 /// A picture that is to be drawn.
 struct Picture {
     std::size_t place;
@@ -37,6 +41,13 @@ class Stage {
 
     /// True if there were any, whoever draws them.
     bool has_any() const { return made_ > 0; }
+
+    /// That of the first picture.
+    Shot first() {
+        const std::optional<std::size_t> number = strip_.source->next();
+        if (!number) refuse_none();
+        return {scene(made_++), strip_.name(is_still() && strip_.turn ? 0 : *number)};
+    }
 
     std::optional<Picture> next() {
         for (;;) {
@@ -68,9 +79,11 @@ class Stage {
     }
 
   private:
+    /// What lost its content with the power is empty.
     bool is_wanted(const std::string& name) const {
         std::error_code unknown;
-        return strip_.overwrites || !std::filesystem::is_regular_file(name, unknown);
+        return strip_.overwrites || !std::filesystem::is_regular_file(name, unknown) ||
+               std::filesystem::file_size(name, unknown) == 0;
     }
 
     core::Scene scene(std::size_t place) {
@@ -171,6 +184,14 @@ class StripProgress {
 
 } // namespace
 
+Shot first_shot(const FilmStrip& strip) {
+    const auto start = std::chrono::steady_clock::now();
+    const ProgressLine line(strip.verbosity, [start] {
+        return "its frame is read: " + duration_text(seconds_since(start));
+    });
+    return Stage(strip).first();
+}
+
 void draw(const FilmStrip& strip) {
     Stage stage(strip);
     const auto [number, of] = strip.share;
@@ -197,8 +218,7 @@ void draw(const FilmStrip& strip) {
             picture = next.valid() ? next.get() : stage.next();
         }
     }
-    if (!stage.has_any())
-        throw BadInput("--frames", "", "must be of at least one picture, got none");
+    if (!stage.has_any()) refuse_none();
     const std::size_t kept = progress.kept_count();
     if (strip.verbosity == Verbosity::verbose ||
         (strip.verbosity == Verbosity::normal && is_terminal()))

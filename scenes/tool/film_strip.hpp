@@ -36,6 +36,16 @@ struct FilmStrip {
         draw;
 };
 
+/// What a picture shows, and the name of its file.
+struct Shot {
+    core::Scene scene;
+    std::string name;
+};
+
+/// That of the first picture, for others to draw, whether it is there already or not. Throws what
+/// the source does.
+Shot first_shot(const FilmStrip& strip);
+
 /// Draws all of them; while one is drawn the scene of the next is made. Throws what the source and
 /// the drawing do, once what came before is drawn.
 void draw(const FilmStrip& strip);

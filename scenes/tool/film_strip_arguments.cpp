@@ -19,22 +19,21 @@ std::string with_percents_doubled(const std::string& text) {
     return result;
 }
 
-/// `is_one`: a single picture, whose name needs no number.
-void name_pictures(FilmStrip& strip, const std::string& scene, const Argument& output,
-                   bool is_one) {
+} // namespace
+
+std::function<std::string(std::size_t)> picture_names(const std::string& scene,
+                                                      const Argument& output, bool is_one) {
     const NumberedName name("--output",
                             output ? file_argument("--output", *output)
                                    : with_percents_doubled(default_output(scene, "")) +
                                          (is_one ? ".png" : "-%05d.png"),
                             !is_one);
-    strip.name = [=](std::size_t number) {
+    return [=](std::size_t number) {
         std::string file = name(number);
         require_other_file("--output", file, "SCENE", scene);
         return file;
     };
 }
-
-} // namespace
 
 std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
                                        const SceneArguments& scene_arguments,
@@ -66,9 +65,8 @@ std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
         throw BadInput("--turn", "",
                        "must be in as many pictures as there are otherwise, " +
                            std::to_string(count) + ", got " + std::to_string(strip.turn->count));
-    const bool is_one = range && range->is_one && !strip.turn;
-    name_pictures(strip, scene, output, is_one);
-    strip.overwrites = frames.overwrite || is_one;
+    strip.name = picture_names(scene, output, frames.is_one());
+    strip.overwrites = frames.overwrite || frames.is_one();
     return strip;
 }
 

@@ -70,6 +70,11 @@ std::optional<FrameRange> FrameArguments::range() const {
     return range;
 }
 
+bool FrameArguments::is_one() const {
+    const std::optional<FrameRange> asked = range();
+    return asked && asked->is_one && !turn;
+}
+
 std::optional<Turn> FrameArguments::turning() const {
     if (!turn) return std::nullopt;
     const std::vector<std::string_view> parts = parts_of(*turn, '/');

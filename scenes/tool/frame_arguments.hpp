@@ -45,6 +45,8 @@ struct FrameArguments {
     std::vector<std::pair<std::string, std::string>> given() const;
     // Throw BadInput.
     std::optional<FrameRange> range() const;
+    /// True if they ask for one picture: that of a frame, by its number.
+    bool is_one() const;
     std::optional<Turn> turning() const;
     FitTo fit_to() const;
 };

@@ -37,6 +37,8 @@ class Merger {
                 throw BadInput(name, "",
                                std::string("is of another picture than ") + first_name_ + ": its " +
                                    key + " differs");
+        if (film_in(picture.texts) != film_in(first.texts))
+            throw BadInput(name, "", "is of another picture of a film than " + first_name_);
         if (part.count != has_.size() || tile_of(picture.texts) != tile_of(first.texts) ||
             picture.film.width() != first.film.width() ||
             picture.film.height() != first.film.height() ||
@@ -46,8 +48,11 @@ class Merger {
         if (has_[part.number - 1])
             throw BadInput(name, "", "is part " + part.text() + " once more");
         has_[part.number - 1] = true;
-        if (has_text(picture.texts, "Rays"))
-            rays_ += ray_tiers_of(text_in(name, picture.texts, "Rays")).value_or(RayTiers());
+        const std::optional<RayTiers> rays = ray_tiers_of(text_in(name, picture.texts, "Rays"));
+        if (!rays) throw BadInput(name, "", "says what its rays were in vain");
+        rays_ += *rays;
+        // Names of scenes may differ: whatever the order, the same one is taken.
+        if (part.number == 1) texts_ = picture.texts;
         for (std::size_t number = 0; number < grid_->count(); ++number)
             if (part.has(number)) copy(picture, grid_->tile(number).within(crop_));
     }
@@ -63,9 +68,8 @@ class Merger {
                                ", but there is no part " + printable(missing, 200));
         // In the order in which render writes them.
         PictureTexts texts;
-        for (const char* key : {"Title", "Software", "Comment", "Scene"})
-            if (has_text(first_->texts, key))
-                texts.emplace_back(key, text_in(first_name_, first_->texts, key));
+        for (const char* key : {"Title", "Software", "Comment", "Film", "Scene"})
+            if (has_text(texts_, key)) texts.emplace_back(key, text_in(first_name_, texts_, key));
         texts.emplace_back("Pixels", fingerprint_of(first_->film));
         texts.emplace_back("Rays", rays_.text());
         first_->texts = std::move(texts);
@@ -81,6 +85,10 @@ class Merger {
         const std::optional<PicturePart> part = picture_part_of(text.substr(0, text.find(' ')));
         if (!part || tile_of(texts) == 0) throw BadInput(name, "", "says which part it is in vain");
         return *part;
+    }
+    /// The place in a film; empty: it is of none.
+    static std::string film_in(const PictureTexts& texts) {
+        return has_text(texts, "Film") ? text_in("", texts, "Film") : "";
     }
     /// Pixels on a side; 0: it does not say.
     static int tile_of(const PictureTexts& texts) {
@@ -128,6 +136,7 @@ class Merger {
 
     std::optional<ExrPicture> first_; // and what has been put into it
     std::string first_name_;
+    PictureTexts texts_; // of part 1
     core::Settings settings_;
     core::Region crop_{};
     std::optional<simd::TileGrid> grid_;

@@ -18,9 +18,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -46,9 +49,7 @@ struct Times {
 
 struct Files {
     explicit Files(const RenderArguments& arguments)
-        : scene(file_argument("SCENE", *arguments.scene)),
-          output(arguments.output ? file_argument("--output", *arguments.output)
-                                  : default_output(scene, ".png")) {
+        : scene(file_argument("SCENE", *arguments.scene)), output(output_of(arguments)) {
         require_other_file("--output", output, "SCENE", scene);
         if (!arguments.stats) return;
         stats = file_argument("--stats", *arguments.stats);
@@ -56,8 +57,16 @@ struct Files {
         require_other_file("--stats", *stats, "--output", output);
     }
 
-    std::string scene, output;
+    std::string scene;
+    std::string output; ///< of a frame, what it would be if that were the first
     std::optional<std::string> stats;
+
+  private:
+    std::string output_of(const RenderArguments& arguments) const {
+        if (arguments.frames.is_one()) return picture_names(scene, arguments.output, true)(0);
+        return arguments.output ? file_argument("--output", *arguments.output)
+                                : default_output(scene, ".png");
+    }
 };
 
 std::string isa_in_use(const std::string& engine) {
@@ -118,6 +127,43 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
 /// Of options in a picture: selections may be long.
 constexpr std::size_t longest_text = std::size_t{1} << 20;
 
+/// Between quotes; those of the same kind that it has are escaped.
+std::string between_quotes(const std::string& text, char quote) {
+    std::string result(1, quote);
+    for (const char c : text) {
+        if (c == quote) result += '\\';
+        result += c;
+    }
+    return result + quote;
+}
+
+/// The value of an option as a line of options has it, for take_options() to read as it is. A tab
+/// separates what a blank does.
+std::string as_word(const std::string& value) {
+    std::string text = value;
+    std::replace(text.begin(), text.end(), '\t', ' ');
+    text = printable(text, longest_text);
+    constexpr std::string_view quotes = "\"'`";
+    if (text.find_first_of(" \\" + std::string(quotes)) == std::string::npos) return text;
+    // Quotes that the value does not have come first: shells read these as well.
+    std::vector<std::string> ways;
+    for (const bool has_any : {false, true})
+        for (const char quote : quotes)
+            if ((text.find(quote) != std::string::npos) == has_any)
+                ways.push_back(between_quotes(text, quote));
+    ways.push_back(text);
+    const auto is_read_as_it_is = [&](const std::string& word) {
+        Argument read;
+        return take_options(
+                   "--value " + word,
+                   [&](CLI::App& command) { add_option(command, "--value", read, "", ""); }) &&
+               read == text;
+    };
+    const auto way = std::find_if(ways.begin(), ways.end(), is_read_as_it_is);
+    // A backslash at the end would have the quote for the value's own.
+    return way != ways.end() ? *way : between_quotes(text + ' ', '"');
+}
+
 /// What else would draw the picture again, for the picture to say.
 std::string text_of(const RenderArguments& arguments, const simd::RenderOptions& options,
                     const core::Settings& settings) {
@@ -134,10 +180,7 @@ std::string text_of(const RenderArguments& arguments, const simd::RenderOptions&
         given.push_back(std::move(each));
     for (const auto& [name, value] : given) {
         text += " " + name;
-        if (value.empty()) continue;
-        const bool is_word = value.find(' ') == std::string::npos;
-        text += is_word ? " " + printable(value, longest_text)
-                        : " \"" + printable(value, longest_text) + '"';
+        if (!value.empty()) text += " " + as_word(value);
     }
     return text;
 }
@@ -182,20 +225,22 @@ int render(const RenderArguments& arguments) {
         picture.apply_to(options, settings);
         options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
     };
-    std::optional<std::size_t> place; // in a film
+    const bool is_frame = arguments.frames.is_one(); // drawn like any other scene
+    std::optional<FilmStrip> strip;                  // whose pictures ranks draw in turns
+    std::optional<std::size_t> place;                // in a film
     const auto resumable = [&](const std::string& name, const core::Scene& scene,
                                const core::Settings& settings, const std::string& fingerprint) {
-        const bool is_resumable = !arguments.no_resume && (place || job.is_first());
+        const bool is_resumable = !arguments.no_resume && (strip || job.is_first());
         return ResumableRendering(name, is_resumable, scene, fingerprint, settings, options,
                                   part_of_tiles, verbosity);
     };
-    const auto write = [&](OutputFile& output, const simd::Rendering& rendering,
-                           const core::Settings& settings, const core::Settings& own,
-                           const std::string& fingerprint) {
+    const auto write = [&](ResumableRendering& drawing, OutputFile& output,
+                           const simd::Rendering& rendering, const core::Settings& settings,
+                           const core::Settings& own, const std::string& fingerprint) {
         PictureOptions how =
             picture.options(files.scene, settings, own, text_of(arguments, options, settings),
                             // Pictures of a film may have sizes of their own.
-                            !place || arguments.size);
+                            !strip || arguments.size);
         if (place) how.texts.emplace_back("Film", std::to_string(*place));
         if (part_of_tiles)
             how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +
@@ -204,31 +249,37 @@ int render(const RenderArguments& arguments) {
         std::string pixels = fingerprint_of(rendering.film);
         how.texts.emplace_back("Pixels", pixels);
         how.texts.emplace_back("Rays", RayTiers(rendering.counters).text());
-        output.commit(rendering.film, how, picture.layers ? &rendering.layers : nullptr);
+        drawing.write(output, rendering.film, how, picture.layers ? &rendering.layers : nullptr);
         return pixels;
     };
-    std::optional<FilmStrip> strip;
+    const auto film = [&](int threads) {
+        std::optional<FilmStrip> asked_for =
+            film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
+                          arguments.output, threads, verbosity);
+        if (asked_for) asked_for->settings = settings_of;
+        return asked_for;
+    };
+    if (files.scene == "-") job.share_standard_input();
     job.together([&] {
-        strip = film_strip_of(arguments.frames, arguments.scene_arguments, files.scene,
-                              arguments.output, options.threads, verbosity);
-        if (!strip) return;
-        if (files.stats)
+        if (!is_frame) strip = film(options.threads);
+        if (files.stats && (strip || is_frame))
             throw BadInput("--stats", "", "goes without --frames, --turn and several values");
+        if (!strip) return;
         const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
         picture.require_fit(writable.format());
     });
     if (strip) {
         strip->share = share_of(job, part_asked.value_or(PicturePart{1, 1}));
-        strip->settings = settings_of;
         strip->draw = [&](const core::Scene& scene, std::size_t at, const std::string& name,
                           simd::Progress& progress) {
             place = at;
             OutputFile output(name, exr_of);
+            output.be_durable(); // whoever goes on with the film takes it for whole
             const core::Settings settings = settings_of(scene.settings());
             prepare(scene, settings);
             const std::string fingerprint = fingerprint_of(scene);
             ResumableRendering drawing = resumable(name, scene, settings, fingerprint);
-            write(output, drawing.draw(progress), settings, scene.settings(), fingerprint);
+            write(drawing, output, drawing.draw(progress), settings, scene.settings(), fingerprint);
             drawing.finished();
             drawing.end_if_signalled();
         };
@@ -250,12 +301,19 @@ int render(const RenderArguments& arguments) {
         picture.require_fit(output->format());
         if (files.stats) stats.emplace(*files.stats);
     });
+    std::string name = files.output;
+    if (is_frame) place = 0;
     loaded = load_together(job, files.scene, threads_to_load, [&](int threads) {
-        return load_with_progress(files.scene, load_options, verbosity, threads);
+        if (!is_frame) return load_with_progress(files.scene, load_options, verbosity, threads);
+        Shot shot = first_shot(*film(threads));
+        name = std::move(shot.name);
+        return std::move(shot.scene);
     });
     job.together([&] {
         settings = settings_of(loaded->settings());
-        loaded = seen(*std::move(loaded), change, settings);
+        if (!is_frame) loaded = seen(*std::move(loaded), change, settings);
+        // Now it is known which number its name has.
+        if (output && name != files.output) output.emplace(name, exr_of);
         prepare(*loaded, settings);
         fingerprint = fingerprint_of(*loaded);
     });
@@ -268,7 +326,7 @@ int render(const RenderArguments& arguments) {
     times.load = stopwatch.lap();
 
     simd::Progress progress;
-    ResumableRendering drawing = resumable(files.output, scene, settings, fingerprint);
+    ResumableRendering drawing = resumable(name, scene, settings, fingerprint);
     const simd::Rendering rendering = [&] {
         const ProgressBar bar(verbosity, progress,
                               simd::drawn_part(settings, options.crop).pixels());
@@ -277,7 +335,8 @@ int render(const RenderArguments& arguments) {
     if (!job.is_first()) return 0;
     times.render = stopwatch.lap();
 
-    const std::string pixels = write(*output, rendering, settings, scene.settings(), fingerprint);
+    const std::string pixels =
+        write(drawing, *output, rendering, settings, scene.settings(), fingerprint);
     drawing.finished();
     times.write = stopwatch.lap();
 
@@ -297,7 +356,7 @@ int render(const RenderArguments& arguments) {
     if (verbosity == Verbosity::verbose || (verbosity == Verbosity::normal && is_terminal()))
         std::fprintf(
             stderr, "%s: %d x %d pixels, %.8g samples each, in %s, %srays/s\n",
-            printable(files.output, 4096).c_str(), part.x1 - part.x0, part.y1 - part.y0,
+            printable(name, 4096).c_str(), part.x1 - part.x0, part.y1 - part.y0,
             std::round(100.0 * samples_per_pixel(settings, options, rendering.counters)) / 100.0,
             duration_text(times.render).c_str(),
             with_prefix(static_cast<double>(rendering.counters.rays()) / times.render).c_str());

@@ -53,6 +53,9 @@ for conditions in "0.1 0" "5 0.01"; do
     on_both render "$scene" -o two.png --size 400x300
     echo "milliseconds and loss $conditions: $((($(date +%s%N) - start) / 1000000)) ms"
     cmp one.png two.png
+    "$raylane" render "$scene" -q -o one.pfm --size 90x60
+    on_both render - -o two.pfm --size 90x60 <"$scene"
+    cmp one.pfm two.pfm
     on_both render "$scene" -o 'film%d.png' --turn 360/5 --size 40x30
     [ -e film0.png ] && [ -e film4.png ]
     kill "$relay"

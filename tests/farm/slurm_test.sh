@@ -1,6 +1,7 @@
 #!/bin/sh
 # scenes/farm/slurm.sh on a Slurm of one node that is started for it: parts of a picture, put
 # together, are the whole; frames by jobs are those of one process; a job that Slurm ends goes on.
+# First by stand-ins for it (again_test.sh).
 #
 #   slurm_test.sh RAYLANE SCENE    as root; 77 where Slurm (Debian: slurm-wlm, munge) is not there
 set -eu
@@ -8,6 +9,7 @@ set -eu
 raylane=$(realpath "$1")
 scene=$(realpath "$2")
 script=$(realpath "$(dirname "$0")/../../scenes/farm/slurm.sh")
+"$(dirname "$0")/again_test.sh" "$raylane" "$scene"
 for program in slurmctld slurmd munged sbatch; do
     command -v $program >/dev/null || exit 77
 done
@@ -113,10 +115,10 @@ big="--size 400x400 --spp 484"
 # shellcheck disable=SC2086
 last=$("$script" 2 "$scene" many.png $big)
 for second in $(seq 60); do
-    [ ! -e many.png.parts/1.exr.part ] || break
+    [ ! -e many.png.parts/1-of-2.exr.part ] || break
     sleep 0.5
 done
-[ -e many.png.parts/1.exr.part ] || fail "it was too fast to be ended"
+[ -e many.png.parts/1-of-2.exr.part ] || fail "it was too fast to be ended"
 task=$(squeue -h -r -t RUNNING -o '%K %i' | sed -n 's/^1 //p')
 scancel --signal=TERM "$task"
 for second in $(seq 60); do

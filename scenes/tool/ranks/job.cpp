@@ -1,9 +1,13 @@
 #include "scenes/tool/ranks/job.hpp"
 
+#include "scenes/errors.hpp"
 #include "scenes/tool/failure.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstdint>
+#include <sys/mman.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -36,6 +40,33 @@ std::vector<std::string> gathered(Ranks& ranks, const std::string& text) {
         all += counts[rank];
     }
     return texts;
+}
+
+/// Fills a piece with what comes from standard input, up to its end: how many bytes that are, or -1
+/// as errno says.
+std::int64_t read_input(std::vector<char>& piece) {
+    std::size_t filled = 0;
+    while (filled < piece.size()) {
+        const ssize_t count = ::read(STDIN_FILENO, piece.data() + filled, piece.size() - filled);
+        if (count == 0) break;
+        if (count > 0)
+            filled += static_cast<std::size_t>(count);
+        else if (errno != EINTR)
+            return -1;
+    }
+    return static_cast<std::int64_t>(filled);
+}
+
+/// False as errno says.
+bool write_all(int file, const char* bytes, std::size_t count) {
+    while (count > 0) {
+        const ssize_t written = ::write(file, bytes, count);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return false;
+        bytes += written;
+        count -= static_cast<std::size_t>(written);
+    }
+    return true;
 }
 
 } // namespace
@@ -92,6 +123,34 @@ void Job::require_same(const std::string& text, const std::string& what) {
     const std::vector<std::string> texts = gathered(*ranks_, text);
     together([&] {
         if (text != texts.front()) throw RankFailed(3, what + " is another one than rank 0's");
+    });
+}
+
+void Job::share_standard_input() {
+    if (!ranks_ || std::exchange(has_shared_input_, true)) return;
+    const int file = ::memfd_create("raylane input", MFD_CLOEXEC);
+    int refusal = file < 0 ? errno : 0; // here
+    std::int64_t count = 0;
+    int unreadable = 0; // at rank 0
+    std::vector<char> piece(std::size_t{4} << 20);
+    do {
+        if (is_first()) {
+            count = read_input(piece);
+            if (count < 0) unreadable = errno;
+        }
+        wait_for_all(*ranks_); // for as long as the input takes to come
+        ranks_->broadcast(&count, sizeof count);
+        if (count <= 0) break;
+        ranks_->broadcast(piece.data(), static_cast<std::size_t>(count));
+        if (refusal == 0 && !write_all(file, piece.data(), static_cast<std::size_t>(count)))
+            refusal = errno;
+    } while (true);
+    together([&] {
+        if (unreadable != 0) throw SystemRefused("standard input", "read", unreadable);
+        if (refusal == 0 && (::lseek(file, 0, SEEK_SET) != 0 || ::dup2(file, STDIN_FILENO) < 0))
+            refusal = errno;
+        if (refusal != 0) throw SystemRefused("standard input", "keep in memory", refusal);
+        if (file != STDIN_FILENO) ::close(file);
     });
 }
 

@@ -47,6 +47,9 @@ class Job {
     std::string told_on_host(const std::string& text);
     /// All together: fails unless this text is the same for all.
     void require_same(const std::string& text, const std::string& what);
+    /// All together: from now on standard input is rank 0's at each of them, which has it in
+    /// memory, and begins at its start. Once; after that, nothing. Alone: it stays what it is.
+    void share_standard_input();
     /// All together, once they need each other no more: from now on each is by itself.
     void part();
     /// Of several ranks on one host each has a share of its processors, unless MPI has bound it to
@@ -57,7 +60,7 @@ class Job {
     std::unique_ptr<Ranks> ranks_;
     int rank_ = 0, size_ = 1;
     int exceptions_ = std::uncaught_exceptions();
-    bool fails_together_ = false;
+    bool fails_together_ = false, has_shared_input_ = false;
 };
 
 } // namespace raylane::scenes

@@ -67,7 +67,13 @@ std::optional<core::Scene> take(const std::string& place, int threads) {
 } // namespace
 
 core::Scene load_together(Job& job, const std::filesystem::path& path, int threads,
-                          const std::function<core::Scene(int)>& load) {
+                          const std::function<core::Scene(int)>& load_file) {
+    const bool is_input = path == "-" && job.ranks() != nullptr;
+    if (is_input) job.share_standard_input();
+    const auto load = [&](int with) {
+        if (is_input) ::lseek(STDIN_FILENO, 0, SEEK_SET);
+        return load_file(with);
+    };
     std::optional<core::Scene> scene;
     const int share = job.share_of_threads(threads);
     std::optional<MemoryFile> memory;

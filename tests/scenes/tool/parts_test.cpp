@@ -4,6 +4,7 @@
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <csignal>
+#include <cstdio>
 
 using namespace raylane;
 using namespace raylane::tests;
@@ -23,6 +24,10 @@ Options merged(std::vector<int> numbers, const std::string& output) {
     for (const int number : numbers)
         words.push_back("part-" + std::to_string(number) + ".exr");
     return joined(words, {"-o", output});
+}
+
+std::string content(const Workshop& workshop, const std::string& name) {
+    return content_of(workshop.path() / name);
 }
 
 void draw_parts(const Workshop& workshop, int count, const Options& options = {}) {
@@ -106,6 +111,129 @@ TEST_CASE("parts that make no whole are refused in one line") {
     CHECK(refusal({"verify", "part-1.exr", "scene.json", "--quiet"}) ==
           "raylane: part-1.exr: is a part of a picture, to be merged first\n");
     CHECK(workshop.is_output_empty());
+}
+
+TEST_CASE("one frame of several is drawn in parts as any other scene is") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    workshop.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n2\n\nC 0 0 0\nO 0 1 1\n"
+                               "2\n\nC 0 0 0\nO 1 1 2\n");
+    const auto ran = [&](const Options& command) {
+        const Outcome outcome = workshop.run(command);
+        CAPTURE(command);
+        CHECK(outcome.err.empty());
+        CHECK(outcome.code == 0);
+    };
+    const auto frame = [](const Options& options, const Options& others) {
+        return joined(joined({"render", "move.xyz"}, options), others);
+    };
+    for (const Options& options :
+         {Options{"--frames", "2", "--size", "150x90", "--spp", "4"},
+          {"--frames", "-2", "--style", "spheres", "--zoom", "2"}, // its own size
+          {"--frames", "1", "--camera-from", "all", "--size", "90x90", "--view", "top"}}) {
+        CAPTURE(options);
+        std::vector<std::string> contents;
+        for (const std::string k : {"1", "2", "3"}) {
+            ran(frame(options, {"-o", "part-" + k + ".exr", "--part", k + "/3"}));
+            contents.push_back(content(workshop, "part-" + k + ".exr"));
+        }
+        CHECK(contents[0] != contents[1]);
+        CHECK(contents[1] != contents[2]);
+        for (const std::string name : {"whole.exr", "whole.png"}) {
+            ran(frame(options, {"-o", name}));
+            ran(merged({3, 1, 2}, "merged-" + name));
+            CHECK(content(workshop, "merged-" + name) == content(workshop, name));
+            const Outcome verified =
+                workshop.run({"verify", "merged-" + name, "move.xyz", "--quiet", "--whole"});
+            CHECK(verified.err.empty());
+            CHECK(verified.code == 0);
+        }
+        std::filesystem::remove(workshop.path() / "part-2.exr");
+        CHECK(workshop.run(merged({1, 3}, "out/a.png")).err ==
+              "raylane: PARTS: must be all 3, but there is no part 2\n");
+    }
+    // It has the number in its name, which is known once the file has been read.
+    ran({"render", "move.xyz", "--frames", "-1", "-o", "f%02d.exr", "--part", "1/2"});
+    CHECK(std::filesystem::exists(workshop.path() / "f02.exr"));
+    CHECK(workshop.run({"render", "move.xyz", "--frames", "1", "-o", "out/a.png", "--part", "2/3"})
+              .err == "raylane: --part: goes with an output that ends in .exr\n");
+    // Those of a range are drawn in turns.
+    ran({"render", "move.xyz", "--frames", ":", "-o", "out/t%d.png", "--part", "2/3"});
+    CHECK(std::filesystem::exists(workshop.output() / "t1.png"));
+    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
+}
+
+TEST_CASE("parts are put together in any order, also of scenes by different names") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    workshop.write("other.json", ball);
+    REQUIRE(workshop.run(part(1, 2)).code == 0);
+    REQUIRE(workshop.run({"render", "other.json", "-o", "part-2.exr", "--part", "2/2"}).code == 0);
+    REQUIRE(workshop.render("whole.png").code == 0);
+    REQUIRE(workshop.run(merged({1, 2}, "a.png")).code == 0);
+    REQUIRE(workshop.run(merged({2, 1}, "b.png")).code == 0);
+    CHECK(content(workshop, "a.png") == content(workshop, "whole.png"));
+    CHECK(content(workshop, "b.png") == content(workshop, "whole.png"));
+}
+
+TEST_CASE("a part that says nothing of its rays, or what nobody knows, is refused") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    draw_parts(workshop, 2);
+    const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / "part-2.exr");
+    const auto refusal = [&](const std::string& rays) {
+        scenes::PictureOptions options;
+        options.bits = 32;
+        for (const auto& [name, text] : picture.texts)
+            if (name != "Rays") options.texts.emplace_back(name, text);
+        if (!rays.empty()) options.texts.emplace_back("Rays", rays);
+        scenes::OutputFile(workshop.path() / "part-2.exr", scenes::exr_of)
+            .commit(picture.film, options);
+        const Outcome outcome = workshop.run(merged({1, 2}, "out/a.png"));
+        CHECK(outcome.code == 2);
+        CHECK(is_one_line(outcome.err));
+        return outcome.err;
+    };
+    CHECK(refusal("many") == "raylane: part-2.exr: says what its rays were in vain\n");
+    CHECK(refusal("").ends_with("it has no Rays\n"));
+    CHECK(workshop.is_output_empty());
+}
+
+TEST_CASE("a picture names its selection so that verify understands it") {
+    const Workshop workshop;
+    std::string atoms;
+    double z = 0.0;
+    for (const char* name : {" P  ", " C5'", " O5\"", " C\\ ", " N`1", " CA "}) {
+        char line[96];
+        std::snprintf(
+            line, sizeof line,
+            "ATOM      1 %s A   A   1       0.000   0.000%8.3f  1.00  0.00           C  \n", name,
+            z);
+        atoms += line;
+        z += 2.0;
+    }
+    workshop.write("atoms.pdb", atoms + "END\n");
+    const auto shown = [&](const std::string& selection) {
+        CAPTURE(selection);
+        const Outcome drawn = workshop.run({"render", "atoms.pdb", "-o", "a.png", "--size", "60x40",
+                                            "--spp", "1", "--quiet", "--select", selection});
+        CHECK(drawn.err.empty());
+        REQUIRE(drawn.code == 0);
+        const Outcome verified = workshop.run({"verify", "a.png", "atoms.pdb", "--quiet"});
+        CHECK(verified.err.empty());
+        CHECK(verified.out.starts_with("scene      the one that the picture names\n"));
+        CHECK(verified.code == 0);
+        return content(workshop, "a.png");
+    };
+    const std::string both = shown("name P or name C5'");
+    CHECK(shown("name P\tor name C5'") == both);
+    CHECK(shown("name P\tor\tname\tC5'") == both);
+    CHECK(shown("name P or name CA") != both);
+    for (const char* selection :
+         {"name C5'", "name O5\"", "name O5\" C5'", "name C5' or name O5\"", "name N`1",
+          "name C5'\tO5\" N`1", "name C\\ or name P", "name P or name C\\", "name O5\" C5' C\\",
+          "not name \\\"", "not name A-B=\"", "not name A-B='", "(name P)and(name P)", "name P "})
+        shown(selection);
 }
 
 TEST_CASE("a part is K/N, and has floats in an EXR") {

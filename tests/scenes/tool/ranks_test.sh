@@ -86,6 +86,68 @@ for frame in 0 1 2 3 4; do
     same one$frame.png many$frame.png
 done
 
+echo "one frame, by all ranks"
+for frame in 0 1 2; do
+    printf '3\n\nC 0 0 0\nO 0 0 %s\nN 1 0 0\n' "1.$frame"
+done >film.xyz
+for options in "--frames 1" "--frames -1 --camera-from all --view top --zoom 2" \
+    "--frames 2 --style spheres --depth-cue 0.5"; do
+    # shellcheck disable=SC2086 # a list of options
+    "$raylane" render film.xyz -q $options -o one.png --size 150x90
+    # shellcheck disable=SC2086
+    job 3 render film.xyz $options -o many.png --size 150x90 2>err || fail "$options"
+    same one.png many.png
+done
+# Both have a hand in it: they have the one scene.
+job 2 render film.xyz --frames 1 -o long.png --size 4000x4000 --spp 65536 --no-resume >out 2>err &
+sharing=
+tries=0
+while [ -z "$sharing" ] && [ $tries -lt 300 ]; do
+    sleep 0.2
+    tries=$((tries + 1))
+    count=0
+    for process in $(pgrep -f "^$raylane render film.xyz --frames 1 -o long.png"); do
+        ! grep -qsF "memfd:raylane scene" "/proc/$process/maps" || count=$((count + 1))
+    done
+    [ $count -lt 2 ] || sharing=1
+done
+pkill -KILL -f "^$raylane render film.xyz --frames 1 -o long.png" || true
+wait $! || true
+[ -n "$sharing" ] || fail "ranks do not share a frame"
+if [ -e one.exr ]; then
+    "$raylane" render film.xyz -q --frames 1 -o one.exr --size 150x90
+    for part in 1 2; do
+        job 2 render film.xyz --frames 1 -o part-$part.exr --part $part/2 --size 150x90 2>err ||
+            fail "a part of a frame"
+    done
+    "$raylane" merge part-2.exr part-1.exr -o many.exr
+    same one.exr many.exr
+    "$raylane" verify -q many.exr film.xyz >out || fail "a frame's parts are not what they say"
+fi
+
+echo "standard input"
+scenes=$(dirname "$scene")
+for name in mirrors cutaway; do # the latter's solids are not shared in memory
+    "$raylane" render "$scenes/$name.json" -q -o one.pfm --size 90x60 --spp 1
+    job 3 render - -o many.pfm --size 90x60 --spp 1 <"$scenes/$name.json" 2>err || fail "$name by -"
+    same one.pfm many.pfm
+done
+"$raylane" render film.xyz -q --frames 2 -o one.pfm --size 90x60
+job 2 render - --frames 2 -o many.pfm --size 90x60 <film.xyz 2>err || fail "a frame by -"
+same one.pfm many.pfm
+"$raylane" render film.xyz -q --frames 0: -o 'one%d.pfm' --size 40x30
+job 2 render - --frames 0: -o 'many%d.pfm' --size 40x30 <film.xyz 2>err || fail "frames by -"
+for frame in 0 1 2; do
+    same one$frame.pfm many$frame.pfm
+done
+# Longer than what goes from rank to rank at once.
+python3 -c 'print(300000)
+print()
+for i in range(300000): print("C %.6f %.6f %.6f" % (i % 70, i // 70 % 70, i // 4900))' >many.xyz || exit 77
+"$raylane" render many.xyz -q --style points -o one.pfm --size 90x60 --spp 1
+job 2 render - --style points -o many.pfm --size 90x60 --spp 1 <many.xyz 2>err || fail "many by -"
+same one.pfm many.pfm
+
 echo "rays"
 python3 - <<'PYTHON' || exit 77
 import random, struct
@@ -106,6 +168,9 @@ for options in "" --occluded; do
         same one.npy many.npy
     done
 done
+"$raylane" trace "$scenes/cutaway.json" rays.npy -q -o one.npy
+job 2 trace - rays.npy -o many.npy <"$scenes/cutaway.json" 2>err || fail "trace -"
+same one.npy many.npy
 
 echo "mistakes are said once"
 refused() { # code, line, command...
@@ -121,6 +186,7 @@ refused() { # code, line, command...
 refused 2 "--spp: must be a square number" render "$scene" --spp 3
 refused 2 "none.json: no such file" render none.json
 refused 3 "none/a.png: cannot write" render "$scene" -o none/a.png
+refused 2 "standard input: must be a scene, got an empty file" render - </dev/null
 refused 2 "none.npy: no such file" trace "$scene" none.npy
 refused 2 "err: must be an array in NumPy's format" trace "$scene" err
 

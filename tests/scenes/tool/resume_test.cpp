@@ -4,6 +4,8 @@
 
 #include <csignal>
 #include <random>
+#include <sched.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <thread>
 
@@ -177,6 +179,66 @@ TEST_CASE("where there is no room for a journal, the picture is drawn all the sa
           std::string::npos);
     CHECK(picture_of(workshop) == expected);
     CHECK(!has_journal(workshop));
+}
+
+TEST_CASE("a journal that has filled the disk gives its room to the picture") {
+    const Workshop workshop;
+    // Long enough for a journal, on whatever processor.
+    const auto drawn = [&](const std::string& output, const Options& options) {
+        return workshop.run(joined({"render", "scene.json", "-o", output, "--spp", "144", "--size",
+                                    sanitized ? "800x800" : "2000x2000", "--threads", "2"},
+                                   options));
+    };
+    REQUIRE(drawn("expected.png", {"--no-resume"}).code == 0);
+    const std::string expected = content_of(workshop.path() / "expected.png");
+    const std::string room = "size=" + std::to_string(expected.size() + (1 << 20));
+    const bool mounted = ::unshare(CLONE_NEWNS) == 0 &&
+                         ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+                         ::mount("none", workshop.output().c_str(), "tmpfs", 0, room.c_str()) == 0;
+    if (!mounted) {
+        WARN("skipped: no file system can be mounted here");
+        return;
+    }
+    const Outcome outcome = drawn("out/picture.png", {});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.ends_with(
+        "raylane: out/picture.png.part: cannot write: No space left on device\n"));
+    CHECK(picture_of(workshop) == expected);
+    CHECK(!has_journal(workshop));
+    CHECK(::umount(workshop.output().c_str()) == 0);
+}
+
+TEST_CASE("a tile is kept while the next one takes long") {
+    // The first shows nothing, the second what takes seconds.
+    const Workshop workshop(R"({"image": {"width": 64, "height": 32},
+        "camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "background": [0, 0, 0.5],
+        "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
+        "materials": {"mirror": {"color": [1, 0, 0], "reflectivity": 0.5}},
+        "objects": [{"type": "sphere", "material": "mirror", "center": [2, 0, 0], "radius": 1.5},
+                    {"type": "sphere", "material": "mirror", "center": [2, 0, 3], "radius": 0.7}]})");
+    const Options drawing = {
+        "render", "scene.json", "-o", "out/picture.png", "--tile",
+        "32",     "--threads",  "1",  "--spp",           sanitized ? "4096" : "65536"};
+    Process process = workshop.start(drawing);
+    for (int i = 0; i < 600 && !has_journal(workshop); ++i)
+        std::this_thread::sleep_for(milliseconds(100));
+    process.send(SIGKILL);
+    CHECK(!process.wait().exited);
+    REQUIRE(has_journal(workshop));
+    Process again = workshop.start(drawing);
+    std::this_thread::sleep_for(milliseconds(200));
+    again.send(SIGKILL);
+    CHECK(again.wait().err.starts_with("raylane: out/picture.png.part: goes on at 50 %\n"));
+}
+
+TEST_CASE("an empty picture of a film is drawn, as power may have left it") {
+    const Workshop workshop;
+    const Options film = {"render", "scene.json", "-o", "out/f%d.png", "--turn", "90/3"};
+    REQUIRE(workshop.run(film).code == 0);
+    const std::string expected = content_of(workshop.output() / "f1.png");
+    workshop.write("out/f1.png", "");
+    CHECK(workshop.run(film).code == 0);
+    CHECK(content_of(workshop.output() / "f1.png") == expected);
 }
 
 TEST_CASE("a signal while the last tile is drawn ends the program behind the whole picture") {
