@@ -27,6 +27,7 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 1> en
 struct Command {
     CLI::App* arguments;
     std::function<int()> run;
+    bool by_ranks = false; ///< those of a job do it together
 };
 
 /// Value on the command line, for the command to judge; nothing if it is not there.

@@ -63,7 +63,10 @@ int run(int argc, const char* const* argv) {
         return complain(usage_message(app, error), bad_input);
     }
     for (const Command& command : commands)
-        if (command.arguments->parsed()) return command.run();
+        if (command.arguments->parsed()) {
+            if (!command.by_ranks) each_rank_speaks();
+            return command.run();
+        }
     return bad_input;
 }
 

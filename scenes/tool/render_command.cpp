@@ -372,7 +372,7 @@ Command add_render_command(CLI::App& app) {
                     "--spp 16");
     auto arguments = std::make_shared<RenderArguments>();
     arguments->add_to(command);
-    return {&command, [arguments] { return render(*arguments); }};
+    return {&command, [arguments] { return render(*arguments); }, true};
 }
 
 } // namespace raylane::scenes

@@ -233,7 +233,7 @@ Command add_trace_command(CLI::App& app) {
                "fast|robust|exact|double|auto");
     add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
     arguments->scene_arguments.add_to(command);
-    return {&command, [arguments] { return trace(*arguments); }};
+    return {&command, [arguments] { return trace(*arguments); }, true};
 }
 
 } // namespace raylane::scenes

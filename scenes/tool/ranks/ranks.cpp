@@ -12,6 +12,7 @@ namespace raylane::scenes {
 namespace {
 
 bool has_joined = false;
+bool speaks = false;
 
 /// Of a variable, if it is a number.
 std::optional<int> number_in(const char* variable) {
@@ -29,10 +30,14 @@ bool is_one_of_several() {
 }
 
 bool first_rank_says_the_same() {
-    if (has_joined || !is_one_of_several()) return false;
+    if (has_joined || speaks || !is_one_of_several()) return false;
     for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
         if (std::getenv(variable) != nullptr) return number_in(variable) != 0;
     return false;
+}
+
+void each_rank_speaks() {
+    speaks = true;
 }
 
 std::unique_ptr<Ranks> join_ranks() {

@@ -51,6 +51,8 @@ bool is_one_of_several();
 /// True as long as this has not joined the others, and is not rank 0: what is wrong by then is so
 /// for all of them.
 bool first_rank_says_the_same();
+/// From now on that is not so: each does something of its own.
+void each_rank_speaks();
 
 /// Joins the others, by a module that is loaded for it. Null if there are none. Throws
 /// SystemRefused where there is no such module.

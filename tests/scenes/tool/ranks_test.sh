@@ -47,6 +47,14 @@ if "$raylane" render "$scene" -q -o one.exr --size 150x90 2>/dev/null; then
     try exr --size 150x90 --part 2/3
 fi
 
+echo "commands that ranks do each for itself"
+status=0
+timeout 100 mpirun --oversubscribe -n 2 sh -c '
+    [ "$OMPI_COMM_WORLD_RANK" = 0 ] || exec "$0" info none.json
+    exec "$0" info "$1"' "$raylane" "$scene" >out 2>err || status=$?
+[ "$status" -ne 0 ] || fail "a rank that fails ends with 0"
+grep -q "raylane: none.json: no such file" err || fail "a rank that fails says nothing"
+
 echo "a scene that ranks of a host share"
 "$raylane" build "$scene" -o built.rl -q
 "$raylane" render "$scene" -q -o one.pfm --size 150x90
