@@ -176,7 +176,10 @@ bool looks_like_lammps_data(const std::vector<std::string_view>& lines) {
 } // namespace
 
 Format format_of(InputFile& file) {
-    if (file.head().empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
+    const auto require_any = [&](std::string_view text) {
+        if (text.empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
+    };
+    require_any(file.head());
     std::filesystem::path name = file.name();
     const auto ending_of = [](const std::filesystem::path& path) {
         std::string ending = path.extension().string();
@@ -196,6 +199,7 @@ Format format_of(InputFile& file) {
                        "must be a scene or atoms in a text format, got a binary file");
     static constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
+    require_any(head);
     if (looks_like_json(head)) return Format::json;
     if (looks_like_pov(head)) return Format::pov;
     const std::vector<std::string_view> lines = lines_of(head, 40);

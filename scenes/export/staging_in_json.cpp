@@ -83,7 +83,9 @@ core::Staging staging_in_json(const core::Scene& scene) {
     const bool is_cue_read = said.framing && said.depth_cue <= 0.99F;
     if (!is_cue_read || !is_same(view->fog, scene.fog())) said.depth_cue = 0.0F;
     const auto same = [](const core::Light& a, const core::Light& b) { return is_same(a, b); };
-    said.lights = said.lights && std::ranges::equal(view->lights, brought_lights(scene), same);
+    const std::span<const core::Light> brought = brought_lights(scene);
+    said.lights = said.lights && std::equal(view->lights.begin(), view->lights.end(),
+                                            brought.begin(), brought.end(), same);
     return said;
 }
 
