@@ -16,6 +16,8 @@ using scenes::Format;
 
 namespace {
 
+constexpr Format fuzzed = Format::RAYLANE_FUZZ_FORMAT;
+
 /// What a few bytes ask for much with, rightly, is not what is looked for here.
 bool asks_for_much(std::string_view text) {
     return text.find("sphereflake") != std::string_view::npos ||
@@ -70,18 +72,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     if (asks_for_much(text)) return 0;
     try {
-        if constexpr (Format::RAYLANE_FUZZ_FORMAT == Format::built) {
+        if constexpr (fuzzed == Format::built) {
             std::string sealed(text); // or all that is found is the checksum
             scenes::seal(sealed);
             read(sealed, Format::built);
         } else {
-            read(text, Format::RAYLANE_FUZZ_FORMAT);
+            read(text, fuzzed);
         }
     } catch (const scenes::BadInput& bad) {
         const std::string_view message = bad.what();
-        constexpr Format format = Format::RAYLANE_FUZZ_FORMAT;
         // These include other files.
-        constexpr bool may_be_elsewhere = format == Format::pov || format == Format::tachyon;
+        constexpr bool may_be_elsewhere = fuzzed == Format::pov || fuzzed == Format::tachyon;
         const bool names_file = message.starts_with("a.") || may_be_elsewhere;
         if (!names_file || message.empty() || message.size() > 100'000) __builtin_trap();
     } catch (const scenes::SystemRefused&) {
