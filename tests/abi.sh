@@ -16,7 +16,7 @@ for source in scenes/library/*.cpp scenes/c/*.cpp scenes/errors.cpp; do
     echo "$source"
 done | xargs -P "$(nproc)" -I '{}' sh -c 'g++ -std=c++20 -g -O0 -fPIC -fvisibility=hidden \
     -fvisibility-inlines-hidden -DGLM_FORCE_EXPLICIT_CTOR -DGLM_FORCE_XYZW_ONLY -I. -Iscenes/library \
-    -c "$1" -o "$0/$(basename "$1").o"' "$room" '{}'
+    -c "$1" -o "$0/$(printf %s "$1" | tr / -).o"' "$room" '{}'
 g++ -shared -Wl,--version-script=scenes/library/exports.map -o "$room/libraylane.so" "$room"/*.o
 nm -DC --defined-only "$room/libraylane.so" >"$room/symbols"
 {
