@@ -125,12 +125,13 @@ TEST_CASE("one frame of several is drawn in parts as any other scene is") {
         CHECK(outcome.code == 0);
     };
     const auto frame = [](const Options& options, const Options& others) {
-        return joined(joined({"render", "move.xyz"}, options), others);
+        return joined(joined({"render", "move.xyz", "--quiet"}, options), others);
     };
     for (const Options& options :
          {Options{"--frames", "2", "--size", "150x90", "--spp", "4"},
-          {"--frames", "-2", "--style", "spheres", "--zoom", "2"}, // its own size
-          {"--frames", "1", "--camera-from", "all", "--size", "90x90", "--view", "top"}}) {
+          {"--frames", "-2", "--style", "spheres", "--zoom", "2", "--spp", "1"}, // its own size
+          {"--frames", "1", "--camera-from", "all", "--size", "90x90", "--spp", "1", "--view",
+           "top"}}) {
         CAPTURE(options);
         std::vector<std::string> contents;
         for (const std::string k : {"1", "2", "3"}) {
@@ -153,12 +154,14 @@ TEST_CASE("one frame of several is drawn in parts as any other scene is") {
               "raylane: PARTS: must be all 3, but there is no part 2\n");
     }
     // It has the number in its name, which is known once the file has been read.
-    ran({"render", "move.xyz", "--frames", "-1", "-o", "f%02d.exr", "--part", "1/2"});
+    ran({"render", "move.xyz", "--quiet", "--frames", "-1", "-o", "f%02d.exr", "--part", "1/2",
+         "--spp", "1"});
     CHECK(std::filesystem::exists(workshop.path() / "f02.exr"));
     CHECK(workshop.run({"render", "move.xyz", "--frames", "1", "-o", "out/a.png", "--part", "2/3"})
               .err == "raylane: --part: goes with an output that ends in .exr\n");
     // Those of a range are drawn in turns.
-    ran({"render", "move.xyz", "--frames", ":", "-o", "out/t%d.png", "--part", "2/3"});
+    ran({"render", "move.xyz", "--quiet", "--frames", ":", "-o", "out/t%d.png", "--part", "2/3",
+         "--spp", "1"});
     CHECK(std::filesystem::exists(workshop.output() / "t1.png"));
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
 }
