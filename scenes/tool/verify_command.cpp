@@ -1,4 +1,3 @@
-#include "core/scene/transfer.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/image/exr.hpp"
 #include "scenes/image/reader.hpp"
@@ -33,39 +32,21 @@ struct VerifyArguments {
     VerbosityArguments verbosity;
 };
 
-/// A pixel's components as a picture would have them: codes divided by the largest, or floats,
-/// which may be rounded to halves. `is_exact`: no other precision has drawn it.
-class AsWritten {
+/// How far components may be from those that a picture is to have. `is_exact`: no other precision
+/// has drawn it.
+class Tolerance {
   public:
-    AsWritten(const Image& image, core::Transfer transfer, bool is_exact)
-        : is_float_(image.linear_float), halves_(is_float_ && image.bits == 16),
-          is_exact_(is_exact), bits_(image.bits), transfer_(transfer), encode_(transfer),
-          has_alpha_(image.alpha.size() > 0) {}
+    Tolerance(const Image& image, bool is_exact)
+        : is_float_(image.linear_float), is_exact_(is_exact), bits_(image.bits) {}
 
-    std::array<float, 4> operator()(const core::Color& color, float alpha) const {
-        std::array<float, 4> all{};
-        for (int channel = 0; channel < 3; ++channel) {
-            // PNG's colours are not multiplied by alpha.
-            const float component = is_float_      ? color[channel]
-                                    : alpha > 0.0F ? color[channel] / alpha
-                                                   : 0.0F;
-            all[channel] = is_float_ ? component : code(component);
-        }
-        all[3] = !has_alpha_ ? 1.0F : is_float_ ? alpha : code_of_alpha(alpha);
-        return all;
-    }
-
-    /// The bits; of halves, and of what is not exact, what rounds to them.
+    /// The bits; of what is not exact, what rounds to them.
     bool is_same(float there, float expected) const {
-        if (there == expected) return true;
-        return (halves_ || !is_exact_) && is_within(0.5F, there, expected);
+        return there == expected || (!is_exact_ && is_within(0.5F, there, expected));
     }
     bool is_near(float there, float expected) const { return is_within(1.5F, there, expected); }
 
   private:
     bool is_within(float steps, float there, float expected) const {
-        constexpr float largest_half = 65504.0F;
-        if (halves_) expected = std::clamp(expected, -largest_half, largest_half);
         return std::abs(there - expected) <= steps * step(expected);
     }
     /// From one component that the file can have to the next; of what is not exact, a code of 8
@@ -73,26 +54,11 @@ class AsWritten {
     float step(float component) const {
         if (!is_float_) return bits_ == 8 || !is_exact_ ? 1.0F / 255.0F : 1.0F / 65535.0F;
         const float size = std::max(std::abs(component), 0x1p-14F);
-        return (!is_exact_ ? 0x1p-9F : halves_ ? 0x1p-10F : 0x1p-23F) * size;
+        return (!is_exact_ ? 0x1p-9F : bits_ == 16 ? 0x1p-10F : 0x1p-23F) * size;
     }
 
-    float code(float component) const {
-        return bits_ == 8 ? static_cast<float>(encode_(component)) / 255.0F
-                          : words(component, transfer_);
-    }
-    float code_of_alpha(float alpha) const {
-        return bits_ == 8 ? static_cast<float>(core::encode(alpha, core::Transfer::linear)) / 255.0F
-                          : words(alpha, core::Transfer::linear);
-    }
-    static float words(float component, core::Transfer transfer) {
-        return static_cast<float>(core::encode_in_16_bits(component, transfer)) / 65535.0F;
-    }
-
-    bool is_float_, halves_, is_exact_;
+    bool is_float_, is_exact_;
     int bits_;
-    core::Transfer transfer_;
-    core::Encoder encode_;
-    bool has_alpha_;
 };
 
 template <class T>
@@ -184,47 +150,48 @@ class Verifier {
         simd::RenderOptions options = options_;
         options.layers = layers.has_value();
         const simd::Rendering rendering = draw(options);
+        const Image written = as_written(rendering.film);
         const std::optional<RayTiers> tiers =
             ray_tiers_of(text_in(image_.name, image_.texts, "Rays"));
         return {fingerprint_of(rendering.film) == text_in(image_.name, image_.texts, "Pixels") &&
-                    tiers && is_as_written(rendering.film) &&
+                    tiers && written.rgb.is_same(image_.rgb) &&
+                    written.alpha.is_same(image_.alpha) &&
                     (!layers || has_same_bits(*layers, rendering.layers)),
                 tiers && tiers->text() == RayTiers(rendering.counters).text()};
     }
 
   private:
     /// As render would write it, and compare reads it.
-    bool is_as_written(const core::Film& film) const {
+    Image as_written(const core::Film& film) const {
         const MemoryFile memory;
         OutputFile output(memory.path(),
                           image_.linear_float ? PictureFormat::exr : PictureFormat::png, exr_of);
         output.commit(
             film, {.transfer = settings_.transfer, .bits = image_.bits, .dpi = {}, .texts = {}});
-        const Image written = read_image(memory.path());
-        return written.rgb.is_same(image_.rgb) && written.alpha.is_same(image_.alpha);
+        return read_image(memory.path());
     }
 
     /// Some pixels of the picture with those of a film.
     Verdict compared(const core::Film& film, const std::vector<std::size_t>& pixels) const {
         Verdict verdict;
-        const AsWritten as_written(image_, settings_.transfer,
-                                   options_.precision == core::Precision::exact);
+        const Image expected = as_written(film);
+        const Tolerance tolerance(image_, options_.precision == core::Precision::exact);
         for (const std::size_t pixel : pixels) {
-            const int x = x_of(pixel) - part_.x0, y = y_of(pixel) - part_.y0;
-            const std::array<float, 4> expected = as_written(film.at(x, y), film.alpha_at(x, y));
             bool is_same = true, is_near = true;
-            for (std::size_t channel = 0; channel < expected.size(); ++channel) {
-                const float there = channel < 3               ? image_.rgb[3 * pixel + channel]
-                                    : image_.alpha.size() > 0 ? image_.alpha[pixel]
-                                                              : 1.0F;
-                is_same = is_same && as_written.is_same(there, expected[channel]);
-                is_near = is_near && as_written.is_near(there, expected[channel]);
-            }
+            const auto compare = [&](float there, float right) {
+                is_same = is_same && tolerance.is_same(there, right);
+                is_near = is_near && tolerance.is_near(there, right);
+            };
+            for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
+                compare(image_.rgb[i], expected.rgb[i]);
+            if (image_.alpha.size() > 0)
+                compare(image_.alpha[pixel],
+                        expected.alpha.size() > 0 ? expected.alpha[pixel] : 1.0F);
             if (is_near) {
                 ++(is_same ? verdict.same : verdict.within_a_step);
             } else if (verdict.differing++ == 0) {
-                verdict.x = x;
-                verdict.y = y;
+                verdict.x = x_of(pixel) - part_.x0;
+                verdict.y = y_of(pixel) - part_.y0;
             }
         }
         return verdict;
