@@ -1,6 +1,7 @@
 #include "scenes/format.hpp"
 
 #include "scenes/built/built_file.hpp"
+#include "scenes/ending.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 
@@ -181,12 +182,6 @@ Format format_of(InputFile& file) {
     };
     require_any(file.head());
     std::filesystem::path name = file.name();
-    const auto ending_of = [](const std::filesystem::path& path) {
-        std::string ending = path.extension().string();
-        for (char& c : ending)
-            if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-        return ending;
-    };
     std::string ending = ending_of(name);
     if (ending == ".gz") ending = ending_of(name.stem());
     for (const auto& [known, format] : endings)

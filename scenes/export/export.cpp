@@ -1,6 +1,7 @@
 #include "scenes/export/export.hpp"
 
 #include "scenes/built/built_file.hpp"
+#include "scenes/ending.hpp"
 #include "scenes/export/writers.hpp"
 
 namespace raylane::scenes {
@@ -11,9 +12,7 @@ enum class Format { json, nff, pov, built };
 
 Format format_of(const std::filesystem::path& path) {
     if (path == "-") return Format::json;
-    std::string ending = path.extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string ending = ending_of(path);
     if (ending == ".json") return Format::json;
     if (ending == ".nff") return Format::nff;
     if (ending == ".pov") return Format::pov;

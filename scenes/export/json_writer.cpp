@@ -1,5 +1,6 @@
 #include "scenes/export/staging_in_json.hpp"
 #include "scenes/export/writers.hpp"
+#include "scenes/json/limits.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,9 +9,6 @@
 namespace raylane::scenes {
 
 namespace {
-
-/// Levels of objects and lists that an object of a file may have.
-constexpr int most_levels = 256;
 
 /// Writes objects, one key after the other.
 class Object {
@@ -357,7 +355,7 @@ void write_part(Object& object, const Shape& shape) {
 }
 
 /// Levels of objects and lists that it is written with.
-int levels_of(const core::Solid& solid) {
+std::size_t levels_of(const core::Solid& solid) {
     if (solid.made == core::Made::of_shape)
         return std::visit(
             []<class Shape>(const Shape&) {
@@ -365,10 +363,10 @@ int levels_of(const core::Solid& solid) {
                 constexpr bool has_rows = kind == core::Kind::box ||
                                           kind == core::Kind::ellipsoid ||
                                           kind == core::Kind::quadric;
-                return has_rows ? 3 : 2;
+                return std::size_t{has_rows ? 3 : 2};
             },
             solid.shape);
-    int levels = 0;
+    std::size_t levels = 0;
     for (const core::Solid& part : solid.parts)
         levels = std::max(levels, levels_of(part));
     return levels + 2;
@@ -437,7 +435,7 @@ Differences write_json(TextFile& file, const core::Scene& scene) {
             object.text("material", std::to_string(scene.material_index_of(id)));
         },
         [&](const core::Solid& solid, core::ShapeId) {
-            if (const int levels = levels_of(solid); levels > most_levels)
+            if (const std::size_t levels = levels_of(solid); levels > most_levels)
                 throw core::InvalidValue(
                     "", "cannot have a solid of more than " + std::to_string(most_levels) +
                             " levels of objects and lists, for none is read, got " +

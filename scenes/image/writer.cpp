@@ -1,6 +1,7 @@
 #include "scenes/image/writer.hpp"
 
 #include "core/scene/transfer.hpp"
+#include "scenes/ending.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/image/png_writer.hpp"
 
@@ -59,9 +60,7 @@ float radiance_component(float value) {
 
 PictureFormat picture_format_of(const std::filesystem::path& path, bool with_exr) {
     if (path == "-") return PictureFormat::png;
-    std::string ending = path.extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string ending = ending_of(path);
     static constexpr std::pair<std::string_view, PictureFormat> endings[] = {
         {".png", PictureFormat::png}, {".exr", PictureFormat::exr}, {".hdr", PictureFormat::hdr},
         {".pfm", PictureFormat::pfm}, {".tga", PictureFormat::tga}, {".bmp", PictureFormat::bmp},

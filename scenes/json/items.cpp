@@ -1,6 +1,7 @@
 #include "scenes/json/items.hpp"
 
 #include "scenes/errors.hpp"
+#include "scenes/json/limits.hpp"
 #include "scenes/json/text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ struct Most {
     std::size_t text; // bytes of keys, strings and numbers
 };
 constexpr Most most_of_plain = {16, 4096, 1 << 20};
-constexpr Most most_of_nested = {256, 1 << 27, std::size_t{1} << 31};
+constexpr Most most_of_nested = {most_levels, 1 << 27, std::size_t{1} << 31};
 
 // Wording of the parser's errors: "... - REASON; last read: '...'" where it could not even make a
 // token of what it read, and "; expected ..." behind that.
