@@ -60,25 +60,28 @@ echo "a scene that ranks of a host share"
 "$raylane" render "$scene" -q -o one.pfm --size 150x90
 job 2 render built.rl -o many.pfm --size 150x90 2>err || fail "a built scene"
 same one.pfm many.pfm
-for name in "$scene" built.rl; do
-    mapped="memfd:raylane scene"
-    [ "$name" = "$scene" ] || mapped=built.rl
-    job 2 render "$name" -o long.png --size 4000x4000 --spp 65536 --no-resume >out 2>err &
+# Two ranks that draw this for hours have the same memory.
+shares() { # mapped, scene and options...
+    mapped=$1
+    shift
+    job 2 render "$@" -o long.png --size 4000x4000 --spp 65536 --no-resume >out 2>err &
     sharing=
     tries=0
     while [ -z "$sharing" ] && [ $tries -lt 300 ]; do
         sleep 0.2
         tries=$((tries + 1))
         count=0
-        for process in $(pgrep -f "^$raylane render $name -o long.png"); do
+        for process in $(pgrep -f "^$raylane render $* -o long.png"); do
             ! grep -qsF "$mapped" "/proc/$process/maps" || count=$((count + 1))
         done
         [ $count -lt 2 ] || sharing=1
     done
-    pkill -KILL -f "^$raylane render $name -o long.png" || true
+    pkill -KILL -f "^$raylane render $* -o long.png" || true
     wait $! || true
-    [ -n "$sharing" ] || fail "ranks do not share $name"
-done
+    [ -n "$sharing" ] || fail "ranks do not share $*"
+}
+shares "memfd:raylane scene" "$scene"
+shares built.rl built.rl
 
 echo "figures of all ranks"
 job 2 render "$scene" --size 150x90 -o many.png --stats many.json 2>err || fail "--stats"
@@ -107,21 +110,7 @@ for options in "--frames 1" "--frames -1 --camera-from all --view top --zoom 2" 
     same one.png many.png
 done
 # Both have a hand in it: they have the one scene.
-job 2 render film.xyz --frames 1 -o long.png --size 4000x4000 --spp 65536 --no-resume >out 2>err &
-sharing=
-tries=0
-while [ -z "$sharing" ] && [ $tries -lt 300 ]; do
-    sleep 0.2
-    tries=$((tries + 1))
-    count=0
-    for process in $(pgrep -f "^$raylane render film.xyz --frames 1 -o long.png"); do
-        ! grep -qsF "memfd:raylane scene" "/proc/$process/maps" || count=$((count + 1))
-    done
-    [ $count -lt 2 ] || sharing=1
-done
-pkill -KILL -f "^$raylane render film.xyz --frames 1 -o long.png" || true
-wait $! || true
-[ -n "$sharing" ] || fail "ranks do not share a frame"
+shares "memfd:raylane scene" film.xyz --frames 1
 if [ -e one.exr ]; then
     "$raylane" render film.xyz -q --frames 1 -o one.exr --size 150x90
     for part in 1 2; do
