@@ -10,16 +10,27 @@
 
 namespace raylane::scenes {
 
-MemoryFile::MemoryFile() : descriptor_(::memfd_create("raylane picture", MFD_CLOEXEC)) {
+MemoryFile::MemoryFile(const char* what) : descriptor_(::memfd_create(what, MFD_CLOEXEC)) {
     if (descriptor_ < 0) throw SystemRefused("a file in memory", "open", errno);
 }
 
 MemoryFile::~MemoryFile() {
-    ::close(descriptor_);
+    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::filesystem::path MemoryFile::path() const {
     return "/proc/self/fd/" + std::to_string(descriptor_);
+}
+
+std::filesystem::path MemoryFile::path_for_others() const {
+    return "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor_);
+}
+
+void MemoryFile::become_standard_input() {
+    if (::lseek(descriptor_, 0, SEEK_SET) != 0 || ::dup2(descriptor_, STDIN_FILENO) < 0)
+        throw SystemRefused("standard input", "keep in memory", errno);
+    if (descriptor_ != STDIN_FILENO) ::close(descriptor_); // which it is where that was closed
+    descriptor_ = -1;
 }
 
 std::size_t MemoryFile::bytes() const {

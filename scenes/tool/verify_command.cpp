@@ -163,7 +163,7 @@ class Verifier {
   private:
     /// As render would write it, and compare reads it.
     Image as_written(const core::Film& film) const {
-        const MemoryFile memory;
+        const MemoryFile memory("raylane picture");
         OutputFile output(memory.path(),
                           image_.linear_float ? PictureFormat::exr : PictureFormat::png, exr_of);
         output.commit(

@@ -182,7 +182,7 @@ void ResumableRendering::write(OutputFile& output, const core::Film& film,
         const bool is_full = refused.error_number == ENOSPC || refused.error_number == EDQUOT;
         if (!is_full || !journal_) throw;
         // Not before it is known that this helps.
-        const MemoryFile memory;
+        const MemoryFile memory("raylane picture");
         OutputFile(memory.path(), output.format(), exr_of).commit(film, options, layers);
         if (!journal_->give_room(memory.bytes())) throw;
     }

@@ -1,13 +1,16 @@
 #include "scenes/tool/ranks/job.hpp"
 
+#include "scenes/atomic_file.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/tool/failure.hpp"
+#include "scenes/tool/memory_file.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
-#include <sys/mman.h>
+#include <optional>
+#include <span>
 #include <thread>
 #include <unistd.h>
 #include <utility>
@@ -57,17 +60,40 @@ std::int64_t read_input(std::vector<char>& piece) {
     return static_cast<std::int64_t>(filled);
 }
 
-/// False as errno says.
-bool write_all(int file, const char* bytes, std::size_t count) {
-    while (count > 0) {
-        const ssize_t written = ::write(file, bytes, count);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return false;
-        bytes += written;
-        count -= static_cast<std::size_t>(written);
+/// Standard input of all ranks, as it comes. What refuses it is told at its end, when all are.
+class SharedInput {
+  public:
+    void append(std::span<const char> piece) {
+        attempt([&] {
+            if (!memory_) file_.emplace(memory_.emplace("raylane input").path());
+            file_->write(piece);
+        });
     }
-    return true;
-}
+    /// Throws SystemRefused.
+    void become_standard_input() {
+        attempt([&] {
+            if (!memory_) memory_.emplace("raylane input");
+            if (file_) file_->commit();
+            memory_->become_standard_input();
+        });
+        if (refusal_ != 0) throw SystemRefused("standard input", "keep in memory", refusal_);
+    }
+
+  private:
+    template <class Step>
+    void attempt(const Step& step) {
+        if (refusal_ != 0) return;
+        try {
+            step();
+        } catch (const SystemRefused& refused) {
+            refusal_ = refused.error_number;
+        }
+    }
+
+    std::optional<MemoryFile> memory_;
+    std::optional<AtomicFile> file_;
+    int refusal_ = 0; // errno's
+};
 
 } // namespace
 
@@ -128,8 +154,7 @@ void Job::require_same(const std::string& text, const std::string& what) {
 
 void Job::share_standard_input() {
     if (!ranks_ || std::exchange(has_shared_input_, true)) return;
-    const int file = ::memfd_create("raylane input", MFD_CLOEXEC);
-    int refusal = file < 0 ? errno : 0; // here
+    SharedInput input;
     std::int64_t count = 0;
     int unreadable = 0; // at rank 0
     std::vector<char> piece(std::size_t{4} << 20);
@@ -142,15 +167,11 @@ void Job::share_standard_input() {
         ranks_->broadcast(&count, sizeof count);
         if (count <= 0) break;
         ranks_->broadcast(piece.data(), static_cast<std::size_t>(count));
-        if (refusal == 0 && !write_all(file, piece.data(), static_cast<std::size_t>(count)))
-            refusal = errno;
+        input.append(std::span(piece).first(static_cast<std::size_t>(count)));
     } while (true);
     together([&] {
         if (unreadable != 0) throw SystemRefused("standard input", "read", unreadable);
-        if (refusal == 0 && (::lseek(file, 0, SEEK_SET) != 0 || ::dup2(file, STDIN_FILENO) < 0))
-            refusal = errno;
-        if (refusal != 0) throw SystemRefused("standard input", "keep in memory", refusal);
-        if (file != STDIN_FILENO) ::close(file);
+        input.become_standard_input();
     });
 }
 

@@ -2,51 +2,32 @@
 
 #include "scenes/built/built_file.hpp"
 #include "scenes/errors.hpp"
+#include "scenes/tool/memory_file.hpp"
 #include "simd/workers.hpp"
 
 #include <optional>
 #include <string>
-#include <sys/mman.h>
 #include <unistd.h>
 
 namespace raylane::scenes {
 
 namespace {
 
-/// A file in memory alone, which others of the same user can open by its place as long as it lives.
-class MemoryFile {
-  public:
-    MemoryFile() : descriptor_(::memfd_create("raylane scene", MFD_CLOEXEC)) {}
-    ~MemoryFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-
-    bool exists() const { return descriptor_ >= 0; }
-    std::string own_place() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
-    std::string place() const {
-        return "/proc/" + std::to_string(::getpid()) + "/fd/" + std::to_string(descriptor_);
-    }
-
-  private:
-    int descriptor_;
-};
-
 bool is_built(const std::filesystem::path& path) {
     std::error_code none;
     return std::filesystem::is_regular_file(path, none) && looks_built(InputFile(path).head());
 }
 
-/// Where others find a scene; empty where that cannot be.
-std::string put(const MemoryFile& memory, const core::Scene& scene) {
-    if (!memory.exists() || scene.solids().any()) return "";
+/// Where others find a scene that is in `memory` now; empty, and no memory, where that cannot be.
+std::string put(std::optional<MemoryFile>& memory, const core::Scene& scene) {
+    if (scene.solids().any()) return "";
     try {
-        AtomicFile file(memory.own_place());
+        AtomicFile file(memory.emplace("raylane scene").path());
         write_built(file, scene);
         file.commit();
-        return memory.place();
+        return memory->path_for_others();
     } catch (const SystemRefused&) { // it is too large, for one thing
+        memory.reset();
         return "";
     }
 }
@@ -84,7 +65,7 @@ core::Scene load_together(Job& job, const std::filesystem::path& path, int threa
             scene = load(share);
         } else if (job.is_first_of_host() && !is_built(path)) {
             scene = load(threads);
-            place = put(memory.emplace(), *scene);
+            place = put(memory, *scene);
             if (!place.empty()) scene.reset(); // it is there twice
         }
     });
