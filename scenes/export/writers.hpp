@@ -14,10 +14,9 @@ namespace raylane::scenes {
 using Differences = std::set<std::string>;
 inline constexpr const char* lost_polygons = "which triangles make a polygon";
 
-/// What of the view follows from the shapes is written as that, so far as JSON can say it. Returns
-/// what it cannot. Throws core::InvalidValue for a solid that is nested deeper than any that is
-/// read.
-Differences write_json(TextFile& file, const core::Scene& scene);
+/// What of the view follows from the shapes is written as that, so far as JSON can say it. Throws
+/// core::InvalidValue for a solid that is nested deeper than any that is read.
+void write_json(TextFile& file, const core::Scene& scene, Differences& differences);
 /// Settings alone, in one line.
 void write_json_settings(TextFile& file, const core::Settings& settings);
 /// All but its settings and the shapes that are no solids; the view as it is.

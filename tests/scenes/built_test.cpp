@@ -36,7 +36,8 @@ std::vector<core::Color> picture_of(const core::Scene& scene, core::Precision pr
 std::string json_of(const core::Scene& scene) {
     std::string json;
     TextFile text([&](std::string_view piece) { json += piece; });
-    write_json(text, scene);
+    Differences differences;
+    write_json(text, scene, differences);
     text.flush();
     return json;
 }

@@ -1,10 +1,8 @@
-#include "core/scene/staging.hpp"
-#include "scenes/errors.hpp"
 #include "scenes/export/export.hpp"
 #include "scenes/export/writers.hpp"
 #include "scenes/scene_file.hpp"
-#include "simd/render.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/exports.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
 #include <algorithm>
@@ -18,6 +16,8 @@
 
 using namespace raylane;
 using namespace raylane::scenes;
+using tests::complaint;
+using tests::picture_of;
 
 namespace {
 
@@ -46,26 +46,9 @@ std::vector<float> floats_in(const core::Scene& scene) {
     return all;
 }
 
-std::vector<core::Color> picture_of(const core::Scene& scene) {
-    core::Settings settings = scene.settings();
-    settings.height = 48 * settings.height / settings.width;
-    settings.width = 48;
-    settings.grid = std::min(settings.grid, 2);
-    return simd::render(scene, settings, {}).film.pixels();
-}
-
 std::string text_of(const std::filesystem::path& path) {
     std::ifstream file(path);
     return {std::istreambuf_iterator<char>(file), {}};
-}
-
-std::string complaint(const std::filesystem::path& path, const core::Scene& scene) {
-    try {
-        export_scene(path, scene);
-    } catch (const BadInput& error) {
-        return error.what();
-    }
-    return "";
 }
 
 } // namespace
@@ -323,154 +306,6 @@ TEST_CASE("endings of scenes count in any case, as those of pictures do") {
     }
 }
 
-namespace {
-
-/// All of a view but what a projection does not ask for, or a light that is nowhere.
-std::vector<float> view_of(const core::Scene& scene) {
-    std::vector<float> all;
-    const auto add = [&](const core::Vec3f& v) { all.insert(all.end(), {v.x, v.y, v.z}); };
-    const core::Camera& camera = scene.camera();
-    const bool perspective = camera.projection == core::Projection::perspective;
-    for (const core::Vec3f& v : {camera.from, camera.at, camera.up})
-        add(v);
-    all.insert(all.end(), {static_cast<float>(camera.projection),
-                           perspective ? camera.field_of_view : camera.height, camera.lens_radius});
-    const core::Fog& fog = scene.fog();
-    add(fog.color);
-    all.insert(all.end(), {static_cast<float>(fog.kind), fog.start, fog.end, fog.density});
-    for (const core::Light& light : scene.lights()) {
-        if (light.kind != core::LightKind::sky) add(light.position);
-        for (const core::Vec3f& v :
-             {light.direction, light.color, light.edge_u, light.edge_v, light.ground})
-            add(v);
-        all.insert(all.end(), {static_cast<float>(light.kind), light.radius, light.reach});
-    }
-    return all;
-}
-
-/// As the tool has it by --view.
-core::Scene seen_from(core::Scene scene, const core::Vec3f& direction) {
-    core::Staging staging = scene.staging();
-    if (!staging.framing) staging.framing = core::framing_of(scene.camera());
-    staging.framing->direction = direction;
-    staging.framing->up = core::upright(direction);
-    const core::View view = core::staged(scene, staging, scene.settings());
-    return std::move(scene).seen(staging, view);
-}
-
-/// By a camera that has its place.
-core::Scene seen_by(core::Scene scene, const core::Camera& camera) {
-    core::Staging staging = scene.staging();
-    staging.framing.reset();
-    const core::Fog fog = scene.fog();
-    scene = std::move(scene).seen(staging, {camera, fog, {}});
-    const core::View view = core::staged(scene, staging, scene.settings());
-    return std::move(scene).seen(staging, view);
-}
-
-const core::Vec3f directions[] = {{0, 0, -1}, {-0.0F, -1, 0}, {-3, 1, 2}, {0.1F, 0.2F, 0.3F}};
-const core::Camera aside{.from = {6, 3, 8}, .at = {1, 0, 0}, .field_of_view = 50};
-
-std::string staged_json(const std::string& camera, const std::string& rest) {
-    return R"({"camera": )" + camera + R"(, "background": [0.5, 0.75, 1], )" + rest +
-           R"("image": {"width": 40, "height": 30}, "materials": {"m": {"specular": 0.3}},
-           "objects": [{"type": "sphere", "center": [0, 0.1, 0], "radius": 1, "material": "m"},
-                {"type": "cylinder", "base": [2, 0, -1], "axis": [1, 2, 0.3], "radius": 0.4,
-                 "material": "m"},
-                {"type": "difference", "material": "m", "objects": [
-                    {"type": "box", "min": [-3, -1, -1], "max": [-1.5, 1, 1]},
-                    {"type": "sphere", "center": [-2, 0, 1], "radius": 0.5}]}]})";
-}
-
-core::Scene water() {
-    return parse_scene("atoms.xyz", "3\n\nC 0 0 0\nO 2 1 -3\nN 0 3 1\n", {});
-}
-
-} // namespace
-
-TEST_CASE("what goes with a camera goes with it in JSON, to the bit") {
-    const std::string camera_lights = R"("lights": [{"type": "camera"}], )";
-    const std::string both = R"("lights": [{"type": "point", "position": [9, 9, 9]},
-                                           {"type": "camera"}], )";
-    const std::string own = R"("lights": [{"type": "point", "position": [9, 9, 9]}], )";
-    const std::string fixed = R"({"from": [4, 5, 6], "at": [0, 0.1, 0], "field_of_view": 40})";
-    std::vector<core::Scene> scenes;
-    scenes.push_back(water());
-    for (const auto& [camera, rest] : {
-             std::pair<std::string, std::string>(R"("auto")", ""),
-             {R"({"type": "auto", "view": "corner", "zoom": 1.5, "field_of_view": 40,
-                  "depth_cue": 0.3})",
-              both},
-             {R"({"type": "auto", "view": [0.3, -2, 1], "up": [1, 0, 0.5], "orthographic": true})",
-              own + R"("fog": {"type": "exponential", "density": 0.02}, )"},
-             {R"({"type": "auto", "view": "top", "orthographic": true, "depth_cue": 0.99})",
-              camera_lights},
-             {R"("auto")", R"("lights": [], )"},
-             {fixed, both + R"("fog": {"type": "linear", "start": 1, "end": 99}, )"},
-             {R"({"type": "orthographic", "from": [4, 5, 6], "at": [0, 0, 0], "height": 7})",
-              camera_lights},
-         })
-        scenes.push_back(tests::scene_of(staged_json(camera, rest)));
-
-    const tests::TemporaryDirectory directory;
-    const auto written = [&](const core::Scene& scene) {
-        CHECK(export_scene(directory.path() / "a.json", scene).empty());
-        return load_scene(directory.path() / "a.json");
-    };
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        CAPTURE(i);
-        const core::Scene again = written(scenes[i]);
-        CHECK(view_of(again) == view_of(scenes[i]));
-        CHECK(again.own_light_count() == scenes[i].own_light_count());
-        CHECK(again.staging().framing.has_value() == scenes[i].staging().framing.has_value());
-        CHECK(again.staging().lights == scenes[i].staging().lights);
-        CHECK(again.staging().depth_cue == scenes[i].staging().depth_cue);
-        CHECK(picture_of(again) == picture_of(scenes[i]));
-        CHECK(view_of(seen_by(again, aside)) == view_of(seen_by(scenes[i], aside)));
-        for (const core::Vec3f& direction : directions) {
-            // Whichever comes first.
-            const core::Scene seen = seen_from(scenes[i], direction);
-            CHECK(view_of(seen_from(again, direction)) == view_of(seen));
-            CHECK(view_of(written(seen)) == view_of(seen));
-        }
-        CHECK(picture_of(seen_from(again, directions[2])) ==
-              picture_of(seen_from(scenes[i], directions[2])));
-    }
-}
-
-TEST_CASE("what JSON cannot say of a camera is told, and looks as it did") {
-    const tests::TemporaryDirectory directory;
-    const core::Scene scene = water();
-    const auto check = [&](const core::Scene& seen, const std::vector<std::string>& expected) {
-        const std::vector<std::string> told = export_scene(directory.path() / "a.json", seen);
-        CHECK(told == expected);
-        core::Scene again = load_scene(directory.path() / "a.json");
-        CHECK(view_of(again) == view_of(seen));
-        CHECK(picture_of(again) == picture_of(seen));
-        return again;
-    };
-    const std::string place = "a camera that finds its place by itself",
-                      fog = "fog that goes with the camera",
-                      lights = "lights that go with the camera";
-    const core::Scene again = check(seen_by(scene, aside), {fog});
-    CHECK(again.staging().lights);
-    const core::Camera another{.from = {-6, 3, 8}, .at = {1, 0, 0}};
-    const auto lights_of = [](const core::Scene& of) {
-        return std::pair(of.lights()[1].position.x, of.lights()[1].radius);
-    };
-    CHECK(lights_of(seen_by(again, another)) == lights_of(seen_by(scene, another)));
-
-    const core::View own{scene.camera(), scene.fog(), scene.lights()};
-    const core::View turned = core::turned(own, {0, 1, 0}, 30.0);
-    check(core::Scene(scene).seen(scene.staging(), turned), {place, fog, lights});
-
-    core::Staging near = scene.staging();
-    near.lights = false;
-    near.depth_cue = 0.0F;
-    near.framing->zoom = 2000.0F;
-    check(core::Scene(scene).seen(near, core::staged(scene, near, scene.settings())), {place});
-}
-
 TEST_CASE("which triangles make a polygon is told where a format does not keep it") {
     const tests::TemporaryDirectory directory;
     core::SceneBuilder builder;
@@ -508,112 +343,4 @@ TEST_CASE("NFF says that it has no light where it has a word for none") {
         else
             CHECK(load_scene(path).lights().size() == 1);
     }
-}
-
-TEST_CASE("solids are written as deep as they are read") {
-    const tests::TemporaryDirectory directory;
-    const auto nested = [](const core::Solid& innermost, int depth) {
-        core::Solid solid = innermost;
-        for (int i = 1; i < depth; ++i) {
-            constexpr core::Made ways[] = {core::Made::by_union, core::Made::by_difference,
-                                           core::Made::by_intersection};
-            core::Solid other;
-            other.shape = core::SphereOf<double>{{0.01 * i, 0, 0.5}, i % 3 == 2 ? 9.0 : 0.75};
-            core::Solid outer{ways[i % 3]};
-            outer.parts = {std::move(solid), other};
-            solid = std::move(outer);
-        }
-        core::SceneBuilder builder;
-        builder.camera.from = {0, 0, 30};
-        builder.add_light({.position = {0, 0, 29}});
-        builder.add_solid(solid, builder.add_material({}));
-        return std::move(builder).build();
-    };
-    core::Solid ball, box;
-    ball.shape = core::SphereOf<double>{{0, 0, 0}, 1};
-    box.shape = core::BoxOf<double>{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
-    struct Row {
-        const core::Solid& innermost;
-        const char* name;
-        int deepest;
-        const char* refusal;
-    };
-    for (const Row& row :
-         {Row{ball, "a.json", 128,
-              "cannot have a solid of more than 256 levels of objects and lists, for none is read, "
-              "got 258"},
-          Row{box, "a.json", 127,
-              "cannot have a solid of more than 256 levels of objects and lists, for none is read, "
-              "got 257"},
-          Row{ball, "a.pov", 125,
-              "cannot have solids that are nested more than 125 deep, for none is read, got 126"},
-          Row{box, "a.pov", 125,
-              "cannot have solids that are nested more than 125 deep, for none is read, got "
-              "126"}}) {
-        const std::filesystem::path path = directory.path() / row.name;
-        CAPTURE(path, row.deepest);
-        const core::Scene scene = nested(row.innermost, row.deepest);
-        CHECK(complaint(path, scene).empty());
-        CHECK(load_scene(path).shape_count() == scene.shape_count());
-        std::filesystem::remove(path);
-        CHECK(complaint(path, nested(row.innermost, row.deepest + 1)) ==
-              path.string() + ": " + row.refusal);
-        CHECK_FALSE(std::filesystem::exists(path));
-    }
-}
-
-namespace {
-
-const std::string solids = R"({"camera": {"from": [4, 5, 6], "at": [0, 0, 0]},
-    "lights": [{"type": "point", "position": [30, 40, 50]}],
-    "materials": {"clay": {}, "glass": {"transmission": 1}, "red": {"color": [1, 0, 0]}},
-    "objects": [
-        {"type": "difference", "material": "clay", "objects": [
-            {"type": "intersection", "objects": [
-                {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]},
-                {"type": "sphere", "center": [0, 0, 0], "radius": 1.3, "material": "red"}]},
-            {"type": "difference", "objects": [
-                {"type": "cylinder", "base": [0, 0, 0], "axis": [0, 2, 0], "radius": 0.6},
-                {"type": "union", "objects": [
-                    {"type": "plane", "point": [0, 0.1, 0], "normal": [1, 2, 0.5]},
-                    {"type": "ellipsoid", "center": [0, 0.4, 0], "axes": [[0.3, 0, 0], [0, 0.2, 0], [0, 0, 0.5]]}]}]}]},
-        {"type": "clip", "material": "glass", "objects": [
-            {"type": "union", "objects": [
-                {"type": "cone", "base": [2, 0, 0], "axis": [0, 1, 0], "base_radius": 0.5},
-                {"type": "sphere", "center": [2, 0.4, 0], "radius": 0.4}]},
-            {"type": "plane", "point": [2, 0, 0.1], "normal": [0, 0, 1]},
-            {"type": "difference", "objects": [
-                {"type": "box", "min": [1, -1, -1], "max": [3, 2, 1]},
-                {"type": "sphere", "center": [2, 0.9, 0], "radius": 0.4}]}]},
-        {"type": "intersection", "material": "clay", "objects": [
-            {"type": "quadric", "center": [-2, 0, 1], "matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 0], [0, 0, 0, -0.1]]},
-            {"type": "box", "min": [-3, -0.5, 0], "max": [-1, 0.5, 2]}]}
-    ]})";
-
-} // namespace
-
-TEST_CASE("solids of others are written as they were, and stay the same picture") {
-    const tests::TemporaryDirectory directory;
-    const core::Scene scene = tests::scene_of(solids);
-    const std::filesystem::path path = directory.path() / "solids.json";
-    export_scene(path, scene);
-    const core::Scene again = load_scene(path);
-    CHECK(again.solids().nodes().size() == scene.solids().nodes().size());
-    CHECK(picture_of(again) == picture_of(scene));
-    const std::string once = tests::content_of(path);
-    export_scene(path, again);
-    CHECK(tests::content_of(path) == once);
-
-    const std::filesystem::path pov = directory.path() / "solids.pov";
-    export_scene(pov, scene);
-    const std::string text = tests::content_of(pov);
-    for (const char* word : {"difference { intersection { box {", "merge { cone {",
-                             "clipped_by { difference { plane {", "difference { cylinder {",
-                             "intersection { quadric {"}) {
-        INFO(word << " in " << text);
-        CHECK(text.find(word) != std::string::npos);
-    }
-    CHECK(complaint(directory.path() / "solids.nff", scene)
-              .find("has no word for a solid that is made of others: .pov and .json have") !=
-          std::string::npos);
 }

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "scenes/errors.hpp"
+#include "scenes/export/export.hpp"
+#include "simd/render.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace raylane::tests {
+
+/// A small picture of a scene, by its own settings.
+inline std::vector<core::Color> picture_of(const core::Scene& scene) {
+    core::Settings settings = scene.settings();
+    settings.height = 48 * settings.height / settings.width;
+    settings.width = 48;
+    settings.grid = std::min(settings.grid, 2);
+    return simd::render(scene, settings, {}).film.pixels();
+}
+
+/// Complaint about a scene that cannot be written so; "" if it has been.
+inline std::string complaint(const std::filesystem::path& path, const core::Scene& scene) {
+    try {
+        scenes::export_scene(path, scene);
+    } catch (const scenes::BadInput& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace raylane::tests
