@@ -39,6 +39,8 @@ class SceneReader {
         builder_.workers = workers;
     }
 
+    /// From now on it includes no other file.
+    void stand_alone() { may_include_ = false; }
     /// Takes all items of a file: of the first, or of one that is included.
     Outline take_all(InputFile& file, InputErrors& errors);
     /// Throws BadInput for `errors` and what is wrong with the scene as a whole.
@@ -121,6 +123,7 @@ class SceneReader {
     std::vector<LightPlace> lights_;
     ObjectPlaces objects_;
     bool has_lights_ = false, has_objects_ = false;
+    bool may_include_ = true;
     bool lacks_included_ = false; // what was to be included may have had what others lack
     MaterialOf material_of_ = [this](const JsonValue& value) { return material_of(value); };
 };
@@ -176,6 +179,7 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
 }
 
 void SceneReader::include(const JsonValue& value) {
+    if (!may_include_) value.fail("must not be included by what has been built");
     try {
         inclusion_.include(value, [&](InputFile& file) {
             objects_.enter(file.name(), builder_.shape_count());
@@ -412,6 +416,7 @@ core::Scene read_json(InputFile& file, core::Workers* workers,
 
 core::Scene read_json_with(InputFile& file, core::BuiltShapes shapes, core::Workers* workers) {
     SceneReader reader(file.name(), workers, Parameters());
+    reader.stand_alone();
     InputErrors errors;
     static_cast<void>(reader.take_all(file, errors));
     return reader.finish_with(std::move(shapes), errors);

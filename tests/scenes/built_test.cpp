@@ -199,6 +199,24 @@ TEST_CASE("a built file that is cut off is refused, and so is one of another ver
     CHECK(complaint(built).find("a.rl: must be ") != std::string::npos);
 }
 
+TEST_CASE("a built file includes no other file") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl";
+    export_scene(built, mixture(40, 0));
+    directory.write("b", R"({"materials": {}})");
+    std::string whole = tests::content_of(built);
+    const std::string said = "\"background\": [0, 0, 0]";
+    std::string other = "\"include\": [\"b\"]";
+    other.resize(said.size(), ' ');
+    const std::size_t at = whole.find(said);
+    REQUIRE(at != std::string::npos);
+    whole.replace(at, said.size(), other);
+    seal(whole);
+    directory.write("a.rl", whole);
+    CHECK(complaint(built).find("/include/0: must not be included by what has been built") !=
+          std::string::npos);
+}
+
 namespace {
 
 /// Traces and draws whatever it is.
