@@ -4,6 +4,7 @@
 #include <limits>
 #include <mutex>
 #include <pybind11/stl.h>
+#include <string_view>
 #include <utility>
 
 namespace raylane::python {
@@ -65,6 +66,16 @@ py::tuple add_all(SharedBuilder& shared, std::size_t count, const py::object& ma
         }
         return Ids(first, builder.shape_count());
     }));
+}
+
+MaterialIndex added(SceneBuilder& builder, const Material& material) {
+    try {
+        return builder.add_material(material);
+    } catch (const InvalidValue& error) {
+        constexpr std::string_view only = "pattern/colors/0"; // a colour without a pattern
+        if (material.pattern.kind != PatternKind::solid || !error.field.starts_with(only)) throw;
+        throw InvalidValue("color" + error.field.substr(only.size()), error.expectation);
+    }
 }
 
 /// Calls it with float or double, as the arrays have it.
@@ -261,7 +272,7 @@ void bind_builder(py::module_& module) {
         .def("add_material",
              [](SharedBuilder& builder, const py::object& material) {
                  const Material value = material_from(material);
-                 return builder.change([&](SceneBuilder& to) { return to.add_material(value); });
+                 return builder.change([&](SceneBuilder& to) { return added(to, value); });
              })
         .def("add_light",
              [](SharedBuilder& builder, const py::object& light) {

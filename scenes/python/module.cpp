@@ -1,4 +1,4 @@
-#include "arrays.hpp"
+#include "values.hpp"
 
 #include <pybind11/stl.h>
 
@@ -14,7 +14,8 @@ void set_error(std::exception_ptr error) {
     };
     try {
         if (error) std::rethrow_exception(error);
-    } catch (const InvalidValue& value) {
+    } catch (const InvalidValue& invalid) {
+        const InvalidValue value = named_as_in_python(invalid);
         set(errors().attr("InvalidValue"), py::make_tuple(value.field, value.expectation));
     } catch (const BadInput& input) {
         py::list mistakes;

@@ -1,8 +1,10 @@
 #include "values.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <pybind11/stl.h>
+#include <string>
 #include <string_view>
 
 namespace raylane::python {
@@ -301,6 +303,31 @@ py::object give_fields(const char* name, const Value& value) {
 }
 
 } // namespace
+
+InvalidValue named_as_in_python(const InvalidValue& error) {
+    // As `fields` name them, in their order: what is within others is behind them.
+    struct Renamed {
+        std::string_view from, to;
+        std::string_view word, other; // what the expectation calls a field beside it
+    };
+    constexpr Renamed all[] = {
+        {"camera/from", "camera/position", "", ""},
+        {"camera/at", "camera/at", "\"from\"", "\"position\""},
+        {"pattern/from", "color/start", "", ""},
+        {"pattern/to", "color/end", "\"from\"", "\"start\""},
+        {"pattern", "color", "", ""},
+    };
+    for (const Renamed& renamed : all) {
+        const std::string_view rest =
+            std::string_view(error.field).substr(std::min(error.field.size(), renamed.from.size()));
+        if (!error.field.starts_with(renamed.from) || !(rest.empty() || rest[0] == '/')) continue;
+        std::string expectation = error.expectation;
+        const std::size_t at = expectation.find(renamed.word);
+        if (at != std::string::npos) expectation.replace(at, renamed.word.size(), renamed.other);
+        return {std::string(renamed.to).append(rest), expectation};
+    }
+    return error;
+}
 
 Material material_from(const py::handle& material) {
     return value_from<Material>(material);

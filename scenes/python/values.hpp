@@ -15,6 +15,9 @@ Color color_from(const py::handle& color, const std::string& field);
 Precision precision_from(const std::string& name);
 MaterialIndex one_material(const py::object& index);
 
+/// The same error with the names that fields have in Python.
+InvalidValue named_as_in_python(const InvalidValue& error);
+
 py::object to_python(const Material& material);
 py::object to_python(const Light& light);
 py::object to_python(const Fog& fog);

@@ -152,6 +152,7 @@ def test_what_is_not_valid_says_where():
     material = builder.add_material()
     bad_normals = np.ones((2, 3, 3))
     bad_normals[1, 1] = 0
+    checker = raylane.Pattern("checker", colors=[(0, 0, 0), (0, -1, 0)])
     for call, field in (
         (lambda: builder.add_spheres([[0, 0, 0], [1, 1, 1]], [1, -1], material=material), "1/radius"),
         (lambda: builder.add_spheres([[0, 0, 0]], 1, material=7), "0/material"),
@@ -175,6 +176,10 @@ def test_what_is_not_valid_says_where():
         (lambda: Solid.sphere((0, 0, 0), 1, material=-1), "material"),
         (lambda: builder.add_solid(Solid.sphere((0, 0, 0), 1), material=2**32), "material"),
         (lambda: builder.add_material(color=raylane.Pattern(colors=3)), "color/colors"),
+        (lambda: builder.add_material(color=(0, 0, -1)), "color/2"),
+        (lambda: builder.add_material(color=checker), "color/colors/1/1"),
+        (lambda: builder.add_material(color=raylane.Pattern("gradient", start=(1, 2, 3), end=(1, 2, 3))), "color/end"),
+        (lambda: builder.add_material(color=raylane.Pattern("gradient", start=(0, np.nan, 0))), "color/start/1"),
         (lambda: builder.add_spheres([[None, 0, 0]], 1, material=material), "centers"),
         (lambda: builder.add_spheres([[0, 0, 0], [1]], 1, material=material), "centers"),
         (lambda: builder.add_spheres(np.zeros((4, 3)), 1, material=[0, 0, 0]), "material"),
@@ -198,6 +203,15 @@ def test_what_is_not_valid_says_where():
     for name, value in (("camera", raylane.Camera(field_of_view=0)), ("fog", None), ("background", (1, 2))):
         setattr(builder, name, value)
         with pytest.raises(InvalidValue, match=name if value else "kind"):
+            builder.build()
+    builder.fog, builder.background = raylane.Fog(), (0, 0, 0)
+    builder.add_spheres([0, 0, 0], 1, material=material)
+    for camera, text in (
+        (raylane.Camera(position=(np.nan, 0, 0)), "camera/position/0: must be a number"),
+        (raylane.Camera(position=(1, 2, 3), at=(1, 2, 3)), 'camera/at: must differ from "position"'),
+    ):
+        builder.camera = camera
+        with pytest.raises(InvalidValue, match=text):
             builder.build()
     again = pickle.loads(pickle.dumps(InvalidValue("a", "must be")))
     assert (again.field, again.expectation) == ("a", "must be")
