@@ -1,5 +1,8 @@
 #include "core/scene/solid_description.hpp"
 
+#include <algorithm>
+#include <cassert>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -18,37 +21,59 @@ class Describer {
     Solid describe(Solids::Index index, bool outside) const {
         const Solids::Node& node = solids_.node(index);
         if (node.op == Op::part) return shape_of(node);
-        // Of what the intersection of others is cut by, what a union leaves out.
-        std::vector<Solid> inside, taken_away, cuts, cut_away;
+        const bool is_cut = !cuts_only(index); // or it only cuts itself, and so does all of it
+        Sequence faces, cuts;
         solids_.each_child(index, [&](Solids::Index child) {
-            if (cuts_only(child)) {
-                const bool is_kept = has_inside(child, outside);
-                (is_kept ? cuts : cut_away).push_back(describe(child, outside == is_kept));
-            } else if (has_inside(child, outside))
-                inside.push_back(describe(child, outside));
-            else
-                taken_away.push_back(describe(child, !outside));
+            const bool is_kept = has_inside(child, outside);
+            Sequence& sequence = is_cut && cuts_only(child) ? cuts : faces;
+            sequence.add(describe(child, outside == is_kept), is_kept);
             return true;
         });
         const bool of_all = (node.op == Op::all) != outside;
-        Solid solid = made(of_all ? Made::by_intersection : Made::by_union, std::move(inside));
-        if (!taken_away.empty()) {
-            taken_away.insert(taken_away.begin(), std::move(solid));
-            solid = made(Made::by_difference, std::move(taken_away));
-        }
-        // What clips has an inside, so what it leaves out is left out of something.
-        if (!cuts.empty() && !cut_away.empty()) {
-            cut_away.insert(cut_away.begin(), std::move(cuts[0]));
-            cuts[0] = made(Made::by_difference, std::move(cut_away));
-        }
-        if (!cuts.empty()) {
-            cuts.insert(cuts.begin(), std::move(solid));
-            solid = made(Made::by_clip, std::move(cuts));
-        }
-        return solid;
+        Solid solid = std::move(faces).made_by(of_all ? Made::by_intersection : Made::by_union);
+        std::vector<Solid> cutting = std::move(cuts).parts();
+        if (cutting.empty()) return solid;
+        cutting.insert(cutting.begin(), std::move(solid));
+        return made(Made::by_clip, std::move(cutting));
     }
 
   private:
+    /// Parts in their order, which decides where faces coincide. What is taken away is taken away
+    /// of the part before it, or of all where nothing comes behind.
+    class Sequence {
+      public:
+        void add(Solid part, bool is_kept) {
+            // The first has an inside, or the whole would have none.
+            if (is_kept) groups_.emplace_back();
+            assert(!groups_.empty());
+            groups_.back().push_back(std::move(part));
+        }
+        Solid made_by(Made by) && {
+            std::vector<Solid> taken_away;
+            const bool is_last =
+                std::all_of(groups_.begin(), groups_.end() - 1,
+                            [](const std::vector<Solid>& group) { return group.size() == 1; });
+            if (is_last) {
+                std::vector<Solid>& last = groups_.back();
+                taken_away.assign(std::move_iterator(last.begin() + 1),
+                                  std::move_iterator(last.end()));
+                last.resize(1);
+            }
+            Solid solid = made(by, std::move(*this).parts());
+            taken_away.insert(taken_away.begin(), std::move(solid));
+            return made(Made::by_difference, std::move(taken_away));
+        }
+        std::vector<Solid> parts() && {
+            std::vector<Solid> all;
+            for (std::vector<Solid>& group : groups_)
+                all.push_back(made(Made::by_difference, std::move(group)));
+            return all;
+        }
+
+      private:
+        std::vector<std::vector<Solid>> groups_;
+    };
+
     static Solid made(Made by, std::vector<Solid> parts) {
         if (parts.size() == 1) return std::move(parts[0]);
         Solid solid{by};
@@ -101,6 +126,11 @@ class Describer {
 
 Solid description_of(const Scene& scene, Solids::Index solid) {
     Solid described = Describer(scene, solid).describe(solid, false);
+    if (described.made == Made::of_shape) { // which would be a shape like others
+        Solid alone{Made::by_union};
+        alone.parts.push_back(std::move(described));
+        described = std::move(alone);
+    }
     described.material = scene.solids().medium(solid);
     return described;
 }
