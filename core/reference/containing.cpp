@@ -7,13 +7,71 @@
 
 namespace raylane::core {
 
-PointSearcher::PointSearcher(const Scene& scene) : scene_(scene), parts_(scene) {
+namespace {
+
+/// What an all or an any is, by its children.
+class OfChildren {
+  public:
+    explicit OfChildren(const Solids::Node& node)
+        : of_all_(node.op == Solids::Op::all), side_(of_all_ ? Side::inside : Side::outside) {}
+
+    /// False once it is known.
+    bool add(Side child) {
+        side_ = of_all_ ? std::max(side_, child) : std::min(side_, child);
+        return side_ != (of_all_ ? Side::outside : Side::inside);
+    }
+    Side side() const { return side_; }
+
+  private:
+    bool of_all_;
+    Side side_;
+};
+
+Side of_part(const Solids::Node& part, Side of_shape) {
+    return part.reversed ? static_cast<Side>(-static_cast<int>(of_shape)) : of_shape;
+}
+
+/// What a polynomial is from some t on.
+Side side_in_the_end(const ExactQuadratic& form) {
+    for (const Dyadic* coefficient : {&form.A, &form.B, &form.C})
+        if (const int sign = coefficient->sign(); sign != 0) return static_cast<Side>(sign);
+    return Side::surface;
+}
+
+} // namespace
+
+std::vector<Solids::Index> unbounded_solids(const Scene& scene) {
+    std::vector<Solids::Index> unbounded;
     const Solids& solids = scene.solids();
     for (Solids::Index solid = 0; solid < solids.nodes().size(); solid = solids.node(solid).end) {
         const Bounds& bounds = solids.bounds(solid);
-        if (!is_finite(bounds) && bounds.lower.x <= bounds.upper.x) unbounded_.push_back(solid);
+        if (!is_finite(bounds) && bounds.lower.x <= bounds.upper.x) unbounded.push_back(solid);
     }
+    return unbounded;
 }
+
+Side side_at_end(const Scene& scene, Solids::Index index, const Ray<double>& ray) {
+    const Solids::Node& node = scene.solids().node(index);
+    if (node.op == Solids::Op::part)
+        return of_part(
+            node,
+            with_table(scene.shapes(), node.kind, [&]<class Shape>(const Table<Shape>& table) {
+                if constexpr (kind_of<Shape> == Kind::plane || kind_of<Shape> == Kind::quadric)
+                    return side_in_the_end(form_along(
+                        table.get(node.place),
+                        ExactRay{convert<Dyadic>(ray.origin), convert<Dyadic>(ray.direction)}, {}));
+                else
+                    return Side::outside;
+            }));
+    if (node.many) return Side::outside; // each of them has bounds
+    OfChildren children(node);
+    scene.solids().each_child(
+        index, [&](Solids::Index child) { return children.add(side_at_end(scene, child, ray)); });
+    return children.side();
+}
+
+PointSearcher::PointSearcher(const Scene& scene)
+    : scene_(scene), parts_(scene), unbounded_(unbounded_solids(scene)) {}
 
 void PointSearcher::add_containing(const Vec3d& point, std::vector<Containing>& found) {
     for (int axis = 0; axis < 3; ++axis)
@@ -49,23 +107,16 @@ void PointSearcher::add_containing(const Vec3d& point, std::vector<Containing>& 
 
 Side PointSearcher::side_of(Solids::Index index, const Vec3d& point) {
     const Solids::Node& node = scene_.solids().node(index);
-    if (node.op == Solids::Op::part) {
-        const Side side =
-            with_table(scene_.shapes(), node.kind, [&]<class Shape>(const Table<Shape>& table) {
-                if constexpr (has_inside<Shape>)
-                    return core::side_of(table.get(node.place), point);
-                else
-                    return Side::outside;
-            });
-        return node.reversed ? static_cast<Side>(-static_cast<int>(side)) : side;
-    }
-    const bool of_all = node.op == Solids::Op::all;
-    Side side = of_all ? Side::inside : Side::outside;
-    const auto look = [&](Solids::Index child) {
-        const Side of_child = side_of(child, point);
-        side = of_all ? std::max(side, of_child) : std::min(side, of_child);
-        return side != (of_all ? Side::outside : Side::inside);
-    };
+    if (node.op == Solids::Op::part)
+        return of_part(node, with_table(scene_.shapes(), node.kind,
+                                        [&]<class Shape>(const Table<Shape>& table) {
+                                            if constexpr (has_inside<Shape>)
+                                                return core::side_of(table.get(node.place), point);
+                                            else
+                                                return Side::outside;
+                                        }));
+    OfChildren children(node);
+    const auto look = [&](Solids::Index child) { return children.add(side_of(child, point)); };
     if (node.many) {
         Bounds around;
         include_point(around, point);
@@ -73,7 +124,7 @@ Side PointSearcher::side_of(Solids::Index index, const Vec3d& point) {
     } else {
         scene_.solids().each_child(index, look);
     }
-    return side;
+    return children.side();
 }
 
 } // namespace raylane::core

@@ -15,6 +15,14 @@ struct Containing {
     bool on_surface;
 };
 
+/// The solids of a scene that have no bounds.
+std::vector<Solids::Index> unbounded_solids(const Scene& scene);
+
+/// Which side of a solid a ray is on in the end, behind all that it crosses, as real arithmetic
+/// says. It is on the surface where it runs in that of parts, and neither inside nor outside
+/// whatever these parts are.
+Side side_at_end(const Scene& scene, Solids::Index solid, const Ray<double>& ray);
+
 /// Finds the solids that points are in; to be used by one thread. Of solids that are the same, of
 /// one material, the first alone is found.
 class PointSearcher {

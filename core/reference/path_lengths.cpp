@@ -23,8 +23,12 @@ Bounded<DoubleDouble> PathLengths::End::t() const {
     return crossing != nullptr ? crossing->wide_t() : Wide(limit);
 }
 
-PathLengths::OfMaterial& PathLengths::of(const Hit<double>& hit) {
-    const MaterialIndex material = scene_.medium_index_of(hit.shape);
+PathLengths::PathLengths(const Scene& scene)
+    : scene_(scene), endless_(unbounded_solids(scene)), place_of_(scene.materials().size(), 0) {
+    std::erase_if(endless_, [&](Solids::Index solid) { return scene.solids().node(solid).open; });
+}
+
+PathLengths::OfMaterial& PathLengths::of(MaterialIndex material) {
     std::uint32_t& place = place_of_[material];
     if (place < count_ && materials_[place].material == material) return materials_[place];
     if (count_ == materials_.size()) materials_.emplace_back();
@@ -35,6 +39,31 @@ PathLengths::OfMaterial& PathLengths::of(const Hit<double>& hit) {
     added.begin = {};
     added.parts.clear();
     return added;
+}
+
+/// What is left before it is entered has been around the start; and so has what is neither, where
+/// it is around the end.
+void PathLengths::begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
+                                     double t_min) {
+    const auto begin = [&](OfMaterial& material) {
+        if (material.depth++ == 0) material.begin = {nullptr, t_min};
+    };
+    by_solid_.clear();
+    for (std::size_t i = 0; i < hits.size(); ++i)
+        by_solid_.emplace_back(scene_.solids().solid_of(hits[i].shape), i);
+    std::sort(by_solid_.begin(), by_solid_.end());
+    for (std::size_t k = 0; k < by_solid_.size(); ++k) {
+        const auto& [solid, i] = by_solid_[k];
+        const bool is_first = k == 0 || by_solid_[k - 1].first != solid;
+        if (is_first && !hits[i].enters()) begin(of(hits[i]));
+    }
+    for (const Solids::Index solid : endless_) {
+        const std::pair any(scene_.solids().node(solid).shape, std::size_t{0});
+        const auto met = std::lower_bound(by_solid_.begin(), by_solid_.end(), any);
+        const bool is_met = met != by_solid_.end() && met->first == any.first;
+        if (!is_met && side_at_end(scene_, solid, from.ray) == Side::inside)
+            begin(of(scene_.solids().medium(solid)));
+    }
 }
 
 void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, double t_min,
@@ -52,18 +81,8 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     sharp_.assign(hits.begin(), hits.end());
     count_ = 0;
 
-    // What is left before it is entered has been around the start.
+    begin_around_start(from, hits, t_min);
     const auto limit_at = [](double t) { return End{nullptr, t}; };
-    by_solid_.clear();
-    for (std::size_t i = 0; i < hits.size(); ++i)
-        by_solid_.emplace_back(scene_.solids().solid_of(hits[i].shape), i);
-    std::sort(by_solid_.begin(), by_solid_.end());
-    for (std::size_t k = 0; k < by_solid_.size(); ++k) {
-        const auto& [solid, i] = by_solid_[k];
-        if (hits[i].enters() || (k != 0 && by_solid_[k - 1].first == solid)) continue;
-        OfMaterial& material = of(hits[i]);
-        if (material.depth++ == 0) material.begin = limit_at(t_min);
-    }
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const Hit<double>& hit = hits[i];
         End here{&sharp_[i], 0.0};
@@ -84,8 +103,8 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     // What is never left has no end.
     for (std::size_t i = 0; i < count_; ++i) {
         OfMaterial& material = materials_[i];
-        if (material.depth > 0 && std::isfinite(t_max) &&
-            !(material.begin.crossing == nullptr && material.begin.limit == t_max))
+        const bool is_none = material.begin.crossing == nullptr && material.begin.limit == t_max;
+        if (material.depth > 0 && !is_none)
             material.parts.push_back({material.begin, limit_at(t_max)});
     }
 
@@ -94,6 +113,10 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
     const std::size_t first = lengths.size();
     for (std::size_t i = 0; i < count_; ++i) {
         OfMaterial& material = materials_[i];
+        if (material.depth > 0 && !std::isfinite(t_max)) {
+            lengths.push_back({material.material, t_max});
+            continue;
+        }
         for (const Inside& part : material.parts)
             for (const End& end : {part.begin, part.end})
                 if (end.crossing != nullptr) end.crossing->widen(scene_, from);

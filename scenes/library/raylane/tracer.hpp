@@ -115,7 +115,8 @@ struct SolidRows {
 struct LengthRows {
     std::vector<std::uint64_t> first; ///< n + 1
     std::vector<MaterialIndex> material;
-    std::vector<double> length; ///< > 0, in the scene's unit, within an ulp of the true one
+    std::vector<double> length; ///< > 0, in the scene's unit, within an ulp of the true one;
+                                ///< infinite for what has no end
 };
 
 struct TracerOptions {
@@ -201,8 +202,9 @@ class Tracer {
 
     /// How much of each ray, from t_min to t_max, is inside of the solids of each material: what is
     /// in several solids of one material counts once, and what is in solids of several materials
-    /// for each of them. t_max may be infinite. Answers are exact up to the last rounding, whatever
-    /// the precision. Rows are replaced. Throws as intersect does.
+    /// for each of them. t_max may be infinite, and then so are lengths in what has no end. Answers
+    /// are exact up to the last rounding, whatever the precision. Rows are replaced. Throws as
+    /// intersect does.
     void path_lengths(const RaySpan& rays, LengthRows& rows) const;
     void path_lengths(const DoubleRaySpan& rays, LengthRows& rows) const;
 

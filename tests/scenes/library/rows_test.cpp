@@ -244,6 +244,115 @@ TEST_CASE("what is cut open has no inside, for lengths and points") {
     CHECK(solids.first == std::vector<std::uint64_t>{0, 0, 1});
 }
 
+TEST_CASE("rays are inside of a solid without end whether they cross it or not") {
+    SceneBuilder builder;
+    const MaterialIndex stone = builder.add_material({}), gold = builder.add_material({});
+    const raylane::Solid below(Plane{{0, 0, 0}, {0, 0, 1}}), hole(Sphere{{0, 0, -5}, 1});
+    builder.add(difference_of(below, {hole}), stone);
+    builder.add(raylane::Solid(Plane{{0, 0, -50}, {0, 0, 1}}), gold);
+    builder.add(clipped(below, {raylane::Solid(Plane{{0, 0, 0}, {1, 0, 0}})}), gold); // is open
+    const Scene scene = builder.build();
+    const auto lengths = [&](const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
+        Rays rays = one_ray(origin, direction);
+        rays.t_min = {t_min};
+        rays.t_max = {t_max};
+        LengthRows rows;
+        Tracer(scene).path_lengths(rays.span(), rows);
+        std::vector<std::pair<MaterialIndex, double>> all;
+        for (std::size_t k = 0; k < rows.material.size(); ++k)
+            all.emplace_back(rows.material[k], rows.length[k]);
+        return all;
+    };
+    using Lengths = decltype(lengths({}, {}, 0, 0));
+    CHECK(lengths({3, 0, -1}, {2, 0, 0}, 0, 50) == Lengths{{stone, 100.0}});
+    CHECK(lengths({3, 0, -1}, {2, 0, 0}, 20, 50) == Lengths{{stone, 60.0}});
+    CHECK(lengths({3, 0, -1}, {2, 0, 0}, 0, infinity) == Lengths{{stone, infinity}});
+    CHECK(lengths({3, 0, -1}, {0, 0, -1}, 0, 99) == Lengths{{stone, 99.0}, {gold, 50.0}});
+    CHECK(lengths({3, 0, -60}, {0, 0, -1}, 1, 2) == Lengths{{stone, 1.0}, {gold, 1.0}});
+    CHECK(lengths({0, 0, 5}, {0, 0, -1}, 0, 100) == Lengths{{stone, 93.0}, {gold, 45.0}});
+    CHECK(lengths({0, 0, 5}, {0, 0, -1}, 0, infinity) ==
+          Lengths{{stone, infinity}, {gold, infinity}});
+    CHECK(lengths({0, 0, -5}, {0, 0, 1}, 0, 100) == Lengths{{stone, 4.0}});
+    CHECK(lengths({3, 0, -1}, {0, 0, 1}, 0, 100) == Lengths{{stone, 1.0}});
+    CHECK(lengths({3, 0, -1}, {0, 0, 1}, 1, infinity).empty());
+    // From the surface: into it, out of it, and along it.
+    CHECK(lengths({3, 0, 0}, {1, 0, -1e-30F}, 0, 8) == Lengths{{stone, 8.0}});
+    CHECK(lengths({3, 0, 0}, {1, 0, 1e-30F}, 0, 8).empty());
+    CHECK(lengths({3, 0, 0}, {1, 0, 0}, 0, 8).empty());
+    CHECK(lengths({3, 0, 1}, {1, 0, 0}, 0, infinity).empty());
+}
+
+TEST_CASE("lengths, crossings and points agree of solids without end") {
+    tests::Random random(seed(20261127));
+    const auto part = [&](int depth, const auto& self) -> raylane::Solid {
+        const auto small = [&] {
+            return Vec3{static_cast<float>(random.integer(-2, 2)),
+                        static_cast<float>(random.integer(-2, 2)),
+                        static_cast<float>(random.integer(-2, 2))};
+        };
+        if (depth == 0) {
+            if (random.integer(0, 1) == 0)
+                return raylane::Solid(Sphere{small(), static_cast<float>(random.integer(1, 2))});
+            Vec3 normal = small();
+            if (normal.x == 0 && normal.y == 0 && normal.z == 0) normal.z = 1;
+            return raylane::Solid(Plane{small(), normal});
+        }
+        const std::vector<raylane::Solid> parts = {self(depth - 1, self), self(depth - 1, self)};
+        switch (random.integer(0, 2)) {
+        case 0:
+            return union_of(parts);
+        case 1:
+            return intersection_of(parts);
+        default:
+            return difference_of(parts[0], {parts[1]});
+        }
+    };
+    constexpr double t_max = 64;
+    int around = 0;
+    for (int round = 0; round < rounds(300, 30); ++round) {
+        SceneBuilder builder;
+        builder.add(part(random.integer(0, 3), part), builder.add_material({}));
+        const Scene scene = builder.build();
+        const Tracer tracer(scene);
+        Rays rays;
+        for (int i = 0; i < 40; ++i) {
+            const core::Vec3f o = random.small_integers(4), d = random.small_integers(2);
+            rays.add({o.x, o.y, o.z}, {d.x, d.y, d.z});
+        }
+        rays.t_max.assign(rays.size(), static_cast<float>(t_max));
+        CrossingRows rows;
+        tracer.crossings(rays.span(), rows);
+        LengthRows lengths;
+        tracer.path_lengths(rays.span(), lengths);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const core::Vec3d o(rays.x[i], rays.y[i], rays.z[i]),
+                d(rays.dx[i], rays.dy[i], rays.dz[i]);
+            if (d == core::Vec3d(0.0)) continue;
+            std::vector<double> ends = {0.0};
+            ends.insert(ends.end(), rows.t.begin() + static_cast<std::ptrdiff_t>(rows.first[i]),
+                        rows.t.begin() + static_cast<std::ptrdiff_t>(rows.first[i + 1]));
+            ends.push_back(t_max);
+            double expected = 0.0;
+            for (std::size_t k = 1; k < ends.size(); ++k) {
+                // Not half way, where another surface may be.
+                const core::Vec3d at = o + d * (ends[k - 1] + 0.48828125 * (ends[k] - ends[k - 1]));
+                const double x[] = {at.x}, y[] = {at.y}, z[] = {at.z};
+                SolidRows solids;
+                tracer.contains(DoublePointSpan{x, y, z}, solids);
+                if (!solids.shape.empty() && solids.on_surface[0] == 0)
+                    expected += (ends[k] - ends[k - 1]) * std::sqrt(core::squared_length(d));
+            }
+            double sum = 0.0;
+            for (std::uint64_t k = lengths.first[i]; k < lengths.first[i + 1]; ++k)
+                sum += lengths.length[k];
+            CAPTURE(round, i);
+            CHECK(sum == Approx(expected).margin(1e-9));
+            if (rows.first[i] == rows.first[i + 1] && sum > 0.0) ++around;
+        }
+    }
+    CHECK(around > 100);
+}
+
 TEST_CASE("lengths inside of solids are within an ulp, however the rays graze") {
     ray_sets::Random random(seed(20261124));
     long measured = 0;
