@@ -45,7 +45,9 @@ raylane_status raylane_write_image(const char* path, int width, int height, cons
                                    int transfer) {
     return guarded([&] {
         Image image{width, height, {}};
-        if (width > 0 && height > 0) {
+        // Others are refused by write_image(), before anything is made of them.
+        const auto is_side = [](int pixels) { return pixels >= 1 && pixels <= 65535; };
+        if (is_side(width) && is_side(height)) {
             const std::size_t count =
                 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
             const std::span<const float> all = span_of("rgb", rgb, count);

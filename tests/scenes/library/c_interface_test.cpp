@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <tuple>
 
 using namespace raylane;
 using namespace raylane::tests;
@@ -247,6 +248,18 @@ TEST_CASE("what goes wrong in C has a code and a line of text") {
     CHECK(raylane_render(scene.get(), nullptr, 1, RAYLANE_EXACT, cancel, &calls, rgb.data()) ==
           RAYLANE_CANCELLED);
     CHECK(calls == 1);
+
+    // No pixel is looked at, nor room asked for, where there are too many.
+    for (const auto& [columns, rows, refusal] :
+         {std::tuple(0, 9, "width: must be from 1 to 65535, got 0"),
+          std::tuple(2147483647, 2147483647, "width: must be from 1 to 65535, got 2147483647"),
+          std::tuple(70000, 70000, "width: must be from 1 to 65535, got 70000"),
+          std::tuple(9, 65536, "height: must be from 1 to 65535, got 65536"),
+          std::tuple(-1, 9, "width: must be from 1 to 65535, got -1")})
+        says(raylane_write_image("none.png", columns, rows, rgb.data(), RAYLANE_SRGB),
+             RAYLANE_INVALID_VALUE, refusal);
+    says(raylane_write_image("none.png", 9, 9, nullptr, RAYLANE_SRGB), RAYLANE_INVALID_VALUE,
+         "rgb: must not be NULL");
     raylane_tracer_release(nullptr);
     raylane_scene_release(nullptr);
     raylane_builder_release(nullptr);
