@@ -33,10 +33,12 @@ inline py::array any_array(const py::handle& values, const char* field) {
     }
 }
 
-/// True for arrays and scalars of float32, and for what is not there.
+/// True for arrays and scalars of float32, in either order of bytes, and for what is not there.
 inline bool is_float(const py::object& values) {
-    return values.is_none() || (py::hasattr(values, "dtype") &&
-                                py::isinstance<py::array_t<float>>(any_array(values, "")));
+    if (values.is_none()) return true;
+    if (!py::hasattr(values, "dtype")) return false;
+    const py::dtype type = any_array(values, "").dtype();
+    return type.kind() == 'f' && type.itemsize() == sizeof(float);
 }
 /// The same for what is no array, too: a number is taken for one of the others' type.
 inline bool is_float_or_plain(const py::object& values) {

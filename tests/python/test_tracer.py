@@ -212,6 +212,22 @@ def test_what_cannot_be_asked_says_why(ball):
         assert error.value.field == field, str(error.value)
 
 
+def test_limits_at_hits_in_either_order_of_bytes(crowd):
+    """Floats that are swapped are floats: a hit's own t, rounded, is a limit that it is within."""
+    tracer = Tracer(crowd)
+    origins, directions = rays(2000)
+    hits = tracer.intersect(origins, directions)
+    met = hits.hit
+    o, d, t, shape = origins[met], directions[met], hits.t[met], hits.shape[met]
+    swapped = [a.astype(a.dtype.newbyteorder()) for a in (o, d, t)]
+    assert np.array_equal(tracer.intersect(o, d, t_max=t).shape, shape)
+    again = tracer.intersect(swapped[0], swapped[1], t_max=swapped[2])
+    assert np.array_equal(again.shape, shape) and np.array_equal(again.t, t)
+    assert tracer.occluded(swapped[0], swapped[1], t_max=swapped[2]).all()
+    # By one array of doubles they are doubles, and so is a limit: rounded, it is before half of them.
+    assert 0.2 < tracer.intersect(o.astype(">f8"), d, t_max=t).hit.mean() < 0.8
+
+
 def test_limits_count_as_they_are(ball):
     """A limit in double is not rounded to the rays' floats."""
     tracer = Tracer(ball)
