@@ -1,11 +1,13 @@
 #include "core/scene/scene.hpp"
 
 #include "core/scene/staging.hpp"
+#include "core/scene/validate.hpp"
 #include "raylane/scene.hpp"
 #include "scenes/export/export.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
 #include "scenes/library/translate.hpp"
+#include "scenes/number.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/workers.hpp"
 
@@ -108,7 +110,7 @@ Scene Scene::seen_by(const Camera& camera) const {
 Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {
     if (!(aspect >= 1e-5F && aspect <= 1e5F))
         throw InvalidValue("aspect",
-                           "must be from 0.00001 to 100000, got " + std::to_string(aspect));
+                           "must be from 0.00001 to 100000, got " + scenes::to_text(aspect));
     return translated([&] {
         const auto way = converted<core::Vec3f>(direction);
         const double squared_length = core::squared_length(core::convert<double>(way));
@@ -117,8 +119,16 @@ Camera Scene::camera_on_all(const Vec3& direction, float aspect) const {
         core::Frame frame({.direction = way, .up = core::upright(way)},
                           static_cast<double>(aspect));
         core::include_shapes(*scene_, frame);
-        if (frame.empty()) throw InvalidValue("", "must have shapes other than planes, to look at");
-        return converted<Camera>(frame.camera());
+        if (frame.empty())
+            throw InvalidValue("scene", "must have shapes other than planes, to look at");
+        const core::Camera found = frame.camera();
+        try {
+            core::validate(found);
+        } catch (const core::InvalidValue&) {
+            throw InvalidValue("scene", "reaches too far for a camera that sees all of it, whose "
+                                        "place would be beyond 1e30: give it a camera");
+        }
+        return converted<Camera>(found);
     });
 }
 
@@ -233,6 +243,22 @@ Scene parse(std::string_view text, const std::string& name, const OnRemark& on_r
             scenes::parse_scene(name, text, {.workers = &workers, .on_remark = on_remark}));
     });
 }
+
+namespace library {
+
+/// For Python's module, which declares it, too: a file of atoms in memory, drawn with or without
+/// the edges of their cell. Throws as parse() does.
+RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell) {
+    return translated([&] {
+        simd::ParallelWorkers workers;
+        scenes::LoadOptions options;
+        options.workers = &workers;
+        options.drawing.show_cell = show_cell;
+        return owning(scenes::parse_scene(name, text, options));
+    });
+}
+
+} // namespace library
 
 void save(const Scene& scene, const std::filesystem::path& path, const OnRemark& on_remark) {
     const std::filesystem::path file = file_named(path);

@@ -105,9 +105,25 @@ TEST_CASE("a camera on all sees all of it, as large as that may be") {
         CHECK(message_of([&] { scene.camera_on_all({0, 0, -1}, aspect); }).find("aspect") == 0);
     for (const Vec3 direction : {Vec3{}, Vec3{nan, 0, 1}, Vec3{0, 0, INFINITY}})
         CHECK(message_of([&] { scene.camera_on_all(direction); }).find("direction") == 0);
+    CHECK(message_of([&] {
+              scene.camera_on_all({0, 0, -1}, 1e-7F);
+          }) == "aspect: must be from 0.00001 to 100000, got 1e-07");
     SceneBuilder builder;
     builder.add_light({});
     builder.add(Plane{{0, -1, 0}, {0, 1, 0}}, builder.add_material({}));
     const Scene plane = builder.build();
-    CHECK_FALSE(message_of([&] { plane.camera_on_all(); }).empty());
+    CHECK(message_of([&] { plane.camera_on_all(); }) ==
+          "scene: must have shapes other than planes, to look at");
+}
+
+TEST_CASE("a camera on all is one that a scene takes, or none") {
+    for (const float radius : {2e29F, 3e29F, 1e30F}) {
+        SceneBuilder builder;
+        builder.add(Sphere{{0, 0, 0}, radius}, builder.add_material({}));
+        const Scene scene = builder.build();
+        if (radius < 2.5e29F)
+            CHECK_NOTHROW(scene.seen_by(scene.camera_on_all()));
+        else
+            CHECK(message_of([&] { scene.camera_on_all(); }).find("scene: reaches too far") == 0);
+    }
 }
