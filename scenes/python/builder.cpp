@@ -190,7 +190,9 @@ py::tuple add_boxes(SharedBuilder& builder, const py::object& corners, const py:
         corners, edges);
 }
 py::tuple add_cylinders(SharedBuilder& builder, const py::object& bases, const py::object& axes,
-                        const py::object& radii, const py::object& material, bool caps) {
+                        const py::object& radii, const py::object& material,
+                        const py::object& with_caps) {
+    const bool caps = bool_from(with_caps, "caps");
     return by_type(
         [&]<class T>(std::type_identity<T>) {
             const std::size_t count =
@@ -210,7 +212,8 @@ py::tuple add_cylinders(SharedBuilder& builder, const py::object& bases, const p
 }
 py::tuple add_cones(SharedBuilder& builder, const py::object& bases, const py::object& axes,
                     const py::object& base_radii, const py::object& top_radii,
-                    const py::object& material, bool caps) {
+                    const py::object& material, const py::object& with_caps) {
+    const bool caps = bool_from(with_caps, "caps");
     return by_type(
         [&]<class T>(std::type_identity<T>) {
             const std::size_t count = count_of({{bases, 1, "bases"},
@@ -264,6 +267,32 @@ py::tuple add_quadrics(SharedBuilder& builder, const py::object& centers,
         centers, coefficients, lower, upper);
 }
 
+/// What of a scene is set rather than added.
+class Surroundings {
+  public:
+    Surroundings(const py::object& camera, const py::object& background, const py::object& fog,
+                 const py::object& settings, const py::object& wavelengths)
+        : camera_(camera.is_none() ? Camera() : camera_from(camera)),
+          background_(color_from(background, "background")), fog_(fog_from(fog)),
+          settings_(settings_from(settings)), wavelengths_(wavelengths_from(wavelengths)) {}
+
+    Scene built(SceneBuilder& builder) const {
+        builder.camera = camera_;
+        builder.background = background_;
+        builder.fog = fog_;
+        builder.settings = settings_;
+        builder.wavelengths = wavelengths_;
+        return builder.build();
+    }
+
+  private:
+    Camera camera_;
+    Color background_;
+    Fog fog_;
+    Settings settings_;
+    std::vector<double> wavelengths_;
+};
+
 } // namespace
 
 void bind_builder(py::module_& module) {
@@ -300,22 +329,21 @@ void bind_builder(py::module_& module) {
              [](SharedBuilder& builder) {
                  return builder.change([](const SceneBuilder& of) { return of.shape_count(); });
              })
-        .def("build", [](SharedBuilder& builder, const py::object& camera,
-                         const py::object& background, const py::object& fog,
-                         const py::object& settings, const std::vector<double>& wavelengths) {
-            const Camera seen = camera.is_none() ? Camera() : camera_from(camera);
-            const Color behind = color_from(background, "background");
-            const Fog dim = fog_from(fog);
-            const Settings of = settings_from(settings);
-            return builder.change([&](SceneBuilder& whole) {
-                whole.camera = seen;
-                whole.background = behind;
-                whole.fog = dim;
-                whole.settings = of;
-                whole.wavelengths = wavelengths;
-                return whole.build();
-            });
-        });
+        .def("build",
+             [](SharedBuilder& builder, const py::object& camera, const py::object& background,
+                const py::object& fog, const py::object& settings, const py::object& wavelengths) {
+                 const Surroundings around(camera, background, fog, settings, wavelengths);
+                 return builder.change([&](SceneBuilder& whole) { return around.built(whole); });
+             });
+    // Throws for what build() would not take, before anything is taken.
+    module.def("check",
+               [](const py::object& camera, const py::object& background, const py::object& fog,
+                  const py::object& settings, const py::object& wavelengths) {
+                   const Surroundings around(camera, background, fog, settings, wavelengths);
+                   const py::gil_scoped_release free;
+                   SceneBuilder empty;
+                   static_cast<void>(around.built(empty));
+               });
 }
 
 } // namespace raylane::python

@@ -6,6 +6,7 @@
 #include <optional>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <string_view>
 #include <thread>
 
 namespace raylane::python {
@@ -95,13 +96,25 @@ py::dict arrays_of(Image&& image) {
     return result;
 }
 
-py::object render_picture(const Scene& scene, const py::object& settings, int threads,
-                          const std::string& precision, const py::object& crop, bool layers,
-                          const py::object& progress) {
+/// Calls it; fields of settings are keywords of render() in Python.
+template <class Call>
+auto by_keywords(const Call& call) {
+    try {
+        return call();
+    } catch (const InvalidValue& error) {
+        constexpr std::string_view prefix = "settings/";
+        if (!error.field.starts_with(prefix)) throw;
+        throw InvalidValue(error.field.substr(prefix.size()), error.expectation);
+    }
+}
+
+py::object render_picture(const Scene& scene, const py::object& settings, const py::object& threads,
+                          const py::object& precision, const py::object& crop,
+                          const py::object& layers, const py::object& progress) {
     RenderOptions options{.settings = settings_from(settings),
-                          .threads = threads,
+                          .threads = threads_from(threads),
                           .precision = precision_from(precision),
-                          .layers = layers};
+                          .layers = bool_from(layers, "layers")};
     if (!crop.is_none()) {
         try {
             const auto [x, y, width, height] = py::cast<std::array<int, 4>>(py::tuple(crop));
@@ -133,16 +146,20 @@ py::object render_picture(const Scene& scene, const py::object& settings, int th
     return arrays_of(std::move(image));
 }
 
-void write_picture(const std::filesystem::path& path, const py::array& rgb, const py::object& alpha,
-                   const std::string& transfer) {
-    const py::array_t<float, py::array::c_style | py::array::forcecast> colors(rgb);
+void write_picture(const std::filesystem::path& path, const py::object& rgb,
+                   const py::object& alpha, const py::object& transfer) {
+    const Transfer by = transfer_from(transfer);
+    const py::array_t<float, py::array::c_style | py::array::forcecast> colors(
+        array_of<float>(rgb, "rgb"));
     if (colors.ndim() != 3 || colors.shape(2) != 3)
-        throw InvalidValue("rgb", "must have the shape (height, width, 3), got " + shape_text(rgb));
+        throw InvalidValue("rgb",
+                           "must have the shape (height, width, 3), got " + shape_text(colors));
     Image image{.width = static_cast<int>(colors.shape(1)),
                 .height = static_cast<int>(colors.shape(0)),
                 .rgb = {colors.data(), colors.data() + colors.size()}};
     if (!alpha.is_none()) {
-        const py::array_t<float, py::array::c_style | py::array::forcecast> shares(alpha);
+        const py::array_t<float, py::array::c_style | py::array::forcecast> shares(
+            array_of<float>(alpha, "alpha"));
         if (shares.ndim() != 2 || shares.shape(0) != colors.shape(0) ||
             shares.shape(1) != colors.shape(1))
             throw InvalidValue("alpha", "must have the shape (" + std::to_string(image.height) +
@@ -150,16 +167,21 @@ void write_picture(const std::filesystem::path& path, const py::array& rgb, cons
                                             shape_text(shares));
         image.alpha.assign(shares.data(), shares.data() + shares.size());
     }
-    if (transfer != "srgb" && transfer != "linear")
-        throw InvalidValue("transfer", R"(must be "srgb" or "linear", got ")" + transfer + '"');
     const py::gil_scoped_release free;
-    write_image(path, image, transfer == "srgb" ? Transfer::srgb : Transfer::linear);
+    write_image(path, image, by);
 }
 
 } // namespace
 
 void bind_image(py::module_& module) {
-    module.def("render", &render_picture);
+    module.def("render", [](const Scene& scene, const py::object& settings,
+                            const py::object& threads, const py::object& precision,
+                            const py::object& crop, const py::object& layers,
+                            const py::object& progress) {
+        return by_keywords([&] {
+            return render_picture(scene, settings, threads, precision, crop, layers, progress);
+        });
+    });
     module.def("write_image", &write_picture);
 }
 

@@ -5,6 +5,13 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl/filesystem.h>
 
+namespace raylane::library {
+
+/// Of scenes/library/scene.cpp, for this module alone.
+RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell);
+
+} // namespace raylane::library
+
 namespace raylane::python {
 
 namespace {
@@ -50,11 +57,12 @@ void bind_scene(py::module_& module) {
                  return scene.seen_by(other);
              })
         .def("camera_on_all",
-             [](const Scene& scene, const py::object& direction, float aspect) {
+             [](const Scene& scene, const py::object& direction, const py::object& aspect) {
                  const Vec3 way = color_from(direction, "direction");
+                 const float ratio = number_from(aspect, "aspect");
                  const Camera found = [&] {
                      const py::gil_scoped_release free;
-                     return scene.camera_on_all(way, aspect);
+                     return scene.camera_on_all(way, ratio);
                  }();
                  return to_python(found);
              })
@@ -73,7 +81,12 @@ void bind_scene(py::module_& module) {
              })
         .def("material",
              [](const Scene& scene, const py::object& index) {
-                 return to_python(scene.material(one_material(index)));
+                 const MaterialIndex of = one_material(index, "index");
+                 try {
+                     return to_python(scene.material(of));
+                 } catch (const InvalidValue& error) {
+                     throw InvalidValue("index", error.expectation);
+                 }
              })
         .def("lights",
              [](const Scene& scene) {
@@ -99,6 +112,11 @@ void bind_scene(py::module_& module) {
                    const py::gil_scoped_release free;
                    return parse(view, name, remarks);
                });
+    module.def("parse_atoms", [](const py::bytes& text, const std::string& name, bool show_cell) {
+        const std::string_view view = text;
+        const py::gil_scoped_release free;
+        return library::parse_atoms(view, name, show_cell);
+    });
     module.def("save", [](const Scene& scene, const std::filesystem::path& path,
                           const py::object& on_remark) {
         const OnRemark remarks = remarks_to(on_remark);

@@ -261,7 +261,10 @@ void append_rows(std::vector<std::uint64_t>& first, const std::vector<std::uint6
 }
 
 py::dict crossings(SharedTracer& tracer, const py::object& origins, const py::object& directions,
-                   const py::tuple& rest, std::size_t most, bool normals) {
+                   const py::tuple& rest, const py::object& at_most,
+                   const py::object& with_normals) {
+    const std::size_t most = count_from(at_most, "most");
+    const bool normals = bool_from(with_normals, "normals");
     CrossingRows all;
     all.first = {0};
     with_rays(origins, directions, rest, [&](const auto& rays) {
@@ -350,11 +353,13 @@ py::dict contains(const SharedTracer& tracer, const py::object& points) {
 
 void bind_tracer(py::module_& module) {
     py::class_<SharedTracer>(module, "Tracer")
-        .def(py::init([](const Scene& scene, int threads, const std::string& precision) {
-            const TracerOptions options{.threads = threads, .precision = precision_from(precision)};
-            const py::gil_scoped_release free;
-            return std::make_unique<SharedTracer>(scene, options);
-        }))
+        .def(py::init(
+            [](const Scene& scene, const py::object& threads, const py::object& precision) {
+                const TracerOptions options{.threads = threads_from(threads),
+                                            .precision = precision_from(precision)};
+                const py::gil_scoped_release free;
+                return std::make_unique<SharedTracer>(scene, options);
+            }))
         .def_static("reads_in_place", &reads_in_place)
         .def("intersect", &intersect)
         .def("occluded", &occluded)

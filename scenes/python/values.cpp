@@ -60,14 +60,52 @@ struct Axes {
     std::uint8_t& bits;
 };
 
+/// What Python shows of a value, on one line of no great length.
+std::string shown(const py::handle& value) {
+    constexpr std::size_t most = 80;
+    std::string text;
+    try {
+        text = py::cast<std::string>(py::repr(value));
+    } catch (const std::exception&) { // a whole number of very many digits, for one
+        text = "a value of the type " + std::string(Py_TYPE(value.ptr())->tp_name);
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    if (text.size() <= most) return text;
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
+        --end; // UTF-8
+    return text.substr(0, end) + "...";
+}
+
+[[noreturn]] void refuse(const std::string& field, const std::string& what, const py::handle& got) {
+    throw InvalidValue(field, "must be " + what + ", got " + shown(got));
+}
+
 template <class Enum>
-Enum enum_of(const std::string& text, const std::string& field) {
+Enum enum_from(const py::handle& from, const std::string& field) {
     std::string all;
+    const bool is_text = PyUnicode_Check(from.ptr()) != 0;
     for (std::size_t i = 0; i < Names<Enum>::names.size(); ++i) {
-        if (text == Names<Enum>::names[i]) return static_cast<Enum>(i);
+        if (is_text && PyUnicode_CompareWithASCIIString(from.ptr(), Names<Enum>::names[i]) == 0)
+            return static_cast<Enum>(i);
         all += (i == 0 ? "\"" : ", \"") + std::string(Names<Enum>::names[i]) + "\"";
     }
-    throw InvalidValue(field, "must be one of " + all + ", got \"" + text + "\"");
+    refuse(field, "one of " + all, from);
+}
+
+/// A whole number of Python's or NumPy's within limits, as Python takes one for an index.
+template <class Int>
+Int whole_from(const py::handle& from, const std::string& field, Int least, Int most) {
+    const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(from.ptr()));
+    if (!number) {
+        PyErr_Clear();
+        refuse(field, "a whole number", from);
+    }
+    if (number < py::int_(least) || number > py::int_(most))
+        refuse(field,
+               "a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+               from);
+    return py::cast<Int>(number);
 }
 
 template <class Value>
@@ -75,8 +113,7 @@ Value cast(const py::handle& from, const std::string& field, const char* what) {
     try {
         return py::cast<Value>(from);
     } catch (const py::cast_error&) {
-        throw InvalidValue(field, std::string("must be ") + what + ", got " +
-                                      py::cast<std::string>(py::repr(from)));
+        refuse(field, what, from);
     }
 }
 
@@ -84,7 +121,8 @@ void take(const py::handle& from, const std::string& field, float& to) {
     to = cast<float>(from, field, "a number");
 }
 void take(const py::handle& from, const std::string& field, int& to) {
-    to = cast<int>(from, field, "a whole number");
+    using Limits = std::numeric_limits<int>;
+    to = whole_from(from, field, Limits::min(), Limits::max());
 }
 void take(const py::handle& from, const std::string& field, bool& to) {
     to = cast<bool>(from, field, "True or False");
@@ -94,8 +132,7 @@ std::array<Number, 3> three(const py::handle& from, const std::string& field) {
     try {
         return py::cast<std::array<Number, 3>>(py::tuple(py::reinterpret_borrow<py::object>(from)));
     } catch (const std::exception&) {
-        throw InvalidValue(field,
-                           "must be three numbers, got " + py::cast<std::string>(py::repr(from)));
+        refuse(field, "three numbers", from);
     }
 }
 void take(const py::handle& from, const std::string& field, Vec3& to) {
@@ -108,14 +145,12 @@ void take(const py::handle& from, const std::string& field, std::array<double, 3
 template <class Enum>
 requires std::is_enum_v<Enum>
 void take(const py::handle& from, const std::string& field, Enum& to) {
-    to = enum_of<Enum>(cast<std::string>(from, field, "a text"), field);
+    to = enum_from<Enum>(from, field);
 }
 void take(const py::handle& from, const std::string& field, const Axes& to) {
     to.bits = 0;
     for (const char axis : cast<std::string>(from, field, "a text as \"xz\"")) {
-        if (axis < 'x' || axis > 'z')
-            throw InvalidValue(field, "must be a text as \"xz\", got " +
-                                          py::cast<std::string>(py::repr(from)));
+        if (axis < 'x' || axis > 'z') refuse(field, "a text as \"xz\"", from);
         to.bits = static_cast<std::uint8_t>(to.bits | 1 << (axis - 'x'));
     }
 }
@@ -236,8 +271,7 @@ void take_fields(const py::handle& from, const std::string& prefix, Value& to) {
     fields(
         [&](const char* name, auto&& field) {
             if (!py::hasattr(from, name))
-                throw InvalidValue(prefix + name,
-                                   "is missing in " + py::cast<std::string>(py::repr(from)));
+                throw InvalidValue(prefix + name, "is missing in " + shown(from));
             take(from.attr(name), prefix + name, field);
         },
         to);
@@ -246,6 +280,17 @@ template <class Value>
 Value value_from(const py::handle& from) {
     Value value;
     take_fields(from, "", value);
+    return value;
+}
+/// The same where it is an argument, or an attribute, of a name.
+template <class Value>
+Value value_from(const py::handle& from, const char* type, const std::string& name) {
+    Value value;
+    bool is_other = true; // none of its fields is there
+    fields([&](const char* of, const auto&) { is_other = is_other && !py::hasattr(from, of); },
+           value);
+    if (is_other) refuse(name, std::string("a ") + type, from);
+    take_fields(from, name + "/", value);
     return value;
 }
 
@@ -316,6 +361,7 @@ InvalidValue named_as_in_python(const InvalidValue& error) {
         {"pattern/from", "color/start", "", ""},
         {"pattern/to", "color/end", "\"from\"", "\"start\""},
         {"pattern", "color", "", ""},
+        {"spectrum/wavelengths", "wavelengths", "", ""},
     };
     for (const Renamed& renamed : all) {
         const std::string_view rest =
@@ -336,25 +382,54 @@ Light light_from(const py::handle& light) {
     return value_from<Light>(light);
 }
 Fog fog_from(const py::handle& fog) {
-    return value_from<Fog>(fog);
+    return value_from<Fog>(fog, "Fog", "fog");
 }
 Camera camera_from(const py::handle& camera) {
-    return value_from<Camera>(camera);
+    return value_from<Camera>(camera, "Camera", "camera");
 }
 Settings settings_from(const py::handle& settings) {
-    return value_from<Settings>(settings);
+    return value_from<Settings>(settings, "Settings", "settings");
+}
+std::vector<double> wavelengths_from(const py::handle& wavelengths) {
+    const py::array_t<double, py::array::forcecast> all =
+        array_of<double>(wavelengths, "wavelengths");
+    if (all.ndim() != 1) refuse("wavelengths", "a list of numbers", wavelengths);
+    std::vector<double> result;
+    for (py::ssize_t i = 0; i < all.size(); ++i)
+        result.push_back(all.at(i));
+    return result;
 }
 Color color_from(const py::handle& color, const std::string& field) {
     Color result;
     take(color, field, result);
     return result;
 }
-Precision precision_from(const std::string& name) {
-    return enum_of<Precision>(name, "precision");
+float number_from(const py::handle& number, const std::string& field) {
+    float result = 0.0F;
+    take(number, field, result);
+    return result;
 }
-MaterialIndex one_material(const py::object& index) {
-    constexpr auto most = std::numeric_limits<MaterialIndex>::max();
-    return Values<MaterialIndex>(whole_numbers(index, "material", most), 1, "material")[0];
+bool bool_from(const py::handle& value, const std::string& field) {
+    bool result = false;
+    take(value, field, result);
+    return result;
+}
+int threads_from(const py::handle& threads) {
+    return whole_from(threads, "threads", 0, 4096);
+}
+std::size_t count_from(const py::handle& count, const std::string& field) {
+    return whole_from<std::size_t>(count, field, 0, std::numeric_limits<std::size_t>::max());
+}
+Precision precision_from(const py::handle& precision) {
+    return enum_from<Precision>(precision, "precision");
+}
+Transfer transfer_from(const py::handle& transfer) {
+    return enum_from<Transfer>(transfer, "transfer");
+}
+MaterialIndex one_material(const py::object& index, const char* field) {
+    // The largest stands for none: it is no index.
+    constexpr auto most = std::numeric_limits<MaterialIndex>::max() - 1;
+    return Values<MaterialIndex>(whole_numbers(index, field, most), 1, field)[0];
 }
 
 py::object to_python(const Material& material) {

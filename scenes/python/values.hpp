@@ -8,12 +8,19 @@ namespace raylane::python {
 /// Throws InvalidValue with the field where a value is not of its type.
 Material material_from(const py::handle& material);
 Light light_from(const py::handle& light);
+/// Fields are those of an argument, or an attribute, "fog": "fog/density".
 Fog fog_from(const py::handle& fog);
 Camera camera_from(const py::handle& camera);
 Settings settings_from(const py::handle& settings);
+std::vector<double> wavelengths_from(const py::handle& wavelengths);
 Color color_from(const py::handle& color, const std::string& field);
-Precision precision_from(const std::string& name);
-MaterialIndex one_material(const py::object& index);
+float number_from(const py::handle& number, const std::string& field);
+bool bool_from(const py::handle& value, const std::string& field);
+std::size_t count_from(const py::handle& count, const std::string& field);
+int threads_from(const py::handle& threads);
+Precision precision_from(const py::handle& precision);
+Transfer transfer_from(const py::handle& transfer);
+MaterialIndex one_material(const py::object& index, const char* field = "material");
 
 /// The same error with the names that fields have in Python.
 InvalidValue named_as_in_python(const InvalidValue& error);

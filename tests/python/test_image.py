@@ -99,6 +99,37 @@ def test_files(birthday, tmp_path):
         raylane.Image(np.zeros((4, 5, 3)), np.zeros((5, 4))).save(tmp_path / "turned.png")
 
 
+def test_what_cannot_be_drawn_says_where(ball, tmp_path):
+    """Settings go by their keywords, whoever refuses them."""
+    for options, text in (
+        ({"height": 0}, "height: must be from 1 to 65535, got 0"),
+        ({"height": "0"}, "height: must be a whole number, got '0'"),
+        ({"width": 2**40}, "width: must be a whole number from -2147483648 to 2147483647, got 1099511627776"),
+        ({"settings": raylane.Settings(height=0)}, "height: must be from 1 to 65535, got 0"),
+        ({"outline": None}, "outline/width: is missing in None"),
+        ({"outline": raylane.Outline(width=99)}, "outline/width: must be"),
+        ({"alpha": "no"}, "alpha: must be True or False, got 'no'"),
+        ({"camera": raylane.Camera(field_of_view=0)}, "camera/field_of_view: must be"),
+        ({"camera": raylane.Camera(field_of_view="0")}, "camera/field_of_view: must be a number, got '0'"),
+        ({"precision": None}, 'precision: must be one of "fast", "robust", "exact", "double", "automatic", got None'),
+        ({"threads": "2"}, "threads: must be a whole number, got '2'"),
+        ({"threads": 2**40}, "threads: must be a whole number from 0 to 4096, got 1099511627776"),
+        ({"layers": "no"}, "layers: must be True or False, got 'no'"),
+        ({"crop": (0, 0, 2**40, 1)}, "crop: must be four whole numbers"),
+    ):
+        with pytest.raises(raylane.InvalidValue) as error:
+            raylane.render(ball, **options)
+        assert str(error.value).startswith(text)
+    for image in (raylane.Image("rgb"), raylane.Image(np.zeros((4, 5))), raylane.Image(np.zeros((4, 5, 3), complex))):
+        with pytest.raises(raylane.InvalidValue, match="rgb: must"):
+            image.save(tmp_path / "a.png")
+    with pytest.raises(raylane.InvalidValue, match="alpha: must be an array of numbers"):
+        raylane.Image(np.zeros((4, 5, 3)), "alpha").save(tmp_path / "a.png")
+    for transfer in ("gamma", None):
+        with pytest.raises(raylane.InvalidValue, match='transfer: must be one of "srgb", "linear", got'):
+            raylane.Image(np.zeros((4, 5, 3)), transfer=transfer).save(tmp_path / "a.png")
+
+
 def test_progress(birthday):
     told = []
     raylane.render(birthday, width=300, height=300, grid=4, progress=lambda done, total: told.append((done, total)))

@@ -186,6 +186,11 @@ def test_what_is_not_valid_says_where():
         (lambda: builder.add_polygon(np.zeros((1, 3, 3)), material=-1), "material"),
         (lambda: builder.add_polygon(np.stack([np.eye(3), np.eye(3)]), normals=bad_normals, material=0), "1/normals/1"),
         (lambda: builder.add_spheres([[0, 0, 0]], 1, material=np.uint64(2**64 - 1)), "material"),
+        (lambda: builder.add_cylinders([0, 0, 0], [0, 0, 1], 1, material=material, caps="no"), "caps"),
+        (lambda: builder.add_cones([0, 0, 0], [0, 0, 1], 1, material=material, caps=[]), "caps"),
+        (lambda: builder.add_material(color=raylane.Pattern(kind=None)), "color/kind"),
+        (lambda: Solid.sphere((0, 0, 0), 1).of(2**32 - 1), "material"),  # which stands for none
+        (lambda: Solid.sphere((0, 0, 0), 1, material=2**32 - 1), "material"),
     ):
         with pytest.raises(ValueError) as error:
             call()
@@ -200,21 +205,98 @@ def test_what_is_not_valid_says_where():
     ):
         with pytest.raises(TypeError):
             call()
-    for name, value in (("camera", raylane.Camera(field_of_view=0)), ("fog", None), ("background", (1, 2))):
-        setattr(builder, name, value)
-        with pytest.raises(InvalidValue, match=name if value else "kind"):
-            builder.build()
-    builder.fog, builder.background = raylane.Fog(), (0, 0, 0)
-    builder.add_spheres([0, 0, 0], 1, material=material)
-    for camera, text in (
-        (raylane.Camera(position=(np.nan, 0, 0)), "camera/position/0: must be a number"),
-        (raylane.Camera(position=(1, 2, 3), at=(1, 2, 3)), 'camera/at: must differ from "position"'),
-    ):
-        builder.camera = camera
-        with pytest.raises(InvalidValue, match=text):
-            builder.build()
     again = pickle.loads(pickle.dumps(InvalidValue("a", "must be")))
     assert (again.field, again.expectation) == ("a", "must be")
+
+
+def test_what_is_set_and_not_valid_says_where_and_the_builder_keeps_what_it_has():
+    builder = SceneBuilder()
+    material = builder.add_material()
+    builder.add_light(kind="directional")
+    builder.add_spheres(np.arange(6.0).reshape(2, 3), 1, material=material)
+    for name, value, text in (
+        ("camera", raylane.Camera(field_of_view=0), "camera/field_of_view: must be"),
+        ("camera", raylane.Camera(field_of_view="0"), "camera/field_of_view: must be a number, got '0'"),
+        ("camera", raylane.Camera(position=(np.nan, 0, 0)), "camera/position/0: must be a number"),
+        ("camera", raylane.Camera(position=(1, 2, 3), at=(1, 2, 3)), 'camera/at: must differ from "position"'),
+        ("camera", 5, "camera: must be a Camera, got 5"),
+        ("fog", None, "fog: must be a Fog, got None"),
+        ("fog", raylane.Fog("smoke"), 'fog/kind: must be one of "none", "linear_z", "linear", "exponential", got \'smoke\''),
+        ("fog", raylane.Fog(color=(1, 2)), "fog/color: must be three numbers, got (1, 2)"),
+        ("background", (1, 2), "background: must be three numbers, got (1, 2)"),
+        ("background", (1, 2, -1), "background/2: must"),
+        ("background", np.zeros((99, 99)), "background: must be three numbers, got array([[0., 0., 0."),
+        ("settings", None, "settings: must be a Settings, got None"),
+        ("settings", raylane.Settings(height=0), "settings/height: must be from 1 to 65535, got 0"),
+        ("settings", raylane.Settings(height="0"), "settings/height: must be a whole number, got '0'"),
+        ("settings", raylane.Settings(grid=np.float32(1.5)), "settings/grid: must be a whole number, got"),
+        ("settings", raylane.Settings(width=2**40), "settings/width: must be a whole number from -2147483648 to 2147483647, got 1099511627776"),
+        ("settings", raylane.Settings(width=-(10**9000)), "settings/width: must be a whole number from -2147483648 to 2147483647, got a value of the type int"),
+        ("wavelengths", 500, "wavelengths: must be a list of numbers, got 500"),
+        ("wavelengths", "abc", "wavelengths: must be an array of numbers"),
+        ("wavelengths", None, "wavelengths: must be an array of numbers"),
+        ("wavelengths", [500, 800], "wavelengths/1: must be from 380 to 780, got 800"),
+    ):
+        before = getattr(builder, name)
+        setattr(builder, name, value)
+        with pytest.raises(InvalidValue) as error:
+            builder.build()
+        assert str(error.value).startswith(text) and len(str(error.value)) < 200
+        assert getattr(builder, name) is value and len(builder) == 2
+        setattr(builder, name, before)
+    builder.settings.width = np.int64(40)
+    builder.wavelengths = np.array([500, 600])
+    scene = builder.build()
+    assert (scene.shape_count, scene.settings.width, len(scene.lights)) == (2, 40, 1)
+    # What only the whole shows takes it.
+    builder.add_spheres([0, 0, 0], 1, material=builder.add_material())
+    builder.add_light(position=(0, 0, 1))
+    with pytest.raises(InvalidValue, match="lights/0/position"):
+        builder.build()
+    assert len(builder) == 0
+
+
+def test_scenes_too_large_for_a_camera():
+    for radius in (2e29, 3e29, 1e30):
+        builder = SceneBuilder()
+        builder.add_spheres([0, 0, 0], radius, material=builder.add_material())
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            scene = builder.build()
+        assert Tracer(scene).intersect([0, 0, 0], [0, 0, 1]).t[0] == np.float32(radius)
+        if radius < 2.5e29:
+            assert not caught and scene.camera == scene.camera_on_all()
+            continue
+        assert [str(each.message)[:26] for each in caught] == ["scene: reaches too far for"] and caught[0].filename == __file__
+        assert scene.camera == raylane.Camera()
+        with pytest.raises(InvalidValue, match="reaches too far for a camera that sees all of it") as error:
+            scene.camera_on_all()
+        assert error.value.field == "scene"
+        # One that is given is not warned of.
+        camera = raylane.Camera(position=(0, 0, 9e29), field_of_view=60)
+        builder.add_spheres([0, 0, 0], radius, material=builder.add_material())
+        builder.camera = camera
+        assert builder.build().camera == scene.seen_by(camera).camera == camera
+
+
+def test_types_that_are_none_of_its_own():
+    for call in (
+        lambda: raylane.parse(5),
+        lambda: raylane.parse("{}", None),
+        lambda: Solid.sphere((0, 0, 0), 1) | 5,
+        lambda: Solid.sphere((0, 0, 0), 1) & 5,
+        lambda: Solid.sphere((0, 0, 0), 1) - 5,
+        lambda: Solid.sphere((0, 0, 0), 1).clipped(5),
+        lambda: SceneBuilder().add_solid(5, material=0),
+        lambda: Tracer(5),
+        lambda: Tracer(SceneBuilder().build()).intersect([0, 0, 5], [0, 0, 1], leaving=5),
+        lambda: Tracer(SceneBuilder().build()).intersect([0, 0, 5], [0, 0, 1], out=5),
+        lambda: raylane.render(5),
+    ):
+        with pytest.raises(TypeError) as error:
+            call()
+        assert "_raylane" not in str(error.value) and "arg0" not in str(error.value)
+    assert raylane.parse(bytearray(b"1\n\nC 0 0 0\n"), "a.xyz").shape_count == 1
 
 
 def test_files(scenes, tmp_path):
@@ -374,8 +456,10 @@ def test_ids_that_are_none(ball):
                 call(shapes)
             assert error.value.field == "shapes"
     assert ball.material_of(np.array([[0, 1]])).tolist() == [[0, 1]] and ball.material_of(np.array([], int)).shape == (0,)
-    with pytest.raises(InvalidValue):
-        ball.material(-1)
+    for index in (-1, 2, 2**32, "a"):
+        with pytest.raises(InvalidValue) as error:
+            ball.material(index)
+        assert error.value.field == "index"
 
 
 def test_scenes_are_cheap_to_keep(ball):
@@ -403,7 +487,13 @@ def test_cameras(scenes):
         (lambda: scene.seen_by(raylane.Camera(lens_radius=-1)), "camera/lens_radius"),
         (lambda: scene.camera_on_all((0, 0)), "direction"),
         (lambda: scene.camera_on_all(aspect=0), "aspect"),
+        (lambda: scene.camera_on_all(aspect="1"), "aspect"),
+        (lambda: SceneBuilder().build().camera_on_all(), "scene"),
+        (lambda: scene.seen_by(raylane.Camera(lens_radius=None)), "camera/lens_radius"),
+        (lambda: scene.seen_by(None), "camera"),
     ):
         with pytest.raises(InvalidValue) as error:
             call()
         assert error.value.field == field
+    with pytest.raises(InvalidValue, match="aspect: must be from 0.00001 to 100000, got 0$"):
+        scene.camera_on_all(aspect=0)

@@ -206,6 +206,13 @@ def test_what_cannot_be_asked_says_why(ball):
         (lambda: Tracer(ball, 5000), "threads"),
         (lambda: Tracer(ball, -1), "threads"),
         (lambda: Tracer(ball, precision="best"), "precision"),
+        (lambda: Tracer(ball, "2"), "threads"),
+        (lambda: Tracer(ball, 2**40), "threads"),
+        (lambda: Tracer(ball, precision=None), "precision"),
+        (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], most=-1), "most"),
+        (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], most=2**64), "most"),
+        (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], most="2"), "most"),
+        (lambda: tracer.crossings([0, 0, 5], [0, 0, -1], normals="yes"), "normals"),
     ):
         with pytest.raises(InvalidValue) as error:
             call()

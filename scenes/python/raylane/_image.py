@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _raylane
-from ._scene import Scene
+from ._scene import Scene, inner
 from ._values import Camera, Precision, Settings
 
 OnProgress = Callable[[int, int], Optional[bool]]
@@ -159,6 +159,7 @@ def render(
     called with pixels that are done, and all, every now and then; True: tqdm's bar, if that is installed. If it
     returns False, even at last, :class:`Cancelled` is raised; Ctrl-C stops at once.
     """
+    inner(scene)
     chosen = dataclasses.replace(scene.settings if settings is None else settings, **changed)
     if camera is not None:
         scene = scene.seen_by(camera)

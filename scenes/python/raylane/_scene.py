@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
-from ._errors import BadInput
+from ._errors import BadInput, InvalidValue
 from ._values import Camera, Fog, Light, Material, Settings, Vector
 
 if TYPE_CHECKING:
@@ -94,7 +94,8 @@ class Scene:
     def camera_on_all(self, direction: Vector = (0.0, 0.0, -1.0), aspect: float = 1.0) -> Camera:
         """A camera that looks in a direction and sees all shapes that have bounds, as large as that may be.
 
-        ``aspect``: the picture's width by its height.
+        ``aspect``: the picture's width by its height. Raises :class:`InvalidValue` where there are no such shapes,
+        or a camera would have to be beyond 1e30.
         """
         return self._scene.camera_on_all(direction, aspect)
 
@@ -151,6 +152,13 @@ class Scene:
 
     def __repr__(self) -> str:
         return f"<raylane.Scene: {self.shape_count} shapes, {self.material_count} materials>"
+
+
+def inner(scene: Scene) -> _raylane.Scene:
+    """What is compiled of it."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"must be a raylane.Scene, not {type(scene).__name__}")
+    return scene._scene
 
 
 class Solid:
@@ -213,16 +221,29 @@ class Solid:
 
     def clipped(self, *by: Solid) -> Solid:
         """What of its surface is in all of others: it is left open where it is cut."""
-        return Solid(_raylane.clipped(self._solid, [each._solid for each in by]))
+        return Solid(_raylane.clipped(self._solid, [_made(each) for each in by]))
 
     def __or__(self, other: Solid) -> Solid:
+        if not isinstance(other, Solid):
+            return NotImplemented
         return Solid(_raylane.union_of([self._solid, other._solid]))
 
     def __and__(self, other: Solid) -> Solid:
+        if not isinstance(other, Solid):
+            return NotImplemented
         return Solid(_raylane.intersection_of([self._solid, other._solid]))
 
     def __sub__(self, other: Solid) -> Solid:
+        if not isinstance(other, Solid):
+            return NotImplemented
         return Solid(_raylane.difference_of(self._solid, [other._solid]))
+
+
+def _made(solid: Solid) -> _raylane.Solid:
+    """What is compiled of it."""
+    if not isinstance(solid, Solid):
+        raise TypeError(f"must be a raylane.Solid, not {type(solid).__name__}")
+    return solid._solid
 
 
 class SceneBuilder:
@@ -243,7 +264,8 @@ class SceneBuilder:
     """
 
     camera: Optional[Camera]
-    """None: one that sees all from the front, or, where there are planes alone, ``Camera()``."""
+    """None: one that sees all from the front, or, where there are planes alone, or shapes that reach too far for
+    one, ``Camera()``."""
     background: Vector
     fog: Fog
     settings: Settings
@@ -337,21 +359,31 @@ class SceneBuilder:
 
     def add_solid(self, solid: Solid, *, material: int) -> range:
         """A solid of others: the ids of its parts. It goes by the first; ``material`` is of what has none."""
-        return range(*self._builder.add_solid(solid._solid, material))
+        return range(*self._builder.add_solid(_made(solid), material))
 
     def __len__(self) -> int:
         return self._builder.shape_count()
 
     def build(self) -> Scene:
-        """Checks the whole, and hands the scene over. The builder is new then, whether this succeeds or not."""
+        """Checks the whole, and hands the scene over. The builder is new then.
+
+        Where an attribute is not what it may be, :class:`InvalidValue` names it, and the builder keeps what it has;
+        not so where it is by its shapes and lights that the whole is refused, as for a light on a surface. Shapes
+        that reach so far that a camera on all would be beyond 1e30 are warned of, and seen by ``Camera()``.
+        """
         builder, camera, settings = self._builder, self.camera, self.settings
         others = (self.background, self.fog, settings, self.wavelengths)
+        _raylane.check(camera, *others)
         self._renew()
         scene = Scene(builder.build(camera, *others))
         if camera is not None or not np.all(np.less_equal(*scene.bounds)):
             return scene
         aspect = min(max(settings.width / settings.height, 1e-5), 1e5)
-        return scene.seen_by(scene.camera_on_all(aspect=aspect))
+        try:
+            return scene.seen_by(scene.camera_on_all(aspect=aspect))
+        except InvalidValue as error:
+            warnings.warn(f"{error}; as yet it has Camera()", stacklevel=2)
+            return scene
 
 
 # What a file says and the scene does not have.
@@ -368,5 +400,9 @@ def load(path: Union[str, os.PathLike[str]], on_remark: Callable[[str], object] 
 
 def parse(text: Union[str, bytes], name: str = "scene", on_remark: Callable[[str], object] = _warn) -> Scene:
     """The same for a scene in memory. ``name`` is what messages call it; the format follows its ending."""
-    data = text.encode() if isinstance(text, str) else text
+    if not isinstance(text, (str, bytes, bytearray, memoryview)):
+        raise TypeError(f"text must be a str or bytes, not {type(text).__name__}")
+    if not isinstance(name, str):
+        raise TypeError(f"name must be a str, not {type(name).__name__}")
+    data = text.encode() if isinstance(text, str) else bytes(text)
     return Scene(_raylane.parse(data, name, on_remark))

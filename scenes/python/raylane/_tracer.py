@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from dataclasses import dataclass
 from typing import Any, Optional, Tuple
 
@@ -11,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
 from ._errors import InvalidValue
-from ._scene import Scene
+from ._scene import Scene, inner
 from ._values import Precision
 
 NO_SHAPE: int = _raylane.NO_SHAPE
@@ -123,7 +122,7 @@ class Lengths(_Rows):
     first: Firsts
     material: Ids
     length: Doubles
-    """In the scene's unit, within an ulp of the true one."""
+    """In the scene's unit, within an ulp of the true one; infinite for what has no end."""
 
     def total(self, material: Optional[int] = None) -> Doubles:
         """(n,): of each ray, in all materials or in one."""
@@ -169,12 +168,14 @@ class Tracer:
     def __init__(self, scene: Scene, threads: int = 0, precision: Precision = "exact") -> None:
         """threads: at most, 1 to 4096; 0: as RAYLANE_THREADS says, or all of the machine."""
         self.scene = scene
-        self._tracer = _raylane.Tracer(scene._scene, threads, precision)
+        self._tracer = _raylane.Tracer(inner(scene), threads, precision)
 
     @staticmethod
     def _rest(t_min: Any, t_max: Any, leaving: Optional[Leaving]) -> Tuple[Any, ...]:
         if leaving is None:
             return (t_min, t_max, None, None, None)
+        if not isinstance(leaving, Leaving):
+            raise TypeError(f"leaving must be a raylane.Leaving, not {type(leaving).__name__}")
         return (t_min, t_max, leaving.shape, leaving.face, leaving.inward)
 
     def intersect(
@@ -191,6 +192,8 @@ class Tracer:
         """The nearest crossing of each ray with t_min < t <= t_max."""
         if out is None:
             out = Hits(_count(origins, directions), double)
+        elif not isinstance(out, Hits):
+            raise TypeError(f"out must be a raylane.Hits, not {type(out).__name__}")
         elif double and out.t_double is None:
             out.t_double = np.empty(len(out), np.float64)
         self._tracer.intersect(origins, directions, self._rest(t_min, t_max, leaving), out._arrays())
@@ -227,8 +230,6 @@ class Tracer:
         normals: bool = False,
     ) -> Crossings:
         """All crossings of each ray in the order of their true t, or the first ``most`` of them. Always exact."""
-        if operator.index(most) < 0:
-            raise InvalidValue("most", f"must not be negative, got {most}")
         rest = self._rest(t_min, t_max, leaving)
         return Crossings(**self._tracer.crossings(origins, directions, rest, most, normals))
 
