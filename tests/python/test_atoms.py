@@ -26,6 +26,52 @@ def test_as_a_file_of_them(tmp_path):
             raylane.from_atoms(WATER[0], wrong)
 
 
+CELL = 8 + 12  # its corners and edges
+
+
+def test_the_cell_is_drawn():
+    bare = raylane.from_atoms(*WATER)
+    cell = [[6, 0, 0], [1, 6, 0], [0, 1, 6]]
+    scene = raylane.from_atoms(*WATER, cell=cell)
+    assert scene.shape_count == bare.shape_count + CELL
+    assert np.allclose(scene.bounds[1], [7.06, 7.06, 6.06], atol=0.001)
+    middles = []  # of its edges
+    for k, edge in enumerate(np.array(cell, float)):
+        a, b = (np.array(cell[i], float) for i in range(3) if i != k)
+        middles += [corner + edge / 2 for corner in (0 * a, a, b, a + b)]
+    inside = raylane.Tracer(scene).contains(np.array(middles))
+    assert (inside.counts() > 0).all() and (raylane.Tracer(bare).contains(np.array(middles)).counts() == 0).sum() >= 9
+    for none in (np.zeros((3, 3)), [[6, 0, 0], [0, 6, 0], [0, 0, 0]], [[6, 0, 0], [0, 6, 0], [0, 0, 1e-60]]):
+        assert raylane.from_atoms(*WATER, cell=none).shape_count == bare.shape_count
+
+
+def test_what_no_atoms_are_says_where():
+    places = [[0.0, 0, 0]]
+    for call, text in (
+        (lambda: raylane.from_atoms(["C 5"], places), "symbols/0: must be an element's symbol, without spaces, got 'C 5'"),
+        (lambda: raylane.from_atoms(["C", ""], places * 2), "symbols/1: must be an element's symbol, without spaces, got ''"),
+        (lambda: raylane.from_atoms(["C\n"], places), "symbols/0: must be an element's symbol, without spaces, got 'C\\n'"),
+        (lambda: raylane.from_atoms([None], places), "symbols/0: must be an element's symbol, or number up to 118, got None"),
+        (lambda: raylane.from_atoms([119], places), "symbols/0: must be an element's symbol, or number up to 118, got 119"),
+        (lambda: raylane.from_atoms([10**5000], places), "symbols/0: must be an element's symbol, or number up to 118, got a larger number"),
+        (lambda: raylane.from_atoms("H2O", places * 3), "symbols: must be a list of them, got 'H2O'"),
+        (lambda: raylane.from_atoms([], np.zeros((0, 3))), "symbols: must be those of one atom or more, got none"),
+        (lambda: raylane.from_atoms(["C"], [[0, np.nan, 0]]), "positions/0/1: must be a number from -1e30 to 1e30, got nan"),
+        (lambda: raylane.from_atoms(["C"], [[0, 0, -2e30]]), "positions/0/2: must be a number from -1e30 to 1e30, got -2e+30"),
+        (lambda: raylane.from_atoms(["C"], "abc"), "positions: must be an array of numbers, got one of <U3"),
+        (lambda: raylane.from_atoms(["C"], [[0, 0, 1j]]), "positions: must be an array of numbers, got one of complex128"),
+        (lambda: raylane.from_atoms(["C"], [[0, 0], [1]]), "positions: must be an array of numbers"),
+        (lambda: raylane.from_atoms(["C"], [0, 0, 0]), "positions: must have the shape (1, 3), got (3,)"),
+        (lambda: raylane.from_atoms(["C"], places, cell=[1, 2, 3]), "cell: must have the shape (3, 3), got (3,)"),
+        (lambda: raylane.from_atoms(["C"], places, cell=np.full((3, 3), np.inf)), "cell/0/0: must be a number from -1e30 to 1e30, got inf"),
+    ):
+        with pytest.raises(raylane.InvalidValue) as error:
+            call()
+        assert str(error.value) == text
+    carbon = raylane.from_atoms(["C"], places)
+    assert colors_and_places(raylane.from_atoms(np.array([6]), places)) == colors_and_places(carbon)
+
+
 def test_ase(monkeypatch):
     ase = pytest.importorskip("ase")
     import ase.build
@@ -35,7 +81,10 @@ def test_ase(monkeypatch):
     scene = raylane.from_ase(atoms)
     assert colors_and_places(scene) == colors_and_places(raylane.from_atoms(*WATER))
     salt = ase.build.bulk("NaCl", "rocksalt", a=5.64, cubic=True)
-    assert raylane.from_ase(salt).shape_count > 8  # with its cell
+    symbols, places = salt.get_chemical_symbols(), salt.get_positions()
+    assert raylane.from_ase(salt).shape_count == raylane.from_atoms(symbols, places).shape_count + CELL
+    slab = ase.Atoms(*WATER, cell=[[6, 0, 0], [0, 6, 0], [0, 0, 0]])
+    assert raylane.from_ase(slab).shape_count == scene.shape_count  # of two vectors no cell is drawn
     assert [s.shape_count for s in raylane.frames([atoms, atoms])] == [scene.shape_count] * 2
 
     importlib.import_module("raylane.ase_viewer")

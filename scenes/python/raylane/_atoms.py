@@ -3,32 +3,77 @@
 from __future__ import annotations
 
 import io
-from typing import Any, Iterator, Optional, Sequence
+from numbers import Integral
+from typing import Any, Iterator, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
+from . import _raylane
 from ._errors import InvalidValue
-from ._scene import Scene, parse
+from ._scene import Scene
 
 
-def from_atoms(symbols: Sequence[str], positions: ArrayLike, cell: Optional[ArrayLike] = None) -> Scene:
-    """Atoms by the symbols of their elements and positions (n, 3) in angstrom, as an XYZ file of them is drawn.
+_MOST = 1e30  # of a coordinate, as of all coordinates of a scene
 
-    ``cell``: (3, 3), vectors as rows; it is drawn, too.
+
+def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[np.float64]:
+    """An array of coordinates, of a shape."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        raise InvalidValue(field, "must be an array of numbers") from None
+    if array.dtype.kind not in "biuf":
+        raise InvalidValue(field, f"must be an array of numbers, got one of {array.dtype}")
+    if array.shape != shape:
+        raise InvalidValue(field, f"must have the shape {shape}, got {array.shape}")
+    numbers = array.astype(np.float64)
+    wrong = np.argwhere(~(np.abs(numbers) <= _MOST))  # NaN as well
+    if len(wrong) > 0:
+        row, column = wrong[0].tolist()
+        got = float(numbers[row, column])
+        raise InvalidValue(f"{field}/{row}/{column}", f"must be a number from -1e30 to 1e30, got {got!r}")
+    return numbers
+
+
+def _symbol(symbol: Any, index: int) -> str:
+    """One that is one word of an XYZ file."""
+    if isinstance(symbol, Integral) and 0 <= int(symbol) <= 118:
+        return str(int(symbol))
+    if not isinstance(symbol, str):
+        got = repr(symbol) if not isinstance(symbol, Integral) or abs(int(symbol)) < 10**9 else "a larger number"
+        raise InvalidValue(f"symbols/{index}", f"must be an element's symbol, or number up to 118, got {got}")
+    if not symbol or " " in symbol or not symbol.isprintable():
+        raise InvalidValue(f"symbols/{index}", f"must be an element's symbol, without spaces, got {symbol[:40]!r}")
+    return symbol
+
+
+def from_atoms(
+    symbols: Sequence[Union[str, int]], positions: ArrayLike, cell: Optional[ArrayLike] = None
+) -> Scene:
+    """Atoms by the symbols or numbers of their elements and positions (n, 3) in angstrom, as an XYZ file is drawn.
+
+    ``cell``: (3, 3), vectors as rows; its edges are drawn, too, unless one of them is zero. Raises
+    :class:`InvalidValue`, fields ``"symbols/0"``, ``"positions/0/2"``, ``"cell/0/2"``, ...
     """
-    places = np.asarray(positions, dtype=np.float64)
-    if places.ndim != 2 or places.shape[1] != 3 or len(places) != len(symbols):
-        raise InvalidValue("positions", f"must have the shape ({len(symbols)}, 3), got {places.shape}")
+    if isinstance(symbols, (str, bytes)):  # of "H2O", 2 would be helium
+        raise InvalidValue("symbols", f"must be a list of them, got {symbols[:40]!r}")
+    words = [_symbol(symbol, index) for index, symbol in enumerate(symbols)]
+    if not words:
+        raise InvalidValue("symbols", "must be those of one atom or more, got none")
+    places = _numbers(positions, (len(words), 3), "positions")
     comment = "Properties=species:S:1:pos:R:3"
+    show_cell = False
     if cell is not None:
-        vectors = " ".join(repr(float(x)) for x in np.asarray(cell, dtype=np.float64).reshape(9))
+        edges = _numbers(cell, (3, 3), "cell")
+        vectors = " ".join(repr(x) for x in edges.ravel().tolist())
         comment = f'Lattice="{vectors}" {comment}'
+        show_cell = bool(edges.astype(np.float32).any(axis=1).all())
     text = io.StringIO()
-    text.write(f"{len(symbols)}\n{comment}\n")
-    for symbol, (x, y, z) in zip(symbols, places.tolist()):
-        text.write(f"{symbol} {x!r} {y!r} {z!r}\n")
-    return parse(text.getvalue(), "atoms.xyz")
+    text.write(f"{len(words)}\n{comment}\n")
+    for word, (x, y, z) in zip(words, places.tolist()):
+        text.write(f"{word} {x!r} {y!r} {z!r}\n")
+    return Scene(_raylane.parse_atoms(text.getvalue().encode(), "atoms.xyz", show_cell))
 
 
 def from_ase(atoms: Any) -> Scene:
@@ -47,7 +92,7 @@ def from_mdanalysis(atoms: Any) -> Scene:
     """Of MDAnalysis' ``AtomGroup`` or ``Universe``, as they are in its current frame."""
     group = atoms.atoms
     if hasattr(group, "elements"):
-        symbols = [str(e).capitalize() or _element(n) for e, n in zip(group.elements, group.names)]
+        symbols = [str(e).strip().capitalize() or _element(n) for e, n in zip(group.elements, group.names)]
     else:
         symbols = [_element(str(name)) for name in group.names]
     return from_atoms(symbols, group.positions)
