@@ -47,6 +47,20 @@ struct Times {
     double load, render, write;
 };
 
+/// What has been drawn, by how many.
+struct Work {
+    const simd::EngineCounters& counters; ///< of the picture, whichever run has drawn it
+    std::uint64_t rays_now;               ///< of these the ones that are not from a journal
+    std::int64_t pixels;
+    int ranks;
+
+    /// The mean, if they are as many as a quality takes. A part may have no pixels.
+    double samples_per_pixel() const {
+        return static_cast<double>(counters.primary) /
+               static_cast<double>(std::max<std::int64_t>(1, pixels));
+    }
+};
+
 struct Files {
     explicit Files(const RenderArguments& arguments)
         : scene(file_argument("SCENE", *arguments.scene)), output(output_of(arguments)) {
@@ -73,29 +87,23 @@ std::string isa_in_use(const std::string& engine) {
     return engine == "vector" ? std::string(simd::name_of(simd::best_isa())) : "none";
 }
 
-/// The mean, if they are as many as a quality takes.
-double samples_per_pixel(const core::Settings& settings, const simd::RenderOptions& options,
-                         const simd::EngineCounters& counters) {
-    return static_cast<double>(counters.primary) /
-           simd::drawn_part(settings, options.crop).pixels();
-}
-
 nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Scene& scene,
                                 const core::Settings& settings, const simd::RenderOptions& options,
-                                const simd::EngineCounters& counters, const Times& times,
+                                const Work& work, const Times& times,
                                 const std::string& scene_fingerprint,
                                 const std::string& pixels_fingerprint) {
-    const auto count = static_cast<double>(counters.rays());
+    const simd::EngineCounters& counters = work.counters;
     return {{"version", RAYLANE_VERSION},
             {"scene", printable(*arguments.scene, 4096)},
             {"engine", *arguments.engine},
             {"isa", arguments.isa.value_or(isa_in_use(*arguments.engine))},
             {"precision", core::name_of(options.precision)},
             {"threads", options.threads},
+            {"ranks", work.ranks},
             {"width", settings.width},
             {"height", settings.height},
             {"quality", as_printed(settings.quality)},
-            {"samples_per_pixel", samples_per_pixel(settings, options, counters)},
+            {"samples_per_pixel", work.samples_per_pixel()},
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
             {"scene_fingerprint", scene_fingerprint},
@@ -110,7 +118,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
               {"passed", counters.passed},
               {"shadow", counters.shadow},
               {"total", counters.rays()}}},
-            {"rays_per_second", count / times.render},
+            {"rays_per_second", static_cast<double>(work.rays_now) / times.render},
             {"nodes_visited", counters.nodes},
             {"shapes_tested", counters.shapes},
             {"tests_beyond_double", counters.widened},
@@ -340,11 +348,12 @@ int render(const RenderArguments& arguments) {
     drawing.finished();
     times.write = stopwatch.lap();
 
+    const Work work{rendering.counters, progress.rays, drawing.pixels(), job.size()};
     if (stats) {
-        const std::string text = stats_of(arguments, scene, settings, options, rendering.counters,
-                                          times, fingerprint, pixels)
-                                     .dump(2) +
-                                 "\n";
+        const std::string text =
+            stats_of(arguments, scene, settings, options, work, times, fingerprint, pixels)
+                .dump(2) +
+            "\n";
         stats->write(text);
         stats->commit();
     }
@@ -354,12 +363,11 @@ int render(const RenderArguments& arguments) {
                      arguments.isa.value_or(isa_in_use(*arguments.engine)).c_str(),
                      std::string(core::name_of(options.precision)).c_str(), options.threads);
     if (verbosity == Verbosity::verbose || (verbosity == Verbosity::normal && is_terminal()))
-        std::fprintf(
-            stderr, "%s: %d x %d pixels, %.8g samples each, in %s, %srays/s\n",
-            printable(name, 4096).c_str(), part.x1 - part.x0, part.y1 - part.y0,
-            std::round(100.0 * samples_per_pixel(settings, options, rendering.counters)) / 100.0,
-            duration_text(times.render).c_str(),
-            with_prefix(static_cast<double>(rendering.counters.rays()) / times.render).c_str());
+        std::fprintf(stderr, "%s: %d x %d pixels, %.8g samples each, in %s, %srays/s\n",
+                     printable(name, 4096).c_str(), part.x1 - part.x0, part.y1 - part.y0,
+                     std::round(100.0 * work.samples_per_pixel()) / 100.0,
+                     duration_text(times.render).c_str(),
+                     with_prefix(static_cast<double>(work.rays_now) / times.render).c_str());
     return 0;
 }
 

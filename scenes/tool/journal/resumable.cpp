@@ -93,10 +93,13 @@ std::int64_t ResumableRendering::pixels_of_others() const {
     return pixels;
 }
 
+std::int64_t ResumableRendering::pixels() const {
+    return grid_.part().pixels() - pixels_of_others();
+}
+
 /// Of what is to be drawn.
 int ResumableRendering::percent(std::int64_t pixels) const {
-    const std::int64_t all = grid_.part().pixels() - pixels_of_others();
-    return static_cast<int>(100 * pixels / std::max<std::int64_t>(1, all));
+    return static_cast<int>(100 * pixels / std::max<std::int64_t>(1, this->pixels()));
 }
 
 simd::Rendering ResumableRendering::draw(simd::Progress& progress, Job* job) {

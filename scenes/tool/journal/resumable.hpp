@@ -45,6 +45,8 @@ class ResumableRendering {
     void finished();
     /// Behind that: throws Stopped if a signal has come while the last tiles were drawn.
     void end_if_signalled() const;
+    /// How many pixels are to be drawn, by whichever run: those of the part.
+    std::int64_t pixels() const;
 
   private:
     void say_found() const;

@@ -3,6 +3,8 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <csignal>
 #include <cstdio>
 
@@ -251,6 +253,25 @@ TEST_CASE("a part is K/N, and has floats in an EXR") {
           "raylane: --part: goes with an output that ends in .exr\n");
     CHECK(workshop.render("a.exr", {"--part", "1/2", "--bits", "16"}).err ==
           "raylane: --part: goes with --bits 32\n");
+}
+
+TEST_CASE("the figures of a part are those of its own pixels") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    for (const Options& options :
+         {Options{"--size", "64x48"}, {"--size", "100x90", "--crop", "10,10,70x60", "--tile", "8"}})
+        for (int number = 1; number <= 3; ++number) {
+            const Outcome outcome = workshop.run(
+                part(number, 3, joined({"--spp", "4", "--stats", "s.json", "-v"}, options)));
+            CAPTURE(options, number, outcome.err);
+            REQUIRE(outcome.code == 0);
+            const auto stats = nlohmann::json::parse(content(workshop, "s.json"));
+            CHECK(stats["samples_per_pixel"] == 4);
+            CHECK(outcome.err.find(" pixels, 4 samples each, ") != std::string::npos);
+        }
+    // One that has no tile.
+    REQUIRE(workshop.run(part(5, 5, {"--stats", "s.json"})).code == 0);
+    CHECK(nlohmann::json::parse(content(workshop, "s.json"))["samples_per_pixel"] == 0);
 }
 
 TEST_CASE("a part that was interrupted goes on, too") {

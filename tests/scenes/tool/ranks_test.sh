@@ -89,6 +89,8 @@ job 2 render "$scene" --size 150x90 -o many.png --stats many.json 2>err || fail 
 for key in primary shadow total; do
     [ "$(grep "\"$key\"" one.json)" = "$(grep "\"$key\"" many.json)" ] || fail "other $key rays"
 done
+grep -q '"ranks": 1,' one.json || fail "one rank is not told"
+grep -q '"ranks": 2,' many.json || fail "two ranks are not told"
 
 echo "frames, in turn"
 "$raylane" render "$scene" -q --turn 360/5 -o 'one%d.png' --size 40x30

@@ -135,6 +135,7 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "isa",
                                            "precision",
                                            "threads",
+                                           "ranks",
                                            "width",
                                            "height",
                                            "quality",
@@ -160,6 +161,7 @@ TEST_CASE("the figures of a rendering are JSON") {
     CHECK(figures["engine"] == "reference");
     CHECK(figures["precision"] == "robust");
     CHECK(figures["threads"] == 1);
+    CHECK(figures["ranks"] == 1);
     CHECK(figures["width"] == 8);
     CHECK(figures["height"] == 6);
     CHECK(figures["quality"] == 0);

@@ -2,6 +2,9 @@
 #include "tests/sanitized.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <cmath>
 #include <csignal>
 #include <random>
 #include <sched.h>
@@ -139,6 +142,27 @@ TEST_CASE(
     workshop.write("scene.json", scene);
     CHECK(workshop.run(drawing()).err.starts_with("raylane: out/picture.png.part: goes on at "));
     CHECK(picture_of(workshop) == expected);
+}
+
+TEST_CASE("a picture that goes on has its rays in a second by those of this run alone") {
+    const Workshop workshop;
+    const auto figures = [&] {
+        const Outcome outcome = workshop.run(drawing({"--stats", "stats.json"}));
+        CHECK(outcome.code == 0);
+        return nlohmann::json::parse(content_of(workshop.path() / "stats.json"));
+    };
+    const auto rays_now = [](const nlohmann::json& stats) {
+        return stats["rays_per_second"].get<double>() * stats["seconds"]["render"].get<double>();
+    };
+    const nlohmann::json at_once = figures();
+    const double total = at_once["rays"]["total"];
+    CHECK(std::abs(rays_now(at_once) - total) < 0.5);
+    std::filesystem::remove(workshop.output() / "picture.png");
+    static_cast<void>(interrupt(workshop));
+    const nlohmann::json resumed = figures();
+    CHECK(resumed["rays"] == at_once["rays"]);
+    CHECK(resumed["samples_per_pixel"] == 16);
+    CHECK(rays_now(resumed) < total - 0.5);
 }
 
 TEST_CASE("a file that is none of raylane's is left alone, and so is a journal in use") {
