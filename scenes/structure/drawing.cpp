@@ -356,20 +356,25 @@ class Artist {
         if (!structure_.cell.any())
             throw BadInput("--cell", "", "must have a cell to show, and " + file_ + " has none");
         const MaterialIndex gray = Palette(builder_).of(0x808080);
-        const auto& edges = structure_.cell.edges;
+        std::array<Vec3f, 3> edges;
+        int flat = 0; // bits of those without a length, as of a slab or a chain
+        for (std::size_t k = 0; k < 3; ++k) {
+            edges[k] = core::convert<float>(structure_.cell.edges[k]);
+            if (edges[k] == Vec3f(0.0F)) flat |= 1 << k;
+        }
         for (const Vec3f& image : images_)
             for (int corner = 0; corner < 8; ++corner) {
+                if ((corner & flat) != 0) continue;
                 Vec3d at = structure_.cell.origin + core::convert<double>(image);
                 for (int k = 0; k < 3; ++k)
-                    if ((corner >> k & 1) != 0) at = at + edges[static_cast<std::size_t>(k)];
+                    if ((corner >> k & 1) != 0)
+                        at = at + structure_.cell.edges[static_cast<std::size_t>(k)];
                 const auto from = core::convert<float>(at);
                 add(core::Sphere{from, cell_stick}, gray, no_atoms);
                 for (int k = 0; k < 3; ++k)
-                    if ((corner >> k & 1) == 0)
-                        add(
-                            core::CappedCylinder{
-                                from, core::convert<float>(edges[static_cast<std::size_t>(k)]),
-                                cell_stick},
+                    if (((corner | flat) >> k & 1) == 0)
+                        add(core::CappedCylinder{from, edges[static_cast<std::size_t>(k)],
+                                                 cell_stick},
                             gray, no_atoms);
             }
     }

@@ -57,6 +57,20 @@ TEST_CASE("each shape of a drawing is an atom's, a bond's or the cell's") {
     CHECK(edges == 2 * 20 - 8); // what two cells share is one shape
 }
 
+TEST_CASE("a cell of a slab or a chain has no edges where it has no length") {
+    const auto shapes = [](const std::string& lattice) {
+        LoadOptions options;
+        options.drawing.show_cell = true;
+        const std::string text = "1\nLattice=\"" + lattice + "\"\nC 1 1 1\n";
+        return parse_scene("a.xyz", text, options).shape_count() - 1; // without the atom
+    };
+    CHECK(shapes("3 0 0 0 4 0 0 0 5") == 8 + 12);
+    CHECK(shapes("3 0 0 0 4 0 0 0 0") == 4 + 4);
+    CHECK(shapes("3 0 0 0 0 0 0 0 5") == 4 + 4);
+    CHECK(shapes("3 0 0 0 0 0 0 0 0") == 2 + 1);
+    CHECK(shapes("3 0 0 0 4 0 0 0 1e-60") == 4 + 4); // none as floats
+}
+
 TEST_CASE("atoms that are seen through have no walls inside") {
     // Along the line of sight, two balls that overlap: as much is seen through them as through one.
     const auto middle = [](const std::string& text) {
