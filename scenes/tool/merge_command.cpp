@@ -98,7 +98,8 @@ class Merger {
     }
 
     void begin(const std::string& name, const ExrPicture& picture) {
-        const RenderArguments arguments = arguments_of(name, picture.texts, name);
+        RenderArguments arguments = arguments_of(name, picture.texts, name);
+        arguments.isa.reset(); // nothing is drawn here, and parts may be another processor's
         settings_ = Overrides(arguments).applied_to({});
         const PictureChoice choice(arguments.picture);
         choice.apply_to(settings_);

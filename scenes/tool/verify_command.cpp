@@ -101,6 +101,8 @@ class Verifier {
               arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
           picture_(render_.picture),
           scene_(has_text(image_.texts, "Film") ? seen_scene_of_film() : seen_scene()) {
+        // The reference, which draws all but the whole, needs none of the vector engine's.
+        if (!arguments.whole) render_.isa.reset();
         options_ = options_of(render_);
         options_.precision =
             precision_argument(*render_.precision).value_or(core::Precision::exact);

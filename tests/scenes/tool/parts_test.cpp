@@ -274,6 +274,37 @@ TEST_CASE("the figures of a part are those of its own pixels") {
     CHECK(nlohmann::json::parse(content(workshop, "s.json"))["samples_per_pixel"] == 0);
 }
 
+TEST_CASE("parts are put together, and verified, where their instruction set is not there") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    std::string absent;
+    draw_parts(workshop, 2, {"--precision", "robust"});
+    for (const char* name : {"part-1.exr", "part-2.exr"}) {
+        const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / name);
+        scenes::PictureOptions options;
+        options.bits = 32;
+        options.texts = picture.texts;
+        for (auto& [key, text] : options.texts)
+            if (const std::size_t at = text.find(" --isa "); key == "Comment") {
+                REQUIRE(at != std::string::npos);
+                // No processor has both.
+                absent = text.find("neon", at) == std::string::npos ? "neon" : "avx2";
+                text.replace(at, text.find(' ', at + 7) - at, " --isa " + absent);
+            }
+        scenes::OutputFile(workshop.path() / name, scenes::exr_of).commit(picture.film, options);
+    }
+    const Outcome outcome = workshop.run(merged({1, 2}, "whole.exr"));
+    CHECK(outcome.err.empty());
+    CHECK(outcome.code == 0);
+    const Options verify = {"verify", "whole.exr", "scene.json", "--quiet"};
+    CHECK(workshop.run(verify).err.empty());
+    CHECK(workshop.run(verify).code == 0);
+    // All of it is drawn again as it was, which cannot be.
+    const Outcome again = workshop.run(joined(verify, {"--whole"}));
+    CHECK(again.code == 2);
+    CHECK(again.err.starts_with("raylane: --isa: this processor has no " + absent + ", but "));
+}
+
 TEST_CASE("a part that was interrupted goes on, too") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
