@@ -39,6 +39,12 @@ void require_other_file(const std::string& option, const std::string& file,
     if (same_file(file, other_file)) refuse(option, "another file than " + other_option, file);
 }
 
+void require_other_output(const std::string& option, const std::string& file,
+                          const std::string& other_option, const std::string& other_file) {
+    if (file == "-" && other_file == "-") refuse(option, "another file than " + other_option, file);
+    require_other_file(option, file, other_option, other_file);
+}
+
 std::vector<std::string_view> parts_of(std::string_view text, char separator) {
     std::vector<std::string_view> parts;
     while (true) {

@@ -19,6 +19,9 @@ const std::string& file_argument(const std::string& option, const std::string& t
 /// Refuses a file to be written that is another argument's as well, by whatever name.
 void require_other_file(const std::string& option, const std::string& file,
                         const std::string& other_option, const std::string& other_file);
+/// The same of two files to be written: standard output, too, takes one of them.
+void require_other_output(const std::string& option, const std::string& file,
+                          const std::string& other_option, const std::string& other_file);
 
 /// What is between the separators of "1:2:3": at least one part, and each may be empty.
 std::vector<std::string_view> parts_of(std::string_view text, char separator);

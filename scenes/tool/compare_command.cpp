@@ -59,6 +59,7 @@ int compare(const CompareArguments& arguments) {
         const std::string& name = file_argument("--diff", *arguments.difference);
         require_other_file("--diff", name, "A", name_of_a);
         require_other_file("--diff", name, "B", name_of_b);
+        require_other_output("--diff", name, "standard output, which has the figures", "-");
         output.emplace(name, exr_of);
         require_writable("--diff", output->format());
     }

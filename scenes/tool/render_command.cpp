@@ -68,7 +68,7 @@ struct Files {
         if (!arguments.stats) return;
         stats = file_argument("--stats", *arguments.stats);
         require_other_file("--stats", *stats, "SCENE", scene);
-        require_other_file("--stats", *stats, "--output", output);
+        require_other_output("--stats", *stats, "--output", output);
     }
 
     std::string scene;

@@ -166,6 +166,15 @@ TEST_CASE("a file's name that is none is told in one line, before anything is re
          R"(--diff: must be another file than A, got "a.png")"},
         {{"compare", "a.png", "b.png", "--diff", "./b.png"},
          R"(--diff: must be another file than B, got "./b.png")"},
+        // What would go into each other.
+        {{"render", "none.json", "-o", "-", "--stats", "-"},
+         R"(--stats: must be another file than --output, got "-")"},
+        {{"render", "-", "-o", "-", "--stats", "-"},
+         R"(--stats: must be another file than --output, got "-")"},
+        {{"compare", "a.png", "b.png", "--diff", "-"},
+         R"(--diff: must be another file than standard output, which has the figures, got "-")"},
+        {{"compare", "-", "b.png", "--json", "--diff", "-"},
+         R"(--diff: must be another file than standard output, which has the figures, got "-")"},
     };
     for (const auto& [arguments, message] : rows)
         check(workshop, arguments, message);
