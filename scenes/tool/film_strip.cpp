@@ -57,10 +57,16 @@ class Stage {
                 number_ = made_;
             } else {
                 const std::optional<std::size_t> number = strip_.source->next();
-                if (!number) return std::nullopt;
+                if (!number) {
+                    if (made_ > 0) require_turn_of(made_);
+                    return std::nullopt;
+                }
                 number_ = *number;
             }
             const std::size_t place = made_++;
+            // How long a film is shows at its end alone.
+            if (strip_.turn && made_ > strip_.turn->count)
+                refuse_turn(*strip_.turn, "at least " + std::to_string(made_));
             const bool is_ours = strip_.only ? place == *strip_.only
                                              : place % strip_.share.of == strip_.share.number;
             Picture picture{place, strip_.name(is_still() && strip_.turn ? place : number_),
@@ -79,6 +85,11 @@ class Stage {
     }
 
   private:
+    void require_turn_of(std::size_t count) const {
+        if (strip_.turn && strip_.turn->count != count)
+            refuse_turn(*strip_.turn, std::to_string(count));
+    }
+
     /// What lost its content with the power is empty.
     bool is_wanted(const std::string& name) const {
         std::error_code unknown;
@@ -128,6 +139,7 @@ class Stage {
                 core::include_shapes(scene, *frame_);
             }
         }
+        if (count > 0) require_turn_of(count);
         strip_.source->keep_scale();
         strip_.source->rewind();
     }
@@ -183,6 +195,12 @@ class StripProgress {
 };
 
 } // namespace
+
+void refuse_turn(const Turn& turn, const std::string& otherwise) {
+    throw BadInput("--turn", "",
+                   "must be in as many pictures as there are otherwise, " + otherwise + ", got " +
+                       std::to_string(turn.count));
+}
 
 Shot first_shot(const FilmStrip& strip) {
     const auto start = std::chrono::steady_clock::now();

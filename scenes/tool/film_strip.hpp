@@ -36,6 +36,9 @@ struct FilmStrip {
         draw;
 };
 
+/// Throws BadInput: there are so many pictures `otherwise`.
+[[noreturn]] void refuse_turn(const Turn& turn, const std::string& otherwise);
+
 /// What a picture shows, and the name of its file.
 struct Shot {
     core::Scene scene;
@@ -47,7 +50,8 @@ struct Shot {
 Shot first_shot(const FilmStrip& strip);
 
 /// Draws all of them; while one is drawn the scene of the next is made. Throws what the source and
-/// the drawing do, once what came before is drawn.
+/// the drawing do, once what came before is drawn, and BadInput where a turn is in other than as
+/// many pictures as there are: before the first one too many, or behind the last.
 void draw(const FilmStrip& strip);
 
 } // namespace raylane::scenes

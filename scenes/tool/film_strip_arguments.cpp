@@ -45,7 +45,7 @@ std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
     strip.fit_to = frames.fit_to();
     const std::optional<FrameRange> range = frames.range();
     auto parameters = scene_arguments.parameters.values(true);
-    if (!range && !strip.turn && parameters.size() == 1) return std::nullopt;
+    if (!range && !strip.turn && !scene_arguments.parameters.has_sweep()) return std::nullopt;
     if (range && !parameters.front().empty())
         throw BadInput("--set", "", "goes with a scene in JSON, and --frames with atoms");
 
@@ -62,9 +62,7 @@ std::optional<FilmStrip> film_strip_of(const FrameArguments& frames,
                          : sweep_of(scene, options, std::move(parameters));
     const std::size_t count = strip.source->count();
     if (strip.turn && count > 1 && count != strip.turn->count)
-        throw BadInput("--turn", "",
-                       "must be in as many pictures as there are otherwise, " +
-                           std::to_string(count) + ", got " + std::to_string(strip.turn->count));
+        refuse_turn(*strip.turn, std::to_string(count));
     strip.name = picture_names(scene, output, frames.is_one());
     strip.overwrites = frames.overwrite || frames.is_one();
     return strip;

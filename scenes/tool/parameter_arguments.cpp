@@ -4,6 +4,7 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/frame_arguments.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -24,6 +25,7 @@ std::optional<double> to_double(std::string_view word) {
 struct Setting {
     std::string name;
     std::vector<double> values;
+    bool is_sweep = false;
 };
 
 Setting setting_argument(const std::string& text) {
@@ -34,7 +36,7 @@ Setting setting_argument(const std::string& text) {
                 printable(text) + "\"");
     };
     const std::size_t equals = text.find('=');
-    Setting setting{text.substr(0, equals), {}};
+    Setting setting{text.substr(0, equals), {}, false};
     if (equals == std::string::npos || !is_parameter_name(setting.name)) refuse();
     const std::vector<std::string_view> parts =
         parts_of(std::string_view(text).substr(equals + 1), ':');
@@ -44,6 +46,7 @@ Setting setting_argument(const std::string& text) {
         setting.values = {*first};
         return setting;
     }
+    setting.is_sweep = true;
     const std::optional<double> last = to_double(parts[1]);
     const std::optional<int> count = to_int(parts[2]);
     if (!last || !count || *count < 1 || *count > most_pictures) refuse();
@@ -93,6 +96,11 @@ std::vector<std::map<std::string, double>> ParameterArguments::values(bool sweep
         for (std::size_t i = 0; i < count; ++i)
             pictures[i][setting.name] = setting.values[setting.values.size() == 1 ? 0 : i];
     return pictures;
+}
+
+bool ParameterArguments::has_sweep() const {
+    return std::any_of(set.begin(), set.end(),
+                       [](const std::string& text) { return setting_argument(text).is_sweep; });
 }
 
 } // namespace raylane::scenes

@@ -18,6 +18,8 @@ struct ParameterArguments {
     /// BadInput, also where they are not equally many, and for more than one picture without
     /// `sweeps`.
     std::vector<std::map<std::string, double>> values(bool sweeps) const;
+    /// True if any is FIRST:LAST:COUNT, even of one picture.
+    bool has_sweep() const;
 };
 
 } // namespace raylane::scenes

@@ -118,6 +118,24 @@ TEST_CASE("values of a parameter are swept, and several together") {
     CHECK(nlohmann::json::parse(converted.out)["objects"][0]["radius"] == 3);
 }
 
+TEST_CASE("a sweep of one picture is a film of one") {
+    const Workshop workshop(growing);
+    for (const Options& sweep : {Options{"--set", "r=2:3:1"}, {"--set", "r=2", "--turn", "9/1"}}) {
+        std::filesystem::remove(workshop.path() / "f0.png");
+        CHECK(workshop.render("f%d.png", sweep).code == 0);
+        CHECK(!std::filesystem::exists(workshop.path() / "f%d.png"));
+        CHECK(picture(workshop, "f0.png").size() > 0);
+        const Outcome verified = workshop.run({"verify", "f0.png", "scene.json", "--quiet"});
+        CHECK(verified.err.empty());
+        CHECK(verified.code == 0);
+    }
+    CHECK(workshop.render("s%d.pfm", {"--set", "r=2:3:1"}).code == 0);
+    CHECK(workshop.render("one.pfm", {"--set", "r=2"}).code == 0);
+    CHECK(picture(workshop, "s0.pfm") == picture(workshop, "one.pfm"));
+    CHECK(complaint(workshop, {"scene.json", "-o", "f.png", "--set", "r=2:3:1"})
+              .find("--output: must have one number") != std::string::npos);
+}
+
 TEST_CASE("whole numbers stay whole in a sweep") {
     const Workshop workshop(R"({"image": {"width": "$w", "height": 1}, "camera": "auto",
         "objects": [{"type": "sphere", "material": {}, "center": [0, 0, 0], "radius": 1}]})");
@@ -148,6 +166,46 @@ TEST_CASE("a camera goes around, whether it finds its place or has it") {
     CHECK(other.render("t%d.pfm", {"--turn", "90/2", "--set", "x=0:1:2"}).code == 0);
     CHECK(complaint(other, {"scene.json", "-o", "t%d.pfm", "--turn", "90/2", "--set", "x=0:1:3"})
               .find("as many pictures as there are otherwise, 3, got 2") != std::string::npos);
+}
+
+TEST_CASE("a turn is in as many pictures as a film turns out to have") {
+    const Workshop workshop;
+    workshop.write("move.xyz", trajectory(5));
+    const auto film = [&](const std::string& frames, const std::string& turn,
+                          const Options& options = {}) {
+        std::filesystem::remove_all(workshop.output());
+        std::filesystem::create_directory(workshop.output());
+        return joined(
+            joined({"move.xyz", "-o", "out/f%d.pfm", "--frames", frames, "--turn", turn}, small),
+            options);
+    };
+    const auto drawn = [&] {
+        return std::distance(std::filesystem::directory_iterator(workshop.output()), {});
+    };
+    const std::string must =
+        "raylane: --turn: must be in as many pictures as there are otherwise, ";
+    CHECK(complaint(workshop, film("0:5", "90/9")) == must + "5, got 9\n");
+    CHECK(drawn() == 0);
+    // It shows at the end that there are too few,
+    CHECK(complaint(workshop, film("0:9", "90/9")) == must + "5, got 9\n");
+    CHECK(drawn() == 5);
+    CHECK(complaint(workshop, film("0:", "360/120")) == must + "5, got 120\n");
+    CHECK(drawn() == 5);
+    // before the first that is too much that there are too many,
+    CHECK(complaint(workshop, film("0:", "360/3")) == must + "at least 4, got 3\n");
+    CHECK(drawn() == 3);
+    CHECK(complaint(workshop, film("::2", "360/1", {"--part", "2/2"})) ==
+          must + "at least 2, got 1\n");
+    CHECK(drawn() == 0);
+    // and before all where all have been looked at.
+    for (const char* turn : {"360/3", "360/9"})
+        CHECK(complaint(workshop, film(":", turn, {"--camera-from", "all"})) ==
+              must + "5, got " + (turn + 4) + "\n");
+    CHECK(drawn() == 0);
+    for (const char* frames : {":", "0:5", "-5:"}) {
+        CHECK(workshop.run(joined({"render"}, film(frames, "90/5"))).code == 0);
+        CHECK(drawn() == 5);
+    }
 }
 
 TEST_CASE("pictures that are there are kept, unless they are to be drawn anew") {
