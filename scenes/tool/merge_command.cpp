@@ -25,6 +25,8 @@ struct MergeArguments {
 /// Puts together what the parts of one picture have drawn, one after the other.
 class Merger {
   public:
+    explicit Merger(PictureFormat output) : output_(output) {}
+
     void add(const std::string& name) {
         ExrPicture picture = read_own_exr(name);
         const PicturePart part = part_of(name, picture.texts);
@@ -97,11 +99,22 @@ class Merger {
         return side >= 8 && side <= 64 ? side : 0;
     }
 
+    /// Without a word nothing is left out that was asked for.
+    void require_fit(const std::string& name, const ExrPicture& picture, bool alpha) const {
+        const bool is_exr = output_ == PictureFormat::exr;
+        if (picture.layers && !is_exr)
+            throw BadInput(name, "",
+                           "was drawn with --layers, which goes with an output that ends in .exr");
+        if (alpha && !is_exr && output_ != PictureFormat::png)
+            throw BadInput(name, "", "was drawn with --alpha, which goes with PNG or EXR");
+    }
+
     void begin(const std::string& name, const ExrPicture& picture) {
         RenderArguments arguments = arguments_of(name, picture.texts, name);
         arguments.isa.reset(); // nothing is drawn here, and parts may be another processor's
         settings_ = Overrides(arguments).applied_to({});
         const PictureChoice choice(arguments.picture);
+        require_fit(name, picture, choice.alpha);
         choice.apply_to(settings_);
         simd::RenderOptions options = options_of(arguments);
         choice.apply_to(options, settings_);
@@ -135,6 +148,7 @@ class Merger {
             }
     }
 
+    PictureFormat output_;
     std::optional<ExrPicture> first_; // and what has been put into it
     std::string first_name_;
     PictureTexts texts_; // of part 1
@@ -155,14 +169,13 @@ int merge(const MergeArguments& arguments) {
     const PictureChoice choice(how);
     OutputFile output(name, exr_of);
     choice.require_fit(output.format());
-    Merger merger;
+    Merger merger(output.format());
     for (const std::string& part : arguments.parts)
         merger.add(file_argument("PARTS", part));
     const core::Transfer transfer = merger.transfer();
     const ExrPicture picture = merger.take();
-    const bool is_exr = output.format() == PictureFormat::exr;
     output.commit(picture.film, {transfer, choice.bits, choice.dpi, picture.texts},
-                  is_exr && picture.layers ? &*picture.layers : nullptr);
+                  picture.layers ? &*picture.layers : nullptr);
     return 0;
 }
 

@@ -90,7 +90,6 @@ std::string text_of(const core::Settings& settings, const core::Settings& own, b
         text += " --outline-color " + text_of(outline.color);
     if (outline.any() && outline.creases != own_outline.creases)
         text += " --outline-creases " + to_text(outline.creases);
-    if (settings.alpha) text += " --alpha";
     return text;
 }
 
@@ -195,7 +194,8 @@ PictureOptions PictureChoice::options(const std::string& scene, const core::Sett
 
 std::string PictureChoice::text(const core::Settings& settings, const core::Settings& own,
                                 bool names_size) const {
-    return text_of(settings, own, names_size) + (crop ? " --crop " + text_of(*crop) : "");
+    return text_of(settings, own, names_size) + (alpha ? " --alpha" : "") +
+           (crop ? " --crop " + text_of(*crop) : "");
 }
 
 } // namespace raylane::scenes

@@ -168,6 +168,42 @@ TEST_CASE("one frame of several is drawn in parts as any other scene is") {
     CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
 }
 
+TEST_CASE("parts with an alpha or layers become no picture without them") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    const auto refused = [&](const std::string& output, const std::string& message) {
+        CAPTURE(output);
+        const Outcome outcome = workshop.run(merged({2, 1}, output));
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err == "raylane: part-2.exr: was drawn with " + message + "\n");
+    };
+    const auto becomes = [&](const std::string& output) {
+        CAPTURE(output);
+        const Outcome outcome = workshop.run(merged({1, 2}, output));
+        CHECK(outcome.err.empty());
+        CHECK(outcome.code == 0);
+    };
+    const Options without_alpha = {"a.pfm", "a.hdr", "a.ppm", "a.tga", "a.bmp"};
+    draw_parts(workshop, 2, {"--alpha"});
+    for (const std::string& output : without_alpha)
+        refused("out/" + output, "--alpha, which goes with PNG or EXR");
+    draw_parts(workshop, 2, {"--layers"});
+    for (const std::string& output : joined(without_alpha, {"a.png"}))
+        refused("out/" + output, "--layers, which goes with an output that ends in .exr");
+    CHECK(workshop.is_output_empty());
+    becomes("a.exr");
+    // A scene may have an alpha of its own, which others show over black, as render does.
+    std::string with_alpha = ball;
+    with_alpha.insert(with_alpha.find("\"width\""), "\"alpha\": true, ");
+    workshop.write("scene.json", with_alpha);
+    draw_parts(workshop, 2);
+    for (const std::string output : {"b.pfm", "b.png", "b.exr"}) {
+        becomes(output);
+        REQUIRE(workshop.render("whole-" + output).code == 0);
+        CHECK(content(workshop, output) == content(workshop, "whole-" + output));
+    }
+}
+
 TEST_CASE("parts are put together in any order, also of scenes by different names") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;

@@ -78,8 +78,18 @@ TEST_CASE("an alpha leaves the background out") {
     CHECK(asked.alpha[0] == 0.0F);
     CHECK(asked.rgb[2] == 0.0F);
     CHECK(asked.alpha[6 * 16 + 8] == 1.0F);
-    picture(by_scene, "a.png", {});
-    CHECK(content_of(workshop.path() / "a.png") == content_of(by_scene.path() / "a.png"));
+    const scenes::Image own = picture(by_scene, "a.png", {});
+    CHECK(own.rgb.is_same(asked.rgb));
+    CHECK(own.alpha.is_same(asked.alpha));
+    // It says what was asked for.
+    const auto comment = [](const scenes::Image& image) {
+        const auto found = std::find_if(image.texts.begin(), image.texts.end(),
+                                        [](const auto& text) { return text.first == "Comment"; });
+        return found == image.texts.end() ? "" : found->second;
+    };
+    CHECK(comment(asked) == comment(own) + " --alpha");
+    CHECK(by_scene.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
+    CHECK(workshop.run({"verify", "a.png", "scene.json", "--whole", "-q"}).code == 0);
     CHECK(picture(workshop, "b.png", {}).alpha.size() == 0);
     CHECK(workshop.run({"compare", "a.png", "a.png"}).code == 0);
     CHECK(workshop.run({"compare", "a.png", "b.png"}).code == 1);
