@@ -84,9 +84,11 @@ class SoftLightSampler {
     }
 
     /// In a frame around the unit vector z: Duff et al., "Building an orthonormal basis, revisited"
-    /// (2017).
+    /// (2017). Theirs changes at z.z = 0, where walls are and rounding would say which of both;
+    /// this one where there is nothing, and no less well.
     static V around(const V& z, const Number& x_part, const Number& y_part, const Number& z_part) {
-        const Number sign = P::select(z.z < Number(0.0), Number(-1.0), Number(1.0));
+        const Number seam(-0.28651);
+        const Number sign = P::select(z.z < seam, Number(-1.0), Number(1.0));
         const Number a = Number(-1.0) / (sign + z.z);
         const Number b = z.x * z.y * a;
         const V x{Number(1.0) + sign * z.x * z.x * a, sign * b, Number(0.0) - sign * z.x};

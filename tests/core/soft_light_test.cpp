@@ -209,6 +209,43 @@ TEST_CASE("samples of a rectangle light are spread evenly by solid angle") {
     CHECK(far.by_cosine == Approx(3.0 / (pi * 1e12)).epsilon(1e-5));
 }
 
+TEST_CASE("samples are the same whatever rounding leaves where a normal has a 0") {
+    Light sky, ball;
+    sky.kind = LightKind::sky;
+    sky.direction = {0, 1, 0};
+    ball.kind = LightKind::sphere;
+    ball.position = {0, 0, 0};
+    ball.radius = 1.0F;
+    const SoftLight of_sky = prepared(sky), of_ball = prepared(ball);
+    Random random(5);
+    for (int round = 0; round < 1000; ++round) {
+        const double angle = random.uniform(0.0, 6.0), u = random.uniform(0.0, 1.0),
+                     v = random.uniform(0.0, 1.0);
+        const int axis = round % 3;
+        const auto around = [&](double little) {
+            Vec3d normal;
+            normal[axis] = little;
+            normal[(axis + 1) % 3] = std::cos(angle);
+            normal[(axis + 2) % 3] = std::sin(angle);
+            return normal;
+        };
+        for (const double little : {1e-17, -1e-17, -1e-30}) {
+            const auto sample_at = [&](double z) {
+                return vector(SoftLightSampler<double>(of_sky)
+                                  .sample({}, directed(around(z)), u, v)
+                                  .direction);
+            };
+            const auto toward_ball = [&](double z) {
+                return vector(SoftLightSampler<double>(of_ball)
+                                  .sample(directed(3.0 * around(z)), directed({0, 1, 0}), u, v)
+                                  .direction);
+            };
+            CHECK(length(sample_at(little) - sample_at(0.0)) < 1e-14);
+            CHECK(length(toward_ball(little) - toward_ball(0.0)) < 1e-14);
+        }
+    }
+}
+
 TEST_CASE("samples of the sky are by the cosine, and show its colours") {
     Light light;
     light.kind = LightKind::sky;

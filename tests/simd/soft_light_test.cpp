@@ -238,6 +238,25 @@ TEST_CASE("soft light depends on neither threads, tiles nor instructions", "[lon
         }
 }
 
+TEST_CASE("both engines see the same sky from cylinders along a coordinate") {
+    for (int axis = 0; axis < 3; ++axis) {
+        Builder builder;
+        builder.settings.width = 64;
+        builder.settings.height = 48;
+        builder.camera.from = {2.3F, 2.1F, 3.7F};
+        builder.camera.at = {0.1F, 0.2F, 0.3F};
+        Vec3f along;
+        along[axis] = 1.3F;
+        builder.add_shape(CappedCylinder{{0.1F, 0.2F, -0.1F}, along, 0.4F}, white());
+        builder.add_shape(Sphere{{0.3F, 1.1F, 0.65F}, 0.4F}, white());
+        const Scene scene = builder.finish(sky());
+        simd::RenderOptions options;
+        const simd::Rendering expected = rendered(scene, options);
+        options.engine = simd::Engine::reference;
+        CHECK((rendered(scene, options).film.pixels() == expected.film.pixels()));
+    }
+}
+
 TEST_CASE("soft light's error falls faster than that of random samples", "[long]") {
     const Scene scene = studio(0.0F);
     Settings settings = scene.settings();
