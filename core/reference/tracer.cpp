@@ -59,7 +59,6 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
             for (int wanted = samples.wanted(pixel); wanted > 0; --wanted) {
                 sample_ = {x, y, samples.taken(pixel)};
                 const SamplePoint place = samples.place(x, y, sample_.number);
-                first_hit_ = {};
                 const Vector color = trace(camera_rays_.ray(
                     sample_, camera_rays_.filtered({Real(place.x), Real(place.y)})));
                 samples.add(pixel, {convert<double>(color), first_hit_.shape,
@@ -109,6 +108,7 @@ template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
     Vector light(0);
     transmittance_ = 0;
+    first_hit_ = {};
     const std::size_t others = pending_.size();
     pending_.push_back(std::move(path));
     while (pending_.size() > others) {
@@ -125,7 +125,7 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     const Encounter<Real> encounter = searcher_.nearest(
         path.ray, path.origins, [&](const Hit<Real>& candidate) { return is_visible(candidate); });
     const Hit<Real>& hit = encounter.hit;
-    if (path.depth == 0 && path.passed == 0 && path.crossings == 0 && hit.any()) first_hit_ = hit;
+    if (path.depth == 0 && path.passed == 0 && path.crossings == 0) first_hit_ = hit;
     if (!hit.any()) {
         if (!settings_.alpha || !path.is_straight) return path.throughput * color_at_infinity(path);
         transmittance_ = transmittance_to_infinity(path);

@@ -64,6 +64,8 @@ class ReferenceTracer {
 
     /// Light that a path, with all that follows from it, brings to the pixel: linear RGB.
     Vector light_along(Path path);
+    /// Of the last ray from the camera; none where it hits nothing.
+    const Hit<Real>& first_hit() const { return first_hit_; }
 
     /// The first surface along a ray, whether it can be seen or not, and what it touches there.
     Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins) {

@@ -320,22 +320,29 @@ void Wavefront::trace() {
 
 void Wavefront::trace_wave(int depth, const Coherence& coherence) {
     finder_.nearest(paths_, &coherence, counters_);
-    for (const std::uint32_t lane : finder_.at_contacts())
-        follow(lane, depth); // several surfaces meet there
+    const bool is_first = to_quality_ && depth == 0;
+    if (is_first) note_first_hits();
+    for (const std::uint32_t lane : finder_.at_contacts()) { // several surfaces meet there
+        follow(lane, depth);
+        if (is_first) note_first_hit(lane, reference_.first_hit().shape, reference_.first_hit().t);
+    }
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts(), paths_.passed,
                  static_cast<std::uint32_t>(settings_.max_see_through));
-    if (to_quality_ && depth == 0) note_first_hits();
     see_background(depth);
     shade(depth);
 }
 
 void Wavefront::note_first_hits() {
     for (std::size_t lane = 0; lane < paths_.count; ++lane) {
-        const std::uint32_t slot = finder_.hits().slot[lane], sample = paths_.sample[lane];
-        const bool any = slot != no_slot;
-        first_shape_[sample] = any ? scene_.id_of(slot) : core::no_shape;
-        first_t_[sample] = any ? finder_.hits().t[lane] : 0.0;
+        const std::uint32_t slot = finder_.hits().slot[lane];
+        note_first_hit(lane, slot != no_slot ? scene_.id_of(slot) : core::no_shape,
+                       finder_.hits().t[lane]);
     }
+}
+
+void Wavefront::note_first_hit(std::size_t lane, core::ShapeId shape, double t) {
+    first_shape_[paths_.sample[lane]] = shape;
+    first_t_[paths_.sample[lane]] = shape != core::no_shape ? t : 0.0;
 }
 
 /// The reference goes on with a lane.

@@ -73,6 +73,7 @@ class Wavefront {
     core::CameraRays<double>::InPixel in_pixel(const Samples& some, int number) const;
     void start(std::size_t count);
     void note_first_hits();
+    void note_first_hit(std::size_t lane, core::ShapeId shape, double t);
     void start_in_media();
     void trace();
     void trace_wave(int depth, const Coherence& coherence);

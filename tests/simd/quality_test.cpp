@@ -156,6 +156,34 @@ TEST_CASE("the reference draws a quality likewise", "[long]") {
           Approx(static_cast<double>(vector.counters.primary)).epsilon(0.001));
 }
 
+TEST_CASE("where surfaces coincide, both engines take the same samples") {
+    Builder builder;
+    builder.settings.width = 48;
+    builder.settings.height = 36;
+    builder.settings.quality = 32.0F;
+    builder.camera.from = {0.5F, 0.25F, 7};
+    const auto in = [](const Color& color) {
+        Material material = luminous(color);
+        material.diffuse = 0.7F;
+        return material;
+    };
+    // A face that two boxes and a disc share, and two balls that are one.
+    builder.add_shape(Box{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}, in({0.2F, 0.2F, 1}));
+    builder.add_shape(Box{{-0.5F, -1.5F, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 1}}, in({1, 0.2F, 0.2F}));
+    builder.add_shape(Disc{{0, 0, 1}, {0, 0, 1}, 0.75F}, in({0.2F, 1, 0.2F}));
+    builder.add_shape(Sphere{{1.5F, 1, 0}, 0.75F}, in({1, 1, 0.2F}));
+    builder.add_shape(Sphere{{1.5F, 1, 0}, 0.75F}, in({0.2F, 1, 1}));
+    Light lamp;
+    lamp.position = {3, 8, 6};
+    const Scene scene = builder.finish(lamp);
+    const simd::Rendering vector = rendered(scene, 32.0F);
+    simd::RenderOptions options;
+    options.engine = simd::Engine::reference;
+    const simd::Rendering reference = rendered(scene, 32.0F, options);
+    CHECK(reference.counters.primary == vector.counters.primary);
+    CHECK((reference.film.pixels() == vector.film.pixels()));
+}
+
 TEST_CASE("sticks and specks far thinner than a pixel are not lost", "[long]") {
     int visible = 0, lost = 0;
     double samples = 0.0;
