@@ -80,11 +80,7 @@ Vec3<Real> offset_from_axis(const Vec3<Number>& base, const Vec3<Number>& axis,
                             const Vec3<Real>& point) {
     const Vec3<Real> a = convert<Real>(axis);
     const Vec3<Real> from_base = point - convert<Real>(base);
-    Vec3<Real> across = mul_add(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
-    for (int i = 0; i < 3; ++i)
-        if (axis[(i + 1) % 3] == Number(0) && axis[(i + 2) % 3] == Number(0))
-            across[i] = Real(0.0); // where rounding may have left something
-    return across;
+    return mul_add(Real(-(dot(from_base, a) / squared_length(a))), a, from_base);
 }
 
 /// An AxialRay without fractions: across is scaled by |axis|^2.
