@@ -335,8 +335,9 @@ TEST_CASE("lengths, crossings and points agree of solids without end") {
             double expected = 0.0;
             bool runs_along = false; // where the parts are, not the points, say what is inside
             for (std::size_t k = 1; k < ends.size(); ++k) {
-                // Not half way, where another surface may be.
-                const core::Vec3d at = o + d * (ends[k - 1] + 0.48828125 * (ends[k] - ends[k - 1]));
+                // Not half way, where another surface may be; and a point that is not rounded.
+                const double t = ends[k - 1] + 0.48828125 * (ends[k] - ends[k - 1]);
+                const core::Vec3d at = o + d * std::ldexp(std::round(std::ldexp(t, 20)), -20);
                 const double x[] = {at.x}, y[] = {at.y}, z[] = {at.z};
                 SolidRows solids;
                 tracer.contains(DoublePointSpan{x, y, z}, solids);
@@ -348,7 +349,7 @@ TEST_CASE("lengths, crossings and points agree of solids without end") {
             for (std::uint64_t k = lengths.first[i]; k < lengths.first[i + 1]; ++k)
                 sum += lengths.length[k];
             if (runs_along) continue;
-            CAPTURE(round, i);
+            CAPTURE(round, i, o.x, o.y, o.z, d.x, d.y, d.z, words(rows, i));
             CHECK(sum == Approx(expected).margin(1e-9));
             if (rows.first[i] == rows.first[i + 1] && sum > 0.0) ++around;
         }
