@@ -55,6 +55,22 @@ Rays one_ray(const Vec3& origin, const Vec3& direction) {
     return rays;
 }
 
+/// By material.
+using Lengths = std::vector<std::pair<MaterialIndex, double>>;
+
+Lengths lengths_along(const Scene& scene, const Vec3& origin, const Vec3& direction, float t_min,
+                      float t_max) {
+    Rays rays = one_ray(origin, direction);
+    rays.t_min = {t_min};
+    rays.t_max = {t_max};
+    LengthRows rows;
+    Tracer(scene).path_lengths(rays.span(), rows);
+    Lengths all;
+    for (std::size_t k = 0; k < rows.material.size(); ++k)
+        all.emplace_back(rows.material[k], rows.length[k]);
+    return all;
+}
+
 } // namespace
 
 TEST_CASE("all crossings come in order, and ties and what only touches by name") {
@@ -203,17 +219,8 @@ TEST_CASE("lengths are those of what is inside of a material") {
     builder.add(Sphere{{-4, 0, 0}, 2}, glass);                 // touches the first
     const Scene scene = builder.build();
     const auto lengths = [&](const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
-        Rays rays = one_ray(origin, direction);
-        rays.t_min = {t_min};
-        rays.t_max = {t_max};
-        LengthRows rows;
-        Tracer(scene).path_lengths(rays.span(), rows);
-        std::vector<std::pair<MaterialIndex, double>> all;
-        for (std::size_t k = 0; k < rows.material.size(); ++k)
-            all.emplace_back(rows.material[k], rows.length[k]);
-        return all;
+        return lengths_along(scene, origin, direction, t_min, t_max);
     };
-    using Lengths = decltype(lengths({}, {}, 0, 0));
     CHECK(lengths({-10, 0, 0}, {3, 0, 0}, 0, infinity) == Lengths{{glass, 9.0}, {lead, 2.0}});
     CHECK(lengths({0, 0, 0}, {0.5F, 0, 0}, 0, infinity) == Lengths{{glass, 3.0}, {lead, 1.0}});
     CHECK(lengths({0, 0, 0}, {0.5F, 0, 0}, 1, 5) == Lengths{{glass, 2.0}, {lead, 0.5}});
@@ -253,17 +260,8 @@ TEST_CASE("rays are inside of a solid without end whether they cross it or not")
     builder.add(clipped(below, {raylane::Solid(Plane{{0, 0, 0}, {1, 0, 0}})}), gold); // is open
     const Scene scene = builder.build();
     const auto lengths = [&](const Vec3& origin, const Vec3& direction, float t_min, float t_max) {
-        Rays rays = one_ray(origin, direction);
-        rays.t_min = {t_min};
-        rays.t_max = {t_max};
-        LengthRows rows;
-        Tracer(scene).path_lengths(rays.span(), rows);
-        std::vector<std::pair<MaterialIndex, double>> all;
-        for (std::size_t k = 0; k < rows.material.size(); ++k)
-            all.emplace_back(rows.material[k], rows.length[k]);
-        return all;
+        return lengths_along(scene, origin, direction, t_min, t_max);
     };
-    using Lengths = decltype(lengths({}, {}, 0, 0));
     CHECK(lengths({3, 0, -1}, {2, 0, 0}, 0, 50) == Lengths{{stone, 100.0}});
     CHECK(lengths({3, 0, -1}, {2, 0, 0}, 20, 50) == Lengths{{stone, 60.0}});
     CHECK(lengths({3, 0, -1}, {2, 0, 0}, 0, infinity) == Lengths{{stone, infinity}});
