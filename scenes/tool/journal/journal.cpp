@@ -205,16 +205,16 @@ void Journal::note(std::size_t number, std::string_view bytes) {
 /// Makes the file, or empties it, and writes what has been waiting.
 void Journal::begin() {
     if (descriptor_ < 0) {
-        if (!make()) return;
-        end_ = static_cast<std::int64_t>(head_.size());
-    } else {
-        if (::ftruncate(descriptor_, 0) != 0) return fail();
-        end_ = 0;
-        write(head_);
-        static_cast<void>(::fdatasync(descriptor_));
+        is_ours_ = make(head_ + waiting_);
+        waiting_.clear();
+        return;
     }
+    if (::ftruncate(descriptor_, 0) != 0) return fail();
+    end_ = 0;
+    write(head_);
+    static_cast<void>(::fdatasync(descriptor_));
     is_ours_ = true;
-    if (!waiting_.empty()) write(std::exchange(waiting_, {}));
+    write(std::exchange(waiting_, {}));
 }
 
 /// Tiles may be minutes apart: whoever writes the next one is no help to the last.
@@ -233,10 +233,10 @@ void Journal::keep_up() {
     }
 }
 
-/// With the head in it before it has a name, where the system can do that: so no file is there that
-/// is not known for what it is. As private as the picture that is there. False, and that is told,
-/// if it cannot be.
-bool Journal::make() {
+/// With all in it before it has a name, where the system can do that: so no file is there that is
+/// not known for what it is, or that lacks what has been waiting. As private as the picture that is
+/// there. False, and that is told, if it cannot be.
+bool Journal::make(const std::string& content) {
     struct stat picture {};
     const bool is_there = ::stat(picture_.c_str(), &picture) == 0;
     const mode_t mode = is_there ? picture.st_mode & 0666 : 0666;
@@ -245,7 +245,7 @@ bool Journal::make() {
     if (made >= 0) {
         const std::string own = "/proc/self/fd/" + std::to_string(made);
         const bool done =
-            write_at(made, 0, head_) && ::fsync(made) == 0 && take_lock(made) &&
+            write_at(made, 0, content) && ::fsync(made) == 0 && take_lock(made) &&
             ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
         const int error_number = errno;
         if (!done) ::close(made);
@@ -258,13 +258,16 @@ bool Journal::make() {
     }
     if (made < 0) {
         made = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (made < 0 || !take_lock(made) || !write_at(made, 0, head_) || ::fsync(made) != 0) {
+        const bool is_taken = made >= 0 && take_lock(made);
+        if (!is_taken || !write_at(made, 0, content) || ::fsync(made) != 0) {
             fail();
+            if (is_taken) ::unlink(path_.c_str());
             if (made >= 0) ::close(made);
             return false;
         }
     }
     descriptor_ = made;
+    end_ = static_cast<std::int64_t>(content.size());
     sync_folder_of(path_);
     return true;
 }

@@ -79,7 +79,7 @@ class Journal {
     void open();
     bool read(const std::string& head);
     void begin();
-    bool make();
+    bool make(const std::string& content);
     bool is_still_there() const;
     void fail();
     void write(const std::string& bytes);

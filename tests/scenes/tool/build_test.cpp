@@ -2,7 +2,6 @@
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <chrono>
-#include <thread>
 
 /// Scenes that are built once, for many pictures.
 using namespace raylane::tests;
@@ -56,7 +55,7 @@ TEST_CASE("a built scene that becomes shorter while it is in use ends the comman
     REQUIRE(workshop.run({"build", "scene.json", "-o", "a.rl", "-q"}).code == 0);
     Process process = workshop.start(joined({"render", "a.rl", "-o", "out/picture.png"}, hours));
     REQUIRE(workshop.wait_for_files(process, 1));
-    std::this_thread::sleep_for(std::chrono::milliseconds(200)); // amid the pixels
+    REQUIRE(process.wait_for_work(std::chrono::milliseconds(300))); // amid the pixels
     std::filesystem::resize_file(workshop.path() / "a.rl", 0);
     const Outcome outcome = process.wait();
     CHECK(outcome.code == 3);

@@ -230,7 +230,7 @@ TEST_CASE("a film that was interrupted goes on where it was") {
     const Options film = {"render", "scene.json", "-o", "out/f%d.pfm", "--set", "r=1:2:3"};
     Process process = workshop.start(joined(film, minutes));
     REQUIRE(workshop.wait_for_files(process, 2)); // amid the second
-    std::this_thread::sleep_for(std::chrono::milliseconds(3000));
+    REQUIRE(workshop.wait_for(workshop.output() / "f1.pfm.part"));
     process.send(SIGINT);
     CHECK(process.wait().code == 128 + SIGINT);
     CHECK(std::filesystem::exists(workshop.output() / "f1.pfm.part"));

@@ -1,5 +1,4 @@
 #include "tests/catch.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <csignal>
@@ -15,8 +14,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// Sanitizers look the memory over at the end.
-constexpr std::chrono::seconds soon{sanitized ? 20 : 1};
+/// Of hours. Others may want the processor, and sanitizers look the memory over at the end.
+constexpr std::chrono::seconds soon{20};
 
 const std::vector<std::string> render_for_hours =
     joined({"render", "scene.json", "-o", "out/picture.png", "--stats", "out/stats.json"}, hours);
@@ -41,7 +40,7 @@ TEST_CASE("an interrupted rendering ends soon and leaves nothing") {
         const Workshop workshop;
         Process process = workshop.start(render_for_hours);
         REQUIRE(workshop.wait_for_files(process, 2));
-        std::this_thread::sleep_for(milliseconds(100)); // amid the pixels
+        REQUIRE(process.wait_for_work(milliseconds(100))); // amid the pixels
         check_end(workshop, process, signal);
     }
 }
@@ -85,7 +84,7 @@ TEST_CASE("reading a scene can be interrupted") {
                          "depth": 7}]})");
         Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png"});
         REQUIRE(workshop.wait_for_files(process, 1));
-        std::this_thread::sleep_for(milliseconds(500));
+        REQUIRE(process.wait_for_work(milliseconds(200)));
         check_end(workshop, process, SIGTERM);
     }
 }
@@ -95,7 +94,7 @@ TEST_CASE("waiting for a reader of the picture can be interrupted") {
     REQUIRE(::mkfifo((workshop.path() / "pipe.png").c_str(), 0600) == 0);
     Process process =
         workshop.start({"render", "scene.json", "--stats", "out/stats.json", "-o", "pipe.png"});
-    std::this_thread::sleep_for(milliseconds(200));
+    std::this_thread::sleep_for(std::chrono::seconds(1)); // nothing tells that it waits
     check_end(workshop, process, SIGINT);
 }
 
@@ -124,7 +123,7 @@ TEST_CASE("signals that the caller has ignored stay so") {
     Process process = workshop.start(render_for_hours, ignoring);
     REQUIRE(workshop.wait_for_files(process, 2));
     process.send(SIGINT);
-    std::this_thread::sleep_for(milliseconds(200));
+    CHECK(process.wait_for_work(milliseconds(200)));
     CHECK(workshop.wait_for_files(process, 2));
     check_end(workshop, process, SIGHUP);
 }

@@ -10,6 +10,8 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <system_error>
+#include <thread>
+#include <time.h>
 #include <unistd.h>
 
 namespace raylane::tests {
@@ -130,8 +132,30 @@ int Process::unnamed_files_in(const std::filesystem::path& directory) const {
     return count;
 }
 
+bool Process::wait_for_err(std::string_view text) {
+    return collect(std::chrono::steady_clock::now() + patience, text);
+}
+
+bool Process::wait_for_work(std::chrono::milliseconds duration) const {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    clockid_t clock{};
+    checked(::clock_getcpuclockid(child_, &clock), "clock_getcpuclockid");
+    while (std::chrono::steady_clock::now() < end) {
+        siginfo_t ended{};
+        checked(::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT),
+                "waitid");
+        if (ended.si_pid == child_) return false;
+        timespec used{};
+        checked(::clock_gettime(clock, &used), "clock_gettime");
+        if (std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) >= duration)
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
 Outcome Process::wait() {
-    collect(std::chrono::steady_clock::now() + patience);
+    if (!collect(std::chrono::steady_clock::now() + patience, {})) send(SIGKILL);
     int status = 0;
     rusage usage{};
     checked(::wait4(child_, &status, 0, &usage), "wait4");
@@ -141,23 +165,26 @@ Outcome Process::wait() {
             usage.ru_maxrss / 1024};
 }
 
-void Process::collect(std::chrono::steady_clock::time_point end) {
+/// Until it writes no more, or has written what is expected. False if that takes too long, and if
+/// what is expected has not come.
+bool Process::collect(std::chrono::steady_clock::time_point end, std::string_view expected) {
     using std::chrono::milliseconds;
     std::array<pollfd, 2> sources = {pollfd{out_, POLLIN, 0}, pollfd{err_, POLLIN, 0}};
-    while (sources[0].fd >= 0 || sources[1].fd >= 0) {
+    const auto has_come = [&] {
+        return !expected.empty() && err_text_.find(expected) != std::string::npos;
+    };
+    while (!has_come() && (sources[0].fd >= 0 || sources[1].fd >= 0)) {
         const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());
         const int ready = ::poll(sources.data(), sources.size(),
                                  static_cast<int>(std::max(left, milliseconds(0)).count()));
         if (ready < 0 && errno == EINTR) continue;
-        if (ready <= 0) {
-            send(SIGKILL);
-            return;
-        }
+        if (ready <= 0) return false;
         for (pollfd& source : sources) {
             std::string& text = source.fd == out_ ? out_text_ : err_text_;
             if (source.revents != 0 && !read_some(source.fd, text)) source.fd = -1;
         }
     }
+    return expected.empty() || has_come();
 }
 
 } // namespace raylane::tests

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <sys/types.h>
 #include <vector>
 
@@ -36,13 +37,18 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     void send(int signal) const;
+    /// Until it has written that on standard error. False if it does not in two minutes.
+    bool wait_for_err(std::string_view text);
+    /// Until it has had a processor for so long, however long that takes where there are many who
+    /// want one. False if it has ended before, or if that takes two minutes.
+    bool wait_for_work(std::chrono::milliseconds duration) const;
     /// How many files without a name it has open in a directory.
     int unnamed_files_in(const std::filesystem::path& directory) const;
     /// Takes what it writes until it ends, and kills it where that takes minutes.
     Outcome wait();
 
   private:
-    void collect(std::chrono::steady_clock::time_point end);
+    bool collect(std::chrono::steady_clock::time_point end, std::string_view expected);
 
     pid_t child_ = -1;
     int out_ = -1, err_ = -1; // where to read what it writes

@@ -2,7 +2,6 @@
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <csignal>
-#include <thread>
 
 using namespace raylane::tests;
 
@@ -102,7 +101,7 @@ TEST_CASE("the prompt stands on a line of its own after an interruption") {
     Process process = workshop.start(
         joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
     REQUIRE(workshop.wait_for_files(process, 1));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    REQUIRE(process.wait_for_err("\r")); // there is something on its line
     process.send(SIGHUP);
     const Outcome outcome = process.wait();
     CAPTURE(outcome.err);

@@ -66,6 +66,16 @@ class Workshop {
         return true;
     }
 
+    /// Until that file is there. False if that takes a minute.
+    bool wait_for(const std::filesystem::path& file) const {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+        while (!std::filesystem::exists(file)) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return true;
+    }
+
     Outcome run(const std::vector<std::string>& arguments, Setup setup = {}) const {
         return start(arguments, std::move(setup)).wait();
     }
