@@ -52,7 +52,7 @@ struct Cell {
     std::array<core::Vec3d, 3> edges{}; ///< all zero: there is none
     std::array<bool, 3> periodic = {true, true, true};
 
-    bool any() const { return edges[0] != core::Vec3d(0.0); }
+    bool any() const { return edges != std::array<core::Vec3d, 3>{}; }
 };
 
 /// One frame. Arrays by atom are as long as `positions`, or empty where the file has nothing of it.

@@ -40,8 +40,9 @@ on_both() {
 }
 
 for conditions in "0.1 0" "5 0.01"; do
+    : >wire.out # what the last one said is not this one's
     # shellcheck disable=SC2086 # milliseconds and loss
-    "$wire" $one 10.77.0.1/24 $two 10.77.0.2/24 $conditions >wire.out &
+    "$wire" $one 10.77.0.1/24 $two 10.77.0.2/24 $conditions >>wire.out &
     relay=$!
     until grep -q ready wire.out; do
         kill -0 "$relay" || exit 1

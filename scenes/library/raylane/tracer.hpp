@@ -21,8 +21,8 @@ namespace RAYLANE_API raylane {
 /// or are empty. The arrays are the caller's and are only read. Real is float or double.
 ///
 /// Doubles are taken for exactly what they are, in the range that floats have: components are 0 or
-/// of magnitude 2^-149 to 2^128, those of a direction beside its largest 0 or down to 2^-276 of
-/// that. A ray with others hits nothing.
+/// of magnitude from 2^-149 to below 2^128, those of a direction beside its largest 0 or down to
+/// 2^-276 of that. A ray with others hits nothing.
 template <class Real>
 struct BasicRaySpan {
     std::span<const Real> origin_x{}, origin_y{}, origin_z{};

@@ -1,3 +1,4 @@
+#include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
@@ -69,6 +70,8 @@ TEST_CASE("a cell of a slab or a chain has no edges where it has no length") {
     CHECK(shapes("3 0 0 0 0 0 0 0 5") == 4 + 4);
     CHECK(shapes("3 0 0 0 0 0 0 0 0") == 2 + 1);
     CHECK(shapes("3 0 0 0 4 0 0 0 1e-60") == 4 + 4); // none as floats
+    CHECK(shapes("0 0 0 0 4 0 0 0 5") == 4 + 4);
+    CHECK_THROWS_AS(shapes("0 0 0 0 0 0 0 0 0"), BadInput);
 }
 
 TEST_CASE("atoms that are seen through have no walls inside") {
