@@ -20,8 +20,8 @@ struct Pattern {
     std::array<Color, 2> colors = {Color(1.0F), Color(1.0F)};
     /// checker: the cells' edge; stripes: their width. > 0
     float size = 1.0F;
-    /// checker: which axes count, as bits (1 = x, 2 = y, 4 = z). A floor wants x and z: the
-    /// coordinate that is constant on it would decide by rounding alone.
+    /// checker: which axes count, as bits (1 = x, 2 = y, 4 = z). A floor wants x and z: an edge of
+    /// cells may be where y is constant.
     std::uint8_t axes = 1 | 4;
     /// stripes: across the bands, any length but zero.
     Vec3f direction{1.0F, 0.0F, 0.0F};

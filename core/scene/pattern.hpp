@@ -5,15 +5,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace raylane::core {
 
 namespace detail {
 
-/// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ...
+/// Added and taken away again, it rounds what is less than 2^23 to multiples of 2^-28, in float
+/// what is less than 2^8 to those of 2^-14.
+template <class Real>
+inline constexpr Real to_round(std::is_same_v<Real, float> ? 0x1.8p9 : 0x1.8p24);
+
+/// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ... Paths that are symmetric meet the very edges of
+/// cells, and rounding takes them to either side: all that are so near to one are of the cell that
+/// begins there. So the pixels of a picture hang on no last bit, and those of a cube along the
+/// cells are of one colour.
 template <class Real>
 int parity(Real value) {
-    const Real cell = std::floor(value);
+    constexpr Real c = to_round<Real>;
+    const Real cell = std::floor((value + c) - c);
     return cell == Real(2) * std::floor(cell / Real(2)) ? 0 : 1;
 }
 

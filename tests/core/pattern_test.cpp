@@ -1,6 +1,8 @@
 #include "core/scene/pattern.hpp"
 #include "tests/catch.hpp"
 
+#include <cmath>
+
 using namespace raylane::core;
 
 namespace {
@@ -26,12 +28,33 @@ TEST_CASE("a checker changes from cell to cell along its axes") {
     CHECK(at(floor, {3, 0, 3}) == 0.0);
     CHECK(at(floor, {-1, 0, 1}) == 1.0);
     CHECK(at(floor, {-1, 0, -1}) == 0.0);
-    CHECK(at(floor, {1, 3, 1}) == 0.0);     // y does not count
-    CHECK(at(floor, {1, -1e-300, 1}) == 0); // so a floor's rounding cannot either
+    CHECK(at(floor, {1, 3, 1}) == 0.0); // y does not count
     CHECK(at(floor, {2, 0, 1}) == 1.0);
     CHECK(at(floor, {1e300, 0, 1}) == 0.0);
     floor.axes = 7;
     CHECK(at(floor, {1, 3, 1}) == 1.0);
+}
+
+TEST_CASE("what rounding takes to either side of an edge is of the cell that begins there") {
+    Pattern checker = two_colors(PatternKind::checker);
+    checker.axes = 7;
+    checker.size = 0.1F;
+    Pattern stripes = two_colors(PatternKind::stripes);
+    stripes.size = 0.1F;
+    const auto size = static_cast<double>(checker.size);
+    for (const double edge : {0.0, 1.0, -1.0, 7.0, -1000.0, 1e6}) {
+        CAPTURE(edge);
+        const double color = std::fmod(std::abs(edge), 2.0);
+        for (const double off : {0.0, 0x1p-52, -0x1p-52, 0x1p-30, -0x1p-30, 0.25}) {
+            CAPTURE(off);
+            CHECK(at(stripes, {(edge + off) * size, 5, 5}) == color);
+            CHECK(at(checker, {0, (edge + off) * size, 0x1p-52}) == color);
+        }
+        CHECK(at(stripes, {(edge - 0x1p-26) * size, 5, 5}) == 1.0 - color);
+        CHECK(at(checker, {0, (edge - 0x1p-26) * size, 0}) == 1.0 - color);
+    }
+    CHECK(color_at(stripes, Vec3f(0.1F * (3 - 0x1p-22F), 0, 0)).x == 1.0F);
+    CHECK(color_at(stripes, Vec3f(0.1F * (3 - 0x1p-12F), 0, 0)).x == 0.0F);
 }
 
 TEST_CASE("stripes run across their direction") {

@@ -16,10 +16,11 @@ struct Pattern {
     /// solid: the first. checker, stripes: alternating, the first in the cell that begins at the
     /// origin. gradient: at `from` and at `to`. back_plane: not used. >= 0
     Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};
-    /// checker: the cells' edge; stripes: their width. > 0
+    /// checker: the cells' edge; stripes: their width. What is nearer than 2^-29 of it to an edge
+    /// is of the cell that begins there. > 0
     float size = 1.0F;
     /// checker: which axes count, as bits (1 = x, 2 = y, 4 = z), at least one. A floor wants x and
-    /// z: the coordinate that is constant on it would decide by rounding alone.
+    /// z: an edge of cells may be where y is constant.
     std::uint8_t axes = 1 | 4;
     /// stripes: across the bands, any length but zero.
     Vec3 direction{1.0F, 0.0F, 0.0F};

@@ -18,9 +18,9 @@ struct Patterns {
     using M = Mask<Arch>;
     using Elementary = core::Elementary<F>;
 
-    /// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ...
     static F parity(const F& value) {
-        const F cell = floor(value);
+        const F to_round(0x1.8p24);
+        const F cell = floor((value + to_round) - to_round);
         return cell - F(2.0) * floor(cell * F(0.5));
     }
 
