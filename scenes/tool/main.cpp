@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <fcntl.h>
 #include <sstream>
 #include <string_view>
 #include <unistd.h>
@@ -70,6 +71,15 @@ int run(int argc, const char* const* argv) {
     return bad_input;
 }
 
+/// Where a standard stream was closed, the next file that is opened would be in its place, and what
+/// is said would go into a picture: there is something else, which cannot be read or written
+/// either.
+void hold_places_of_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0) // what is opened then has the first free place
+            static_cast<void>(::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 /// Complains of the exception that is being handled, for main and the handler below.
 int complain_about_exception() {
     const Failure failure = failure_being_handled();
@@ -98,6 +108,7 @@ void be_the_first_to_fail() {
 
 int main(int argc, char** argv) {
     using namespace raylane;
+    scenes::hold_places_of_streams();
     scenes::catch_signals();
     std::set_terminate(scenes::end_by_terminate);
     try {

@@ -161,6 +161,30 @@ TEST_CASE("standard output that cannot be written is told in one line") {
     CHECK(workshop.run({"render", "scene.json", "-o", "out/b.png"}, full).code == 0);
 }
 
+TEST_CASE("what would go to a closed stream goes into no picture") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png").code == 0);
+    const std::string expected = content_of(workshop.path() / "a.png");
+    const auto render = [&](std::vector<int> closed, const std::vector<std::string>& options) {
+        Setup setup;
+        setup.in_child = [closed] {
+            for (const int stream : closed)
+                ::close(stream);
+        };
+        std::filesystem::remove(workshop.output() / "a.png");
+        return workshop.run(joined({"render", "scene.json", "-o", "out/a.png"}, options), setup);
+    };
+    CHECK(render({2}, {"-v"}).code == 0);
+    CHECK(content_of(workshop.output() / "a.png") == expected);
+    CHECK(render({0, 1, 2}, {"-v"}).code == 0);
+    CHECK(content_of(workshop.output() / "a.png") == expected);
+    check(render({1}, {"--stats", "-"}), "standard output: cannot write: Bad file descriptor");
+    Setup no_input;
+    no_input.in_child = [] { ::close(STDIN_FILENO); };
+    check(workshop.run({"render", "-", "-o", "out/b.png"}, no_input),
+          "standard input: cannot read: Bad file descriptor");
+}
+
 TEST_CASE("memory that is refused is told in one line and leaves nothing") {
     if (sanitized) {
         WARN("skipped: a sanitizer takes more memory than any limit");
