@@ -61,4 +61,9 @@ std::uint64_t checksum_of(std::span<const std::byte> bytes, core::Workers& worke
     return of_all(pieces);
 }
 
+std::uint64_t checksum_of(layout::Header header, std::uint64_t behind) {
+    header.checksum = behind;
+    return XXH3_64bits(&header, sizeof header);
+}
+
 } // namespace raylane::scenes

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/hierarchy/workers.hpp"
+#include "scenes/built/layout.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -32,5 +33,8 @@ class Checksum {
 
 /// The same of bytes that are there, by all workers.
 std::uint64_t checksum_of(std::span<const std::byte> bytes, core::Workers& workers);
+
+/// What a header is to have, whose file has that checksum behind it.
+std::uint64_t checksum_of(layout::Header header, std::uint64_t behind);
 
 } // namespace raylane::scenes

@@ -13,7 +13,7 @@ static_assert(std::endian::native == std::endian::little, "the file's order of b
 
 inline constexpr std::size_t alignment = 64;
 /// Another number as soon as one of the arrays is another or means something else.
-inline constexpr std::uint32_t format = 2;
+inline constexpr std::uint32_t format = 3;
 inline constexpr char magic[16] = {'r', 'a', 'y', 'l', 'a', 'n',  'e',    ' ',
                                    'b', 'u', 'i', 'l', 't', '\n', '\x1A', '\0'};
 
@@ -21,8 +21,9 @@ struct Header {
     char begin[sizeof magic];
     std::uint32_t format;
     std::uint32_t section_count;
-    std::uint64_t bytes;    ///< of the file
-    std::uint64_t checksum; ///< of all that is behind this header, seen as Checksum does
+    std::uint64_t bytes; ///< of the file
+    /// Of this header, with the checksum of all that is behind it in this place.
+    std::uint64_t checksum;
     std::uint64_t unused[3];
 };
 static_assert(sizeof(Header) == alignment);

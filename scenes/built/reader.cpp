@@ -35,7 +35,8 @@ class Directory {
             refuse("must be whole: it should have " + std::to_string(header.bytes) +
                    " bytes, and has " + std::to_string(file_.bytes.size()));
         if (!std::ranges::all_of(header.unused, [](std::uint64_t number) { return number == 0; }) ||
-            header.checksum != checksum_of(file_.bytes.subspan(sizeof header), workers))
+            header.checksum !=
+                checksum_of(header, checksum_of(file_.bytes.subspan(sizeof header), workers)))
             refuse_damaged("its bytes have another checksum");
         if (header.section_count > file_.bytes.size() / sizeof(layout::Section) - 1)
             refuse_damaged("its directory is too long");

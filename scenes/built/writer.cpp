@@ -45,7 +45,7 @@ class Writer {
         header.bytes = place;
         Checksum checksum;
         each_piece([&](std::span<const char> piece) { checksum.add(std::as_bytes(piece)); });
-        header.checksum = checksum.result();
+        header.checksum = checksum_of(header, checksum.result());
         file.reserve(static_cast<std::int64_t>(place));
         file.write({reinterpret_cast<const char*>(&header), sizeof header});
         each_piece([&](std::span<const char> piece) { file.write(piece); });
@@ -94,8 +94,8 @@ void seal(std::string& built_file) {
     if (built_file.size() < sizeof header) return;
     std::memcpy(&header, built_file.data(), sizeof header);
     core::Workers alone;
-    header.checksum =
-        checksum_of(std::as_bytes(std::span(built_file)).subspan(sizeof header), alone);
+    header.checksum = checksum_of(
+        header, checksum_of(std::as_bytes(std::span(built_file)).subspan(sizeof header), alone));
     std::memcpy(built_file.data(), &header, sizeof header);
 }
 

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <memory>
 
 namespace raylane::scenes {
@@ -114,19 +113,25 @@ class Answers {
     simd::StreamTracer tracer_;
 };
 
-/// Answers all pieces, on so many threads here and with the other ranks; `add` gets them, in any
-/// order, at rank 0. Its rays count as rays and as pixels of `progress`.
+/// Pieces that may be begun ahead of the next to be written.
+std::size_t window_for(const Job& job, int threads) {
+    return 4 * static_cast<std::size_t>(threads) * static_cast<std::size_t>(job.size());
+}
+
+/// Answers all pieces, on so many threads here and with the other ranks; `output`, at rank 0 alone,
+/// gets them. Its rays count as rays and as pixels of `progress`.
 void answer_all(const Answers& answers, Job& job, int threads, simd::Progress& progress,
-                const std::function<void(std::size_t, std::string)>& add) {
+                OrderedOutput* output) {
     std::atomic<bool> stop = false;
     std::optional<SharedWork> shared;
-    if (job.ranks() != nullptr) shared.emplace(*job.ranks(), answers.pieces(), threads, stop);
+    if (job.ranks() != nullptr)
+        shared.emplace(*job.ranks(), answers.pieces(), threads, stop, window_for(job, threads));
     std::atomic<std::size_t> taken = 0;
     const auto next = [&]() -> std::optional<SharedWork::Piece> {
         if (stop) return std::nullopt;
         if (shared) return shared->next();
         const std::size_t number = taken++;
-        if (number >= answers.pieces()) return std::nullopt;
+        if (number >= answers.pieces() || !output->wait_for(number)) return std::nullopt;
         return SharedWork::Piece{number, false, {}};
     };
     const auto answer_some = [&](std::size_t) {
@@ -136,14 +141,17 @@ void answer_all(const Answers& answers, Job& job, int threads, simd::Progress& p
                 if (!piece->is_done) piece->bytes = answers.of(number);
                 progress.rays += answers.count_in(number);
                 progress.pixels += static_cast<std::int64_t>(answers.count_in(number));
-                if (job.is_first())
-                    add(number, std::move(piece->bytes));
-                else
+                if (output == nullptr) {
                     shared->done(number, piece->bytes);
+                    continue;
+                }
+                const std::size_t next_to_write = output->add(number, std::move(piece->bytes));
+                if (shared) shared->written(next_to_write);
             }
         } catch (...) {
             stop = true;
             if (shared) shared->cancel();
+            if (output != nullptr) output->cancel();
             throw;
         }
     };
@@ -163,6 +171,8 @@ int trace(const TraceArguments& arguments) {
                                                 : default_output(ray_file, "-hits.npy");
     require_other_file("--output", output, "SCENE", scene_file);
     require_other_file("--output", output, "RAYS", ray_file);
+    if (ray_file == "-" && scene_file == "-")
+        throw BadInput("RAYS", "", "must be another file than SCENE, got \"-\"");
     const Verbosity asked = arguments.scene_arguments.verbosity.verbosity();
 
     Job job;
@@ -174,6 +184,7 @@ int trace(const TraceArguments& arguments) {
     std::optional<core::Scene> scene;
     std::optional<Answers> answers;
     std::string fingerprint;
+    if (ray_file == "-") job.share_standard_input();
     job.together([&] {
         rays.emplace(ray_file);
         if (job.is_first()) file.emplace(output);
@@ -190,15 +201,13 @@ int trace(const TraceArguments& arguments) {
     job.require_same(answers->type() + std::to_string(rays->count()), "the file of rays");
 
     std::optional<OrderedOutput> ordered;
-    if (file) ordered.emplace(*file);
+    if (file) ordered.emplace(*file, window_for(job, threads));
     simd::Progress progress;
     const auto start = std::chrono::steady_clock::now();
     {
         const ProgressBar bar(verbosity, progress,
                               std::max<std::int64_t>(1, static_cast<std::int64_t>(rays->count())));
-        answer_all(*answers, job, threads, progress, [&](std::size_t number, std::string bytes) {
-            ordered->add(number, std::move(bytes));
-        });
+        answer_all(*answers, job, threads, progress, ordered ? &*ordered : nullptr);
     }
     job.part();
     if (!file) return 0;
@@ -221,7 +230,8 @@ Command add_trace_command(CLI::App& app) {
     add_positional(command, "SCENE", arguments->scene, "A scene, or atoms, as render reads them");
     add_positional(command, "RAYS", arguments->rays,
                    "Rays in NumPy's format (.npy): an array of float32 or float64 with a shape of "
-                   "(n, 6), origins and directions, or (n, 8), with t_min and t_max");
+                   "(n, 6), origins and directions, or (n, 8), with t_min and t_max; - is standard "
+                   "input, which must be a file as well");
     add_option(command, "-o,--output", arguments->output,
                "What they hit, in NumPy's format, an element for each ray: t, normal, shape, "
                "entering and face (default: RAYS-hits.npy)",

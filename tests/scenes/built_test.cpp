@@ -199,6 +199,21 @@ TEST_CASE("a built file that is cut off is refused, and so is one of another ver
     CHECK(complaint(built).find("a.rl: must be ") != std::string::npos);
 }
 
+TEST_CASE("a built file with any bit of its header changed is refused") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path built = directory.path() / "a.rl";
+    export_scene(built, mixture(40, 0));
+    const std::string whole = tests::content_of(built);
+    CHECK(complaint(built).empty());
+    for (std::size_t bit = 0; bit < 64 * 8; ++bit) {
+        CAPTURE(bit);
+        std::string other = whole;
+        other[bit / 8] = static_cast<char>(other[bit / 8] ^ (1 << bit % 8));
+        directory.write("a.rl", other);
+        CHECK(complaint(built).find("a.rl: ") != std::string::npos);
+    }
+}
+
 TEST_CASE("a built file includes no other file") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path built = directory.path() / "a.rl";

@@ -1,5 +1,7 @@
 #include "scenes/tool/ranks/ranked_tiles.hpp"
+#include "scenes/tool/trace/ordered_output.hpp"
 #include "tests/catch.hpp"
+#include "tests/scenes/temporary_directory.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +24,7 @@ struct Room {
     explicit Room(int count) : size(count) {}
 
     const int size;
-    std::atomic<std::uint64_t> counter = 0;
+    std::atomic<std::uint64_t> counter = 0, mark = 0;
     std::mutex mutex; // of what follows
     std::condition_variable changed;
     std::deque<std::string> messages;
@@ -62,12 +64,13 @@ class ThreadRanks : public scenes::Ranks {
     bool all_are_here() override { return true; }
     void reset_counter() override {
         room_.wait_for_all();
-        room_.counter = 0;
+        room_.counter = room_.mark = 0;
         room_.wait_for_all();
     }
     std::uint64_t add_to_counter(std::uint64_t count) override {
         return room_.counter.fetch_add(count);
     }
+    std::uint64_t add_to_mark(std::uint64_t count) override { return room_.mark.fetch_add(count); }
     void send(const void* bytes, std::size_t count) override {
         const std::lock_guard lock(room_.mutex);
         room_.messages.emplace_back(static_cast<const char*>(bytes), count);
@@ -152,6 +155,126 @@ TEST_CASE("ranks do each piece of their work once, and the first one gets all of
             CHECK(wrong == 0);
             CHECK(left == 0);
         }
+}
+
+namespace {
+
+/// Of pieces that are begun in any order.
+class Begun {
+  public:
+    void begin(std::size_t number) {
+        std::size_t before = most_;
+        while (before < number && !most_.compare_exchange_weak(before, number)) {
+        }
+    }
+    std::size_t most() const { return most_; }
+    /// Until those that can be begun are: a moment after the last.
+    void wait_until_still() const {
+        std::size_t before = 0;
+        for (int still = 0; still < 100; ++still) {
+            if (std::exchange(before, most()) != most()) still = 0;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+
+  private:
+    std::atomic<std::size_t> most_ = 0;
+};
+
+} // namespace
+
+TEST_CASE("no piece is begun that is a window ahead of one that takes long") {
+    constexpr std::size_t count = 2000, window = 24;
+    const tests::TemporaryDirectory directory;
+    std::string all;
+    for (std::size_t piece = 0; piece < count; ++piece)
+        all += result_of(piece);
+    for (const int ranks : {1, 2, 3})
+        for (const std::size_t slow : {0, 700}) {
+            CAPTURE(ranks, slow);
+            Begun begun;
+            std::atomic<std::size_t> most_ahead = 0, left = 0;
+            const std::filesystem::path path = directory.path() / "a";
+            as_ranks(ranks, [&](ThreadRanks& own) {
+                std::optional<scenes::AtomicFile> file;
+                std::optional<scenes::OrderedOutput> output;
+                if (own.rank() == 0) output.emplace(file.emplace(path), window);
+                std::atomic<bool> stop = false;
+                SharedWork work(own, count, 2, stop, window);
+                for_each_piece(work, 2, [&](SharedWork::Piece piece) {
+                    if (!piece.is_done) {
+                        begun.begin(piece.number);
+                        if (piece.number == slow) {
+                            begun.wait_until_still();
+                            most_ahead = begun.most() - slow;
+                        }
+                        piece.bytes = result_of(piece.number);
+                    }
+                    if (output)
+                        work.written(output->add(piece.number, std::move(piece.bytes)));
+                    else
+                        work.done(piece.number, piece.bytes);
+                });
+                left += work.finish().size();
+                if (file) file->commit();
+            });
+            CHECK(most_ahead < window);
+            CHECK(most_ahead >= window / 2); // the others do not wait sooner than they have to
+            CHECK(left == 0);
+            CHECK(tests::content_of(path) == all);
+        }
+}
+
+TEST_CASE("threads alone begin no piece either that is a window ahead") {
+    constexpr std::size_t count = 2000, window = 10;
+    const tests::TemporaryDirectory directory;
+    scenes::AtomicFile file(directory.path() / "a");
+    scenes::OrderedOutput output(file, window);
+    Begun begun;
+    std::atomic<std::size_t> taken = 0, most_ahead = 0;
+    std::vector<std::thread> threads;
+    for (int thread = 0; thread < 4; ++thread)
+        threads.emplace_back([&] {
+            for (std::size_t number = 0; (number = taken++) < count && output.wait_for(number);) {
+                begun.begin(number);
+                if (number == 0) {
+                    begun.wait_until_still();
+                    most_ahead = begun.most();
+                }
+                output.add(number, result_of(number));
+            }
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    CHECK(most_ahead == window - 1);
+    file.commit();
+    std::string all;
+    for (std::size_t piece = 0; piece < count; ++piece)
+        all += result_of(piece);
+    CHECK(tests::content_of(directory.path() / "a") == all);
+    // One that fails instead of being added.
+    std::atomic<bool> may_begin = true;
+    std::thread waits([&] { may_begin = output.wait_for(count + window); });
+    output.cancel();
+    waits.join();
+    CHECK_FALSE(may_begin);
+}
+
+TEST_CASE("ranks that wait for what will never be written end with a stop") {
+    std::atomic<int> begun = 0;
+    as_ranks(3, [&](ThreadRanks& own) {
+        std::atomic<bool> stop = false;
+        SharedWork work(own, 100'000, 2, stop, 24);
+        for_each_piece(work, 2, [&](const SharedWork::Piece& piece) {
+            if (!piece.is_done) {
+                ++begun;
+                work.done(piece.number, {});
+            }
+            if (own.rank() == 0 && begun == 24) stop = true; // none is ever written
+        });
+        work.finish();
+    });
+    CHECK(begun < 1000);
 }
 
 TEST_CASE("if one rank is told to stop, all do, and what has been done arrives") {

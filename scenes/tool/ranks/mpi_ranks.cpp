@@ -28,8 +28,8 @@ class MpiRanks : public Ranks {
         first_of_host_ = rank_;
         MPI_Bcast(&first_of_host_, 1, MPI_INT, 0, host);
         MPI_Comm_free(&host);
-        MPI_Win_allocate(rank_ == 0 ? sizeof *counter_ : 0, sizeof *counter_, MPI_INFO_NULL, all_,
-                         static_cast<void*>(&counter_), &window_);
+        MPI_Win_allocate(rank_ == 0 ? 2 * sizeof *numbers_ : 0, sizeof *numbers_, MPI_INFO_NULL,
+                         all_, static_cast<void*>(&numbers_), &window_);
         MPI_Win_lock_all(0, window_);
     }
 
@@ -82,20 +82,17 @@ class MpiRanks : public Ranks {
     void reset_counter() override {
         MPI_Barrier(all_);
         if (rank_ == 0) {
-            const std::uint64_t zero = 0;
-            std::uint64_t before = 0;
-            MPI_Fetch_and_op(&zero, &before, MPI_UINT64_T, 0, 0, MPI_REPLACE, window_);
-            MPI_Win_flush(0, window_);
+            for (const MPI_Aint which : {counter, mark})
+                change(which, 0, MPI_REPLACE);
         }
         MPI_Barrier(all_);
     }
 
     std::uint64_t add_to_counter(std::uint64_t count) override {
-        std::uint64_t before = 0;
-        MPI_Fetch_and_op(&count, &before, MPI_UINT64_T, 0, 0, MPI_SUM, window_);
-        MPI_Win_flush(0, window_);
-        return before;
+        return change(counter, count, MPI_SUM);
     }
+
+    std::uint64_t add_to_mark(std::uint64_t count) override { return change(mark, count, MPI_SUM); }
 
     void send(const void* bytes, std::size_t count) override {
         const auto* at = static_cast<const char*>(bytes);
@@ -124,11 +121,19 @@ class MpiRanks : public Ranks {
 
   private:
     static constexpr int tag = 1;
+    static constexpr MPI_Aint counter = 0, mark = 1; // in the window
+
+    std::uint64_t change(MPI_Aint which, std::uint64_t by, MPI_Op how) {
+        std::uint64_t before = 0;
+        MPI_Fetch_and_op(&by, &before, MPI_UINT64_T, 0, which, how, window_);
+        MPI_Win_flush(0, window_);
+        return before;
+    }
 
     MPI_Comm all_ = MPI_COMM_NULL;
     int rank_ = 0, size_ = 1, size_of_host_ = 1, first_of_host_ = 0;
     MPI_Win window_ = MPI_WIN_NULL;
-    std::uint64_t* counter_ = nullptr; // at rank 0
+    std::uint64_t* numbers_ = nullptr; // at rank 0
     MPI_Request barrier_ = MPI_REQUEST_NULL, sending_ = MPI_REQUEST_NULL;
     bool waits_ = false;
     MPI_Message message_ = MPI_MESSAGE_NULL;

@@ -32,11 +32,13 @@ class Ranks {
     /// All together: true once all ranks have called this. To be asked until it is.
     virtual bool all_are_here() = 0;
 
-    /// All together: the counter that the ranks share, at rank 0, is 0 again.
+    /// All together: the counter and the mark that the ranks share, at rank 0, are 0 again.
     virtual void reset_counter() = 0;
     /// Adds to it, and says what it was. Rank 0 takes no part in that, but has to be inside of one
     /// of these functions now and then.
     virtual std::uint64_t add_to_counter(std::uint64_t count) = 0;
+    /// The same of the mark, which is another one.
+    virtual std::uint64_t add_to_mark(std::uint64_t count) = 0;
 
     /// Begins to send bytes to rank 0, which are to stay where they are until sent() is true.
     virtual void send(const void* bytes, std::size_t count) = 0;

@@ -38,8 +38,9 @@ double seconds(std::chrono::steady_clock::duration duration) {
 
 } // namespace
 
-SharedWork::SharedWork(Ranks& ranks, std::size_t count, int threads, std::atomic<bool>& stop)
-    : ranks_(ranks), count_(count), threads_(threads), stop_(stop),
+SharedWork::SharedWork(Ranks& ranks, std::size_t count, int threads, std::atomic<bool>& stop,
+                       std::size_t window)
+    : ranks_(ranks), count_(count), threads_(threads), window_(window), stop_(stop),
       // Where hosts share no memory, the counter waits for rank 0 to look.
       pause_(ranks.size_of_host() == ranks.size() ? Clock::duration(1ms) : Clock::duration(100us)) {
     ranks_.reset_counter();
@@ -60,14 +61,14 @@ std::optional<SharedWork::Piece> SharedWork::next() {
             received_.pop_front();
             return piece;
         }
-        if (!taken_.empty()) {
+        if (!taken_.empty() && may_begin(taken_.front())) {
             const std::size_t number = taken_.front();
             taken_.pop_front();
             ++begun_;
             if (is_short()) wake_.notify_one();
             return Piece{number, false, {}};
         }
-        if (is_exhausted() && (!is_first() || here_ + there_ == count_)) {
+        if (taken_.empty() && is_exhausted() && (!is_first() || here_ + there_ == count_)) {
             more_.notify_all(); // nobody else has a reason to wait
             return std::nullopt;
         }
@@ -84,6 +85,13 @@ void SharedWork::done(std::size_t number, std::string_view bytes) {
     const std::lock_guard lock(mutex_);
     outbox_.push_back(std::move(piece));
     wake_.notify_one();
+}
+
+void SharedWork::written(std::size_t next) {
+    const std::lock_guard lock(mutex_);
+    if (next <= written_) return; // another thread was faster
+    written_ = next;
+    if (waiting_ > 0) more_.notify_all();
 }
 
 void SharedWork::cancel() {
@@ -107,6 +115,15 @@ double SharedWork::pieces_per_second() const {
     return static_cast<double>(begun_) / std::max(1e-6, seconds(Clock::now() - start_));
 }
 
+bool SharedWork::may_begin(std::size_t number) const {
+    return window_ == no_window || number < written_ + window_;
+}
+
+/// True if a piece that has been taken may not be begun yet, as far as this rank knows.
+bool SharedWork::lacks_room() const {
+    return !taken_.empty() && !may_begin(taken_.back());
+}
+
 /// True if more pieces are to be asked for.
 bool SharedWork::is_short() const {
     if (is_exhausted() || stop_) return false;
@@ -120,7 +137,11 @@ std::size_t SharedWork::chunk() const {
     const double soon = pieces_per_second() * seconds_at_once;
     const std::size_t least = std::max<std::size_t>(
         1, static_cast<std::size_t>(std::ceil(latency_ * pieces_per_second())));
-    return std::max(least, std::min(fair, static_cast<std::size_t>(soon)));
+    const std::size_t wanted = std::max(least, std::min(fair, static_cast<std::size_t>(soon)));
+    if (window_ == no_window) return wanted;
+    // Or the others had no room beside it.
+    const std::size_t share = window_ / (4 * static_cast<std::size_t>(ranks_.size()));
+    return std::min(wanted, std::max<std::size_t>(1, share));
 }
 
 void SharedWork::take(std::unique_lock<std::mutex>& lock) {
@@ -137,6 +158,25 @@ void SharedWork::take(std::unique_lock<std::mutex>& lock) {
         ++here_;
     }
     counter_ = std::max<std::size_t>(counter_, std::min<std::uint64_t>(count_, first + wanted));
+    more_.notify_all();
+}
+
+/// At rank 0: the others are to know.
+void SharedWork::tell_written(std::unique_lock<std::mutex>& lock) {
+    const std::uint64_t more = written_ - told_;
+    told_ = written_;
+    lock.unlock();
+    ranks_.add_to_mark(more);
+    lock.lock();
+}
+
+/// At another rank.
+void SharedWork::ask_written(std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    const std::uint64_t written = ranks_.add_to_mark(0);
+    lock.lock();
+    if (written == written_) return;
+    written_ = written;
     more_.notify_all();
 }
 
@@ -191,6 +231,7 @@ void SharedWork::spread_stop(std::unique_lock<std::mutex>& lock) {
     if (!is_first()) return outbox_.push_back(piece_of(stop_number, {}));
     lock.unlock();
     ranks_.add_to_counter(beyond_all);
+    ranks_.add_to_mark(beyond_all); // nothing is written any more: nobody is to wait for that
     lock.lock();
 }
 
@@ -203,6 +244,7 @@ void SharedWork::run() {
             take(lock);
         bool is_busy = false;
         if (is_first()) {
+            if (told_ != written_) tell_written(lock);
             lock.unlock();
             while (receive())
                 is_busy = true;
@@ -211,8 +253,9 @@ void SharedWork::run() {
         } else {
             is_busy = send(lock);
             if (is_finishing_ && !is_busy) return;
+            if (lacks_room()) ask_written(lock);
         }
-        const bool looks = is_first() || is_busy;
+        const bool looks = is_first() || is_busy || lacks_room();
         wake_.wait_for(lock, looks ? pause_ : Clock::duration(50ms), [&] {
             return is_short() || is_over_ || (!is_sending_ && (is_finishing_ || !outbox_.empty()));
         });

@@ -3,11 +3,12 @@
 #include "scenes/errors.hpp"
 #include "scenes/tool/read_at.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <fcntl.h>
-#include <limits>
+#include <optional>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,51 +21,116 @@ using std::string_view_literals::operator""sv;
 constexpr std::string_view magic = "\x93NUMPY"sv;
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 62;
 
-/// What is behind a key in the head, which is a dictionary as Python writes it.
-std::string_view value_of(std::string_view text, std::string_view key, const std::string& file) {
-    for (const char quote : {'\'', '"'}) {
-        const std::string quoted = quote + std::string(key) + quote;
-        const std::size_t at = text.find(quoted);
-        if (at == std::string_view::npos) continue;
-        text.remove_prefix(at + quoted.size());
-        const std::size_t start = text.find_first_not_of(" :");
-        if (start != std::string_view::npos) return text.substr(start);
-    }
-    throw BadInput(file, "", "has no " + std::string(key) + " in its head");
-}
+/// The head: a dictionary, as a literal of Python's.
+class Literal {
+  public:
+    Literal(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-std::vector<std::uint64_t> numbers_of(std::string_view text, const std::string& file) {
-    const BadInput none(file, "", "has a shape that is none");
-    std::vector<std::uint64_t> numbers;
-    const std::size_t end = text.find(')');
-    if (!text.starts_with('(') || end == std::string_view::npos) throw none;
-    text = text.substr(1, end - 1);
-    while (!text.empty()) {
-        const std::size_t start = text.find_first_not_of(" ,");
-        if (start == std::string_view::npos) break;
-        text.remove_prefix(start);
+    [[noreturn]] void refuse(const std::string& message) const {
+        throw BadInput(file_, "", message);
+    }
+    /// True if a character is next, which is then behind.
+    bool takes(char character) {
+        skip_space();
+        if (!text_.starts_with(character)) return false;
+        text_.remove_prefix(1);
+        return true;
+    }
+    bool takes(std::string_view word) {
+        skip_space();
+        if (text_.substr(0, text_.find_first_of(", \t\n\r\f}#")) != word) return false;
+        text_.remove_prefix(word.size());
+        return true;
+    }
+    bool is_at_end() {
+        skip_space();
+        return text_.empty();
+    }
+    std::optional<std::string_view> string() {
+        skip_space();
+        if (text_.empty() || (text_[0] != '\'' && text_[0] != '"')) return std::nullopt;
+        const std::size_t end = text_.find(text_[0], 1);
+        if (end == std::string_view::npos) return std::nullopt;
+        const std::string_view inside = text_.substr(1, end - 1);
+        text_.remove_prefix(end + 1);
+        return inside;
+    }
+    std::optional<std::uint64_t> number() {
+        skip_space();
         std::uint64_t number = 0;
         const auto [behind, error] =
-            std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc()) throw none;
-        numbers.push_back(number);
-        text.remove_prefix(static_cast<std::size_t>(behind - text.data()));
+            std::from_chars(text_.data(), text_.data() + text_.size(), number);
+        const auto digits = static_cast<std::size_t>(behind - text_.data());
+        if (error != std::errc() || (digits > 1 && text_[0] == '0')) return std::nullopt;
+        text_.remove_prefix(digits);
+        return number;
     }
+
+  private:
+    void skip_space() {
+        text_.remove_prefix(std::min(text_.find_first_not_of(" \t\n\r\f"), text_.size()));
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+};
+
+std::string type_of(Literal& text) {
+    const std::optional<std::string_view> type = text.string();
+    if (!type) text.refuse("must have numbers of one type, float32 or float64");
+    return std::string(*type);
+}
+
+bool order_of(Literal& text) {
+    if (text.takes("True"sv)) return true;
+    if (!text.takes("False"sv)) text.refuse("has a fortran_order that is neither True nor False");
+    return false;
+}
+
+/// A tuple: that of one number has a comma.
+std::vector<std::uint64_t> shape_of(Literal& text) {
+    constexpr const char* none = "has a shape that is none";
+    std::vector<std::uint64_t> numbers;
+    if (!text.takes('(')) text.refuse(none);
+    bool has_comma = true;
+    while (!text.takes(')')) {
+        const std::optional<std::uint64_t> number = text.number();
+        if (!number || !has_comma) text.refuse(none);
+        numbers.push_back(*number);
+        has_comma = text.takes(',');
+    }
+    if (numbers.size() == 1 && !has_comma) text.refuse(none);
     return numbers;
 }
 
 } // namespace
 
 NpyHead npy_head_of(std::string_view text, const std::string& file) {
-    NpyHead head;
-    const std::string_view type = value_of(text, "descr", file);
-    const std::size_t end = type.find(type.empty() ? '\'' : type[0], 1);
-    if (type.empty() || (type[0] != '\'' && type[0] != '"') || end == std::string_view::npos)
-        throw BadInput(file, "", "must have numbers of one type, float32 or float64");
-    head.type = type.substr(1, end - 1);
-    head.by_columns = value_of(text, "fortran_order", file).starts_with("True");
-    head.shape = numbers_of(value_of(text, "shape", file), file);
-    return head;
+    constexpr const char* none = "has a head that is no dictionary of Python's";
+    Literal literal(text, file);
+    std::optional<std::string> type;
+    std::optional<bool> by_columns;
+    std::optional<std::vector<std::uint64_t>> shape;
+    if (!literal.takes('{')) literal.refuse(none);
+    bool has_comma = true;
+    while (!literal.takes('}')) {
+        const std::optional<std::string_view> key = literal.string();
+        if (!key || !has_comma || !literal.takes(':')) literal.refuse(none);
+        if (*key == "descr")
+            type = type_of(literal);
+        else if (*key == "fortran_order")
+            by_columns = order_of(literal);
+        else if (*key == "shape")
+            shape = shape_of(literal);
+        else
+            literal.refuse("has an unknown key in its head, \"" + printable(*key) + "\"");
+        has_comma = literal.takes(',');
+    }
+    if (!literal.is_at_end()) literal.refuse(none);
+    if (!type) literal.refuse("has no descr in its head");
+    if (!by_columns) literal.refuse("has no fortran_order in its head");
+    if (!shape) literal.refuse("has no shape in its head");
+    return {*type, *by_columns, *shape};
 }
 
 std::string npy_head(const std::string& type, std::uint64_t count) {
@@ -81,8 +147,10 @@ std::string npy_head(const std::string& type, std::uint64_t count) {
     return head + text;
 }
 
-RayFile::RayFile(const std::filesystem::path& path) : name_(path.string()) {
-    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+RayFile::RayFile(const std::filesystem::path& path)
+    : name_(path == "-" ? "standard input" : path.string()) {
+    descriptor_ = path == "-" ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0)
+                              : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_ < 0 && errno == ENOENT) throw BadInput(name_, "", "no such file");
     if (descriptor_ < 0) throw SystemRefused(name_, "open", errno);
     try {
@@ -106,14 +174,17 @@ void RayFile::read_head() {
     if (::fstat(descriptor_, &status) != 0) throw SystemRefused(name_, "read", errno);
     if (!S_ISREG(status.st_mode)) refuse("must be a file");
     const auto size = static_cast<std::uint64_t>(status.st_size);
+    // Standard input may stand elsewhere.
+    const auto begin = std::min<std::uint64_t>(
+        size, static_cast<std::uint64_t>(::lseek(descriptor_, 0, SEEK_CUR)));
     char start[12] = {};
-    if (size >= sizeof start) read_bytes(0, start, sizeof start);
+    if (size - begin >= sizeof start) read_bytes(begin, start, sizeof start);
     const auto version = static_cast<unsigned char>(start[6]);
     if (!std::string_view(start, sizeof start).starts_with(magic) || version < 1 || version > 3)
         refuse("must be an array in NumPy's format (.npy)");
     std::uint32_t length = 0;
     std::memcpy(&length, start + 8, version == 1 ? 2 : 4);
-    start_ = (version == 1 ? 10 : 12) + std::uint64_t{length};
+    start_ = begin + (version == 1 ? 10 : 12) + length;
     if (start_ > size || length > 1U << 20) refuse("ends in its head");
     std::string text(length, '\0');
     read_bytes(start_ - length, text.data(), text.size());

@@ -16,7 +16,8 @@ struct NpyHead {
     std::vector<std::uint64_t> shape;
 };
 
-/// Of the text of a file's head. Throws BadInput.
+/// Of the text of a file's head: a dictionary, as a literal of Python's, of these keys alone.
+/// Throws BadInput.
 NpyHead npy_head_of(std::string_view text, const std::string& file);
 
 /// Magic, version and head of a file of `count` elements of a type, such as '<f4' (with its
@@ -28,7 +29,8 @@ std::string npy_head(const std::string& type, std::uint64_t count);
 /// and t_max. The numbers are taken for exactly these.
 class RayFile {
   public:
-    /// Throws BadInput if it is none, and SystemRefused.
+    /// "-" is standard input, from where it stands: a file, too. Throws BadInput if it is none, and
+    /// SystemRefused.
     explicit RayFile(const std::filesystem::path& path);
     ~RayFile();
     RayFile(const RayFile&) = delete;

@@ -170,6 +170,54 @@ done
 "$raylane" trace "$scenes/cutaway.json" rays.npy -q -o one.npy
 job 2 trace - rays.npy -o many.npy <"$scenes/cutaway.json" 2>err || fail "trace -"
 same one.npy many.npy
+job 2 trace "$scenes/cutaway.json" - -o many.npy <rays.npy 2>err || fail "trace by -"
+same one.npy many.npy
+
+echo "more answers than memory is taken for, of whom nobody reads them yet"
+python3 - <<'PYTHON' || exit 77
+import random, struct
+random.seed(7)
+count, times = 100_000, 40
+block = struct.pack("<%df" % (6 * count), *(random.uniform(-3, 3) for _ in range(6 * count)))
+with open("many-rays.npy", "wb") as file:
+    head = "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, 6), }" % (times * count)
+    head += " " * (63 - (10 + len(head)) % 64) + "\n"
+    file.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head.encode())
+    for _ in range(times):
+        file.write(block)
+PYTHON
+mkfifo pipe
+exec 3<>pipe # waits for nobody
+job 2 trace "$scene" many-rays.npy -o pipe --threads 2 2>err 3>&- &
+work() { # seconds of a processor that the ranks have had
+    ranks=$(pgrep -d , -f "^$raylane trace $scene many-rays.npy") || return 0
+    ps -o cputimes= -p "$ranks" | tr '\n' ' '
+}
+# Until they do nothing any more, as all that may be begun is done.
+before=none
+now=
+tries=0
+while [ -z "$now" ] || [ "$before" != "$now" ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 60 ] || break
+    sleep 3
+    before=$now
+    now=$(work)
+done
+found=0
+for process in $(pgrep -f "^$raylane trace $scene many-rays.npy"); do
+    found=$((found + 1))
+    kilobytes=$(awk '/^RssAnon:/ { print $2 }' "/proc/$process/status")
+    [ "$kilobytes" -lt 61440 ] || fail "a rank keeps $kilobytes kB of 88 MB of answers"
+done
+[ "$found" -eq 2 ] || fail "$found ranks wait for a reader"
+exec 4<pipe 3>&-
+cat <&4 >many.npy
+exec 4<&-
+wait $! || fail "trace into a pipe"
+"$raylane" trace "$scene" many-rays.npy -q -o one.npy
+same one.npy many.npy
+rm many-rays.npy one.npy many.npy
 
 echo "mistakes are said once"
 refused() { # code, line, command...
