@@ -3,7 +3,9 @@
 #include "scenes/export/writers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace raylane::scenes {
 
@@ -17,7 +19,8 @@ constexpr int most_depth = 125;
 class PovWriter {
   public:
     PovWriter(TextFile& file, const core::Scene& scene, Differences& differences)
-        : file_(file), scene_(scene), differences_(differences) {}
+        : file_(file), scene_(scene), differences_(differences),
+          eye_(core::convert<core::Bounded<double>>(scene.camera().from)) {}
 
     void write() {
         const core::Settings& settings = scene_.settings();
@@ -46,8 +49,11 @@ class PovWriter {
                                                  std::to_string(most_depth) +
                                                  " deep, for none is read, got " +
                                                  std::to_string(depth));
-            write_solid(solid, scene_.materials()[scene_.medium_index_of(id)].transmits());
+            const core::MaterialIndex medium = scene_.medium_index_of(id);
+            write_solid(solid, lets_light_pass(solid, medium));
             file_ << "\n";
+            if (scene_.materials()[medium].transmits()) note_surfaces(solid, id);
+            if (misleads(medium) && is_inside(solid)) differences_.insert(misled);
         };
         for_each_by_id(
             scene_,
@@ -57,6 +63,9 @@ class PovWriter {
                     differences_.insert(
                         "bodies that several transmissive surfaces enclose, of which each "
                         "is a body of its own there");
+                if (misleads(scene_.material_index_of(id)) &&
+                    core::inside_of(shape, eye_) == core::Value::yes)
+                    differences_.insert(misled);
                 file_ << " material { m" << std::to_string(scene_.material_index_of(id))
                       << " } }\n";
             },
@@ -68,6 +77,81 @@ class PovWriter {
     template <class Shape>
     static bool is_open(const Shape&) {
         return core::is_bounded<Shape> && !core::is_solid<Shape>;
+    }
+
+    /// What an opaque body has an index for there: the camera in it would be in that.
+    static constexpr const char* misled = "opaque bodies with Fresnel reflection around the camera "
+                                          "(a sky), in whose index all is there";
+    bool misleads(core::MaterialIndex index) const {
+        const core::Material& material = scene_.materials()[index];
+        return material.reflection != core::Reflection::constant && !material.lets_light_pass();
+    }
+
+    bool is_inside(const core::Solid& solid) const {
+        const auto inside = [&](const core::Solid& part) { return is_inside(part); };
+        switch (solid.made) {
+        case core::Made::by_union:
+            return std::any_of(solid.parts.begin(), solid.parts.end(), inside);
+        case core::Made::by_intersection:
+            return std::all_of(solid.parts.begin(), solid.parts.end(), inside);
+        case core::Made::by_difference:
+            return inside(solid.parts.front()) &&
+                   std::none_of(solid.parts.begin() + 1, solid.parts.end(), inside);
+        case core::Made::by_clip:
+            return inside(solid.parts.front());
+        case core::Made::of_shape:
+            break;
+        }
+        return std::visit(
+            [&](const auto& shape) { return core::inside_of(shape, eye_) == core::Value::yes; },
+            solid.shape);
+    }
+
+    /// Of the material that is given, where it has none of its own, or with parts of others.
+    bool lets_light_pass(const core::Solid& solid, core::MaterialIndex material) const {
+        return scene_.materials()[material].lets_light_pass() ||
+               std::any_of(solid.parts.begin(), solid.parts.end(), [&](const core::Solid& part) {
+                   return lets_light_pass(part, part.material != core::no_material ? part.material
+                                                                                   : material);
+               });
+    }
+
+    /// Which of two bodies is behind a surface of both is not certain there.
+    void note_surfaces(const core::Solid& solid, core::ShapeId id) {
+        for (const core::Solid& part : solid.parts)
+            note_surfaces(part, id);
+        if (solid.made != core::Made::of_shape) return;
+        const auto [known, is_new] = surfaces_.try_emplace(
+            std::visit([](const auto& shape) { return surface_of(shape); }, solid.shape), id);
+        if (!is_new && known->second != id)
+            differences_.insert("surfaces that two transmissive bodies share (as lenses that are "
+                                "cemented)");
+    }
+    /// Its kind and numbers: the same from either side, and whatever its bounds.
+    using Surface = std::vector<double>;
+    template <class Shape>
+    static Surface surface_of(const Shape& shape) {
+        Surface surface;
+        const auto add = [&](const auto& numbers) {
+            surface.insert(surface.end(), std::begin(numbers), std::end(numbers));
+        };
+        if constexpr (std::is_same_v<Shape, core::PlaneOf<double>>)
+            add(std::array{shape.normal.x, shape.normal.y, shape.normal.z,
+                           core::dot(shape.normal, shape.point)});
+        else if constexpr (std::is_same_v<Shape, core::QuadricOf<double>>)
+            add(std::array{shape.xx, shape.yy, shape.zz, shape.xy, shape.xz, shape.yz, shape.x,
+                           shape.y, shape.z, shape.one});
+        if (const auto sign = std::find_if(surface.begin(), surface.end(),
+                                           [](double number) { return number != 0.0; });
+            sign != surface.end() && *sign < 0.0)
+            for (double& number : surface)
+                number = 0.0 - number;
+        if constexpr (std::is_same_v<Shape, core::QuadricOf<double>>)
+            add(std::array{shape.center.x, shape.center.y, shape.center.z});
+        else if constexpr (!std::is_same_v<Shape, core::PlaneOf<double>>)
+            add(core::numbers_of(shape));
+        surface.push_back(static_cast<double>(core::kind_of<Shape>));
+        return surface;
     }
 
     template <class Real>
@@ -218,23 +302,24 @@ class PovWriter {
         const float weight = opacity > 0.0F ? covered / opacity : 0.0F;
         if (lit && opacity <= 0.0F && material.transmits())
             differences_.insert("ambient and diffuse light of what transmits all");
+        const bool is_fresnel = material.reflection != core::Reflection::constant;
         file_ << " finish { ambient " << weight * material.ambient << " diffuse "
               << weight * material.diffuse;
         if (material.specular > 0.0F)
             file_ << " specular " << covered * material.specular << " roughness "
                   << 1.0F / std::max(material.exponent, 1.0F);
-        if (material.reflection != core::Reflection::constant)
+        if (is_fresnel)
             file_ << " reflection { 0, 1 fresnel on } conserve_energy";
         else if (material.reflectivity > 0.0F)
             file_ << " reflection { " << covered * material.reflectivity << " }";
-        const bool bends = material.transmits() || !material.is_see_through();
+        const bool bends = material.transmits() || (is_fresnel && !material.is_see_through());
         file_ << " } }";
+        // All else that the camera is in, such as a sky, would bend the rays there.
         if (bends) file_ << " interior { ior " << material.index << " }";
         file_ << " }\n";
         if (material.transmits() && material.is_see_through())
             differences_.insert("opacity of what transmits");
-        if (material.reflection != core::Reflection::constant && !bends)
-            differences_.insert("Fresnel reflection of what is see-through");
+        if (is_fresnel && !bends) differences_.insert("Fresnel reflection of what is see-through");
         if (material.visible != core::Visible::both) differences_.insert("one-sided surfaces");
         if (material.transmits() && material.absorption != Vec3f(0.0F))
             differences_.insert("absorption");
@@ -358,6 +443,8 @@ class PovWriter {
     TextFile& file_;
     const core::Scene& scene_;
     Differences& differences_;
+    core::Somewhere eye_;
+    std::map<Surface, core::ShapeId> surfaces_; // the first solid that each is of
 };
 
 } // namespace

@@ -124,6 +124,77 @@ TEST_CASE("solids of others are written as they were, and stay the same picture"
 
 namespace {
 
+/// What is not the same for POV-Ray, and its file.
+std::pair<std::string, std::string> for_povray(const std::string& materials,
+                                               const std::string& objects) {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "a.pov";
+    std::string told;
+    for (const std::string& words :
+         export_scene(path, tests::scene_of(R"({"camera": {"from": [0.5, 0, 0], "at": [2, 0, 0]},
+             "lights": [{"type": "point", "position": [30, 40, 50]}],
+             "materials": {)" + materials + R"(}, "objects": [)" +
+                                            objects + "]}")))
+        told += words + "\n";
+    return {told, tests::content_of(path)};
+}
+const std::string two_balls = R"("objects": [
+    {"type": "sphere", "center": [0, 0, 0], "radius": 1},
+    {"type": "sphere", "center": [1, 0, 0], "radius": 1}]})",
+                  painted_balls = R"("material": "clay", "objects": [
+    {"type": "sphere", "center": [0, 0, 0], "radius": 1},
+    {"type": "sphere", "center": [1, 0, 0], "radius": 1, "material": "m"}]})";
+
+} // namespace
+
+TEST_CASE("unions that are seen through have no walls inside for POV-Ray") {
+    for (const std::string& objects : {R"({"type": "union", "material": "m", )" + two_balls,
+                                       R"({"type": "union", )" + painted_balls}) {
+        CAPTURE(objects);
+        const auto text_with = [&](const std::string& material) {
+            return for_povray(R"("clay": {}, "m": )" + material, objects).second;
+        };
+        CHECK(text_with("{}").find("union {") != std::string::npos);
+        for (const char* material : {R"({"opacity": 0.4})", R"({"transmission": 0.5})"}) {
+            CHECK(text_with(material).find("merge {") != std::string::npos);
+            CHECK(text_with(material).find("union {") == std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("what lenses share, and opaque solids around the camera, is told for POV-Ray") {
+    const auto lenses = [](const std::string& material, const std::string& first,
+                           const std::string& second) {
+        const std::string start =
+            R"({"type": "lens", "axis": [1, 0, 0], "radius": 2, "material": "m", )";
+        return for_povray(R"("m": )" + material, start + first + "}, " + start + second + "}")
+                   .first.find("surfaces that two transmissive bodies share") != std::string::npos;
+    };
+    const std::string glass = R"({"transmission": 1})",
+                      crown = R"("vertex": [9, 0, 0], "radii": [4, -3], "thickness": 1.5)",
+                      flint = R"("vertex": [10.5, 0, 0], "radii": [-3, -9], "thickness": 0.5)";
+    CHECK(lenses(glass, crown, flint));
+    CHECK(!lenses("{}", crown, flint));
+    CHECK(
+        !lenses(glass, crown, R"("vertex": [10.5, 0, 0], "radii": [-2.5, -9], "thickness": 0.5)"));
+    CHECK(
+        !lenses(glass, crown, R"("vertex": [10.625, 0, 0], "radii": [-3, -9], "thickness": 0.5)"));
+    // A flat surface, and one of a conic, from both sides.
+    CHECK(lenses(glass, R"("vertex": [9, 0, 0], "radii": [4, 0], "thickness": 1.5)",
+                 R"("vertex": [10.5, 0, 0], "radii": [0, -9], "thickness": 0.5)"));
+    CHECK(lenses(glass, crown + R"(, "conics": [0, -0.5])", flint + R"(, "conics": [-0.5, 0])"));
+
+    const auto is_misled = [](const std::string& object) {
+        return for_povray(R"("m": {"reflection": "dielectric"})", object)
+                   .first.find("opaque bodies with Fresnel") != std::string::npos;
+    };
+    CHECK(is_misled(R"({"type": "union", "material": "m", )" + two_balls));
+    CHECK(is_misled(R"({"type": "intersection", "material": "m", )" + two_balls));
+    CHECK(!is_misled(R"({"type": "difference", "material": "m", )" + two_balls));
+}
+
+namespace {
+
 /// By id: kind and material, which say where in the order each part is.
 std::vector<std::pair<core::Kind, core::MaterialIndex>> parts_of(const core::Scene& scene) {
     std::vector<std::pair<core::Kind, core::MaterialIndex>> parts;

@@ -291,6 +291,39 @@ TEST_CASE("glass is lit in POV-Ray as here, and what cannot be is told") {
     CHECK(has(told(film, ball), "opacity of what transmits"));
 }
 
+TEST_CASE("the camera is in no medium of POV-Ray's but where that is told") {
+    const tests::TemporaryDirectory directory;
+    const std::filesystem::path path = directory.path() / "scene.pov";
+    const auto is_misled = [&](const auto& shape, const core::Material& material) {
+        core::SceneBuilder builder;
+        builder.wants_light = false;
+        builder.camera.from = {0, 0, 5};
+        builder.add(shape, builder.add_material(material));
+        const auto told = export_scene(path, std::move(builder).build());
+        return std::any_of(told.begin(), told.end(), [](const std::string& words) {
+            return words.starts_with("opaque bodies with Fresnel reflection around the camera");
+        });
+    };
+    const auto has_index = [&] { return text_of(path).find("ior") != std::string::npos; };
+    const core::Sphere sky{{0, 0, 0}, 50}, ball{{0, 0, 0}, 1};
+    const core::Plane floor{{0, -1, 0}, {0, 1, 0}}, ceiling{{0, 1, 0}, {0, 1, 0}};
+    core::Material material;
+    CHECK(!is_misled(sky, material));
+    CHECK(!has_index());
+    material.reflectivity = 0.5F;
+    CHECK(!is_misled(sky, material));
+    CHECK(!has_index());
+    material.reflection = core::Reflection::dielectric;
+    CHECK(is_misled(sky, material));
+    CHECK(is_misled(ceiling, material));
+    CHECK(!is_misled(ball, material));
+    CHECK(has_index()); // by which it reflects
+    CHECK(!is_misled(floor, material));
+    material.transmission = 1.0F;
+    CHECK(!is_misled(sky, material)); // it is in that here, too
+    CHECK(has_index());
+}
+
 TEST_CASE("an ending that is no format's is refused") {
     CHECK(complaint("scene.obj", tests::scene_of(tests::with_objects(""))) ==
           "scene.obj: must end in .json, .nff, .pov or .rl");
