@@ -45,15 +45,17 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
+    std::vector<std::size_t> row(b.size() + 1), before(row), before_that(row);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
+        before_that.swap(before);
+        before.swap(row);
         row[0] = i + 1;
         for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+            const std::size_t replaced = before[j] + (a[i] == b[j] ? 0 : 1);
+            row[j + 1] = std::min({replaced, row[j] + 1, before[j + 1] + 1});
+            if (i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j])
+                row[j + 1] = std::min(row[j + 1], before_that[j - 1] + 1);
         }
     }
     return row.back();
@@ -195,12 +197,15 @@ std::string suggestion(std::string_view unknown, const std::vector<std::string_v
     };
     for (const Synonym& synonym : synonyms)
         if (synonym.elsewhere == start && known(synonym.here)) return said(synonym.here);
+    // Of a number there are no misspellings.
+    if (start.find_first_not_of("0123456789+-.") == std::string_view::npos) return "";
     const auto nearest =
         std::min_element(candidates.begin(), candidates.end(), [&](auto a, auto b) {
             return edit_distance(start, a) < edit_distance(start, b);
         });
     if (nearest == candidates.end()) return "";
-    if (edit_distance(start, *nearest) > 1 + std::max(start.size(), nearest->size()) / 3) return "";
+    const std::size_t longest = std::max(start.size(), nearest->size());
+    if (edit_distance(start, *nearest) > std::max<std::size_t>((longest + 1) / 3, 1)) return "";
     return said(*nearest);
 }
 

@@ -15,6 +15,15 @@ TEST_CASE("an unknown word brings the nearest known one") {
     CHECK(suggestion("raduis", {"center", "radius"}) == ", did you mean \"radius\"?");
     CHECK(suggestion("colour", {"color", "center"}) == ", did you mean \"color\"?");
     CHECK(suggestion("zzz", {"color", "center"}).empty());
+    CHECK(suggestion("srbg", {"linear", "srgb"}) == ", did you mean \"srgb\"?");
+    CHECK(suggestion("chane", {"element", "chain"}) == ", did you mean \"chain\"?");
+    // What has few letters in common is another word, and a number is not misspelled.
+    for (const char* other : {"box", "top", "not", "fog", "form"}) {
+        CAPTURE(other);
+        CHECK(suggestion("foo", {other}).empty() == (std::string(other) != "fog"));
+    }
+    CHECK(suggestion("12", {"8", "16", "32"}).empty());
+    CHECK(suggestion("$y", {"$x"}) == ", did you mean \"$x\"?");
     CHECK(suggestion("anything", {}).empty());
     CHECK(suggestion("sise", {"size", "spp"}, "--") == ", did you mean \"--size\"?");
     CHECK(suggestion("zzz", {"size"}, "--").empty());
