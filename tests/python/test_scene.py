@@ -1,6 +1,7 @@
 """Scenes that are read and built."""
 
 import copy
+import dataclasses
 import pickle
 import threading
 import warnings
@@ -254,6 +255,40 @@ def test_what_is_set_and_not_valid_says_where_and_the_builder_keeps_what_it_has(
     with pytest.raises(InvalidValue, match="lights/0/position"):
         builder.build()
     assert len(builder) == 0
+
+
+def test_misspelled_attributes_are_refused():
+    for thing, name, meant in (
+        (SceneBuilder(), "backgroud", "background"),
+        (SceneBuilder().settings, "widht", "width"),
+        (raylane.Outline(), "widths", "width"),
+        (raylane.Material(), "colour", "color"),
+        (raylane.Pattern(), "colours", "colors"),
+        (raylane.Sellmeier(), "b", None),
+        (raylane.Light(), "positon", "position"),
+        (raylane.Fog(), "densty", "density"),
+        (raylane.Camera(), "from", None),
+        (raylane.Leaving(0, 0, 0), "inwards", "inward"),
+        (raylane.Hits(1), "tdouble", "t_double"),
+        (raylane.Image(np.zeros((1, 1, 3))), "alhpa", "alpha"),
+    ):
+        with pytest.raises(AttributeError) as error:
+            setattr(thing, name, 1)
+        suggested = f', did you mean "{meant}"?' if meant else ""
+        assert str(error.value) == f'{type(thing).__name__} has no attribute "{name}"{suggested}'
+        assert not hasattr(thing, name)
+
+    class Mine(raylane.Camera):
+        def __init__(self):
+            super().__init__(position=(0, 0, 9))
+            self.name = "mine"
+
+    assert Mine().name == "mine" and Mine().position == (0, 0, 9)
+    material = raylane.Material(color=raylane.Pattern("checker"), opacity=0.5)
+    for again in (copy.copy(material), copy.deepcopy(material), pickle.loads(pickle.dumps(material))):
+        assert again == material
+        again.index = 1.25
+        assert again != material and dataclasses.replace(again, index=1.5) == material
 
 
 def test_scenes_too_large_for_a_camera():

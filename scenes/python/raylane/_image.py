@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _raylane
+from ._fields import Fields
 from ._scene import Scene, inner
 from ._values import Camera, Precision, Settings
 
@@ -40,7 +41,7 @@ class Layers:
         self.samples: NDArray[np.uint32] = arrays["samples"]
 
 
-class Image:
+class Image(Fields):
     """A picture in linear float RGB. Components are >= 0 and may exceed 1."""
 
     rgb: NDArray[np.float32]
@@ -49,6 +50,7 @@ class Image:
     """(height, width) in [0, 1], which colours are multiplied by; or None."""
     layers: Optional[Layers]
     """If they were asked for."""
+    transfer: str
 
     def __init__(
         self,

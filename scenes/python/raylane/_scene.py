@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
 from ._errors import BadInput, InvalidValue
+from ._fields import Fields
 from ._values import Camera, Fog, Light, Material, Settings, Vector
 
 if TYPE_CHECKING:
@@ -246,7 +247,7 @@ def _made(solid: Solid) -> _raylane.Solid:
     return solid._solid
 
 
-class SceneBuilder:
+class SceneBuilder(Fields):
     """Collects a scene, in any order, from arrays, and checks each value as it comes.
 
     Arrays have one row for each shape; a single row is for all of them, and so is a single number. Any strides

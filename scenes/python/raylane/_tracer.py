@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _raylane
 from ._errors import InvalidValue
+from ._fields import Fields
 from ._scene import Scene, inner
 from ._values import Precision
 
@@ -24,7 +25,7 @@ Bytes = NDArray[np.uint8]
 Firsts = NDArray[np.uint64]
 
 
-class Hits:
+class Hits(Fields):
     """What n rays have hit first. To be filled again and again, it may be given to :meth:`Tracer.intersect`."""
 
     t: Floats
@@ -131,7 +132,7 @@ class Lengths(_Rows):
 
 
 @dataclass(eq=False)
-class Leaving:
+class Leaving(Fields):
     """What rays leave, exactly: they start on the surface that a hit was on, however their numbers were rounded.
 
     ``inward`` says whether a ray goes to the inside of what it leaves: where it goes through and the hit was

@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Literal, Tuple, Union
 
+from ._fields import Fields
+
 Vector = Tuple[float, float, float]
 """A point, a direction or, as red, green and blue, a colour: any three numbers."""
 
@@ -18,7 +20,7 @@ _BLACK: Vector = (0.0, 0.0, 0.0)
 
 
 @dataclass
-class Pattern:
+class Pattern(Fields):
     """A colour as a function of the point in space, in world coordinates."""
 
     kind: Literal["solid", "checker", "stripes", "gradient", "back_plane"] = "solid"
@@ -35,7 +37,7 @@ class Pattern:
 
 
 @dataclass
-class Sellmeier:
+class Sellmeier(Fields):
     """Glass by Sellmeier's formula: n^2 = 1 + sum of B_i w^2 / (w^2 - C_i), wavelengths w in micrometres."""
 
     B: Vector = _BLACK
@@ -43,7 +45,7 @@ class Sellmeier:
 
 
 @dataclass
-class Material:
+class Material(Fields):
     """How a surface looks.
 
     With light *l* of colour L, the unit vectors n (normal), l (to the light) and h (halfway between l and the
@@ -77,7 +79,7 @@ class Material:
 
 
 @dataclass
-class Light:
+class Light(Fields):
     """A light, which casts shadows and is not seen itself."""
 
     kind: Literal["point", "directional", "sky", "sphere", "disc", "rectangle"] = "point"
@@ -97,7 +99,7 @@ class Light:
 
 
 @dataclass
-class Fog:
+class Fog(Fields):
     """Fog of a fraction f: what is seen is (1 - f) times its colour and f times that of the fog."""
 
     kind: Literal["none", "linear_z", "linear", "exponential"] = "none"
@@ -108,7 +110,7 @@ class Fog:
 
 
 @dataclass
-class Camera:
+class Camera(Fields):
     """Where a picture is seen from."""
 
     projection: Literal["perspective", "orthographic"] = "perspective"
@@ -127,7 +129,7 @@ class Camera:
 
 
 @dataclass
-class Outline:
+class Outline(Fields):
     """Lines along the edges of what the camera sees first."""
 
     width: float = 0.0
@@ -138,7 +140,7 @@ class Outline:
 
 
 @dataclass
-class Settings:
+class Settings(Fields):
     """Of a scene's picture."""
 
     width: int = 512

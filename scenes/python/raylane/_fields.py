@@ -1,0 +1,31 @@
+"""Objects that have the attributes of their class, and no others."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING, Any, ClassVar, FrozenSet
+
+
+class Fields:
+    """Refuses an attribute that its class does not have: a misspelled one would be set, and count for nothing.
+
+    Classes that others derive have what they like.
+    """
+
+    _fields_of_class: ClassVar[FrozenSet[str]]
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        names = (name for base in cls.__mro__ for name in getattr(base, "__annotations__", ()))
+        cls._fields_of_class = frozenset(name for name in names if not name.startswith("_"))
+
+    if not TYPE_CHECKING:  # to whom it would say that all can be set
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            kind = type(self)
+            is_ours = kind.__module__.startswith("raylane.")
+            if is_ours and name not in kind._fields_of_class and not name.startswith("_") and not hasattr(kind, name):
+                near = difflib.get_close_matches(name, sorted(kind._fields_of_class), 1)
+                meant = f', did you mean "{near[0]}"?' if near else ""
+                raise AttributeError(f'{kind.__name__} has no attribute "{name}"{meant}')
+            super().__setattr__(name, value)
