@@ -12,7 +12,8 @@
 # SBATCH_TIMELIMIT. A job that Slurm is about to end, or that a host's failure has ended, begins again
 # where it was. Where one has failed, all can be submitted again: with the same N, and what was begun
 # goes on, or with another. Parts are in the folder OUTPUT.parts, which goes once they are put together.
-# RAYLANE names the program if it is not in PATH. Prints the number of the last job.
+# RAYLANE names the program if it is not in PATH. Prints the number of the last job. Without the program,
+# or with a scene that it cannot read, nothing is submitted.
 set -eu
 
 raylane=${RAYLANE:-raylane}
@@ -44,7 +45,7 @@ if [ "${RAYLANE_FARM:-}" = merge ]; then
 fi
 
 usage() {
-    sed -n '2,17s/^# \{0,1\}//p' "$0" >&2
+    sed -n '2,18s/^# \{0,1\}//p' "$0" >&2
     exit 2
 }
 [ $# -ge 3 ] || usage
@@ -61,6 +62,22 @@ fi
 [ $# -ge 2 ] || usage
 scene=$1 output=$2
 shift 2
+
+# Before jobs wait only to fail.
+refuse() {
+    echo "slurm.sh: $*" >&2
+    exit 1
+}
+program=$(command -v "$raylane") || refuse "no program \"$raylane\" here: RAYLANE=FILE names it"
+case $program in
+/*) raylane=$program ;;
+*) raylane=$PWD/$program ;;
+esac
+if [ ! -f "$scene" ] || [ ! -r "$scene" ]; then refuse "cannot read $scene"; fi
+if [ "$(wc -c <"$scene")" -lt 100000000 ]; then # else that takes long
+    "$raylane" info -q "$scene" >/dev/null || exit 1
+fi
+
 [ "$what" = film ] || mkdir -p "$output.parts"
 submit() {
     sbatch --parsable --job-name="raylane $output" --output=/dev/null --error="$output.%j.log" "$@"

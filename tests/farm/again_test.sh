@@ -1,6 +1,7 @@
 #!/bin/sh
 # scenes/farm/slurm.sh by stand-ins for Slurm's programs, which do at once what is submitted: where a
-# job has failed, all can be submitted again, with the same number of parts or another.
+# job has failed, all can be submitted again, with the same number of parts or another; what cannot be
+# drawn is not submitted.
 #
 #   again_test.sh RAYLANE SCENE
 set -eu
@@ -90,4 +91,29 @@ echo "frames, by several jobs"
 submit 0 2 --film film.xyz 'frame%d.png' --frames : --size 90x60
 for frame in 0 1 2; do
     cmp one$frame.png frame$frame.png || fail "it is another frame"
+done
+
+echo "what could not be drawn is not submitted"
+export FAILS=0
+refused() { # what is said, RAYLANE, arguments...
+    said=$1 program=$2
+    shift 2
+    if RAYLANE=$program "$script" "$@" >told 2>&1; then fail "slurm.sh $* has submitted something"; fi
+    if [ "$(wc -l <told)" -ne 1 ] || ! grep -qF "$said" told; then fail "it says $(cat told), not $said"; fi
+    [ ! -e none.png.parts ] || fail "there are parts of what is not drawn"
+}
+echo '{' >bad.json
+refused 'no program "raylane-elsewhere"' raylane-elsewhere 2 "$scene" none.png
+refused 'no program "./raylane"' ./raylane 2 "$scene" none.png
+refused 'cannot read missing.json' "$raylane" 2 missing.json none.png
+refused 'bad.json:2:1' "$raylane" 2 bad.json none.png
+refused 'bad.json:2:1' "$raylane" 2 --film bad.json 'none%d.png' --set x=0:1
+
+echo "a program beside, and one in PATH"
+ln -s "$raylane" raylane
+ln -s "$raylane" bin/raylane
+for program in ./raylane raylane; do
+    rm -f one.png
+    [ "$(RAYLANE=$program "$script" 2 "$scene" one.png --size 90x60)" = 7 ] || fail "$program is not found"
+    cmp one.png many.png || fail "it is another picture"
 done
