@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace raylane::scenes {
 
@@ -27,6 +29,19 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     return !resolved(a).empty() && resolved(a) == resolved(b);
 }
 
+/// True if both names lead to one stream that is there, where what is written mingles.
+bool same_stream(const std::string& a, const std::string& b) {
+    const auto status_of = [](const std::string& name, struct stat& status) {
+        return (name == "-" ? ::fstat(STDOUT_FILENO, &status) : ::stat(name.c_str(), &status)) == 0;
+    };
+    struct stat of_a {};
+    struct stat of_b {};
+    return status_of(a, of_a) && status_of(b, of_b) && of_a.st_dev == of_b.st_dev &&
+           of_a.st_ino == of_b.st_ino &&
+           // Nothing is lost in a /dev/null.
+           (!S_ISCHR(of_a.st_mode) || ((a == "-" || b == "-") && ::isatty(STDOUT_FILENO) == 1));
+}
+
 } // namespace
 
 const std::string& file_argument(const std::string& option, const std::string& text) {
@@ -41,7 +56,9 @@ void require_other_file(const std::string& option, const std::string& file,
 
 void require_other_output(const std::string& option, const std::string& file,
                           const std::string& other_option, const std::string& other_file) {
-    if (file == "-" && other_file == "-") refuse(option, "another file than " + other_option, file);
+    const bool is_one = file == other_file && file == "-";
+    if (is_one || same_stream(file, other_file))
+        refuse(option, "another file than " + other_option, file);
     require_other_file(option, file, other_option, other_file);
 }
 

@@ -26,10 +26,14 @@ bool is_shown() {
     return ::isatty(STDERR_FILENO) == 1;
 }
 
+std::atomic<const char*> last_words = nullptr;
+static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler must not wait");
+
 extern "C" void end_process(int signal) {
     ending = true;
     remove_temporaries();
     if (is_shown()) say("\n"); // the prompt shall not follow a progress bar
+    if (const char* const line = last_words; line != nullptr) say(line);
     ::_exit(128 + signal);
 }
 
@@ -91,6 +95,10 @@ StopOnSignal::~StopOnSignal() {
 
 int StopOnSignal::signal() {
     return stopped_by;
+}
+
+void say_when_ended(const char* line) {
+    last_words = line;
 }
 
 bool is_ending() {

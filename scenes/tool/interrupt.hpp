@@ -24,6 +24,10 @@ class StopOnSignal {
     static int signal();
 };
 
+/// What a signal that ends the process at once says from now on: a line, which stays where it is.
+/// Null: nothing.
+void say_when_ended(const char* line);
+
 /// True if a signal is ending the process at this moment, in another thread: nothing shall be shown
 /// any more.
 bool is_ending();

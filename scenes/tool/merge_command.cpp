@@ -39,14 +39,20 @@ class Merger {
                 throw BadInput(name, "",
                                std::string("is of another picture than ") + first_name_ + ": its " +
                                    key + " differs");
-        if (film_in(picture.texts) != film_in(first.texts))
+        if (optional_text("Options", picture.texts) != optional_text("Options", first.texts))
+            throw BadInput(name, "",
+                           "is of another picture than " + first_name_ + ": its Options differ");
+        if (optional_text("Film", picture.texts) != optional_text("Film", first.texts))
             throw BadInput(name, "", "is of another picture of a film than " + first_name_);
         if (part.count != has_.size() || tile_of(picture.texts) != tile_of(first.texts) ||
             picture.film.width() != first.film.width() ||
             picture.film.height() != first.film.height() ||
-            picture.film.has_alpha() != first.film.has_alpha() ||
-            picture.layers.has_value() != first.layers.has_value())
+            picture.film.has_alpha() != first.film.has_alpha())
             throw BadInput(name, "", "is a part of another division than " + first_name_);
+        if (picture.layers.has_value() != first.layers.has_value())
+            throw BadInput(name, "",
+                           picture.layers ? "has layers, and " + first_name_ + " has none"
+                                          : "has no layers, and " + first_name_ + " has some");
         if (has_[part.number - 1])
             throw BadInput(name, "", "is part " + part.text() + " once more");
         has_[part.number - 1] = true;
@@ -70,7 +76,7 @@ class Merger {
                                ", but there is no part " + printable(missing, 200));
         // In the order in which render writes them.
         PictureTexts texts;
-        for (const char* key : {"Title", "Software", "Comment", "Film", "Scene"})
+        for (const char* key : {"Title", "Software", "Comment", "Film", "Scene", "Options"})
             if (has_text(texts_, key)) texts.emplace_back(key, text_in(first_name_, texts_, key));
         texts.emplace_back("Pixels", fingerprint_of(first_->film));
         texts.emplace_back("Rays", rays_.text());
@@ -88,9 +94,9 @@ class Merger {
         if (!part || tile_of(texts) == 0) throw BadInput(name, "", "says which part it is in vain");
         return *part;
     }
-    /// The place in a film; empty: it is of none.
-    static std::string film_in(const PictureTexts& texts) {
-        return has_text(texts, "Film") ? text_in("", texts, "Film") : "";
+    /// The place in a film, or what parts drawn before do not say; empty: there is none.
+    static std::string optional_text(const char* key, const PictureTexts& texts) {
+        return has_text(texts, key) ? text_in("", texts, key) : "";
     }
     /// Pixels on a side; 0: it does not say.
     static int tile_of(const PictureTexts& texts) {

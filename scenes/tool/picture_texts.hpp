@@ -21,4 +21,12 @@ const std::string& text_in(const std::string& picture, const PictureTexts& texts
 RenderArguments arguments_of(const std::string& picture, const PictureTexts& texts,
                              const std::string& scene);
 
+/// All that the bits of a picture depend on but its scene, in a line: also what a Comment leaves
+/// out as it is the scene's own. Parts of one picture have the same.
+std::string options_line(core::Settings settings, const simd::RenderOptions& options);
+
+/// Its digits, for the picture to say (Options).
+std::string fingerprint_of_options(const core::Settings& settings,
+                                   const simd::RenderOptions& options);
+
 } // namespace raylane::scenes

@@ -5,10 +5,12 @@
 #include "scenes/tool/arguments.hpp"
 #include "scenes/tool/command.hpp"
 #include "scenes/tool/film_strip.hpp"
+#include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/journal/resumable.hpp"
 #include "scenes/tool/loading.hpp"
 #include "scenes/tool/output_name.hpp"
+#include "scenes/tool/picture_texts.hpp"
 #include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/job.hpp"
 #include "scenes/tool/ranks/shared_scene.hpp"
@@ -107,6 +109,7 @@ nlohmann::ordered_json stats_of(const RenderArguments& arguments, const core::Sc
             {"max_depth", settings.max_depth},
             {"min_weight", as_printed(settings.min_weight)},
             {"scene_fingerprint", scene_fingerprint},
+            {"options_fingerprint", fingerprint_of_options(settings, options)},
             {"pixels_fingerprint", pixels_fingerprint},
             {"shapes", scene.shape_count()},
             {"scene_bytes", scene.bytes()},
@@ -254,6 +257,7 @@ int render(const RenderArguments& arguments) {
             how.texts.emplace_back("Part", part_of_tiles->text() + " of tiles of " +
                                                std::to_string(simd::tile_of(settings, options)));
         how.texts.emplace_back("Scene", fingerprint);
+        how.texts.emplace_back("Options", fingerprint_of_options(settings, options));
         std::string pixels = fingerprint_of(rendering.film);
         how.texts.emplace_back("Pixels", pixels);
         how.texts.emplace_back("Rays", RayTiers(rendering.counters).text());
@@ -270,8 +274,9 @@ int render(const RenderArguments& arguments) {
     if (files.scene == "-") job.share_standard_input();
     job.together([&] {
         if (!is_frame) strip = film(options.threads);
-        if (files.stats && (strip || is_frame))
-            throw BadInput("--stats", "", "goes without --frames, --turn and several values");
+        if (files.stats && strip)
+            throw BadInput("--stats", "",
+                           "goes without --frames of several, --turn and several values");
         if (!strip) return;
         const OutputFile writable(strip->name(0), exr_of); // or else that is known at once
         picture.require_fit(writable.format());
@@ -291,7 +296,10 @@ int render(const RenderArguments& arguments) {
             drawing.finished();
             drawing.end_if_signalled();
         };
+        if (!arguments.no_resume && job.is_first())
+            say_when_ended("raylane: stopped between pictures; those that are there are whole\n");
         job.together([&] { draw(*strip); });
+        say_when_ended(nullptr);
         return 0;
     }
     part_of_tiles = part_asked;
@@ -321,7 +329,10 @@ int render(const RenderArguments& arguments) {
         settings = settings_of(loaded->settings());
         if (!is_frame) loaded = seen(*std::move(loaded), change, settings);
         // Now it is known which number its name has.
-        if (output && name != files.output) output.emplace(name, exr_of);
+        if (output && name != files.output) {
+            if (stats) require_other_output("--stats", *files.stats, "--output", name);
+            output.emplace(name, exr_of);
+        }
         prepare(*loaded, settings);
         fingerprint = fingerprint_of(*loaded);
     });

@@ -5,6 +5,11 @@
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sys/resource.h>
+#include <thread>
 
 using namespace raylane;
 using scenes::Journal;
@@ -52,6 +57,47 @@ struct Drawing {
     }
     scenes::JournalSubject subject() const { return {scenes::fingerprint_of(scene), "options"}; }
     TileRecords records() const { return {settings, options}; }
+};
+
+/// No file of this process can be longer, as if the disk were full, as long as this lives.
+class Fullness {
+  public:
+    explicit Fullness(std::uintmax_t bytes) : handler_(::signal(SIGXFSZ, SIG_IGN)) {
+        REQUIRE(::getrlimit(RLIMIT_FSIZE, &before_) == 0);
+        const rlimit limit{static_cast<rlim_t>(bytes), before_.rlim_max};
+        REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    }
+    ~Fullness() {
+        ::setrlimit(RLIMIT_FSIZE, &before_);
+        ::signal(SIGXFSZ, handler_);
+    }
+    Fullness(const Fullness&) = delete;
+    Fullness& operator=(const Fullness&) = delete;
+
+  private:
+    void (*handler_)(int);
+    rlimit before_{};
+};
+
+/// A journal of a picture of 20 x 12 in tiles of 8, of which bytes can be noted that mean nothing.
+struct Notes {
+    core::Scene scene = scene_of(text);
+    tests::TemporaryDirectory directory{};
+    Drawing drawing{scene, scene.settings(), {}, directory.path() / "picture"};
+    std::filesystem::path path = drawing.path.string() + ".part";
+
+    Notes() { drawing.options.tile = 8; }
+    std::string bytes(std::size_t number) const {
+        return std::string(drawing.records().bytes(number), static_cast<char>('a' + number));
+    }
+    /// How many tiles are found by who comes next.
+    int found() const {
+        const Journal journal(drawing.path, drawing.subject(), drawing.records());
+        int count = 0;
+        for (std::size_t number = 0; number < drawing.records().grid().count(); ++number)
+            count += journal.has(number) ? 1 : 0;
+        return count;
+    }
 };
 
 } // namespace
@@ -124,6 +170,123 @@ TEST_CASE("what is damaged of a journal is one tile, and what is another's is no
     std::string mixed = content;
     mixed.replace(mixed.find("options options"), 15, "options others");
     CHECK(pixels_of(mixed, other) == 0);
+}
+
+TEST_CASE("any damaged byte of a tile's record costs that tile alone") {
+    const Notes notes;
+    const TileRecords records = notes.drawing.records();
+    {
+        Journal journal(notes.drawing.path, notes.drawing.subject(), records);
+        for (std::size_t number = 0; number < records.grid().count(); ++number)
+            journal.note(number, notes.bytes(number));
+        REQUIRE(journal.keep());
+    }
+    const std::string content = tests::content_of(notes.path);
+    const std::size_t begin = content.find("\n\n") + 2 + 16 + records.bytes(0), // of the second
+        end = begin + 16 + records.bytes(1);
+    for (const char bits : {'\x01', '\x10', '\xff'})
+        for (std::size_t at = begin; at < end; ++at) {
+            CAPTURE(at - begin, int{bits});
+            const auto put = [&](char byte) {
+                std::fstream file(notes.path, std::ios::in | std::ios::out | std::ios::binary);
+                REQUIRE(file.seekp(static_cast<std::streamoff>(at)).put(byte).flush());
+            };
+            put(static_cast<char>(content[at] ^ bits));
+            const Journal journal(notes.drawing.path, notes.drawing.subject(), records);
+            for (std::size_t number = 0; number < records.grid().count(); ++number)
+                REQUIRE(journal.has(number) == (number != 1));
+            REQUIRE(std::filesystem::file_size(notes.path) == content.size());
+            put(content[at]);
+        }
+    // Likewise if bytes are missing, or too many; and what is behind the last one goes.
+    notes.directory.write("picture.part", std::string(content).erase(begin + 5, 100));
+    CHECK(notes.found() == 5);
+    notes.directory.write("picture.part", std::string(content).insert(begin + 5, 100, '\0'));
+    CHECK(notes.found() == 5);
+    notes.directory.write("picture.part", content + content.substr(begin, 200));
+    CHECK(notes.found() == 6);
+    CHECK(std::filesystem::file_size(notes.path) == content.size());
+}
+
+TEST_CASE("what a full disk does not take is written when there is room again") {
+    const Notes notes;
+    std::vector<std::string> told;
+    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records(),
+                    [&](const std::string& problem) { told.push_back(problem); });
+    const std::string problem = notes.path.string() + ": cannot write: File too large";
+    journal.note(0, notes.bytes(0));
+    {
+        const Fullness full(100); // there is no file yet
+        CHECK(!journal.keep());
+        CHECK(!std::filesystem::exists(notes.path));
+        CHECK(journal.problem() == problem);
+    }
+    CHECK(journal.keep());
+    CHECK(journal.problem().empty());
+    {
+        const Fullness full(std::filesystem::file_size(notes.path) + 20);
+        for (const std::size_t number : {1, 2, 3})
+            journal.note(number, notes.bytes(number));
+        CHECK(!journal.keep());
+        CHECK(journal.problem() == problem);
+        journal.note(4, notes.bytes(4));
+        CHECK(journal.problem() == problem);
+    }
+    // By itself.
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!journal.problem().empty() && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    CHECK(journal.problem().empty());
+    journal.note(5, notes.bytes(5));
+    CHECK(journal.keep());
+    CHECK(told == std::vector{problem});
+    const std::string content = tests::content_of(notes.path);
+    notes.directory.write("picture.part.part", content);
+    std::filesystem::rename(notes.path.string() + ".part", notes.path); // the other one is locked
+    CHECK(notes.found() == 6);
+}
+
+TEST_CASE("another picture's journal gives way as soon as there is room for the new one") {
+    const Notes notes;
+    notes.directory.write("picture.part", "raylane journal 0\nscene 0\noptions 0\n\nmuch");
+    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    CHECK(journal.found() == Journal::Found::other_options);
+    journal.note(0, notes.bytes(0));
+    for (const std::uintmax_t bytes : {20, 300}) { // in the head, and in the tile
+        const Fullness full(bytes);
+        CHECK(!journal.keep());
+    }
+    CHECK(journal.keep());
+    const std::string content = tests::content_of(notes.path);
+    notes.directory.write("copy", content);
+    std::filesystem::rename(notes.directory.path() / "copy", notes.path);
+    CHECK(notes.found() == 1);
+}
+
+TEST_CASE("a journal that has given its room, or is done with, takes no more") {
+    const Notes notes;
+    {
+        Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+        journal.note(0, notes.bytes(0));
+        REQUIRE(journal.keep());
+        {
+            const Fullness full(std::filesystem::file_size(notes.path));
+            journal.note(1, notes.bytes(1));
+            CHECK(!journal.keep());
+        }
+        CHECK(journal.give_room(1));
+        journal.note(2, notes.bytes(2));
+        CHECK(!journal.keep());
+        CHECK(std::filesystem::file_size(notes.path) == 0);
+        notes.directory.write("picture", "drawn");
+        journal.remove();
+        CHECK(!std::filesystem::exists(notes.path));
+    }
+    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    journal.note(0, notes.bytes(0));
+    journal.remove(); // before there was a file
+    CHECK(!journal.keep());
+    CHECK(!std::filesystem::exists(notes.path));
 }
 
 TEST_CASE("a journal goes on with the same scene, options and tiles alone") {

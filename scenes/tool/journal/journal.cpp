@@ -30,6 +30,38 @@ struct RecordHead {
 
 constexpr std::size_t bytes_around = sizeof(RecordHead) + sizeof(std::uint64_t);
 
+/// The bytes of a file that is read from its beginning to its end, many at a time.
+class Window {
+  public:
+    explicit Window(int descriptor) : descriptor_(descriptor) {}
+
+    /// Those from a place on. Fewer than asked for at the end of what can be read.
+    std::span<const char> at(std::int64_t place, std::size_t count) {
+        const bool has_all = place >= start_ && place + static_cast<std::int64_t>(count) <=
+                                                    start_ + static_cast<std::int64_t>(have_);
+        if (!has_all) {
+            if (buffer_.size() < count) buffer_.resize(std::max(count, least));
+            start_ = place;
+            have_ = read_at(descriptor_, place, buffer_);
+            is_refused_ = have_ < buffer_.size() && errno != 0;
+        }
+        const std::span<const char> from =
+            std::span(buffer_).first(have_).subspan(static_cast<std::size_t>(place - start_));
+        return from.first(std::min(count, from.size()));
+    }
+    /// Whether it was not the file's end that the last ones ended at.
+    bool is_refused() const { return is_refused_; }
+
+  private:
+    static constexpr std::size_t least = std::size_t{1} << 20;
+
+    int descriptor_;
+    std::vector<char> buffer_;
+    std::int64_t start_ = 0;
+    std::size_t have_ = 0;
+    bool is_refused_ = false;
+};
+
 std::string head_of(const JournalSubject& subject) {
     return std::string(magic) + RAYLANE_VERSION "\nscene " + subject.scene + "\noptions " +
            subject.options + "\n\n";
@@ -83,13 +115,24 @@ std::string record_of(std::size_t number, std::string_view bytes, std::uint64_t 
     return record;
 }
 
+/// Whether a record that is to be of that size is all there as it was written.
+bool is_whole(std::span<const char> record, std::size_t size, std::uint64_t seed) {
+    if (record.size() < size) return false;
+    const std::span<const char> summed = record.first(size - sizeof(std::uint64_t));
+    std::uint64_t checksum;
+    std::memcpy(&checksum, summed.data() + summed.size(), sizeof checksum);
+    return checksum == checksum_of(summed, seed);
+}
+
 } // namespace
 
 Journal::Journal(const std::filesystem::path& picture, const JournalSubject& subject,
-                 TileRecords records)
+                 TileRecords records, std::function<void(const std::string&)> tell)
     : picture_(picture), path_(picture.string() + ".part"), records_(records),
-      head_(head_of(subject)), seed_(checksum_of(head_, 0)), places_(records_.grid().count(), -1) {
+      head_(head_of(subject)), seed_(checksum_of(head_, 0)), places_(records_.grid().count(), -1),
+      tell_(std::move(tell)) {
     open();
+    if (!is_ours_) next_try_ = start_ + begin_after;
 }
 
 Journal::~Journal() {
@@ -106,8 +149,8 @@ Journal::~Journal() {
 void Journal::open() {
     const int descriptor = ::open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) {
-        // A name that is too long is nobody's: what is said of it is what the system says.
-        if (errno != ENOENT && errno != ENAMETOOLONG) found_ = Found::none_of_ours;
+        if (errno != ENOENT)
+            found_ = errno == ENAMETOOLONG ? Found::named_too_long : Found::none_of_ours;
         return;
     }
     struct stat status {};
@@ -132,26 +175,7 @@ void Journal::open() {
 bool Journal::read(const std::string& head) {
     if (head == head_) {
         found_ = Found::same;
-        end_ = static_cast<std::int64_t>(head_.size());
-        for (;;) {
-            RecordHead record{};
-            const std::string start = bytes_at(descriptor_, end_, sizeof record);
-            if (start.size() < sizeof record) break;
-            std::memcpy(&record, start.data(), sizeof record);
-            if (record.number >= places_.size() || record.bytes != records_.bytes(record.number))
-                break;
-            const std::string all = bytes_at(descriptor_, end_, bytes_around + record.bytes);
-            if (all.size() < bytes_around + record.bytes) break;
-            const std::span<const char> summed(all.data(), sizeof record + record.bytes);
-            std::uint64_t checksum;
-            std::memcpy(&checksum, summed.data() + summed.size(), sizeof checksum);
-            // What has been damaged is drawn again; the next ones may be whole.
-            if (checksum == checksum_of(summed, seed_))
-                places_[record.number] = end_ + static_cast<std::int64_t>(sizeof record);
-            end_ += static_cast<std::int64_t>(all.size());
-        }
-        // What is behind it was being written when its process ended.
-        if (::ftruncate(descriptor_, end_) != 0) fail();
+        read_records();
         return true;
     }
     if (head_.starts_with(head)) {
@@ -163,6 +187,36 @@ bool Journal::read(const std::string& head) {
     const bool is_of_scene = head.compare(0, options, head_, 0, options) == 0;
     found_ = is_of_version && !is_of_scene ? Found::other_scene : Found::other_options;
     return false;
+}
+
+/// Where one is damaged, whatever byte of it that be, the next one that is whole is looked for.
+void Journal::read_records() {
+    std::vector<std::size_t> sizes(places_.size());
+    for (std::size_t number = 0; number < sizes.size(); ++number)
+        sizes[number] = records_.bytes(number);
+    end_ = static_cast<std::int64_t>(head_.size());
+    Window window(descriptor_);
+    for (std::int64_t place = end_;;) {
+        RecordHead head{};
+        const std::span<const char> start = window.at(place, sizeof head);
+        if (start.size() < sizeof head) break;
+        std::memcpy(&head, start.data(), sizeof head);
+        const bool is_head = head.number < sizes.size() && head.bytes == sizes[head.number];
+        const std::size_t size = is_head ? bytes_around + head.bytes : 0;
+        if (!is_head || !is_whole(window.at(place, size), size, seed_)) {
+            ++place;
+            continue;
+        }
+        places_[head.number] = place + static_cast<std::int64_t>(sizeof head);
+        end_ = place += static_cast<std::int64_t>(size);
+    }
+    struct stat status {};
+    if (window.is_refused() && ::fstat(descriptor_, &status) == 0) {
+        end_ = std::max<std::int64_t>(end_, status.st_size); // it may be readable another time
+        return;
+    }
+    // What is behind it was being written when its process ended. If it stays, no harm is done.
+    [[maybe_unused]] const int shortened = ::ftruncate(descriptor_, end_);
 }
 
 std::int64_t Journal::found_pixels() const {
@@ -190,31 +244,58 @@ void Journal::note(const simd::FinishedTile& tile) {
 
 void Journal::note(std::size_t number, std::string_view bytes) {
     if (is_left_alone()) return;
-    const std::string record = record_of(number, bytes, seed_);
+    std::string record = record_of(number, bytes, seed_);
     const std::lock_guard lock(mutex_);
-    if (!problem_.empty()) return;
+    if (is_given_up_) return;
     if (!keeping_.joinable()) try {
             keeping_ = std::thread([this] { keep_up(); });
         } catch (const std::exception&) { // no thread, or no memory for it
         }
-    if (is_ours_) return write(record);
-    waiting_ += record;
-    if (std::chrono::steady_clock::now() >= start_ + begin_after) begin();
+    waiting_bytes_ += record.size();
+    waiting_.push_back(std::move(record));
+    if (std::chrono::steady_clock::now() >= next_try_) write_waiting();
+    while (!problem_.empty() && waiting_bytes_ > most_waiting)
+        drop_oldest();
 }
 
-/// Makes the file, or empties it, and writes what has been waiting.
-void Journal::begin() {
-    if (descriptor_ < 0) {
-        is_ours_ = make(head_ + waiting_);
-        waiting_.clear();
-        return;
+void Journal::drop_oldest() {
+    waiting_bytes_ -= waiting_.front().size();
+    waiting_.pop_front();
+}
+
+/// As much of it as the system lets.
+void Journal::write_waiting() {
+    if (is_given_up_ || waiting_.empty()) return;
+    bool goes_on = is_ours_ || begin();
+    if (goes_on && end_ == 0) {
+        goes_on = append(head_);
+        if (goes_on) static_cast<void>(::fdatasync(descriptor_)); // before any record
     }
-    if (::ftruncate(descriptor_, 0) != 0) return fail();
-    end_ = 0;
-    write(head_);
-    static_cast<void>(::fdatasync(descriptor_));
+    while (goes_on && !waiting_.empty()) {
+        goes_on = append(waiting_.front());
+        if (goes_on) drop_oldest();
+    }
+    if (goes_on) problem_.clear();
+    next_try_ = goes_on ? std::chrono::steady_clock::time_point{}
+                        : std::chrono::steady_clock::now() + sync_every;
+}
+
+/// Makes the file, with what has been waiting, or empties it. False, and that is told, if it cannot
+/// be.
+bool Journal::begin() {
+    if (descriptor_ < 0) {
+        if (!make()) return false;
+        waiting_.clear();
+        waiting_bytes_ = 0;
+    } else {
+        if (::ftruncate(descriptor_, 0) != 0) {
+            fail();
+            return false;
+        }
+        end_ = 0;
+    }
     is_ours_ = true;
-    write(std::exchange(waiting_, {}));
+    return true;
 }
 
 /// Tiles may be minutes apart: whoever writes the next one is no help to the last.
@@ -223,8 +304,8 @@ void Journal::keep_up() {
     const auto is_ending = [this] { return is_ending_; };
     bool ends = ends_.wait_until(lock, start_ + begin_after, is_ending);
     while (!ends) {
-        if (!is_ours_ && !waiting_.empty() && problem_.empty()) begin();
-        if (std::exchange(is_to_be_synced_, false) && is_writable()) {
+        write_waiting();
+        if (std::exchange(is_to_be_synced_, false) && is_ours_ && !is_given_up_) {
             lock.unlock();
             static_cast<void>(::fdatasync(descriptor_)); // others may go on
             lock.lock();
@@ -236,16 +317,18 @@ void Journal::keep_up() {
 /// With all in it before it has a name, where the system can do that: so no file is there that is
 /// not known for what it is, or that lacks what has been waiting. As private as the picture that is
 /// there. False, and that is told, if it cannot be.
-bool Journal::make(const std::string& content) {
+bool Journal::make() {
     struct stat picture {};
     const bool is_there = ::stat(picture_.c_str(), &picture) == 0;
     const mode_t mode = is_there ? picture.st_mode & 0666 : 0666;
     const std::filesystem::path folder = path_.parent_path();
+    std::optional<std::int64_t> end;
     int made = ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
     if (made >= 0) {
         const std::string own = "/proc/self/fd/" + std::to_string(made);
+        end = write_all(made);
         const bool done =
-            write_at(made, 0, content) && ::fsync(made) == 0 && take_lock(made) &&
+            end && ::fsync(made) == 0 && take_lock(made) &&
             ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
         const int error_number = errno;
         if (!done) ::close(made);
@@ -259,7 +342,8 @@ bool Journal::make(const std::string& content) {
     if (made < 0) {
         made = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         const bool is_taken = made >= 0 && take_lock(made);
-        if (!is_taken || !write_at(made, 0, content) || ::fsync(made) != 0) {
+        end = is_taken ? write_all(made) : std::nullopt;
+        if (!end || ::fsync(made) != 0) {
             fail();
             if (is_taken) ::unlink(path_.c_str());
             if (made >= 0) ::close(made);
@@ -267,37 +351,58 @@ bool Journal::make(const std::string& content) {
         }
     }
     descriptor_ = made;
-    end_ = static_cast<std::int64_t>(content.size());
+    end_ = *end;
     sync_folder_of(path_);
     return true;
 }
 
-void Journal::fail() {
-    problem_ = errno == EEXIST // since this began
-                   ? printable(path_.string(), 4096) +
-                         ": is in use by another process, so this one kept none"
-                   : SystemRefused(path_.string(), "write", errno).what();
+/// The head and what has been waiting, into an empty file. Where it ends then; none if it could
+/// not.
+std::optional<std::int64_t> Journal::write_all(int descriptor) const {
+    if (!write_at(descriptor, 0, head_)) return std::nullopt;
+    auto end = static_cast<std::int64_t>(head_.size());
+    for (const std::string& record : waiting_) {
+        if (!write_at(descriptor, end, record)) return std::nullopt;
+        end += static_cast<std::int64_t>(record.size());
+    }
+    return end;
 }
 
-/// All of it or nothing.
-void Journal::write(const std::string& bytes) {
-    if (!problem_.empty()) return;
+void Journal::fail() {
+    const bool is_others = errno == EEXIST; // since this began
+    problem_ = is_others ? printable(path_.string(), 4096) +
+                               ": is in use by another process, so this one kept none"
+                         : SystemRefused(path_.string(), "write", errno).what();
+    if (is_others) give_up();
+    if (const auto tell = std::exchange(tell_, {})) tell(problem_);
+}
+
+/// Nothing more is written.
+void Journal::give_up() {
+    is_given_up_ = true;
+    waiting_.clear();
+    waiting_bytes_ = 0;
+}
+
+/// All of it or nothing. False, and that is told, if it cannot be.
+bool Journal::append(const std::string& bytes) {
     if (write_at(descriptor_, end_, bytes)) {
         end_ += static_cast<std::int64_t>(bytes.size());
         is_to_be_synced_ = true;
-        return;
+        return true;
     }
     fail();
     [[maybe_unused]] const int shortened =
         ::ftruncate(descriptor_, end_); // or it has half a record
+    return false;
 }
 
 bool Journal::keep() {
     if (is_left_alone()) return false;
     const std::lock_guard lock(mutex_);
-    if (!is_ours_ && !waiting_.empty()) begin();
+    write_waiting();
     if (is_ours_) static_cast<void>(::fsync(descriptor_));
-    return is_writable();
+    return is_ours_ && problem_.empty();
 }
 
 bool Journal::give_room(std::size_t bytes) {
@@ -310,6 +415,7 @@ bool Journal::give_room(std::size_t bytes) {
     const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize +
                                block * static_cast<std::uint64_t>(own.st_blocks);
     if (room < bytes || ::ftruncate(descriptor_, 0) != 0) return false;
+    give_up(); // or it would take it again
     if (problem_.empty()) problem_ = path_.string() + ": has given its room to the picture";
     return true;
 }
@@ -324,6 +430,7 @@ bool Journal::is_still_there() const {
 
 void Journal::remove() {
     const std::lock_guard lock(mutex_);
+    give_up(); // or what waits would begin one
     if (!is_ours_ || !is_still_there()) return;
     std::error_code unknown;
     const std::filesystem::path target = std::filesystem::canonical(picture_, unknown);

@@ -4,9 +4,13 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -28,25 +32,29 @@ struct JournalSubject {
 /// this one is done sooner.
 ///
 /// To be used by one process at a time, which the file's lock sees to. Nothing that goes wrong with
-/// the file ends the drawing: problem() tells it.
+/// the file ends the drawing: problem() tells it. What could not be written is kept, as far as
+/// `most_waiting` goes, and tried again every `sync_every`.
 class Journal {
   public:
     static constexpr std::chrono::seconds begin_after{2}, sync_every{3};
+    static constexpr std::size_t most_waiting = std::size_t{256} << 20;
 
     /// What there was of a file.
     enum class Found : std::uint8_t {
         nothing,
-        same,          ///< goes on with it
-        other_scene,   ///< stays until another journal takes its place; so do the next ones
-        other_options, ///< or another version's
-        cut_off,       ///< in its first lines, likewise
-        none_of_ours,  ///< leaves it alone, and keeps no journal
-        in_use,        ///< likewise
+        same,           ///< goes on with it
+        other_scene,    ///< stays until another journal takes its place; so do the next ones
+        other_options,  ///< or another version's
+        cut_off,        ///< in its first lines, likewise
+        none_of_ours,   ///< leaves it alone, and keeps no journal
+        in_use,         ///< likewise
+        named_too_long, ///< likewise
     };
 
-    /// Of the picture that is to be in a file, beside that: its name with ".part" behind.
+    /// Of the picture that is to be in a file, beside that: its name with ".part" behind. `tell`
+    /// is given the first problem() as soon as there is one, by whichever thread has it.
     Journal(const std::filesystem::path& picture, const JournalSubject& subject,
-            TileRecords records);
+            TileRecords records, std::function<void(const std::string&)> tell = {});
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
@@ -72,20 +80,28 @@ class Journal {
     bool give_room(std::size_t bytes);
     /// The picture is there: removes the journal, once that is sure to survive it.
     void remove();
-    /// What the system said where it would not write; empty as long as all is well. One line.
+    /// What the system said last, as long as something is not written that should be; or else
+    /// empty. One line.
     std::string problem();
 
   private:
     void open();
     bool read(const std::string& head);
-    void begin();
-    bool make(const std::string& content);
+    void read_records();
+    void drop_oldest();
+    void write_waiting();
+    bool begin();
+    bool make();
+    std::optional<std::int64_t> write_all(int descriptor) const;
+    bool append(const std::string& bytes);
     bool is_still_there() const;
     void fail();
-    void write(const std::string& bytes);
+    void give_up();
     void keep_up();
-    bool is_writable() const { return is_ours_ && problem_.empty(); }
-    bool is_left_alone() const { return found_ == Found::none_of_ours || found_ == Found::in_use; }
+    bool is_left_alone() const {
+        return found_ == Found::none_of_ours || found_ == Found::in_use ||
+               found_ == Found::named_too_long;
+    }
 
     std::filesystem::path picture_, path_;
     TileRecords records_;
@@ -98,9 +114,13 @@ class Journal {
     std::mutex mutex_; // of what follows
     int descriptor_ = -1;
     bool is_ours_ = false; // this picture's tiles are in it
-    std::string waiting_;  // records, as long as there is no file
+    bool is_given_up_ = false;
+    std::deque<std::string> waiting_; // records that are not written
+    std::size_t waiting_bytes_ = 0;
+    std::chrono::steady_clock::time_point next_try_; // to write them
     std::int64_t end_ = 0;
     std::string problem_;
+    std::function<void(const std::string&)> tell_; // none: it has been told
     std::thread
         keeping_; // up with what is noted; without one, it is up to who notes, and the system
     std::condition_variable ends_;

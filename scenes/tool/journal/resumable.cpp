@@ -1,10 +1,10 @@
 #include "scenes/tool/journal/resumable.hpp"
 
 #include "scenes/errors.hpp"
-#include "scenes/export/writers.hpp"
 #include "scenes/image/exr.hpp"
-#include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/memory_file.hpp"
+#include "scenes/tool/picture_texts.hpp"
+#include "scenes/tool/progress_bar.hpp"
 #include "scenes/tool/ranks/ranked_tiles.hpp"
 
 #include <algorithm>
@@ -19,15 +19,29 @@ namespace raylane::scenes {
 
 namespace {
 
+/// A link may lead to a stream that happens to be a file.
+bool leads_to_stream(const std::string& output) {
+    std::error_code unknown;
+    std::filesystem::path path = output;
+    constexpr int longest_chain = 40; // as in Linux
+    for (int i = 0; i < longest_chain; ++i) {
+        const std::filesystem::path folder = std::filesystem::canonical(
+            std::filesystem::absolute(path, unknown).parent_path(), unknown);
+        const std::string name = (folder / path.filename()).string();
+        const bool is_link = std::filesystem::is_symlink(name, unknown);
+        if (name.starts_with("/proc/")) return true;
+        if (name.starts_with("/dev/") && (is_link || i > 0)) return true;
+        if (!is_link) return false;
+        path = folder / std::filesystem::read_symlink(name, unknown);
+    }
+    return false;
+}
+
 bool may_have_journal(const std::string& output) {
     if (output == "-") return false;
     std::error_code unknown;
-    if (!std::filesystem::exists(output, unknown)) return true;
-    // A link may lead to a stream that happens to be a file.
-    const std::string target = std::filesystem::canonical(output, unknown).string();
-    return std::filesystem::is_regular_file(output, unknown) && !target.starts_with("/proc/") &&
-           std::filesystem::read_symlink(output, unknown).string().find("/dev/") ==
-               std::string::npos;
+    return !std::filesystem::exists(output, unknown) ||
+           (std::filesystem::is_regular_file(output, unknown) && !leads_to_stream(output));
 }
 
 } // namespace
@@ -39,46 +53,43 @@ ResumableRendering::ResumableRendering(const std::string& output, bool wanted,
     : output_(output), scene_(scene), settings_(settings), options_(std::move(options)),
       grid_(simd::grid_of(settings, options_)), part_(part), verbosity_(verbosity) {
     if (!wanted || !may_have_journal(output)) return;
-    std::string text;
-    TextFile settings_text([&](std::string_view piece) { text += piece; });
-    write_json_settings(settings_text, settings);
-    settings_text.flush();
-    text += options_.engine == simd::Engine::vector ? " vector" : " reference";
-    text += " --precision " + std::string(core::name_of(options_.precision)) + " --tile " +
-            std::to_string(simd::tile_of(settings, options_));
-    if (const std::optional<core::Region>& crop = options_.crop)
-        for (const int edge : {crop->x0, crop->y0, crop->x1, crop->y1})
-            text += " " + std::to_string(edge);
+    std::string text = options_line(settings, options_);
+    text += " --tile " + std::to_string(simd::tile_of(settings, options_));
     if (options_.layers) text += " --layers";
     if (part_) text += " --part " + part_->text();
-    if (options_.precision != core::Precision::exact)
-        text += " --isa " + std::string(simd::name_of(options_.isa));
     journal_ = std::make_unique<Journal>(output, JournalSubject{fingerprint, std::move(text)},
-                                         TileRecords(settings, options_));
-    say_found();
+                                         TileRecords(settings, options_),
+                                         [this](const std::string& problem) { say(problem); });
+}
+
+/// On a line of its own, where the progress may be on another.
+void ResumableRendering::say(const std::string& what) const {
+    const bool has_bar = verbosity_ != Verbosity::quiet && is_terminal();
+    std::fprintf(stderr, "%sraylane: %s\n", has_bar ? "\r\x1B[K" : "", what.c_str());
 }
 
 void ResumableRendering::say_found() const {
-    const auto say = [&](const std::string& what) {
-        if (verbosity_ == Verbosity::quiet) return;
-        std::fprintf(stderr, "raylane: %s: %s\n",
-                     printable(journal_->path().string(), 4096).c_str(), what.c_str());
+    const auto say_of_it = [&](const std::string& what) {
+        if (verbosity_ != Verbosity::quiet)
+            say(printable(journal_->path().string(), 4096) + ": " + what);
     };
     switch (journal_->found()) {
     case Journal::Found::nothing:
         return;
     case Journal::Found::same:
-        return say("goes on at " + std::to_string(percent(journal_->found_pixels())) + " %");
+        return say_of_it("goes on at " + std::to_string(percent(journal_->found_pixels())) + " %");
     case Journal::Found::other_scene:
-        return say("is of another scene, and not gone on with");
+        return say_of_it("is of another scene, and not gone on with");
     case Journal::Found::other_options:
-        return say("is of other options or another version, and not gone on with");
+        return say_of_it("is of other options or another version, and not gone on with");
     case Journal::Found::cut_off:
-        return say("has been cut off at its beginning, and is not gone on with");
+        return say_of_it("has been cut off at its beginning, and is not gone on with");
     case Journal::Found::none_of_ours:
-        return say("is none of raylane's, so the picture is drawn without a journal");
+        return say_of_it("is none of raylane's, so the picture is drawn without a journal");
     case Journal::Found::in_use:
-        return say("is in use, so the picture is drawn without a journal");
+        return say_of_it("is in use, so the picture is drawn without a journal");
+    case Journal::Found::named_too_long:
+        return say_of_it("has too long a name, so the picture is drawn without a journal");
     }
 }
 
@@ -105,11 +116,11 @@ int ResumableRendering::percent(std::int64_t pixels) const {
 simd::Rendering ResumableRendering::draw(simd::Progress& progress, Job* job) {
     options_.progress = &progress;
     const bool is_shared = job != nullptr && job->ranks() != nullptr;
+    if (journal_ || is_shared) stop_on_signal_.emplace(progress.stop);
+    if (journal_) say_found();
     simd::Rendering rendering = is_shared ? draw_among(*job, progress) : draw_alone(progress);
     if (!rendering.complete) stopped();
-    if (!journal_) return rendering;
-    if (const std::string problem = journal_->problem(); !problem.empty())
-        std::fprintf(stderr, "raylane: %s\n", problem.c_str());
+    if (!journal_) stop_on_signal_.reset();
     return rendering;
 }
 
@@ -124,7 +135,6 @@ simd::Rendering ResumableRendering::draw_alone(simd::Progress& progress) {
     };
     if (!journal_) return simd::render(scene_, settings_, options_);
     options_.after_tile = [this](const simd::FinishedTile& tile) { journal_->note(tile); };
-    const StopOnSignal stop_on_signal(progress.stop);
     simd::Rendering rendering = simd::render(scene_, settings_, options_);
     drawn_ = progress.pixels - left_out;
     return rendering;
@@ -137,7 +147,6 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
             (journal_ && journal_->has(number) ? tiles.to_visit : tiles.to_draw)
                 .push_back(static_cast<std::uint32_t>(number));
     progress.pixels = pixels_of_others();
-    const StopOnSignal stop_on_signal(progress.stop);
     const TileRecords records(settings_, options_);
     RankedTiles ranked(*job.ranks(), std::move(tiles), records, options_.threads, progress.stop);
     options_.tiles = &ranked;
@@ -196,7 +205,8 @@ void ResumableRendering::finished() {
     if (journal_) journal_->remove();
 }
 
-void ResumableRendering::end_if_signalled() const {
+void ResumableRendering::end_if_signalled() {
+    stop_on_signal_.reset();
     if (journal_ && StopOnSignal::signal() != 0)
         throw Stopped(StopOnSignal::signal(),
                       "stopped, and " + printable(output_, 4096) + " is whole");

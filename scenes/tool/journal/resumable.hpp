@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/image/writer.hpp"
+#include "scenes/tool/interrupt.hpp"
 #include "scenes/tool/journal/journal.hpp"
 #include "scenes/tool/picture_part.hpp"
 #include "scenes/tool/ranks/job.hpp"
@@ -28,14 +29,15 @@ struct Stopped : std::exception {
 class ResumableRendering {
   public:
     /// For a picture that is written to `output`: "-" and what is no regular file have no journal,
-    /// and so if it is not `wanted`. Says on standard error what there was.
+    /// and so if it is not `wanted`.
     ResumableRendering(const std::string& output, bool wanted, const core::Scene& scene,
                        const std::string& fingerprint, const core::Settings& settings,
                        simd::RenderOptions options, const std::optional<PicturePart>& part,
                        Verbosity verbosity);
 
-    /// Throws Stopped. With a job of several ranks, together, which part then: rank 0 has the
-    /// picture.
+    /// Says on standard error what there was. Throws Stopped. With a job of several ranks,
+    /// together, which part then: rank 0 has the picture. If there is a journal, the first signal
+    /// does not end the process from here until end_if_signalled().
     simd::Rendering draw(simd::Progress& progress, Job* job = nullptr);
     /// Writes the picture; where the disk is full, in the room that its journal gives. Throws
     /// SystemRefused.
@@ -43,12 +45,13 @@ class ResumableRendering {
                const core::Layers* layers);
     /// The picture has been written.
     void finished();
-    /// Behind that: throws Stopped if a signal has come while the last tiles were drawn.
-    void end_if_signalled() const;
+    /// Behind that: throws Stopped if a signal has come since the last tiles were begun.
+    void end_if_signalled();
     /// How many pixels are to be drawn, by whichever run: those of the part.
     std::int64_t pixels() const;
 
   private:
+    void say(const std::string& what) const;
     void say_found() const;
     bool is_others(std::size_t tile) const;
     simd::Rendering draw_alone(simd::Progress& progress);
@@ -64,6 +67,7 @@ class ResumableRendering {
     simd::TileGrid grid_;
     std::optional<PicturePart> part_;
     Verbosity verbosity_;
+    std::optional<StopOnSignal> stop_on_signal_;
     std::unique_ptr<Journal> journal_; // null: none
     std::int64_t drawn_ = 0;           // pixels, with those that were found
 };

@@ -116,6 +116,65 @@ TEST_CASE("parts that make no whole are refused in one line") {
     CHECK(workshop.is_output_empty());
 }
 
+TEST_CASE("parts of scenes with other settings, which no Comment has, are of other pictures") {
+    if (!scenes::has_exr()) return;
+    const auto with = [](const std::string& settings) {
+        std::string scene = ball;
+        return scene.insert(scene.find("\"image\""), settings);
+    };
+    struct Settings {
+        std::string one, other;
+    };
+    const std::string outlined = R"("outline": {"width": 3}, )";
+    for (const Settings& settings :
+         {Settings{outlined, R"("outline": {"width": 3, "color": "#ff0000"}, )"},
+          {outlined, R"("outline": {"width": 3, "creases": 20}, )"},
+          {"", R"("sampling": {"pattern": "stratified"}, )"}}) {
+        CAPTURE(settings.other);
+        const Workshop workshop(with(settings.one));
+        draw_parts(workshop, 2);
+        workshop.write("scene.json", with(settings.other));
+        REQUIRE(workshop.run(part(2, 2)).code == 0);
+        const Outcome outcome = workshop.run(merged({1, 2}, "out/a.png"));
+        CHECK(outcome.code == 2);
+        CHECK(outcome.err == "raylane: part-2.exr: is of another picture than part-1.exr: its "
+                             "Options differ\n");
+        CHECK(workshop.is_output_empty());
+    }
+}
+
+TEST_CASE("parts with layers and without are told") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    draw_parts(workshop, 2);
+    REQUIRE(workshop.run(part(2, 2, {"--layers"})).code == 0);
+    CHECK(workshop.run(merged({1, 2}, "out/a.exr")).err ==
+          "raylane: part-2.exr: has layers, and part-1.exr has none\n");
+    CHECK(workshop.run(merged({2, 1}, "out/a.exr")).err ==
+          "raylane: part-1.exr: has no layers, and part-2.exr has some\n");
+    CHECK(workshop.is_output_empty());
+}
+
+TEST_CASE("parts that were drawn before they said their options become one picture") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    draw_parts(workshop, 2);
+    for (const char* name : {"part-1.exr", "part-2.exr"}) {
+        const scenes::ExrPicture picture = scenes::read_own_exr(workshop.path() / name);
+        scenes::PictureOptions options;
+        options.bits = 32;
+        options.texts = picture.texts;
+        CHECK(std::erase_if(options.texts,
+                            [](const auto& text) { return text.first == "Options"; }) == 1);
+        scenes::OutputFile(workshop.path() / name, scenes::exr_of).commit(picture.film, options);
+    }
+    CHECK(workshop.run(merged({1, 2}, "a.png")).err.empty());
+    CHECK(workshop.run({"verify", "a.png", "scene.json", "--quiet"}).code == 0);
+    // Not with one that does.
+    REQUIRE(workshop.run(part(2, 2)).code == 0);
+    CHECK(workshop.run(merged({1, 2}, "out/a.png")).err.ends_with(": its Options differ\n"));
+}
+
 TEST_CASE("one frame of several is drawn in parts as any other scene is") {
     if (!scenes::has_exr()) return;
     const Workshop workshop;
@@ -321,6 +380,8 @@ TEST_CASE("parts are put together, and verified, where their instruction set is 
         scenes::PictureOptions options;
         options.bits = 32;
         options.texts = picture.texts;
+        // They have been hashed with the instruction set that they were drawn by.
+        std::erase_if(options.texts, [](const auto& text) { return text.first == "Options"; });
         for (auto& [key, text] : options.texts)
             if (const std::size_t at = text.find(" --isa "); key == "Comment") {
                 REQUIRE(at != std::string::npos);

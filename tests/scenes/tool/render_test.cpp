@@ -143,6 +143,7 @@ TEST_CASE("the figures of a rendering are JSON") {
                                            "max_depth",
                                            "min_weight",
                                            "scene_fingerprint",
+                                           "options_fingerprint",
                                            "pixels_fingerprint",
                                            "shapes",
                                            "scene_bytes",
@@ -193,6 +194,87 @@ TEST_CASE("the figures of a rendering are JSON") {
         0);
     CHECK(nlohmann::json::parse(content_of(workshop.output() / "s.json"))["scene"] ==
           "b\\xFF\\x0A.json");
+}
+
+TEST_CASE("fingerprints tell what drew a picture, not by how many") {
+    const Workshop workshop;
+    const auto fingerprints = [&](const Options& options) {
+        REQUIRE(workshop.render("a.png", joined(options, {"--stats", "s.json"})).code == 0);
+        const auto stats = nlohmann::json::parse(content_of(workshop.path() / "s.json"));
+        std::vector<std::string> all;
+        const scenes::Image image = scenes::read_image(workshop.path() / "a.png");
+        for (const auto& [name, key] : {std::pair{"Scene", "scene_fingerprint"},
+                                        {"Options", "options_fingerprint"},
+                                        {"Pixels", "pixels_fingerprint"}}) {
+            all.push_back(stats[key]);
+            CHECK(std::find(image.texts.begin(), image.texts.end(),
+                            std::pair<std::string, std::string>(name, all.back())) !=
+                  image.texts.end());
+        }
+        return all;
+    };
+    const std::vector<std::string> usual = fingerprints({});
+    for (const Options& options :
+         {Options{"--threads", "3"}, {"--tile", "8"}, {"--isa", "portable"}, {"--bits", "16"}})
+        CHECK(fingerprints(options) == usual);
+    for (const Options& options :
+         {Options{"--spp", "9"}, {"--outline", "2"}, {"--alpha"}, {"--precision", "robust"}}) {
+        CAPTURE(options);
+        const std::vector<std::string> others = fingerprints(options);
+        CHECK(others[0] == usual[0]);
+        CHECK(others[1] != usual[1]);
+    }
+}
+
+TEST_CASE("one frame of several has figures as any other scene has") {
+    const Workshop workshop;
+    workshop.write("move.xyz", "2\n\nC 0 0 0\nO 0 0 1\n3\n\nC 0 0 0\nO 0 1 1\nO 0 2 2\n");
+    const Options frame = {"render", "move.xyz", "--frames", "-1", "-o",      "f%d.png", "--size",
+                           "20x10",  "--spp",    "4",        "-q", "--style", "spheres", "--stats"};
+    const Outcome outcome = workshop.run(joined(frame, {"s.json"}));
+    CHECK(outcome.err.empty());
+    REQUIRE(outcome.code == 0);
+    CHECK(std::filesystem::exists(workshop.path() / "f1.png"));
+    const auto stats = nlohmann::json::parse(content_of(workshop.path() / "s.json"));
+    CHECK(stats["scene"] == "move.xyz");
+    CHECK(stats["shapes"] == 3);
+    CHECK(stats["width"] == 20);
+    CHECK(stats["samples_per_pixel"] == 4);
+    CHECK(stats["rays"]["primary"] == 20 * 10 * 4);
+    CHECK(workshop.run(joined(frame, {"f1.png"})).err ==
+          "raylane: --stats: must be another file than --output, got \"f1.png\"\n");
+    CHECK(workshop
+              .run({"render", "move.xyz", "--frames", "0:1", "-o", "out/f%d.png", "--stats",
+                    "s.json"})
+              .err ==
+          "raylane: --stats: goes without --frames of several, --turn and several values\n");
+}
+
+TEST_CASE("a picture and its figures do not go into one stream") {
+    const Workshop workshop;
+    const auto refused = [&](const Options& options, const std::string& got,
+                             const std::string& out = "") {
+        Setup setup;
+        setup.out = out;
+        const Outcome outcome = workshop.run(joined({"render", "scene.json"}, options), setup);
+        CAPTURE(options, outcome.err);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err ==
+              "raylane: --stats: must be another file than --output, got \"" + got + "\"\n");
+    };
+    const std::string file = workshop.write("f", "").string();
+    for (const std::string& out : {std::string(), file}) { // a pipe or a file
+        refused({"-o", "-", "--stats", "/dev/stdout"}, "/dev/stdout", out);
+        refused({"-o", "-", "--stats", "/dev/fd/1"}, "/dev/fd/1", out);
+    }
+    refused({"-o", "-", "--stats", "f"}, "f", file);
+    CHECK(std::filesystem::file_size(file) == 0);
+    Setup nowhere;
+    nowhere.out = "/dev/null";
+    CHECK(workshop.run({"render", "scene.json", "-o", "-", "--stats", "/dev/null"}, nowhere).code ==
+          0);
+    CHECK(workshop.run({"render", "scene.json", "-o", "-", "--stats", "s.json"}).code == 0);
 }
 
 TEST_CASE("a picture can be a pipe's or a device's") {

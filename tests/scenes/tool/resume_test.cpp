@@ -8,9 +8,11 @@
 #include <csignal>
 #include <random>
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <thread>
+#include <unistd.h>
 
 using namespace raylane::tests;
 
@@ -58,6 +60,28 @@ Outcome interrupt(const Workshop& workshop, int signal = SIGINT) {
     }
     FAIL("never in its middle");
     return {};
+}
+
+std::size_t count_of(const std::string& part, const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++count;
+    return count;
+}
+
+/// Leaves a journal of all of the picture, which could not take its name.
+void leave_whole_journal(const Workshop& workshop) {
+    for (int i = 0; i < 20; ++i) {
+        static_cast<void>(interrupt(workshop)); // now there is one as soon as it is drawn
+        Process process = workshop.start(drawing());
+        REQUIRE(process.wait_for_err("goes on at "));
+        std::error_code is_done;
+        std::filesystem::create_directory(workshop.output() / "picture.png", is_done);
+        static_cast<void>(process.wait());
+        std::filesystem::remove(workshop.output() / "picture.png");
+        if (has_journal(workshop)) return;
+    }
+    FAIL("never before it was done");
 }
 
 } // namespace
@@ -199,8 +223,8 @@ TEST_CASE("where there is no room for a journal, the picture is drawn all the sa
     };
     const Outcome outcome = workshop.run(drawing(), limited);
     CHECK(outcome.code == 0);
-    CHECK(outcome.err.find("raylane: out/picture.png.part: cannot write: File too large\n") !=
-          std::string::npos);
+    CHECK(count_of("raylane: out/picture.png.part: cannot write: File too large\n", outcome.err) ==
+          1);
     CHECK(picture_of(workshop) == expected);
     CHECK(!has_journal(workshop));
 }
@@ -225,8 +249,8 @@ TEST_CASE("a journal that has filled the disk gives its room to the picture") {
     }
     const Outcome outcome = drawn("out/picture.png", {});
     CHECK(outcome.code == 0);
-    CHECK(outcome.err.ends_with(
-        "raylane: out/picture.png.part: cannot write: No space left on device\n"));
+    CHECK(count_of("raylane: out/picture.png.part: cannot write: No space left on device\n",
+                   outcome.err) == 1);
     CHECK(picture_of(workshop) == expected);
     CHECK(!has_journal(workshop));
     CHECK(::umount(workshop.output().c_str()) == 0);
@@ -314,4 +338,123 @@ TEST_CASE("a journal is as private as the picture that is there") {
     CHECK(std::filesystem::status(workshop.output() / "picture.png.part").permissions() == mode);
     CHECK(workshop.run(drawing()).code == 0);
     CHECK(!has_journal(workshop));
+}
+
+TEST_CASE("a signal while the picture is written ends the program behind the whole picture") {
+    const Workshop workshop;
+    const std::string expected = whole(workshop);
+    leave_whole_journal(workshop);
+    const std::string journal = content_of(workshop.output() / "picture.png.part");
+    int whole_count = 0;
+    // From amid what is recalled to behind the end, how long that may be.
+    for (int i = 0; i < 60 || whole_count == 0; ++i) {
+        REQUIRE(i < 1000);
+        workshop.write("out/picture.png.part", journal);
+        Process process = workshop.start(drawing());
+        REQUIRE(process.wait_for_err("goes on at 100 %"));
+        std::this_thread::sleep_for(milliseconds(5 * (i % 30)));
+        process.send(SIGTERM);
+        const Outcome outcome = process.wait();
+        const std::string said = outcome.err.substr(outcome.err.find('\n') + 1);
+        CAPTURE(i, said);
+        if (said == "raylane: stopped, and out/picture.png is whole\n") {
+            ++whole_count;
+            REQUIRE(outcome.code == 128 + SIGTERM);
+            REQUIRE((picture_of(workshop) == expected));
+            REQUIRE(!has_journal(workshop));
+        } else if (outcome.code != 0 && !said.empty()) {
+            REQUIRE(outcome.code == 128 + SIGTERM);
+            REQUIRE(said.starts_with("raylane: stopped at "));
+            REQUIRE(said.ends_with("; the same command goes on with out/picture.png.part\n"));
+        } else { // it was done, or has just been
+            REQUIRE(said.empty());
+            REQUIRE((picture_of(workshop) == expected)); // which is too much to be printed
+        }
+        std::filesystem::remove(workshop.output() / "picture.png");
+    }
+}
+
+TEST_CASE("a film that a signal ends says so at any moment between its first and last picture") {
+    for (int i = 0; i < 40; ++i) {
+        const Workshop workshop;
+        Process film = workshop.start({"render", "scene.json", "-o", "out/f-%d.png", "--turn",
+                                       "360/4000", "--size", "8x8", "--threads", "1"});
+        REQUIRE(workshop.wait_for(workshop.output() / ("f-" + std::to_string(i % 7) + ".png")));
+        film.send(i % 2 == 0 ? SIGTERM : SIGINT);
+        const Outcome outcome = film.wait();
+        CAPTURE(outcome.err);
+        REQUIRE(outcome.code == 128 + (i % 2 == 0 ? SIGTERM : SIGINT));
+        REQUIRE(is_one_line(outcome.err));
+        REQUIRE(outcome.err.starts_with("raylane: stopped"));
+    }
+}
+
+TEST_CASE("a full disk is told at once, and the journal goes on when there is room again") {
+    const Workshop workshop;
+    void* const shared =
+        ::mmap(nullptr, sizeof(pid_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(shared != MAP_FAILED);
+    auto* const pid = static_cast<pid_t*>(shared);
+    constexpr rlim_t room = 1'000'000;
+    Setup limited;
+    limited.in_child = [pid] {
+        *pid = ::getpid();
+        const rlimit limit{room, RLIM_INFINITY};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    };
+    Process process =
+        workshop.start(joined({"render", "scene.json", "-o", "out/picture.png"}, minutes), limited);
+    REQUIRE(process.wait_for_err("raylane: out/picture.png.part: cannot write: File too large\n"));
+    const rlimit unlimited{RLIM_INFINITY, RLIM_INFINITY};
+    REQUIRE(::prlimit(*pid, RLIMIT_FSIZE, &unlimited, nullptr) == 0);
+    ::munmap(shared, sizeof(pid_t));
+    const std::filesystem::path journal = workshop.output() / "picture.png.part";
+    std::error_code none;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (
+        (!std::filesystem::exists(journal) || std::filesystem::file_size(journal, none) <= room) &&
+        std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(milliseconds(1));
+    process.send(SIGTERM);
+    const Outcome outcome = process.wait();
+    CHECK(outcome.code == 128 + SIGTERM);
+    CHECK(count_of("cannot write", outcome.err) == 1);
+    CHECK(outcome.err.ends_with(" %; the same command goes on with out/picture.png.part\n"));
+    CHECK(std::filesystem::file_size(journal) > room);
+}
+
+TEST_CASE("what a link leads to has a journal, unless that is among the devices") {
+    const Workshop workshop;
+    std::filesystem::create_directories(workshop.path() / "dev");
+    workshop.write("dev/real.png", "old");
+    std::filesystem::create_symlink(workshop.path() / "dev/real.png",
+                                    workshop.output() / "picture.png");
+    static_cast<void>(interrupt(workshop));
+    CHECK(has_journal(workshop));
+    // These would be said to be none of raylane's.
+    workshop.write("out/stream.png.part", "mine");
+    workshop.write("out/further.png.part", "mine");
+    std::filesystem::create_symlink("/dev/stdout", workshop.output() / "stream.png");
+    std::filesystem::create_symlink("stream.png", workshop.output() / "further.png");
+    Setup to_file;
+    to_file.out = workshop.write("file.png", "");
+    for (const char* name : {"out/stream.png", "out/further.png"}) {
+        const Outcome outcome = workshop.run({"render", "scene.json", "-o", name}, to_file);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.err.empty());
+    }
+}
+
+TEST_CASE("a picture whose journal would have too long a name is said to have none") {
+    const Workshop workshop;
+    for (const std::size_t length : {250, 251, 255}) {
+        const std::string name = "out/" + std::string(length - 4, 'n') + ".png";
+        const Outcome outcome = workshop.render(name);
+        CHECK(outcome.code == 0);
+        CHECK(outcome.err == (length == 250 ? ""
+                                            : "raylane: " + name +
+                                                  ".part: has too long a name, so the picture is "
+                                                  "drawn without a journal\n"));
+        CHECK(workshop.render(name, {"--no-resume"}).err.empty());
+    }
 }

@@ -21,11 +21,31 @@ Outcome verify(const Workshop& workshop, const std::string& picture, const Optio
 }
 
 constexpr const char* right = "scene      the one that the picture names\n"
+                              "options    those that the picture names\n"
                               "pixels     192 drawn again by the reference: 192 the same, 0 within "
                               "a step, 0 others\n";
 
 constexpr const char* again = "rays       decided as the picture says\n"
                               "all bits   drawn again as they were\n";
+
+/// Writes a PNG again without its alpha, the codes of its first `pixels` one step further, and
+/// other texts.
+template <class Texts>
+void write_again(const std::filesystem::path& from, const std::filesystem::path& to, Texts texts,
+                 int pixels = 0) {
+    const scenes::Image image = scenes::read_image(from);
+    core::Film film(image.width, image.height);
+    for (int i = 0; i < image.width * image.height; ++i)
+        for (int channel = 0; channel < 3; ++channel) {
+            const float code = 255.0F * image.rgb[static_cast<std::size_t>(3 * i + channel)] + 0.5F;
+            const int step = i >= pixels ? 0 : code < 255.0F ? 1 : -1;
+            film.at(i % image.width, i / image.width)[channel] =
+                core::decode_srgb(static_cast<std::uint8_t>(static_cast<int>(code) + step));
+        }
+    scenes::PictureOptions options;
+    options.texts = texts(image.texts);
+    scenes::OutputFile(to).commit(film, options);
+}
 
 /// Writes a picture again with one pixel turned over, and what it says of itself.
 void turn_one_over(const std::filesystem::path& path) {
@@ -179,6 +199,7 @@ TEST_CASE("a picture that is not what it says is told from one that is") {
     const Outcome changed = verify(workshop, "a.png");
     CHECK(changed.code == 1);
     CHECK(changed.out == "scene      the one that the picture names\n"
+                         "options    those that the picture names\n"
                          "pixels     192 drawn again by the reference: 191 the same, 0 within a "
                          "step, 1 others\n"
                          "first      at pixel 3, 4\n");
@@ -299,6 +320,10 @@ TEST_CASE("each picture of a film is drawn again as if it were alone") {
             CAPTURE(place, outcome.err);
             CHECK(outcome.code == 2);
             CHECK(is_one_line(outcome.err));
+            if (std::string(place) == "3")
+                CHECK(outcome.err == std::string("raylane: other.png: is picture 4 of its film, "
+                                                 "and ") +
+                                         film.scene + " makes fewer\n");
         }
         for (int i = 0; i < film.count; ++i)
             std::filesystem::remove(workshop.path() / ("f" + std::to_string(i) + ".png"));
@@ -317,6 +342,100 @@ TEST_CASE("each picture of a film is drawn again as if it were alone") {
     const Options first = {"--size", "16x12", "--spp", "1", "--frames", ":"};
     CHECK(workshop.run(joined({"render", "broken.xyz", "-o", "b%d.png"}, first)).code == 2);
     CHECK(workshop.run({"verify", "b1.png", "broken.xyz", "--quiet"}).code == 0);
+}
+
+TEST_CASE("settings that no Comment has are a picture's options, too") {
+    const auto with = [](const std::string& where, const std::string& what) {
+        std::string scene = ball;
+        return scene.insert(scene.find(where), what);
+    };
+    const std::string outlined = with("\"image\"", R"("outline": {"width": 3}, )");
+    const Workshop workshop(outlined);
+    for (const std::string& other :
+         {with("\"image\"", R"("outline": {"width": 3, "color": "#ff0000"}, )"),
+          with("\"image\"", R"("outline": {"width": 3, "creases": 20}, )"),
+          with("\"image\"",
+               R"("outline": {"width": 3}, "sampling": {"pattern": "stratified"}, )")}) {
+        REQUIRE(workshop.render("a.png").code == 0);
+        workshop.write("scene.json", other);
+        // Whichever pixel it is.
+        const Outcome outcome = verify(workshop, "a.png", {"--pixels", "1"});
+        CHECK(outcome.code == 1);
+        CHECK(outcome.out.starts_with("scene      the one that the picture names\n"
+                                      "options    others than the picture names\n"));
+        workshop.write("scene.json", outlined);
+        CHECK(verify(workshop, "a.png").out == right);
+    }
+    // What has no effect is none of them.
+    workshop.write("scene.json", ball);
+    REQUIRE(workshop.render("a.png", {"--quality", "35"}).code == 0);
+    workshop.write("scene.json", with("\"image\"", R"("sampling": {"grid": 3},
+                                       "outline": {"width": 0, "creases": 20}, )"));
+    CHECK(verify(workshop, "a.png", {"--whole"}).out == right + std::string(again));
+    // Older pictures have none.
+    workshop.write("scene.json", ball);
+    REQUIRE(workshop.render("a.png").code == 0);
+    const auto without = [](auto texts) {
+        std::erase_if(texts, [](const auto& text) { return text.first == "Options"; });
+        return texts;
+    };
+    write_again(workshop.path() / "a.png", workshop.path() / "a.png", without);
+    const Outcome older = verify(workshop, "a.png");
+    CHECK(older.code == 0);
+    CHECK(older.out.starts_with("scene      the one that the picture names\npixels     192 "));
+}
+
+/// Light comes through the box along its diagonal plane, and meets its edges to the last bit.
+TEST_CASE("what hangs on a last bit is told from what is wrong") {
+    const Workshop workshop(R"({"image": {"width": 64, "height": 64}, "background": [0.5, 0.5, 1],
+        "camera": {"from": [0, 0, 6], "at": [0, 0, 0]},
+        "lights": [{"type": "point", "position": [4, 4, 4]}],
+        "materials": {"see": {"color": [1, 0, 0], "opacity": 0.5}},
+        "objects": [{"type": "box", "material": "see", "corner": [0, -2, 2],
+                     "edges": [[1, 0, 0], [0, 1, 0], [0, 0, 1]]}]})");
+    REQUIRE(workshop.render("p.png", {"--spp", "4"}).code == 0);
+    const Outcome outcome = verify(workshop, "p.png", {"--pixels", "4096"});
+    CAPTURE(outcome.out);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find(" 0 others\n") == std::string::npos); // or this scene has no ties
+    CHECK(outcome.out.find("\nties       ") != std::string::npos);
+
+    turn_one_over(workshop.path() / "p.png");
+    const Outcome turned = verify(workshop, "p.png", {"--pixels", "4096"});
+    CHECK(turned.code == 1);
+    CHECK(turned.out.find("\nfirst      at pixel ") != std::string::npos);
+}
+
+TEST_CASE("a picture that has lost its alpha is another one") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png", {"--alpha"}).code == 0);
+    const auto same = [](auto texts) { return texts; };
+    write_again(workshop.path() / "a.png", workshop.path() / "a.png", same);
+    REQUIRE(scenes::read_image(workshop.path() / "a.png").alpha.size() == 0);
+    const Outcome outcome = verify(workshop, "a.png");
+    CHECK(outcome.code == 1);
+    CHECK(outcome.out.find("0 the same, 0 within a step, 192 others") != std::string::npos);
+}
+
+TEST_CASE("many pixels that are only within a step are no roundings") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png").code == 0);
+    const auto same = [](auto texts) { return texts; };
+    const std::filesystem::path a = workshop.path() / "a.png", b = workshop.path() / "b.png";
+    for (const auto& [pixels, code] : {std::pair{3, 0}, {4, 1}, {192, 1}}) {
+        write_again(a, b, same, pixels);
+        const Outcome outcome = verify(workshop, "b.png");
+        CAPTURE(pixels, outcome.out);
+        CHECK(outcome.code == code);
+        CHECK(outcome.out.find(" the same, " + std::to_string(pixels) +
+                               " within a step, 0 others\n") != std::string::npos);
+        CHECK(outcome.out.ends_with("steps      more than 1 pixel in 50 is only within one, as by "
+                                    "no rounding\n") == (code == 1));
+    }
+    // Of few, two may be.
+    write_again(a, b, same, 192);
+    CHECK(verify(workshop, "b.png", {"--pixels", "2"}).code == 0);
+    CHECK(verify(workshop, "b.png", {"--pixels", "3"}).code == 1);
 }
 
 TEST_CASE("pictures that say nothing of themselves are refused in one line") {
