@@ -244,21 +244,17 @@ Scene parse(std::string_view text, const std::string& name, const OnRemark& on_r
     });
 }
 
-namespace library {
-
-/// For Python's module, which declares it, too: a file of atoms in memory, drawn with or without
-/// the edges of their cell. Throws as parse() does.
-RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell) {
+Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
+                  const OnRemark& on_remark) {
     return translated([&] {
         simd::ParallelWorkers workers;
         scenes::LoadOptions options;
         options.workers = &workers;
+        options.on_remark = on_remark;
         options.drawing.show_cell = show_cell;
         return owning(scenes::parse_scene(name, text, options));
     });
 }
-
-} // namespace library
 
 void save(const Scene& scene, const std::filesystem::path& path, const OnRemark& on_remark) {
     const std::filesystem::path file = file_named(path);

@@ -5,13 +5,6 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl/filesystem.h>
 
-namespace raylane::library {
-
-/// Of scenes/library/scene.cpp, for this module alone.
-RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell);
-
-} // namespace raylane::library
-
 namespace raylane::python {
 
 namespace {
@@ -115,7 +108,7 @@ void bind_scene(py::module_& module) {
     module.def("parse_atoms", [](const py::bytes& text, const std::string& name, bool show_cell) {
         const std::string_view view = text;
         const py::gil_scoped_release free;
-        return library::parse_atoms(view, name, show_cell);
+        return raylane::parse_atoms(view, name, show_cell);
     });
     module.def("save", [](const Scene& scene, const std::filesystem::path& path,
                           const py::object& on_remark) {

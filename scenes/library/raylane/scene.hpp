@@ -150,6 +150,11 @@ RAYLANE_API Scene load(const std::filesystem::path& path, const OnRemark& on_rem
 RAYLANE_API Scene parse(std::string_view text, const std::string& name = "scene",
                         const OnRemark& on_remark = {});
 
+/// The same for atoms, with or without the edges of the cell that they are in. Throws BadInput as
+/// well where those are to be drawn and there is no cell.
+RAYLANE_API Scene parse_atoms(std::string_view text, const std::string& name, bool show_cell,
+                              const OnRemark& on_remark = {});
+
 /// Writes a scene to a file, which appears whole or not at all, in the format of its ending (in any
 /// case): .json, which has all of it that counts, to the bit, but which triangles make a polygon
 /// and, of what goes with a camera, that fog goes with one that has been given its place; .rl,

@@ -94,6 +94,14 @@ TEST_CASE("scenes are parsed from text") {
                           "line 100010");
 }
 
+TEST_CASE("atoms are read with the edges of their cell, or without") {
+    const std::string atom = "1\nLattice=\"3 0 0 0 4 0 0 0 5\"\nC 1 1 1\n";
+    CHECK(parse_atoms(atom, "a.xyz", false).shape_count() == 1);
+    CHECK(parse_atoms(atom, "a.xyz", true).shape_count() == 1 + 8 + 12);
+    CHECK(refusal_of([] { parse_atoms("1\n\nC 1 1 1\n", "a.xyz", true); }) ==
+          "--cell: must have a cell to show, and a.xyz has none");
+}
+
 TEST_CASE("the README's program is the one that is tested") {
     const std::string program = tests::content_of(RAYLANE_SOURCE_DIR "/scenes/examples/hits.cpp");
     REQUIRE(!program.empty());
