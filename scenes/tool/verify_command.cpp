@@ -151,6 +151,7 @@ class Verifier {
         return std::to_string(x_of(pixel) - part_.x0) + ", " +
                std::to_string(y_of(pixel) - part_.y0);
     }
+
     struct Whole {
         bool has_its_bits;
         bool has_its_tiers; ///< as many rays were decided by each tier as it says

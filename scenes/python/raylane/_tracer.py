@@ -150,8 +150,8 @@ class Tracer:
     Rays are ``origins`` and ``directions`` of shape (n, 3), or one of either for all; directions may have any
     length but zero, and t counts in units of that length. Components are 0 or of magnitude from 2^-149 to below
     2^128, those of a direction beside its largest 0 or down to 2^-276 of that: a ray with others hits nothing. If all
-    arrays, those of ``t_min`` and ``t_max`` included, are float32, rays are asked as floats, else as doubles, each for exactly what it is. Arrays whose
-    columns lie one after the other in memory (``np.empty((3, n)).T``, or Fortran's order) are read where they
+    arrays, those of ``t_min`` and ``t_max`` included, are float32, rays are asked as floats, else as doubles, each for
+    exactly what it is. Arrays whose columns lie one after the other in memory (``np.empty((3, n)).T``, or Fortran's order) are read where they
     are; others are copied in parts, and those of another type first converted. ``t_min`` and ``t_max`` are (n,),
     or numbers, which are taken for ones of the rays' type.
 

@@ -410,11 +410,9 @@ TEST_CASE("a full disk is told at once, and the journal goes on when there is ro
     ::munmap(shared, sizeof(pid_t));
     const std::filesystem::path journal = workshop.output() / "picture.png.part";
     std::error_code none;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (
-        (!std::filesystem::exists(journal) || std::filesystem::file_size(journal, none) <= room) &&
-        std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(milliseconds(1));
+    CHECK(comes_true([&] {
+        return std::filesystem::exists(journal) && std::filesystem::file_size(journal, none) > room;
+    }));
     process.send(SIGTERM);
     const Outcome outcome = process.wait();
     CHECK(outcome.code == 128 + SIGTERM);

@@ -28,12 +28,8 @@ constexpr const char* right = "scene      the one that the picture names\n"
 constexpr const char* again = "rays       decided as the picture says\n"
                               "all bits   drawn again as they were\n";
 
-/// Writes a PNG again without its alpha, the codes of its first `pixels` one step further, and
-/// other texts.
-template <class Texts>
-void write_again(const std::filesystem::path& from, const std::filesystem::path& to, Texts texts,
-                 int pixels = 0) {
-    const scenes::Image image = scenes::read_image(from);
+/// What has the codes of a PNG, those of its first `pixels` one step further.
+core::Film film_of(const scenes::Image& image, int pixels = 0) {
     core::Film film(image.width, image.height);
     for (int i = 0; i < image.width * image.height; ++i)
         for (int channel = 0; channel < 3; ++channel) {
@@ -42,6 +38,16 @@ void write_again(const std::filesystem::path& from, const std::filesystem::path&
             film.at(i % image.width, i / image.width)[channel] =
                 core::decode_srgb(static_cast<std::uint8_t>(static_cast<int>(code) + step));
         }
+    return film;
+}
+
+/// Writes a PNG again without its alpha, the codes of its first `pixels` one step further, and
+/// other texts.
+template <class Texts>
+void write_again(const std::filesystem::path& from, const std::filesystem::path& to, Texts texts,
+                 int pixels = 0) {
+    const scenes::Image image = scenes::read_image(from);
+    const core::Film film = film_of(image, pixels);
     scenes::PictureOptions options;
     options.texts = texts(image.texts);
     scenes::OutputFile(to).commit(film, options);
@@ -50,12 +56,7 @@ void write_again(const std::filesystem::path& from, const std::filesystem::path&
 /// Writes a picture again with one pixel turned over, and what it says of itself.
 void turn_one_over(const std::filesystem::path& path) {
     const scenes::Image image = scenes::read_image(path);
-    core::Film film(image.width, image.height);
-    for (int i = 0; i < image.width * image.height; ++i)
-        for (int channel = 0; channel < 3; ++channel)
-            film.at(i % image.width, i / image.width)[channel] =
-                core::decode_srgb(static_cast<std::uint8_t>(
-                    255.0F * image.rgb[static_cast<std::size_t>(3 * i + channel)] + 0.5F));
+    core::Film film = film_of(image);
     core::Color& one = film.at(3, 4);
     one = core::Color(1.0F) - one;
     scenes::PictureOptions options;

@@ -38,6 +38,17 @@ inline Setup on_terminal(const char* kind = "xterm") {
     return setup;
 }
 
+/// Until that is so. False if it takes a minute.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+}
+
 /// A directory to run the tool in, with a scene and an empty directory for what comes out.
 class Workshop {
   public:
@@ -56,24 +67,16 @@ class Workshop {
     /// Until as many files as that have come out, temporaries included, also those without a name.
     /// False if that takes a minute.
     bool wait_for_files(const Process& process, int count) const {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-        while (std::distance(std::filesystem::directory_iterator(output()), {}) +
-                   process.unnamed_files_in(output()) !=
-               count) {
-            if (std::chrono::steady_clock::now() > end) return false;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return true;
+        return comes_true([&] {
+            return std::distance(std::filesystem::directory_iterator(output()), {}) +
+                       process.unnamed_files_in(output()) ==
+                   count;
+        });
     }
 
     /// Until that file is there. False if that takes a minute.
     bool wait_for(const std::filesystem::path& file) const {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-        while (!std::filesystem::exists(file)) {
-            if (std::chrono::steady_clock::now() > end) return false;
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        return true;
+        return comes_true([&] { return std::filesystem::exists(file); });
     }
 
     Outcome run(const std::vector<std::string>& arguments, Setup setup = {}) const {
