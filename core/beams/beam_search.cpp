@@ -1,5 +1,7 @@
 #include "core/beams/beam_search.hpp"
 
+#include "core/shapes/shapes.hpp"
+
 #include <algorithm>
 #include <bit>
 

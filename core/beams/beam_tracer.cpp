@@ -1,8 +1,10 @@
 #include "core/beams/beam_tracer.hpp"
 
+#include "core/numbers/infinity.hpp"
 #include "core/optics/optics.hpp"
 #include "core/scene/pattern.hpp"
 #include "core/shapes/normal.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 
@@ -10,7 +12,6 @@ namespace raylane::core {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest(const Color& color) {
     return static_cast<double>(std::max({color.x, color.y, color.z}));
@@ -118,7 +119,7 @@ Sight BeamTracer::surfaces_in(const Square& square, double t_likely) {
 }
 
 BeamHit BeamTracer::first_in(const Beam& beam, double t_likely) {
-    for (double t_most = t_likely;; t_most = infinity) {
+    for (double t_most = t_likely;; t_most = infinity<double>) {
         BeamHit hit{BeamHit::doubt};
         if (!search_.collect(beam, t_most, shown_)) {
             shown_.clear();
@@ -127,7 +128,7 @@ BeamHit BeamTracer::first_in(const Beam& beam, double t_likely) {
         hit = search_.first(beam, {}, shown_);
         const bool is_all_known =
             hit.is_covered() ? hit.crossing.t.upper() <= t_most : hit.what == BeamHit::doubt;
-        if (is_all_known || t_most == infinity) return hit;
+        if (is_all_known || t_most == infinity<double>) return hit;
     }
 }
 
@@ -207,7 +208,7 @@ bool BeamTracer::is_light_known(const Surface& surface, const Light& light, doub
     if (facing.upper() < 0.0) return true;
 
     if (facing.lower() > 0.0) {
-        const double t_most = is_point ? 1.0 : infinity;
+        const double t_most = is_point ? 1.0 : infinity<double>;
         const Beam shadow{surface.point, to_light};
         if (search_.collect(shadow, t_most, in_the_way_) &&
             search_.arrives(shadow, surface.departure, t_most, in_the_way_) !=
@@ -280,7 +281,7 @@ double BeamTracer::unknown_behind(const Surface& surface, double weight, double 
 
 double BeamTracer::unknown_along(const Beam& beam, const Departure& from, double weight,
                                  double size, int depth) {
-    if (!search_.collect(beam, infinity, mirrored_)) return weight;
+    if (!search_.collect(beam, infinity<double>, mirrored_)) return weight;
     const BeamHit hit = search_.first(beam, from, mirrored_);
     if (hit.what == BeamHit::nothing) return 0.0;
     if (hit.what == BeamHit::doubt) return weight;

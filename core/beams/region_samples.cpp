@@ -1,6 +1,7 @@
 #include "core/beams/region_samples.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/infinity.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -26,8 +27,6 @@ int most_unseen_of(double tolerance) {
 
 /// Other rays of a beam may go a little further than its samples.
 constexpr double likely_beyond = 1.125;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Of neighbours' colours, as a part of white.
 constexpr double contrast = 0.1;
 
@@ -173,7 +172,7 @@ bool RegionSamples::looks_even(const PixelSquare& square, double& t_likely) cons
         for (int x = square.x; x < x1; ++x) {
             const Sample& sample = states_[number_of(x, y)].first;
             if (sample.shape != first.shape) return false;
-            t_likely = std::max(t_likely, sample.shape == no_shape ? infinity : sample.t);
+            t_likely = std::max(t_likely, sample.shape == no_shape ? infinity<double> : sample.t);
             if (is_grainy_) continue;
             const Sample& left = states_[number_of(std::max(x - 1, square.x), y)].first;
             const Sample& above = states_[number_of(x, std::max(y - 1, square.y))].first;

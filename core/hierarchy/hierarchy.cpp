@@ -2,6 +2,7 @@
 
 #include "core/hierarchy/binary_tree.hpp"
 #include "core/hierarchy/emission.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <limits>
 

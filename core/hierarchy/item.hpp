@@ -2,7 +2,7 @@
 
 #include "core/numbers/float4.hpp"
 #include "core/shapes/bounds.hpp"
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 
 #include <bit>
 #include <cstdint>

@@ -1,11 +1,12 @@
 #pragma once
 
+#include "core/numbers/bounded.hpp"
+#include "core/numbers/double_double.hpp"
+#include "core/numbers/exact_root.hpp"
 #include "core/reference/counters.hpp"
 #include "core/reference/origin_surfaces.hpp"
-#include "core/shapes/solve.hpp"
 
 #include <optional>
-#include <utility>
 
 /// Order of a ray's crossings, whatever they are crossings with: as real arithmetic says. Two are
 /// at the same t where that says so, and nowhere else.
@@ -16,20 +17,6 @@ struct LeavingRay {
     const Ray<double>& ray;
     const OriginSurfaces<double>& origins;
 };
-
-/// The crossing as a root of its surface's equation along the ray. For a start on that surface, of
-/// which t = 0 is one root, of what is left of it (as the solvers have it); behind the start it is
-/// there: not_behind().
-template <class Shape>
-ExactRoot root_of(const Shape& shape, const LeavingRay& from, const Hit<double>& hit) {
-    if (hit.at_start) return ExactRoot::at(0.0);
-    const ExactRay ray{convert<Dyadic>(from.ray.origin), convert<Dyadic>(from.ray.direction)};
-    const Start start = from.origins.start_on(hit.shape);
-    ExactQuadratic form = form_along(shape, ray, hit.face);
-    if (!start.on_surface || start.face != hit.face) return {std::move(form), !hit.entering};
-    ExactRoot root({0.0, 0.5 * form.A, form.B + form.B}, true);
-    return root.sign() > 0 ? root : ExactRoot::at(0.0);
-}
 
 /// A crossing of which more is found out where there is need.
 class SharpHit {
@@ -45,13 +32,7 @@ class SharpHit {
 
     const Hit<double>& hit() const { return hit_; }
     /// Finds out t in 106 bits, if that is more.
-    void widen(const Scene& scene, const LeavingRay& from) const {
-        if (std::exchange(is_wide_, true) || hit_.at_start) return;
-        t_ = hit_.t;
-        t_error_ = hit_.error;
-        with_table(scene.shapes(), hit_.kind,
-                   [&](const auto& table) { widen(table.get(hit_.place), from); });
-    }
+    void widen(const Scene& scene, const LeavingRay& from) const;
     /// Hit with a t that is off by no more than double cannot help, if it has been widened.
     Hit<double> sharpened() const {
         const Bounded<double> t = in_double(wide_t());
@@ -67,13 +48,7 @@ class SharpHit {
                         : Bounded<DoubleDouble>(hit_.t, hit_.error);
     }
     /// Exactly.
-    const ExactRoot& root(const Scene& scene, const LeavingRay& from) const {
-        if (!root_)
-            with_table(scene.shapes(), hit_.kind, [&](const auto& table) {
-                root_ = root_of(table.get(hit_.place), from, hit_);
-            });
-        return *root_;
-    }
+    const ExactRoot& root(const Scene& scene, const LeavingRay& from) const;
 
     /// True if it surely comes before; both have been widened.
     bool is_surely_before(const SharpHit& other) const {
@@ -88,20 +63,7 @@ class SharpHit {
 
   private:
     template <class Shape>
-    void widen(const Shape& shape, const LeavingRay& from) const {
-        using Wide = Bounded<DoubleDouble>;
-        Judge<Wide> judge;
-        const Ray<Wide> wide{convert<Wide>(from.ray.origin), convert<Wide>(from.ray.direction)};
-        const Crossings<Wide> found =
-            crossings(shape, wide, from.origins.start_on(hit_.shape), judge);
-        if (judge.doubt()) return; // the formulas may be others' then
-        for (const Crossing<Wide>& crossing : found) {
-            if (crossing.face != hit_.face || crossing.entering != hit_.entering) continue;
-            if (!(crossing.t.error < hit_.error)) continue;
-            t_ = crossing.t.value;
-            t_error_ = crossing.t.error;
-        }
-    }
+    void widen(const Shape& shape, const LeavingRay& from) const;
 
     Hit<double> hit_;
     mutable bool is_wide_ = false;
@@ -118,17 +80,7 @@ class CrossingOrder {
         : scene_(scene), from_(from), counters_(counters) {}
 
     /// -1 if a comes first by its t, 0 if both are at the same t.
-    int compare(const SharpHit& a, const SharpHit& b) const {
-        if (a.hit().is_surely_before(b.hit())) return decided(&OrderCounters::by_bounds, -1);
-        if (b.hit().is_surely_before(a.hit())) return decided(&OrderCounters::by_bounds, 1);
-        a.widen(scene_, from_);
-        b.widen(scene_, from_);
-        if (a.is_surely_before(b)) return decided(&OrderCounters::by_digits, -1);
-        if (b.is_surely_before(a)) return decided(&OrderCounters::by_digits, 1);
-        if (a.is_surely_at(b)) return decided(&OrderCounters::by_digits, 0);
-        return decided(&OrderCounters::exactly,
-                       core::compare(a.root(scene_, from_), b.root(scene_, from_)));
-    }
+    int compare(const SharpHit& a, const SharpHit& b) const;
     /// Order of two hits. At the same t, what is entered comes before what is left, then the lower
     /// shape.
     bool is_before(const SharpHit& a, const SharpHit& b) const {

@@ -1,5 +1,8 @@
 #include "core/reference/rounding.hpp"
 
+#include "core/shapes/normal.hpp"
+#include "core/shapes/shapes.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,7 +14,7 @@ namespace raylane::core {
 namespace {
 
 using Limits = std::numeric_limits<float>;
-using Real = Bounded<DoubleDouble>;
+using Wide = Bounded<DoubleDouble>;
 
 float float_of(double t) {
     return static_cast<float>(std::clamp(t, static_cast<double>(Limits::denorm_min()),
@@ -61,17 +64,17 @@ bool with_wide_t(const Scene& scene, const LeavingRay& from, const SharpHit& sha
            is_enough(sharp.root(scene, from).in_wide(sharp.hit().t, sharp.hit().error));
 }
 
-Vec3<Real> wide_normal(const Scene& scene, const Ray<Real>& ray, const Real& t,
+Vec3<Wide> wide_normal(const Scene& scene, const Ray<Wide>& ray, const Wide& t,
                        const Hit<double>& hit) {
-    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Real> {
-        const NormalAlong<Real> along = normal_along(shape, ray, hit.face);
+    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Wide> {
+        const NormalAlong<Wide> along = normal_along(shape, ray, hit.face);
         return mul_add(t, along.slope, along.v);
     });
 }
 
 /// That of an apex.
-Vec3<Real> wide_apex_normal(const Scene& scene, const Ray<Real>& ray, const Hit<double>& hit) {
-    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Real> {
+Vec3<Wide> wide_apex_normal(const Scene& scene, const Ray<Wide>& ray, const Hit<double>& hit) {
+    return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Wide> {
         return normal_along(shape, ray, hit.face).apex;
     });
 }
@@ -154,8 +157,8 @@ class ExactDirection : private ExactNormal {
 class RoundedDirection {
   public:
     /// Brings it to length 1. True if each component rounds to one float, whatever its error.
-    bool is_sure(const Vec3<Real>& direction) {
-        const Real length = core::length(direction);
+    bool is_sure(const Vec3<Wide>& direction) {
+        const Wide length = core::length(direction);
         for (int axis = 0; axis < 3; ++axis) {
             const Bounded<double> component = in_double(direction[axis] / length);
             if (!(component.error <= 1.0)) continue;
@@ -193,7 +196,7 @@ bool rounds_surely(const DoubleDouble& t, double error) {
 
 double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
     DoubleDouble known;
-    if (with_wide_t(scene, from, hit, [&](const Real& t) {
+    if (with_wide_t(scene, from, hit, [&](const Wide& t) {
             known = t.value;
             return rounds_surely(t.value, t.error);
         }))
@@ -232,11 +235,11 @@ float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& h
 }
 
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
-    const Ray<Real> ray = ray_in<Real>(from.ray);
+    const Ray<Wide> ray = ray_in<Wide>(from.ray);
     RoundedDirection normal;
     // Vectors have tried with t as it is known in double.
     if (with_wide_t(scene, from, hit,
-                    [&](const Real& t) { return normal.is_sure(wide_normal(scene, ray, t, hit)); }))
+                    [&](const Wide& t) { return normal.is_sure(wide_normal(scene, ray, t, hit)); }))
         return normal.rounded();
     const ExactDirection exact(ExactNormal(scene, from, hit));
     if (exact.at_apex() && normal.is_sure(wide_apex_normal(scene, ray, hit)))
@@ -281,11 +284,11 @@ SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
         });
         return result;
     }
-    const Ray<Real> wide = ray_in<Real>(ray);
+    const Ray<Wide> wide = ray_in<Wide>(ray);
     Vec3<Bounded<double>> direction;
-    const auto is_known = [&](const Real& t) {
-        const Vec3<Real> true_point = mul_add(t, wide.direction, wide.origin);
-        const Vec3<Real> normal = wide_normal(scene, wide, t, hit);
+    const auto is_known = [&](const Wide& t) {
+        const Vec3<Wide> true_point = mul_add(t, wide.direction, wide.origin);
+        const Vec3<Wide> normal = wide_normal(scene, wide, t, hit);
         for (int axis = 0; axis < 3; ++axis) {
             point[axis] = in_double(true_point[axis]);
             result.point[axis] = point[axis].value;

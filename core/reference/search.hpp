@@ -1,11 +1,11 @@
 #pragma once
 
+#include "core/function_ref.hpp"
 #include "core/reference/counters.hpp"
 #include "core/reference/rounding.hpp"
 #include "core/reference/solid_surfaces.hpp"
 
-#include <algorithm>
-#include <type_traits>
+#include <limits>
 #include <vector>
 
 /// Finding what a ray hits: one shape after the other, by way of the hierarchy or all of them.
@@ -17,302 +17,63 @@ enum class Search : std::uint8_t { hierarchy, every_shape };
 template <class Real>
 class Searcher {
   public:
-    Searcher(const Scene& scene, Search search, Precision precision = precision_of<Real>)
-        : scene_(scene), search_(search), precision_(precision), solid_surfaces_(scene) {
-        pending_.reserve(512);
-        candidates_.reserve(64);
-        sharp_.reserve(64);
-        contacts_.reserve(64);
-    }
+    /// Predicate on a hit.
+    using OfHit = FunctionRef<bool(const Hit<Real>&)>;
+
+    Searcher(const Scene& scene, Search search, Precision precision = precision_of<Real>);
 
     /// The first crossing with t < t_most that `counts(hit)`. Its t is infinite if there is none.
-    template <class Counts>
-    Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                            const Counts& counts,
-                            Real t_most = std::numeric_limits<Real>::infinity()) {
-        Hit<Real> first;
-        for (const Contact<Real>& contact : origins) {
-            if (!contact.is_crossed() || !counts(contact_hit(contact)) ||
-                !is_surface(ray, origins, contact_hit(contact)))
-                continue;
-            if (!first.any() || contact_hit(contact).precedes(first)) first = contact_hit(contact);
-        }
-        if (first.any()) return {first, origins};
-        const Hit<Real> best = look(ray, origins, counts, t_most);
-        return best.any() ? encounter(ray, origins, best, /*whole=*/true) : Encounter<Real>{};
-    }
+    Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, OfHit counts,
+                            Real t_most = std::numeric_limits<Real>::infinity());
 
     /// The same for a ray that starts on no surface, without what it touches there.
-    template <class Counts>
-    Hit<Real> nearest_hit(const Ray<Real>& ray, const Counts& counts, Real t_most) {
-        const OriginSurfaces<Real> nowhere{};
-        const Hit<Real> best = look(ray, nowhere, counts, t_most);
-        return best.any() ? encounter(ray, nowhere, best, /*whole=*/false).hit : Hit<Real>{};
-    }
+    Hit<Real> nearest_hit(const Ray<Real>& ray, OfHit counts, Real t_most);
 
     /// Calls visit(hit) for the crossings of surfaces with t < t_most, in no order, until it
     /// returns false.
-    template <class Visit>
-    void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most,
-              const Visit& visit) {
-        bool more = true;
-        for (const Contact<Real>& contact : origins)
-            if (more && contact.is_crossed() && is_surface(ray, origins, contact_hit(contact)))
-                more = visit(contact_hit(contact));
-        if (!more) return;
-        for_each_candidate(
-            ray, [&] { return t_most; },
-            [&](Kind kind, std::uint32_t block) {
-                cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
-                    if (more && hit.t < t_most && is_surface(ray, origins, hit)) more = visit(hit);
-                });
-                return more;
-            });
-    }
+    void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most, OfHit visit);
 
     /// The point of a crossing, and the unit normal on the outside (the front) there.
     SurfacePoint<Real> surface_at(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                                  const Hit<Real>& hit) const {
-        if constexpr (std::is_same_v<Real, double>)
-            if (is_exact()) return surface_point(scene_, {ray, origins}, hit);
-        const Vec3<Real> point = mul_add(hit.t, ray.direction, ray.origin);
-        return with_table(scene_.shapes(), hit.kind, [&](const auto& table) {
-            return SurfacePoint<Real>{point, outward_normal(table.get(hit.place), point, hit.face)};
-        });
-    }
+                                  const Hit<Real>& hit) const;
 
     /// Into the order in which the ray meets them.
     void sort(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-              std::vector<Hit<Real>>& hits) {
-        if constexpr (std::is_same_v<Real, double>)
-            if (is_exact()) {
-                const CrossingOrder order(scene_, {ray, origins}, &order_counters);
-                sharp_.assign(hits.begin(), hits.end());
-                std::sort(sharp_.begin(), sharp_.end(), [&](const SharpHit& a, const SharpHit& b) {
-                    return order.is_before(a, b);
-                });
-                for (std::size_t i = 0; i < hits.size(); ++i) {
-                    hits[i] = sharp_[i].sharpened();
-                    hits[i].joins = i != 0 && order.compare(sharp_[i - 1], sharp_[i]) == 0;
-                }
-                return;
-            }
-        std::sort(hits.begin(), hits.end(), [](const Hit<Real>& a, const Hit<Real>& b) {
-            return a.t != b.t ? a.t < b.t : a.precedes(b);
-        });
-        for (std::size_t i = 0; i < hits.size(); ++i)
-            hits[i].joins = i != 0 && hits[i - 1].t == hits[i].t;
-    }
+              std::vector<Hit<Real>>& hits);
 
     Counters counters;
     OrderCounters order_counters; ///< of sort()
 
   private:
-    static Hit<Real> contact_hit(const Contact<Real>& contact) {
-        Hit<Real> hit = contact.hit;
-        hit.t = 0;
-        hit.error = 0.0;
-        hit.at_start = true;
-        hit.entering = contact.goes_inside;
-        return hit;
-    }
-
     bool is_exact() const { return precision_ == Precision::exact; }
-
-    /// True if a crossing with a part of a solid is one of the solid's surface, too.
     bool is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                    const Hit<Real>& hit) {
-        if (!scene_.solids().has(hit.shape)) return true;
-        if constexpr (std::is_same_v<Real, double>)
-            return solid_surfaces_.is_surface({ray, origins}, hit);
-        else {
-            const Ray<double> in_double{convert<double>(ray.origin),
-                                        convert<double>(ray.direction)};
-            return solid_surfaces_.is_surface({in_double, OriginSurfaces<double>(origins)},
-                                              Hit<double>(hit));
-        }
-    }
+                    const Hit<Real>& hit);
 
     /// A hit that may be the first, or in contact with it.
     struct Candidate {
         Hit<Real> hit;
         bool may_be_hit;
     };
-
-    /// Fills the candidates; returns one that may be the first, if any.
-    template <class Counts>
-    Hit<Real> look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, const Counts& counts,
-                   Real t_most) {
-        Hit<Real> best;
-        best.t = t_most;
-        candidates_.clear();
-        for_each_candidate(
-            ray, [&] { return best.t; },
-            [&](Kind kind, std::uint32_t block) {
-                cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
-                    if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
-                    // What does not count may still lie where the ray will go on from.
-                    const bool may_be_hit = counts(hit) && is_surface(ray, origins, hit);
-                    candidates_.push_back({hit, may_be_hit});
-                    if (may_be_hit && (hit.t < best.t || !best.any())) best = hit;
-                });
-                return true;
-            });
-        return best;
-    }
-
-    /// Encounter with the candidates, among which is `best`; `whole`: with its contacts.
+    Hit<Real> look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, OfHit counts,
+                   Real t_most);
     Encounter<Real> encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
-                              const Hit<Real>& best, bool whole) {
-        std::erase_if(candidates_, [&](const Candidate& candidate) {
-            return best.is_surely_before(candidate.hit);
-        });
-        if constexpr (std::is_same_v<Real, double>)
-            if (is_exact() && candidates_.size() > 1) {
-                const CrossingOrder order(scene_, {ray, origins});
-                sharp_.clear();
-                for (const Candidate& candidate : candidates_)
-                    sharp_.emplace_back(candidate.hit);
-                return first_of(
-                    sharp_, ray, origins,
-                    [&](const SharpHit& a, const SharpHit& b) { return order.compare(a, b); },
-                    whole);
-            }
-        return first_of(
-            candidates_, ray, origins,
-            [](const Candidate& a, const Candidate& b) {
-                return a.hit.t < b.hit.t ? -1 : a.hit.t > b.hit.t ? 1 : 0;
-            },
-            whole);
-    }
-
-    static const Hit<Real>& hit_of(const Candidate& candidate) { return candidate.hit; }
-    static const Hit<Real>& hit_of(const SharpHit& sharp) { return sharp.hit(); }
-    static Hit<Real> sharpened(const Candidate& candidate) { return candidate.hit; }
-    static Hit<Real> sharpened(const SharpHit& sharp) { return sharp.sharpened(); }
-
-    /// Encounter with hits that belong to the candidates: the first that counts, and all that are
-    /// where it is.
+                              const Hit<Real>& best, bool whole);
     template <class AnyHit, class Compare>
     Encounter<Real> first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
                              const OriginSurfaces<Real>& origins, const Compare& compare,
-                             bool whole) {
-        std::size_t first = hits.size();
-        for (std::size_t i = 0; i < hits.size(); ++i) {
-            if (!candidates_[i].may_be_hit) continue;
-            const int order = first == hits.size() ? -1 : compare(hits[i], hits[first]);
-            if (order < 0 || (order == 0 && hit_of(hits[i]).precedes(hit_of(hits[first]))))
-                first = i;
-        }
-        const Hit<Real> hit_first = sharpened(hits[first]);
-        if (!whole) return {hit_first, {}};
-        contacts_.clear();
-        const auto add = [&](const Hit<Real>& hit) {
-            const IdRange shapes = scene_.coplanar_with(hit.shape);
-            // An edge between triangles of one polygon is of both.
-            if (shapes.first != shapes.last &&
-                std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<Real>& other) {
-                    return other.shapes.first == shapes.first;
-                }))
-                return;
-            contacts_.push_back(
-                {hit, shapes, scene_.material_index_of(hit.shape),
-                 surface_at(ray, origins, hit).normal, !hit.entering, hit.entering,
-                 scene_.solids().has(hit.shape) ? scene_.solids().solid_of(hit.shape) : no_shape,
-                 is_surface(ray, origins, hit)});
-        };
-        add(hit_first);
-        for (std::size_t i = 0; i < hits.size(); ++i)
-            if (i != first && compare(hits[i], hits[first]) == 0) add(sharpened(hits[i]));
-        return {hit_first, OriginSurfaces<Real>(contacts_)};
-    }
+                             bool whole);
 
     struct Pending {
         Real t;
         Child child;
     };
-
-    /// Calls visit(kind, block) for the blocks that may be hit before t_most(), until it returns
-    /// false.
     template <class Most, class Visit>
-    void for_each_candidate(const Ray<Real>& ray, const Most& t_most, const Visit& visit) {
-        bool more = true;
-        const auto visit_all = [&]<class Shape>(const Table<Shape>& table) {
-            for (std::uint32_t block = 0; more && block < table.blocks().size(); ++block)
-                more = visit(kind_of<Shape>, block);
-        };
-        if (search_ == Search::every_shape) {
-            for_each_table(scene_.shapes(), visit_all);
-            return;
-        }
-        for_each_unbounded_table(scene_.shapes(), visit_all);
-        if (more && !scene_.hierarchy().nodes.empty()) walk(ray, t_most, visit);
-    }
-
-    /// Through the hierarchy, nearest first.
+    void for_each_candidate(const Ray<Real>& ray, const Most& t_most, const Visit& visit);
     template <class Most, class Visit>
-    void walk(const Ray<Real>& ray, const Most& t_most, const Visit& visit) {
-        const Vec3<Real> inverse = Real(1) / ray.direction;
-        pending_.assign(1, {Real(0), Child::node(0)});
-        while (!pending_.empty()) {
-            const Pending next = pending_.back();
-            pending_.pop_back();
-            if (next.t > t_most() * allowance) continue;
-            if (next.child.is_block()) {
-                if (!visit(next.child.kind(), next.child.index())) return;
-                continue;
-            }
-            ++counters.nodes;
-            const WideNode& node = scene_.hierarchy().nodes[next.child.index()];
-            const auto first = static_cast<std::ptrdiff_t>(pending_.size());
-            for (int i = 0; i < block_size && !node.children[i].empty(); ++i) {
-                const Real t = entry_t(node, i, ray, inverse, t_most());
-                if (t >= Real(0)) pending_.push_back({t, node.children[i]});
-            }
-            std::sort(pending_.begin() + first, pending_.end(),
-                      [](const Pending& a, const Pending& b) { return a.t > b.t; });
-        }
-    }
-
-    /// Tolerance for missing bounds, relative to t: the solvers' error, which is 2^-27 in double,
-    /// and that of the quotients here, 3 half ulps (Ize, "Robust BVH Ray Traversal", 2013). In
-    /// float, and in plain double, the solvers promise nothing.
-    static constexpr Real allowance =
-        Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
-
-    /// t at which a ray enters the bounds of entry i, >= 0; -1 if it misses them between 0 and
-    /// t_most. A component of 0 makes 0 * inf only if the origin is in a plane of the bounds;
-    /// either answer is then right, as no shape touches them.
-    static Real entry_t(const WideNode& node, int i, const Ray<Real>& ray,
-                        const Vec3<Real>& inverse, Real t_most) {
-        Real near = 0, far = t_most;
-        for (int axis = 0; axis < 3; ++axis) {
-            const Real to_lower = Real(node.lower[axis][i]) - ray.origin[axis];
-            const Real to_upper = Real(node.upper[axis][i]) - ray.origin[axis];
-            const Real at_lower = to_lower * inverse[axis];
-            const Real at_upper = to_upper * inverse[axis];
-            near = std::max(near, std::min(at_lower, at_upper));
-            far = std::min(far, std::max(at_lower, at_upper));
-        }
-        return near <= far * allowance ? near : Real(-1);
-    }
-
-    /// Calls visit(hit) for each crossing ahead of the ray with one block's shapes.
-    template <class Visit>
+    void walk(const Ray<Real>& ray, const Most& t_most, const Visit& visit);
     void cross_block(Kind kind, std::uint32_t index, const Ray<Real>& ray,
-                     const OriginSurfaces<Real>& origins, const Visit& visit) {
-        with_table(scene_.shapes(), kind, [&](const auto& table) {
-            for_each_in_block(table, index, [&](Place place, ShapeId id) {
-                const Start start = origins.start_on(id);
-                ++counters.shapes;
-                for (const Crossing<Real>& crossing :
-                     solve(table.get(place), ray, start, counters.widened, precision_))
-                    if (crossing.t > Real(0) || (start.on_surface && crossing.t == Real(0)))
-                        visit(
-                            Hit<Real>(crossing, id, kind, place, scene_.solids().is_reversed(id)));
-            });
-        });
-    }
+                     const OriginSurfaces<Real>& origins,
+                     FunctionRef<void(const Hit<Real>&)> visit);
 
     const Scene& scene_;
     Search search_;
@@ -323,5 +84,8 @@ class Searcher {
     std::vector<SharpHit> sharp_; // the same, or what is sorted
     SolidSurfaces solid_surfaces_;
 };
+
+extern template class Searcher<float>;
+extern template class Searcher<double>;
 
 } // namespace raylane::core

@@ -1,6 +1,9 @@
 #include "core/reference/solid_surfaces.hpp"
 
+#include "core/numbers/infinity.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/side.hpp"
+#include "core/shapes/solve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,14 +54,13 @@ Hit<double> hit_of(const Solids::Node& part, const Crossing<double>& crossing) {
 
 /// A box of floats that has all that a point with bounds may be.
 Bounds bounds_of(const Somewhere& point) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
         const double error = point[axis].error * (1.0 + 0x1p-50);
         bounds.lower[axis] =
-            std::nextafter(static_cast<float>(point[axis].value - error), -infinity);
+            std::nextafter(static_cast<float>(point[axis].value - error), -infinity<float>);
         bounds.upper[axis] =
-            std::nextafter(static_cast<float>(point[axis].value + error), infinity);
+            std::nextafter(static_cast<float>(point[axis].value + error), infinity<float>);
     }
     return bounds;
 }

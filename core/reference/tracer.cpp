@@ -1,6 +1,7 @@
 #include "core/reference/tracer.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/infinity.hpp"
 #include "core/numbers/primitives.hpp"
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
@@ -17,9 +18,6 @@ template <class Real>
 Real largest(const Vec3<Real>& v) {
     return std::max({v.x, v.y, v.z});
 }
-
-template <class Real>
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 } // namespace
 

@@ -1,6 +1,7 @@
 #include "core/scene/built_shapes.hpp"
 
 #include "core/shapes/invalid_value.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,7 @@
 #include "core/scene/features.hpp"
 
+#include "core/shapes/shapes.hpp"
+
 #include <algorithm>
 
 namespace raylane::core {

@@ -1,8 +1,10 @@
 #include "core/scene/method_choice.hpp"
 
+#include "core/numbers/infinity.hpp"
 #include "core/scene/camera_rays.hpp"
 #include "core/scene/features.hpp"
 #include "core/shapes/displacement.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,6 @@ namespace raylane::core {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double good_enough = 0.1; ///< pixels
 /// All pairs of shapes are compared.
 constexpr std::size_t most_shapes = 1000;
@@ -193,7 +194,7 @@ MethodChoice choose_method(const Scene& scene, const Settings& settings) {
     const Features features = features_of(scene, settings);
     MethodChoice choice{Precision::exact, {}};
     for (const Precision precision : all_precisions) {
-        MethodEstimate method{precision, mean_cost(scene, precision), infinity, {}};
+        MethodEstimate method{precision, mean_cost(scene, precision), infinity<double>, {}};
         if (is_single(precision)) {
             consider_floats(method, scene, settings, features);
         } else if (precision == Precision::exact) {

@@ -3,6 +3,7 @@
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/primitives.hpp"
 #include "core/scene/scene.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

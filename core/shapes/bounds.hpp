@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/numbers/infinity.hpp"
 #include "core/numbers/vector.hpp"
 
 #include <algorithm>
@@ -47,11 +48,10 @@ struct Bounds {
 /// Bounds of points, rounded outwards, made to include one more.
 template <class Real>
 void include_point(Bounds& bounds, const Vec3<Real>& point) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
         const auto value = static_cast<float>(point[axis]);
-        bounds.lower[axis] = std::min(bounds.lower[axis], std::nextafter(value, -infinity));
-        bounds.upper[axis] = std::max(bounds.upper[axis], std::nextafter(value, infinity));
+        bounds.lower[axis] = std::min(bounds.lower[axis], std::nextafter(value, -infinity<float>));
+        bounds.upper[axis] = std::max(bounds.upper[axis], std::nextafter(value, infinity<float>));
     }
 }
 

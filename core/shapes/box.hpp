@@ -3,23 +3,11 @@
 #include "core/shapes/checks.hpp"
 #include "core/shapes/clip_interval.hpp"
 #include "core/shapes/form.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 #include <array>
 
 namespace raylane::core {
-
-/// Any parallelepiped, solid: corner + u edge_u + v edge_v + w edge_w for u, v, w in [0, 1].
-template <class Number>
-struct BoxOf {
-    Vec3<Number> corner;
-    Vec3<Number> edge_u, edge_v, edge_w;
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = MethodCosts{1.34, 1.31, 1.0, 2.41}};
-};
 
 template <class Number>
 void validate(const BoxOf<Number>& box) {

@@ -4,26 +4,9 @@
 #include "core/shapes/checks.hpp"
 #include "core/shapes/clip_interval.hpp"
 #include "core/shapes/quadratic.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 namespace raylane::core {
-
-/// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1].
-/// Capped: solid.
-template <class Number, Ends ends>
-struct ConeOf {
-    Vec3<Number> base;
-    Vec3<Number> axis;
-    Number base_radius; ///< >= 0
-    Number top_radius;  ///< >= 0, not both 0
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = ends == Ends::open
-                                                     ? MethodCosts{0.92, 1.05, 1.0, 1.72}
-                                                     : MethodCosts{1.45, 1.52, 1.0, 2.86}};
-};
 
 template <class Number, Ends ends>
 void validate(const ConeOf<Number, ends>& cone) {

@@ -4,24 +4,9 @@
 #include "core/shapes/checks.hpp"
 #include "core/shapes/clip_interval.hpp"
 #include "core/shapes/quadratic.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 namespace raylane::core {
-
-/// Points at distance `radius` from the line base + s axis, with s in [0, 1]. Capped: solid.
-template <class Number, Ends ends>
-struct CylinderOf {
-    Vec3<Number> base;
-    Vec3<Number> axis;
-    Number radius; ///< > 0
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = ends == Ends::open
-                                                     ? MethodCosts{1.10, 1.08, 1.0, 1.72}
-                                                     : MethodCosts{1.40, 1.31, 1.0, 2.31}};
-};
 
 template <class Number, Ends ends>
 void validate(const CylinderOf<Number, ends>& cylinder) {

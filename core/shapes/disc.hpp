@@ -2,21 +2,9 @@
 
 #include "core/shapes/checks.hpp"
 #include "core/shapes/flat.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 namespace raylane::core {
-
-template <class Number>
-struct DiscOf {
-    Vec3<Number> center;
-    Vec3<Number> normal;
-    Number radius; ///< > 0
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.07, 1.18, 1.0, 2.15}};
-};
 
 template <class Number>
 void validate(const DiscOf<Number>& disc) {

@@ -1,5 +1,6 @@
 #include "core/shapes/displacement.hpp"
 
+#include "core/numbers/infinity.hpp"
 #include "core/shapes/quadric.hpp"
 #include "core/shapes/rounded_to_floats.hpp"
 
@@ -9,8 +10,6 @@
 namespace raylane::core {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Error bound of eight roundings to float, relative to their largest operand.
 constexpr double roundings = 8 * 0x1p-24;
@@ -27,18 +26,18 @@ struct Cell {
     }
 };
 
-/// The least |half gradient| in a cell where |Q| <= error, or less; infinity if that is nowhere. By
-/// cutting the cell until its middle stands for all of it; 0 if that does not help.
+/// The least |half gradient| in a cell where |Q| <= error, or less; infinity<double> if that is
+/// nowhere. By cutting the cell until its middle stands for all of it; 0 if that does not help.
 double least_gradient(const InDouble<Quadric>& quadric, double norm, double error, const Cell& cell,
                       int depth) {
     const double radius = length(cell.half);
     const double gradient = length(cell.seen(quadric_half_gradient(quadric, cell.middle)));
     if (std::abs(quadric_value(quadric, cell.middle)) >
         radius * (2.0 * gradient + norm * radius) + error)
-        return infinity;
+        return infinity<double>;
     if (norm * radius <= 0.5 * gradient) return gradient - norm * radius;
     if (depth == 0) return 0.0;
-    double least = infinity;
+    double least = infinity<double>;
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3d towards((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
                             (corner & 4) != 0 ? 0.5 : -0.5);
@@ -104,7 +103,7 @@ double displacement(const InDouble<Sphere>& sphere, Precision precision, double 
     const double r = sphere.radius, D = reach + r;
     const double off =
         precision == Precision::robust ? 2.0 * roundings * D : 3.0 * roundings * D * (1.0 + D / r);
-    return off < 0.25 * r ? off + change_in_floats(sphere) : infinity;
+    return off < 0.25 * r ? off + change_in_floats(sphere) : infinity<double>;
 }
 
 /// The numerator of t is off by roundings of |centre - origin|, the denominator by roundings of the
@@ -113,7 +112,7 @@ double displacement(const InDouble<Sphere>& sphere, Precision precision, double 
 double displacement(const InDouble<Disc>& disc, Precision, double reach) {
     const double r = disc.radius;
     const double off = 2.0 * roundings * (reach + r);
-    return off < 0.25 * r ? off + change_in_floats(disc) : infinity;
+    return off < 0.25 * r ? off + change_in_floats(disc) : infinity<double>;
 }
 
 /// Let m be the matrix's norm, l the linear part's, s the largest coefficient, T(x) = m x^2 + 2 l x
@@ -155,11 +154,11 @@ double displacement(const InDouble<Quadric>& quadric, Precision precision, doubl
         error = (1.25 * B * B + 2.0 * m * T(D)) / matrix.least_eigenvalue() + T(R);
     }
     error *= roundings;
-    if (!(error < infinity)) return infinity;
+    if (!(error < infinity<double>)) return infinity<double>;
     const double gradient = least_gradient(quadric, m, error);
     // Moved by x, Q changes by 2 g x - m x^2 or more.
     const double rest = gradient * gradient - m * error;
-    if (!(rest > 0.0) || !has_float_form(quadric)) return infinity;
+    if (!(rest > 0.0) || !has_float_form(quadric)) return infinity<double>;
     // As the box moves, so do the edges: along the surface, at a slant.
     const double moved = change_in_floats(quadric) * std::max(1.0, G / gradient);
     return error / (gradient + std::sqrt(rest)) + 0.5 * roundings * along + moved;

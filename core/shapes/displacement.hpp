@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/shapes/precision.hpp"
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 
 #include <limits>
 #include <type_traits>

@@ -3,25 +3,12 @@
 #include "core/shapes/ball.hpp"
 #include "core/shapes/checks.hpp"
 #include "core/shapes/form.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 #include <array>
 #include <type_traits>
 
 namespace raylane::core {
-
-/// The points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1, solid. The
-/// semi-axes span a volume; they need not be perpendicular to each other.
-template <class Number>
-struct EllipsoidOf {
-    Vec3<Number> center;
-    Vec3<Number> axis_u, axis_v, axis_w;
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = MethodCosts{1.0, 1.0, 1.0, 2.0}};
-};
 
 template <class Number>
 void validate(const EllipsoidOf<Number>& e) {

@@ -2,23 +2,11 @@
 
 #include "core/shapes/checks.hpp"
 #include "core/shapes/flat.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 #include <array>
 
 namespace raylane::core {
-
-/// The unbounded plane through `point`; its front is where `normal` points.
-template <class Number>
-struct PlaneOf {
-    Vec3<Number> point;
-    Vec3<Number> normal;
-
-    static constexpr ShapeTraits traits{.bounded = false,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.43, 1.56, 1.0, 2.78}};
-};
 
 template <class Number>
 void validate(const PlaneOf<Number>& plane) {

@@ -3,29 +3,13 @@
 #include "core/shapes/checks.hpp"
 #include "core/shapes/form.hpp"
 #include "core/shapes/quadratic.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace raylane::core {
-
-/// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper, where
-///   Q(p) = xx px^2 + yy py^2 + zz pz^2 + 2 (xy px py + xz px pz + yz py pz) + 2 (x px + y py + z
-///   pz) + one,
-/// that is (p, 1) M (p, 1)^T for the symmetric 4x4 matrix M. Its outside is where Q > 0.
-template <class Number>
-struct QuadricOf {
-    Vec3<Number> center;
-    Number xx, yy, zz, xy, xz, yz, x, y, z, one;
-    Vec3<Number> lower, upper;
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::always,
-                                        .costs = MethodCosts{0.87, 1.01, 1.0, 1.77}};
-};
 
 template <class Number>
 void validate(const QuadricOf<Number>& q) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 
 #include <algorithm>
 #include <cmath>

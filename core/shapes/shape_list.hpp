@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/shapes/big_array.hpp"
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,20 +2,9 @@
 
 #include "core/shapes/ball.hpp"
 #include "core/shapes/checks.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 namespace raylane::core {
-
-template <class Number>
-struct SphereOf {
-    Vec3<Number> center;
-    Number radius; ///< > 0
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = MethodCosts{2.29, 1.70, 1.0, 3.37}};
-};
 
 template <class Number>
 void validate(const SphereOf<Number>& sphere) {

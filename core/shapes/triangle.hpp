@@ -2,36 +2,12 @@
 
 #include "core/shapes/checks.hpp"
 #include "core/shapes/flat.hpp"
-#include "core/shapes/shape.hpp"
+#include "core/shapes/types.hpp"
 
 #include <type_traits>
 #include <utility>
 
 namespace raylane::core {
-
-/// Front: the side from which a, b, c run counter-clockwise.
-template <class Number>
-struct TriangleOf {
-    Vec3<Number> a, b, c;
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.19, 1.18, 1.0, 2.35}};
-};
-
-/// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat
-/// triangle's.
-template <class Number>
-struct SmoothTriangleOf {
-    Vec3<Number> a, b, c;
-    Vec3<Number> normal_a, normal_b, normal_c;
-
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.03, 0.98, 1.0, 2.32}};
-};
 
 namespace detail {
 

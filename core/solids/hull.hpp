@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/numbers/infinity.hpp"
 #include "core/solids/solids.hpp"
 
 #include <algorithm>
@@ -9,8 +10,7 @@
 namespace raylane::core {
 
 inline Bounds everywhere() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    return {Vec3f(-infinity), Vec3f(infinity)};
+    return {Vec3f(-infinity<float>), Vec3f(infinity<float>)};
 }
 
 inline Bounds common(const Bounds& a, const Bounds& b) {

@@ -10,12 +10,6 @@ namespace raylane::core {
 
 namespace {
 
-Solid of_shape(const PartShape& shape) {
-    Solid solid;
-    solid.shape = shape;
-    return solid;
-}
-
 /// How far a surface is behind its vertex at the lens' edge; NaN if it does not reach it.
 double sag(double radius, double conic, double at) {
     if (radius == 0.0) return 0.0;

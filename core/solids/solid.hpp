@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -41,5 +41,11 @@ struct Solid {
                                   ///< another it is what its own first part is
     bool cuts_nothing = false;    ///< of what clips: it only says where the others are
 };
+
+inline Solid of_shape(const PartShape& shape) {
+    Solid solid;
+    solid.shape = shape;
+    return solid;
+}
 
 } // namespace raylane::core

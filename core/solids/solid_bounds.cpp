@@ -1,3 +1,5 @@
+#include "core/numbers/infinity.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/solids/hull.hpp"
 #include "core/solids/solid_collector.hpp"
 
@@ -12,15 +14,14 @@ namespace {
 
 /// What is in front of, or behind, a plane at right angles to an axis has bounds on one side.
 Bounds bounds_of_half_space(const PlaneOf<double>& plane, bool reversed) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     Bounds bounds = everywhere();
     for (int axis = 0; axis < 3; ++axis) {
         if (plane.normal[(axis + 1) % 3] != 0.0 || plane.normal[(axis + 2) % 3] != 0.0) continue;
         const auto at = static_cast<float>(plane.point[axis]);
         if ((plane.normal[axis] > 0.0) != reversed)
-            bounds.upper[axis] = std::nextafter(at, infinity);
+            bounds.upper[axis] = std::nextafter(at, infinity<float>);
         else
-            bounds.lower[axis] = std::nextafter(at, -infinity);
+            bounds.lower[axis] = std::nextafter(at, -infinity<float>);
     }
     return bounds;
 }

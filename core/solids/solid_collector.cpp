@@ -1,5 +1,6 @@
 #include "core/solids/solid_collector.hpp"
 
+#include "core/shapes/shapes.hpp"
 #include "core/solids/hull.hpp"
 #include "core/solids/transform.hpp"
 

@@ -1,6 +1,7 @@
 #include "core/solids/transform.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +15,13 @@ using Exactly = Vec3<Dyadic>;
 
 /// The double that is nearest, ties to even; below what shapes in double are made of the float.
 double rounded(const Dyadic& value) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     double nearest = value.approximately().to_double();
     if (value.sign() == 0) return 0.0;
     for (;;) {
         const Dyadic off = value - Dyadic(nearest);
         if (off.sign() == 0) break;
-        const double next = std::nextafter(nearest, off.sign() > 0 ? infinity : -infinity);
+        const double next =
+            std::nextafter(nearest, off.sign() > 0 ? infinity<double> : -infinity<double>);
         if (!std::isfinite(next)) break;
         const Dyadic beyond = off + off - (Dyadic(next) - Dyadic(nearest));
         const int farther = off.sign() > 0 ? beyond.sign() : -beyond.sign();
@@ -38,12 +39,6 @@ Vec3d rounded(const Exactly& v) {
 
 Exactly exactly(const Vec3d& v) {
     return convert<Dyadic>(v);
-}
-
-Solid of_shape(const PartShape& shape) {
-    Solid solid;
-    solid.shape = shape;
-    return solid;
 }
 
 } // namespace

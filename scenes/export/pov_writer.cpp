@@ -1,4 +1,5 @@
 #include "core/scene/camera_rays.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/solids/solid_size.hpp"
 #include "scenes/export/writers.hpp"
 

@@ -1,5 +1,6 @@
 #include "scenes/json/object.hpp"
 
+#include "core/shapes/shapes.hpp"
 #include "core/solids/lens.hpp"
 #include "core/solids/solid_size.hpp"
 #include "scenes/generators.hpp"

@@ -1,5 +1,6 @@
 #include "simd/layers/first_hits.hpp"
 
+#include "core/shapes/shapes.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/wavefront/camera_view.hpp"
 #include "simd/wavefront/coherence.hpp"

@@ -1,6 +1,7 @@
 #include "simd/layers/outlines.hpp"
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/infinity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,11 @@ namespace raylane::simd {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Where a ray crosses the plane that touches a surface at its hit: nowhere if it never comes to
 /// the side that is hidden.
 double t_of_plane(const FirstHit& hit, const core::Ray<double>& ray) {
     const double slope = core::dot(hit.flat_normal, ray.direction);
-    if (!(slope < 0.0)) return infinity;
+    if (!(slope < 0.0)) return core::infinity<double>;
     const core::Vec3d point = core::mul_add(hit.t, hit.ray.direction, hit.ray.origin);
     return core::dot(hit.flat_normal, core::Vec3d(point - ray.origin)) / slope;
 }

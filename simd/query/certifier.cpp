@@ -1,5 +1,7 @@
 #include "simd/query/certifier.hpp"
 
+#include "core/numbers/infinity.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -7,8 +9,6 @@
 namespace raylane::simd {
 
 namespace {
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// A float that is not above a value >= 0, nor far below it.
 float rounded_down(double value) {
@@ -127,10 +127,11 @@ Certifier::break_ties(const Paths& paths, const Candidates& candidates, const Hi
         const float* const second = candidates.second + begin;
         int ties = 0;
         for (int i = 0; i < 16; ++i)
-            ties += static_cast<int>(first[i] == second[i]) & static_cast<int>(first[i] < infinity);
+            ties += static_cast<int>(first[i] == second[i]) &
+                    static_cast<int>(first[i] < core::infinity<float>);
         if (ties == 0) continue;
         for (std::size_t i = 0; i < 16 && begin + i < paths.count; ++i) {
-            if (first[i] != second[i] || first[i] == infinity) continue;
+            if (first[i] != second[i] || first[i] == core::infinity<float>) continue;
             const std::size_t lane = begin + i;
             const std::uint32_t slot =
                 tie_breaker_->first_at(first[i], paths, lane, hits.slot[lane]);

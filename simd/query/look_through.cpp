@@ -1,5 +1,6 @@
 #include "simd/query/look_through.hpp"
 
+#include "core/shapes/shapes.hpp"
 #include "simd/query/as_core.hpp"
 
 #include <algorithm>

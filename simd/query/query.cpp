@@ -1,5 +1,7 @@
 #include "simd/query/query.hpp"
 
+#include "core/numbers/infinity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,16 +27,15 @@ void Query::take_from(Arena& arena, std::size_t capacity) {
 
 void Query::nearest(const Paths& paths, const Coherence* coherence, EngineCounters& counters,
                     const double* t_most) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
     const std::size_t padded = (paths.count + 15) / 16 * 16;
     const Candidates candidates{first_, second_, hits_.slot};
-    std::fill_n(candidates.second, padded, infinity);
+    std::fill_n(candidates.second, padded, core::infinity<float>);
     std::fill_n(candidates.slot, padded, no_slot);
 
     const bool few = tracing_.method().nearest_of_few != nullptr && !scene_.has_tree();
     if (!few) search_.take(paths.columns());
     if (t_most == nullptr)
-        std::fill_n(candidates.first, padded, infinity);
+        std::fill_n(candidates.first, padded, core::infinity<float>);
     else // as if something unknown were there
         for (std::size_t lane = 0; lane < paths.count; ++lane)
             first_[lane] = rounded_up(search_.t_most(lane, t_most[lane]));

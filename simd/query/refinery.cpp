@@ -1,6 +1,9 @@
 #include "simd/query/refinery.hpp"
 
+#include "core/numbers/infinity.hpp"
 #include "core/reference/rounding.hpp"
+#include "core/shapes/shapes.hpp"
+#include "core/shapes/solve.hpp"
 #include "simd/query/as_core.hpp"
 
 #include <algorithm>
@@ -9,8 +12,6 @@
 namespace raylane::simd {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Places behind the last candidate that kernels may write to.
 constexpr std::size_t beyond = 32;
@@ -64,8 +65,8 @@ std::size_t Refinery::refine(const Paths& paths, const CandidateSearch& search,
             const std::uint32_t lane = lanes[next];
             const bool is_hit =
                 doubtful[lane] == 0 && hits.slot[lane] != no_slot && crosses(hits.hit[lane]);
-            list(paths, search, lane, is_hit ? hits.t[lane] + hits.error[lane] : infinity,
-                 counters);
+            list(paths, search, lane,
+                 is_hit ? hits.t[lane] + hits.error[lane] : core::infinity<double>, counters);
             if (is_hit) list_too(hits.slot[lane]);
             if (listed_.size() > most - count_) break;
             rays_.push_back({lane, static_cast<std::uint32_t>(count_)});
@@ -181,7 +182,7 @@ std::size_t Refinery::first_of_many(const Paths& paths, std::size_t lane,
 
 /// Upper bound of t of the first crossing with some candidates. Solves those in doubt.
 double Refinery::end_of_first(std::size_t begin, std::size_t end, EngineCounters& counters) {
-    double last = infinity;
+    double last = core::infinity<double>;
     for (std::size_t i = begin; i < end; ++i)
         if (crosses(hits_.hit[i])) last = std::min(last, hits_.t[i] + hits_.error[i]);
     for (std::size_t i = begin; i < end; ++i) {

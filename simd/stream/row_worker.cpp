@@ -1,5 +1,7 @@
 #include "simd/stream/row_worker.hpp"
 
+#include "core/shapes/solve.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "simd/wavefront/wavefront.hpp"
 
+#include "core/numbers/infinity.hpp"
 #include "core/optics/fog.hpp"
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
@@ -15,8 +16,6 @@
 namespace raylane::simd {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Every second bit of a Morton code.
 constexpr int even_bits(unsigned code) {
@@ -365,7 +364,7 @@ core::Vec3d Wavefront::background_along(std::size_t lane) {
     const core::Vec3d color = core::convert<double>(scene.background());
     if (const core::Media media = paths_.media_at(lane); media != core::empty_space) {
         const core::MaterialIndex medium = reference_.media().top(media);
-        return core::let_through_medium(scene.materials()[medium], infinity) * color;
+        return core::let_through_medium(scene.materials()[medium], core::infinity<double>) * color;
     }
     if (scene.fog().kind == core::FogKind::none) return color;
     const core::Ray<double> ray = ray_of(paths_, lane);
@@ -379,7 +378,7 @@ double Wavefront::transmittance_to_infinity(std::size_t lane) {
                       paths_.throughput[2][lane]);
     if (const core::Media media = paths_.media_at(lane); media != core::empty_space)
         share *= core::let_through_medium(scene_.scene().materials()[reference_.media().top(media)],
-                                          infinity);
+                                          core::infinity<double>);
     return core::mean_of_channels(share);
 }
 

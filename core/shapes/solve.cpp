@@ -1,0 +1,79 @@
+#include "core/shapes/solve.hpp"
+
+#include "core/shapes/judge.hpp"
+#include "core/shapes/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace raylane::core {
+
+namespace {
+
+template <class T, class Shape>
+Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, const Start& start,
+                                Judge<Bounded<T>>& judge) {
+    using Real = Bounded<T>;
+    const Ray<Real> wide{convert<Real>(ray.origin), convert<Real>(ray.direction)};
+    Crossings<double> result;
+    for (const Crossing<Real>& crossing : crossings(shape, wide, start, judge)) {
+        const int side = start.on_surface ? 1 : judge.sign(crossing.t);
+        const Bounded<double> t = in_double(crossing.t);
+        if (side > 0) judge.result(t);
+        result.add({side == 0 ? 0.0 : t.value, crossing.face, crossing.entering, t.error});
+    }
+    return result;
+}
+
+template <class Shape>
+Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, const Start& start) {
+    constexpr double accuracy = 0x1p-48; // of an Exact as a double
+    Crossings<double> result;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis])) return result;
+    Judge<Exact> judge;
+    const Ray<Exact> exact{convert<Exact>(ray.origin), convert<Exact>(ray.direction)};
+    double last = -std::numeric_limits<double>::infinity();
+    for (const Crossing<Exact>& crossing : crossings(shape, exact, start, judge)) {
+        last = std::max(last, static_cast<double>(crossing.t)); // rounding swaps no crossings
+        result.add({last, crossing.face, crossing.entering, accuracy * std::abs(last)});
+    }
+    return result;
+}
+
+} // namespace
+
+template <OfDoubles Shape>
+Crossings<float> solve(const Shape& shape, const Ray<float>& ray, const Start& start,
+                       std::uint64_t&, Precision precision) {
+    Judge<float> judge(precision);
+    return crossings(shape, ray, start, judge);
+}
+
+template <OfDoubles Shape>
+Crossings<double> solve(const Shape& shape, const Ray<double>& ray, const Start& start,
+                        std::uint64_t& widened, Precision precision) {
+    if (precision == Precision::plain_double) {
+        Judge<double> plain;
+        return crossings(shape, ray, start, plain);
+    }
+    Judge<Bounded<double>> judge;
+    const Crossings<double> result = solve_bounded<double>(shape, ray, start, judge);
+    if (!judge.doubt()) [[likely]]
+        return result;
+    ++widened;
+    Judge<Bounded<DoubleDouble>> wide_judge;
+    const Crossings<double> wide = solve_bounded<DoubleDouble>(shape, ray, start, wide_judge);
+    return wide_judge.doubt() ? solve_exactly(shape, ray, start) : wide;
+}
+
+#define RAYLANE_SOLVE(Shape, name, text)                                                           \
+    template Crossings<float> solve(const InDouble<Shape>&, const Ray<float>&, const Start&,       \
+                                    std::uint64_t&, Precision);                                    \
+    template Crossings<double> solve(const InDouble<Shape>&, const Ray<double>&, const Start&,     \
+                                     std::uint64_t&, Precision);
+RAYLANE_SHAPES(RAYLANE_SOLVE)
+#undef RAYLANE_SOLVE
+
+} // namespace raylane::core
