@@ -218,4 +218,8 @@ std::string alternatives(const std::vector<std::string>& names) {
     return text;
 }
 
+std::string quoted_word(std::string_view word) {
+    return word.empty() ? "the end of the file" : '"' + printable(word) + '"';
+}
+
 } // namespace raylane::scenes

@@ -76,6 +76,9 @@ class SystemRefused : public std::runtime_error {
 /// cut after `most` characters with "..." behind.
 std::string printable(std::string_view text, std::size_t most = 40);
 
+/// A word of a file in quotes; `the end of the file` if it is empty.
+std::string quoted_word(std::string_view word);
+
 /// ", did you mean "near"?" with the candidate nearest to `unknown` by edit distance, behind
 /// `prefix`, or "" if none is near.
 std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates,

@@ -7,7 +7,7 @@ namespace raylane::scenes {
 
 bool NffFields::next_entity() {
     if (line_ != 0 && !scanner_.at_line_end()) {
-        const std::string got = in_quotes(scanner_.word());
+        const std::string got = quoted_word(scanner_.word());
         fail(scanner_.line(), "must be the end of the line, got " + got);
     }
     const std::string_view word = scanner_.word();
@@ -26,7 +26,7 @@ float NffFields::number(std::string_view field) {
     }
     refuse(field,
            is_number(word) ? "must be a number from -1e30 to 1e30" : "must be a finite number",
-           in_quotes(word));
+           quoted_word(word));
 }
 
 int NffFields::whole_number(std::string_view field, int least, int most) {
@@ -35,7 +35,7 @@ int NffFields::whole_number(std::string_view field, int least, int most) {
     if (value && least <= *value && *value <= most) return *value;
     refuse(field,
            "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most),
-           in_quotes(word));
+           quoted_word(word));
 }
 
 core::Vec3f NffFields::vector(std::string_view field) {
@@ -73,10 +73,6 @@ void NffFields::refuse(const core::InvalidValue& invalid) const {
     if (!vanished_.empty() && message.ends_with("got 0"))
         message.append(", the float nearest to ").append(printable(vanished_));
     fail(line_, message);
-}
-
-std::string in_quotes(std::string_view word) {
-    return word.empty() ? "the end of the file" : '"' + printable(word) + '"';
 }
 
 } // namespace raylane::scenes

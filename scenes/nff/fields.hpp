@@ -52,7 +52,4 @@ class NffFields {
     std::string vanished_; // the latest number of the entity whose float is 0, and it is not
 };
 
-/// A word of a file as a message quotes it.
-std::string in_quotes(std::string_view word);
-
 } // namespace raylane::scenes

@@ -103,7 +103,7 @@ void Reader::read_entity() {
     if (entity == "b") return read_background();
     if (entity == "v") return read_view();
     fields_.fail(fields_.line(),
-                 "must be one of v, b, l, f, s, c, p and pp, got " + in_quotes(entity));
+                 "must be one of v, b, l, f, s, c, p and pp, got " + quoted_word(entity));
 }
 
 /// The last of several counts: the text has one.

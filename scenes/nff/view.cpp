@@ -20,18 +20,18 @@ float field_of_view(float angle, int rows) {
 
 constexpr std::array<std::string_view, 6> names = {"from",  "at",     "up",
                                                    "angle", "hither", "resolution"};
-enum Part : std::size_t { from, at, up, angle, hither, resolution };
+enum ViewPart : std::size_t { from, at, up, angle, hither, resolution };
 
 /// The name of a part that is not yet seen.
-Part next_part(NffFields& fields, const std::array<bool, names.size()>& seen) {
+ViewPart next_part(NffFields& fields, const std::array<bool, names.size()>& seen) {
     const std::string_view word = fields.word();
     const auto part =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), word) - names.begin());
-    if (part < names.size() && !seen[part]) return static_cast<Part>(part);
+    if (part < names.size() && !seen[part]) return static_cast<ViewPart>(part);
     std::string missing;
     for (std::size_t i = 0; i < names.size(); ++i)
         if (!seen[i]) missing.append(missing.empty() ? "" : ", ").append(names[i]);
-    fields.refuse("", "must go on with each of " + missing, in_quotes(word));
+    fields.refuse("", "must go on with each of " + missing, quoted_word(word));
 }
 
 } // namespace
@@ -41,7 +41,7 @@ NffView read_nff_view(NffFields& fields) {
     float degrees = 0.0F;
     std::array<bool, names.size()> seen{};
     for (std::size_t count = 0; count < names.size(); ++count) {
-        const Part part = next_part(fields, seen);
+        const ViewPart part = next_part(fields, seen);
         seen[part] = true;
         switch (part) {
         case from:

@@ -14,7 +14,7 @@ namespace {
 
 using core::Vec3d, core::Vec3f;
 
-Vec3d color_of(const Tuple& tuple) {
+Vec3d rgb_of(const Tuple& tuple) {
     return {tuple.at[0], tuple.at[1], tuple.at[2]};
 }
 
@@ -158,7 +158,7 @@ LightSource read_light(Tokens& tokens) {
     } else {
         light.position = read_vector(tokens);
         tokens.accept(",");
-        if (at_tuple(tokens)) light.color = color_of(read_color(tokens));
+        if (at_tuple(tokens)) light.color = rgb_of(read_color(tokens));
     }
     Vec3d first(0.0);
     double fade_distance = 0.0, fade_power = 0.0;
@@ -170,7 +170,7 @@ LightSource read_light(Tokens& tokens) {
             continue;
         }
         if (at_tuple(tokens)) {
-            light.color = color_of(read_color(tokens));
+            light.color = rgb_of(read_color(tokens));
             continue;
         }
         const Token word = tokens.next();
@@ -256,7 +256,7 @@ core::Fog read_fog(Tokens& tokens) {
         if (read_motion(tokens) != nullptr) continue;
         if (at_tuple(tokens)) {
             const Tuple color = read_color(tokens);
-            fog.color = core::convert<float>(color_of(color));
+            fog.color = core::convert<float>(rgb_of(color));
             if (color.at[3] != 0.0 || color.at[4] != 0.0)
                 tokens.remark(tokens.peek().place,
                               "has fog that lets light through, which is opaque far away here");
@@ -295,7 +295,7 @@ void read_global_settings(Tokens& tokens, GlobalSettings& settings) {
         } else if (word.is("adc_bailout")) {
             settings.adc_bailout = std::clamp(read_number(tokens), 0.0, 1.0);
         } else if (word.is("ambient_light")) {
-            const Vec3d color = color_of(read_color(tokens));
+            const Vec3d color = rgb_of(read_color(tokens));
             settings.ambient_light = (color.x + color.y + color.z) / 3.0;
             if (color.x != color.y || color.y != color.z)
                 tokens.remark(word.place, "colours ambient light, which is drawn without colour");

@@ -12,6 +12,13 @@
 
 namespace raylane::scenes {
 
+std::string in_lower_case(std::string_view text) {
+    std::string result(text);
+    for (char& c : result)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return result;
+}
+
 namespace {
 
 constexpr std::size_t longest_line = std::size_t{1} << 20;

@@ -4,10 +4,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace raylane::scenes {
+
+/// Text with the letters A to Z in lower case.
+std::string in_lower_case(std::string_view text);
 
 /// A text file line by line, of which no more than a line and a buffer are held. Lines of 1 MiB and
 /// more are a BadInput.

@@ -18,13 +18,6 @@ namespace {
 
 using Selected = std::vector<char>;
 
-std::string in_lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return result;
-}
-
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
     const std::string lower = in_lower_case(word);
     return std::find(words.begin(), words.end(), lower) != words.end();

@@ -58,13 +58,6 @@ class Pairs {
     std::string_view text_;
 };
 
-std::string in_lower_case(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return result;
-}
-
 /// An atomic number stands for its element.
 Element element_of_species(std::string_view label) {
     int number = 0;

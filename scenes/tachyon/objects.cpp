@@ -16,8 +16,6 @@ namespace {
 
 using core::Vec3d, core::Vec3f;
 
-constexpr int most = std::numeric_limits<int>::max();
-
 core::Solid plane_through(const Vec3f& center, const Vec3f& normal) {
     return {.shape = core::PlaneOf<double>{core::convert<double>(center),
                                            core::convert<double>(normal)}};
@@ -168,7 +166,7 @@ void TachyonObjects::add_finite_cylinder(const Vec3f& base, const Vec3f& apex, f
 /// Cylinders from point to point, and balls where they meet.
 void TachyonObjects::read_polycylinder() {
     words_.expect("POINTS");
-    const int count = words_.whole_number("POINTS", 1, most);
+    const int count = words_.whole_number("POINTS", 1, max_int);
     std::vector<Vec3f> points;
     std::generate_n(std::back_inserter(points), count, [this] { return words_.vector("POINTS"); });
     const float radius = std::abs(words_.named_number("RAD"));
@@ -279,7 +277,7 @@ void TachyonObjects::end_clip_group() {
 void TachyonObjects::skip_landscape() {
     words_.expect("RES");
     for (int axis = 0; axis < 2; ++axis)
-        words_.whole_number("RES", 0, most);
+        words_.whole_number("RES", 0, max_int);
     words_.expect("SCALE");
     for (int axis = 0; axis < 2; ++axis)
         words_.number("SCALE");
@@ -293,7 +291,7 @@ void TachyonObjects::skip_volume() {
     words_.named_vector("MAX");
     words_.expect("DIM");
     for (int axis = 0; axis < 3; ++axis)
-        words_.whole_number("DIM", 0, most);
+        words_.whole_number("DIM", 0, max_int);
     words_.expect("FILE");
     words_.take();
     texture();

@@ -13,8 +13,6 @@ namespace {
 
 using core::InvalidValue;
 
-constexpr int most = std::numeric_limits<int>::max();
-
 void read_projection(TachyonWords& words, TachyonCamera& camera) {
     if (words.accept("ORTHOGRAPHIC")) {
         camera.projection = core::Projection::orthographic;
@@ -62,9 +60,9 @@ TachyonCamera read_camera(TachyonWords& words) {
     if (words.named_number("ASPECTRATIO") != 1.0F)
         words.remark("ASPECTRATIO: pixels are drawn as squares");
     words.expect("ANTIALIASING");
-    camera.antialiasing = words.whole_number("ANTIALIASING", 0, most);
+    camera.antialiasing = words.whole_number("ANTIALIASING", 0, max_int);
     words.expect("RAYDEPTH");
-    camera.ray_depth = words.whole_number("RAYDEPTH", 0, most);
+    camera.ray_depth = words.whole_number("RAYDEPTH", 0, max_int);
     camera.center = words.named_vector("CENTER");
     camera.direction = words.named_vector("VIEWDIR");
     camera.up = words.named_vector("UPDIR");

@@ -6,9 +6,7 @@
 
 namespace raylane::scenes {
 
-namespace {
-constexpr int most = std::numeric_limits<int>::max();
-}
+namespace {}
 
 core::Color mean_color(const core::Color& a, const core::Color& b, const core::Color& c) {
     core::Color mean = (a + b + c) / 3.0F;
@@ -19,7 +17,7 @@ core::Color mean_color(const core::Color& a, const core::Color& b, const core::C
 
 void TachyonVertexArray::read(const Use& use) {
     words_.expect("NUMVERTS");
-    count_ = words_.whole_number("NUMVERTS", 0, most);
+    count_ = words_.whole_number("NUMVERTS", 0, max_int);
     while (!words_.accept("END_VERTEXARRAY")) {
         if (words_.accept("COORDS")) {
             read_vectors("COORDS", points_, /*are_vectors=*/true);
@@ -28,7 +26,7 @@ void TachyonVertexArray::read(const Use& use) {
         } else if (words_.accept("COLORS")) {
             read_vectors("COLORS", colors_, /*are_vectors=*/false);
         } else if (words_.accept("TRISTRIP")) {
-            const int corners = words_.whole_number("TRISTRIP", 3, most);
+            const int corners = words_.whole_number("TRISTRIP", 3, max_int);
             int a = corner(), b = corner();
             for (int i = 2; i < corners; ++i) {
                 const int c = corner();
@@ -37,7 +35,7 @@ void TachyonVertexArray::read(const Use& use) {
                 b = c;
             }
         } else if (words_.accept("TRIMESH")) {
-            const int triangles = words_.whole_number("TRIMESH", 0, most);
+            const int triangles = words_.whole_number("TRIMESH", 0, max_int);
             for (int i = 0; i < triangles; ++i) {
                 const int a = corner(), b = corner(), c = corner();
                 use_triangle(use, a, b, c);

@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::size_t most_files_in_each_other = 16;
 
-std::string in_quotes(std::string_view word) {
-    return word.empty() ? "the end of the file" : '"' + printable(word) + '"';
-}
-
 char capital(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
@@ -69,13 +65,13 @@ void TachyonWords::expect(std::string_view keyword) {
 }
 
 void TachyonWords::refuse_next(std::string_view must) {
-    const std::string got = in_quotes(peek());
+    const std::string got = quoted_word(peek());
     refuse("", "must go on with " + std::string(must), got);
 }
 
 void TachyonWords::refuse_statement(std::string_view must) const {
     sources_.back().scanner->fail(statement_line_,
-                                  std::string(must) + ", got " + in_quotes(statement_));
+                                  std::string(must) + ", got " + quoted_word(statement_));
 }
 
 float TachyonWords::number(std::string_view field) {
@@ -83,7 +79,7 @@ float TachyonWords::number(std::string_view field) {
     if (const std::optional<float> value = to_float(word)) return *value;
     refuse(field,
            is_number(word) ? "must be a number from -1e30 to 1e30" : "must be a finite number",
-           in_quotes(word));
+           quoted_word(word));
 }
 
 int TachyonWords::whole_number(std::string_view field, int least, int most) {
@@ -92,7 +88,7 @@ int TachyonWords::whole_number(std::string_view field, int least, int most) {
     if (value && least <= *value && *value <= most) return *value;
     refuse(field,
            "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most),
-           in_quotes(word));
+           quoted_word(word));
 }
 
 core::Vec3f TachyonWords::triple(std::string_view field) {
@@ -124,8 +120,8 @@ core::Vec3f TachyonWords::named_vector(std::string_view keyword) {
 
 void TachyonWords::include(const std::string& name) {
     if (sources_.size() == most_files_in_each_other)
-        refuse("", "must not be deeper than 16 files in each other", in_quotes(name));
-    if (name.empty() || name == "-") refuse("", "must name a file", in_quotes(name));
+        refuse("", "must not be deeper than 16 files in each other", quoted_word(name));
+    if (name.empty() || name == "-") refuse("", "must name a file", quoted_word(name));
     const std::filesystem::path beside =
         std::filesystem::path(sources_.back().file->name()).parent_path() / name;
     auto file = std::make_unique<InputFile>(beside);

@@ -5,6 +5,7 @@
 #include "scenes/nff/scanner.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <set>
 #include <string>
@@ -12,6 +13,8 @@
 #include <vector>
 
 namespace raylane::scenes {
+
+inline constexpr int max_int = std::numeric_limits<int>::max();
 
 /// The words of a Tachyon scene, wherever its lines end, and those of the files that it includes
 /// where it does. Keywords are in any case, and are named here in capitals. What is not as expected
