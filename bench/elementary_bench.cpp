@@ -81,7 +81,7 @@ void in_registers(benchmark::State& state, const Case& c, Function function) {
 }
 
 bench::ElementaryUnit unit_of(simd::Isa isa) {
-    return simd::of_isa(isa, RAYLANE_BY_ISA(bench::elementary))();
+    return simd::of_isa(isa, []<simd::Isa which>() { return bench::elementary<which>(); });
 }
 
 void add(const Case& c) {

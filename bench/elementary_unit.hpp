@@ -35,10 +35,8 @@ struct ElementaryArrays {
                                             of_one<Functions::atan>};
 };
 
-ElementaryUnit elementary_portable();
-ElementaryUnit elementary_sse42();
-ElementaryUnit elementary_avx2();
-ElementaryUnit elementary_avx512();
-ElementaryUnit elementary_neon();
+/// From a unit of its own.
+template <simd::Isa isa>
+ElementaryUnit elementary();
 
 } // namespace raylane::bench

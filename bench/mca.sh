@@ -76,7 +76,7 @@ extern "C" [[gnu::flatten]] void loop_$kind(const float (*rows)[16], int lane,
 END
     done
 } >"$work/loops.cpp"
-compile=$(sed -n 's/^ *"command": "\(.*\) -o .*\/simd\/kernels_avx512\.cpp",*$/\1/p' \
+compile=$(sed -n 's/^ *"command": "\(.*RAYLANE_ISA=avx512.*\) -o .*\/simd\/units\/nearest\.cpp",*$/\1/p' \
     "$build/compile_commands.json")
 [ -n "$compile" ] || fail "$build/compile_commands.json does not say how to build the kernels"
 eval "$compile -S -o $work/loops.s $work/loops.cpp"

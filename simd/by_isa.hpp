@@ -1,44 +1,25 @@
 #pragma once
 
-#include "simd/isa.hpp"
+#include "simd/built_isas.hpp" // made by CMake: Isa built_isas[]
 
-#include <array>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
-/// Functions of units that are compiled once for each instruction set (raylane_kernel_units).
+/// Choice among functions that raylane_kernel_units compiles once for each instruction set.
 namespace raylane::simd {
 
-/// std::array of {instruction set, NAME_portable} and so on: those that this kind of processor has.
-#define RAYLANE_UNIT(name, isa) std::make_pair(raylane::simd::Isa::isa, name##_##isa)
-#if defined(__x86_64__)
-#define RAYLANE_BY_ISA(name)                                                                       \
-    std::array {                                                                                   \
-        RAYLANE_UNIT(name, portable), RAYLANE_UNIT(name, sse42), RAYLANE_UNIT(name, avx2),         \
-            RAYLANE_UNIT(name, avx512)                                                             \
+/// Returns choose.operator()<isa>() for one of the built instruction sets: undefined for others.
+template <class Choose>
+auto of_isa(Isa isa, const Choose& choose) {
+    return [&]<std::size_t... index>(std::index_sequence<index...>) {
+        decltype(choose.template operator()<built_isas[0]>()) result{};
+        (void)((isa == built_isas[index] &&
+                (result = choose.template operator()<built_isas[index]>(), true)) ||
+               ...);
+        return result;
     }
-#elif defined(__wasm__)
-#define RAYLANE_BY_ISA(name)                                                                       \
-    std::array {                                                                                   \
-        RAYLANE_UNIT(name, portable), RAYLANE_UNIT(name, sse42)                                    \
-    }
-#elif defined(__aarch64__)
-#define RAYLANE_BY_ISA(name)                                                                       \
-    std::array {                                                                                   \
-        RAYLANE_UNIT(name, portable), RAYLANE_UNIT(name, neon)                                     \
-    }
-#else
-#define RAYLANE_BY_ISA(name)                                                                       \
-    std::array {                                                                                   \
-        RAYLANE_UNIT(name, portable)                                                               \
-    }
-#endif
-
-template <class Function, std::size_t count>
-Function of_isa(Isa isa, const std::array<std::pair<Isa, Function>, count>& all) {
-    for (const auto& [its, function] : all)
-        if (its == isa) return function;
-    return nullptr;
+    (std::make_index_sequence<std::size(built_isas)>());
 }
 
 } // namespace raylane::simd

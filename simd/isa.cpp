@@ -1,38 +1,38 @@
 #include "simd/isa.hpp"
 
+#include "simd/built_isas.hpp"
+#include "simd/processor.hpp"
+
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 
 namespace raylane::simd {
 
+bool is_built(Isa isa) {
+    return std::find(std::begin(built_isas), std::end(built_isas), isa) != std::end(built_isas);
+}
+
 bool is_available(Isa isa) {
-#ifdef __x86_64__
-    switch (isa) {
-    case Isa::portable:
-        return true;
-    case Isa::sse42:
-        return __builtin_cpu_supports("sse4.2") != 0;
-    case Isa::avx2:
-        return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-    case Isa::neon:
-        return false;
-    case Isa::avx512:
-        break;
-    }
-    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
-           __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-           __builtin_cpu_supports("avx512vl") != 0;
-#elif defined(__wasm__)
-    return isa == Isa::portable || isa == Isa::sse42; // what engines without do not load
-#elif defined(__aarch64__)
-    return isa == Isa::portable || isa == Isa::neon;
-#else
-    return isa == Isa::portable;
-#endif
+    return is_built(isa) && processor_runs(isa);
+}
+
+Isa narrowest_isa() {
+    const auto* first = std::find_if(std::begin(all_isas), std::end(all_isas), is_available);
+    if (first != std::end(all_isas)) return *first;
+    std::string built;
+    for (const Isa isa : built_isas)
+        built += (built.empty() ? "" : ", ") + std::string(name_of(isa));
+    throw std::runtime_error("this processor runs none of the instruction sets that raylane was "
+                             "built for: " +
+                             built);
 }
 
 Isa best_isa() {
-    return *std::find_if(std::rbegin(all_isas), std::rend(all_isas), is_available);
+    const Isa narrowest = narrowest_isa();
+    const auto widest = std::find_if(std::rbegin(all_isas), std::rend(all_isas), is_available);
+    return widest != std::rend(all_isas) ? *widest : narrowest;
 }
 
 } // namespace raylane::simd

@@ -1,28 +1,36 @@
 #include "simd/kernels.hpp"
 
+#include "simd/by_isa.hpp"
 #include "simd/isa.hpp"
 
 namespace raylane::simd {
 
-const Kernels& kernels_of([[maybe_unused]] Isa isa) {
-#ifdef __x86_64__
-    switch (isa) {
-    case Isa::portable:
-    case Isa::neon:
-        break;
-    case Isa::sse42:
-        return kernels_sse42();
-    case Isa::avx2:
-        return kernels_avx2();
-    case Isa::avx512:
-        return kernels_avx512();
-    }
-#elif defined(__wasm__)
-    if (isa == Isa::sse42) return kernels_sse42();
-#elif defined(__aarch64__)
-    if (isa == Isa::neon) return kernels_neon();
-#endif
-    return kernels_portable();
+namespace {
+
+template <Isa isa>
+const Kernels* kernels() {
+    using Parts = KernelParts<isa>;
+    static const Kernels all = {name_of(isa).data(),
+                                Parts::lanes(),
+                                Parts::rays(),
+                                Parts::stream(),
+                                {Parts::in_float(true),
+                                 Parts::in_float(false),
+                                 {{Parts::nearest(), Parts::occluded()},
+                                  Parts::finish(),
+                                  Parts::finish_all(),
+                                  Parts::refine(),
+                                  nullptr},
+                                 Parts::in_double()},
+                                {{Parts::shade(false, false), Parts::shade(false, true)},
+                                 {Parts::shade(true, false), Parts::shade(true, true)}}};
+    return &all;
+}
+
+} // namespace
+
+const Kernels& kernels_of(Isa isa) {
+    return *of_isa(isa, []<Isa which>() { return kernels<which>(); });
 }
 
 } // namespace raylane::simd

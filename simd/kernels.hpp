@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simd/isa_name.hpp"
 #include "simd/scene_view.hpp"
 #include "simd/shade_kernels.hpp"
 #include "simd/stream_kernels.hpp"
@@ -86,10 +87,21 @@ struct Kernels {
     ShadeKernels shade[2][2];
 };
 
-const Kernels& kernels_portable();
-const Kernels& kernels_sse42();
-const Kernels& kernels_avx2();
-const Kernels& kernels_avx512();
-const Kernels& kernels_neon();
+/// The parts of Kernels, each compiled in a unit of its own (units/) for each instruction set.
+template <Isa isa>
+struct KernelParts {
+    static int lanes();
+    static RayKernels rays();
+    static StreamKernels stream();
+    static ShadeKernels shade(bool media, bool fog);
+    /// core::Precision::exact in its parts, and the precisions that it is compared with.
+    static decltype(TraceKernels::nearest) nearest();
+    static decltype(TraceKernels::occluded) occluded();
+    static decltype(MethodKernels::finish) finish();
+    static decltype(MethodKernels::finish) finish_all();
+    static RefineKernels refine();
+    static MethodKernels in_float(bool textbook);
+    static MethodKernels in_double();
+};
 
 } // namespace raylane::simd

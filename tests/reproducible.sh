@@ -45,10 +45,12 @@ if [ "${1-}" = quick ]; then
     build() { quietly cmake --build build/own --target "$@"; }
 elif [ "${1-}" = kernels ]; then
     set --
-    for isa in portable sse42 avx2 avx512; do
-        set -- "$@" "simd/CMakeFiles/raylane_kernels.dir/kernels_$isa.cpp.o"
+    for isa in sse42 avx2 avx512; do
+        for unit in "$project"/simd/units/*.cpp; do
+            set -- "$@" "simd/CMakeFiles/raylane_simd-$isa.dir/units/${unit##*/}.o"
+        done
     done
-    build() { quietly cmake --build build/own --target raylane_kernels; }
+    build() { quietly cmake --build build/own --target "$@"; }
 else
     set -- bin/raylane bin/raylane-window.so scenes/library/libraylane.a \
         scenes/packages/raylane.spdx.json scenes/tool/manual/raylane-render.1 scenes/tool/completions/raylane

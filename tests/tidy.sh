@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 # The kernels, thousands of instances of the same templates, would take longer than all the rest. What is
 # for WebAssembly alone includes what this compiler does not have.
 all() {
-    git ls-files 'core/*.cpp' 'simd/*.cpp' 'scenes/*.cpp' ':!simd/kernels_*' ':!scenes/examples/*' ':!scenes/web/*'
+    git ls-files 'core/*.cpp' 'simd/*.cpp' 'scenes/*.cpp' ':!simd/units/*' ':!simd/native_isa.cpp' ':!scenes/examples/*' ':!scenes/web/*'
 }
 if [ $# -gt 0 ]; then
     stems=$(mktemp)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "simd/isa_name.hpp"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -29,10 +31,8 @@ struct CeilingUnit {
         capped_cone, quadric, ellipsoid;
 };
 
-CeilingUnit ceiling_portable();
-CeilingUnit ceiling_sse42();
-CeilingUnit ceiling_avx2();
-CeilingUnit ceiling_avx512();
-CeilingUnit ceiling_neon();
+/// From a unit of its own.
+template <simd::Isa isa>
+CeilingUnit ceiling();
 
 } // namespace raylane::bench

@@ -8,7 +8,7 @@ namespace raylane::bench {
 namespace {
 
 CeilingUnit unit_of(simd::Isa isa) {
-    return simd::of_isa(isa, RAYLANE_BY_ISA(ceiling))();
+    return simd::of_isa(isa, []<simd::Isa which>() { return ceiling<which>(); });
 }
 
 template <class Shape>

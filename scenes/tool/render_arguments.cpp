@@ -21,6 +21,9 @@ simd::Isa isa_argument(const std::string& text, simd::Engine engine) {
     }
     const auto isa = choice_argument<simd::Isa>("--isa", text, choices);
     if (engine != simd::Engine::vector) throw BadInput("--isa", "", "goes with --engine vector");
+    if (!simd::is_built(isa))
+        throw BadInput("--isa", "",
+                       "this program was built without " + text + ", with " + available);
     if (!simd::is_available(isa))
         throw BadInput("--isa", "", "this processor has no " + text + ", but " + available);
     return isa;

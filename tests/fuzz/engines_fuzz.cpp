@@ -103,7 +103,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::vector<core::Color> by_best = picture(*scene, options);
     for (const core::Color& color : by_best)
         if (!(color.x >= 0.0F && color.y >= 0.0F && color.z >= 0.0F)) found("no colour");
-    options.isa = simd::Isa::portable;
+    options.isa = simd::narrowest_isa();
     options.tile = 8;
     check_same(by_best, picture(*scene, options), "by another instruction set");
     options.engine = simd::Engine::reference;

@@ -15,30 +15,31 @@ using BoundedOperation = int (*)(int operation, const BoundedColumns& a, const B
                                  BoundedColumns& result);
 
 template <class Arch>
-int bounded_operation(int operation, const BoundedColumns& a, const BoundedColumns& b,
-                      BoundedColumns& result) {
-    using C = Certified<Wide<Double<Arch>>>;
-    using F = simd::Floats<Double<Arch>>;
-    const auto load = [](const BoundedColumns& from) {
-        return simd::Floats<C>(
-            DoubleDoubles<Double<Arch>>(F::load_unaligned(from.high), F::load_unaligned(from.low)),
-            F::load_unaligned(from.error));
-    };
-    const simd::Floats<C> x = load(a), y = load(b);
-    const simd::Floats<C> found = operation == 0   ? x + y
-                                  : operation == 1 ? x * y
-                                  : operation == 2 ? x / y
-                                                   : sqrt(x);
-    found.value.high.store_unaligned(result.high);
-    found.value.low.store_unaligned(result.low);
-    found.error.store_unaligned(result.error);
-    return static_cast<int>(F::size);
-}
+struct BoundedCheck {
+    static int operate(int operation, const BoundedColumns& a, const BoundedColumns& b,
+                       BoundedColumns& result) {
+        using C = Certified<Wide<Double<Arch>>>;
+        using F = simd::Floats<Double<Arch>>;
+        const auto load = [](const BoundedColumns& from) {
+            return simd::Floats<C>(DoubleDoubles<Double<Arch>>(F::load_unaligned(from.high),
+                                                               F::load_unaligned(from.low)),
+                                   F::load_unaligned(from.error));
+        };
+        const simd::Floats<C> x = load(a), y = load(b);
+        const simd::Floats<C> found = operation == 0   ? x + y
+                                      : operation == 1 ? x * y
+                                      : operation == 2 ? x / y
+                                                       : sqrt(x);
+        found.value.high.store_unaligned(result.high);
+        found.value.low.store_unaligned(result.low);
+        found.error.store_unaligned(result.error);
+        return static_cast<int>(F::size);
+    }
+};
 
-int bounded_operation_portable(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
-int bounded_operation_sse42(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
-int bounded_operation_avx2(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
-int bounded_operation_avx512(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
-int bounded_operation_neon(int, const BoundedColumns&, const BoundedColumns&, BoundedColumns&);
+/// BoundedCheck of an instruction set, by a unit of its own.
+template <Isa isa>
+int bounded_operation(int operation, const BoundedColumns& a, const BoundedColumns& b,
+                      BoundedColumns& result);
 
 } // namespace raylane::simd

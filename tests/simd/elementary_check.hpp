@@ -37,10 +37,8 @@ struct ElementaryCheck {
     }
 };
 
-void elementary_portable(const ElementaryArrays& arrays);
-void elementary_sse42(const ElementaryArrays& arrays);
-void elementary_avx2(const ElementaryArrays& arrays);
-void elementary_avx512(const ElementaryArrays& arrays);
-void elementary_neon(const ElementaryArrays& arrays);
+/// ElementaryCheck of an instruction set, by a unit of its own.
+template <Isa isa>
+void elementary(const ElementaryArrays& arrays);
 
 } // namespace raylane::simd

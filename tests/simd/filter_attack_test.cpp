@@ -27,7 +27,7 @@ int rounds() {
 }
 
 ScaledFilters scaled_filters_of(Isa isa) {
-    return of_isa(isa, RAYLANE_BY_ISA(scaled_filters))();
+    return of_isa(isa, []<Isa which>() { return scaled_filters<which>(); });
 }
 
 /// One shape and one ray before the filters.

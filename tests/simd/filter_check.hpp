@@ -35,10 +35,8 @@ struct FilterChecks {
                         std::size_t ray);
 };
 
-FilterChecks filter_checks_portable();
-FilterChecks filter_checks_sse42();
-FilterChecks filter_checks_avx2();
-FilterChecks filter_checks_avx512();
-FilterChecks filter_checks_neon();
+/// From a unit of its own.
+template <Isa isa>
+FilterChecks filter_checks();
 
 } // namespace raylane::simd

@@ -20,7 +20,7 @@ using namespace simd;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline FilterChecks checks_of(Isa isa) {
-    return of_isa(isa, RAYLANE_BY_ISA(filter_checks))();
+    return of_isa(isa, []<Isa which>() { return filter_checks<which>(); });
 }
 
 /// A ray as it is meant, and as the filters see it.

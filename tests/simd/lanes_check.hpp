@@ -374,10 +374,8 @@ struct LanesCheck {
     }
 };
 
-int lanes_failures_portable();
-int lanes_failures_sse42();
-int lanes_failures_avx2();
-int lanes_failures_avx512();
-int lanes_failures_neon();
+/// LanesCheck of an instruction set, by a unit of its own.
+template <Isa isa>
+int lanes_failures();
 
 } // namespace raylane::simd

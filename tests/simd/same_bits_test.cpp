@@ -94,7 +94,7 @@ void check(bool lattice) {
     });
     const Scene scene = std::move(builder).build();
 
-    const Answers expected(scene, rays.view(), Isa::portable);
+    const Answers expected(scene, rays.view(), narrowest_isa());
     const auto nothing = std::count(expected.shape.begin(), expected.shape.end(), no_shape);
     CHECK(2 * static_cast<std::size_t>(nothing) < expected.shape.size());
     for (const Isa isa : all_isas) {

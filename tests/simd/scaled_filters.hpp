@@ -11,10 +11,8 @@ struct ScaledFilters {
     float* half_ulp; ///< the constant that the filters of this instruction set use
 };
 
-ScaledFilters scaled_filters_portable();
-ScaledFilters scaled_filters_sse42();
-ScaledFilters scaled_filters_avx2();
-ScaledFilters scaled_filters_avx512();
-ScaledFilters scaled_filters_neon();
+/// From a unit of its own.
+template <Isa isa>
+ScaledFilters scaled_filters();
 
 } // namespace raylane::simd

@@ -1,11 +1,7 @@
 #pragma once
 
-#include "simd/kernel/certify/cross_all.hpp"
-#include "simd/kernel/certify/finish.hpp"
-#include "simd/kernel/certify/finish_again.hpp"
-#include "simd/kernel/certify/list_candidates.hpp"
 #include "simd/kernel/shapes/shapes.hpp"
-#include "simd/kernel/traverse/in_flight/all.hpp"
+#include "simd/kernel/traverse/rays.hpp"
 
 namespace raylane::simd {
 
@@ -16,8 +12,6 @@ namespace raylane::simd {
 ///   packet     the rays of a stream from one on, one per lane
 ///   broadcast  one of them in all lanes
 ///   with_filter(kind, visit)  calls visit.operator()<its filter for the kind>()
-///   finish, finish_all  of MethodKernels
-///   refine     MethodKernels::refine
 ///
 /// This one is core::Precision::exact: bounds in float, and what they leave in double.
 template <class Arch>
@@ -26,17 +20,6 @@ struct ExactMethod : RaysInFloat<Arch> {
     template <class Visit>
     static void with_filter(core::Kind kind, const Visit& visit) {
         simd::with_filter<Arch>(kind, visit);
-    }
-    static void finish(const SceneView& scene, const Found& found) {
-        simd::finish<Arch, Wanted::crossings>(scene, found);
-    }
-    static void finish_all(const SceneView& scene, const Found& found) {
-        simd::finish<Arch, Wanted::all>(scene, found);
-    }
-    static constexpr decltype(MethodKernels::nearest_of_few) nearest_of_few = nullptr;
-    static constexpr RefineKernels refine() {
-        return {ListCandidates<Arch, ExactMethod>::list, finish_again<Arch>, widen<Arch>,
-                InFlightAll<Arch, ExactMethod>::list, cross_all<Arch>};
     }
 };
 

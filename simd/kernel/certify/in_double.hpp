@@ -73,7 +73,6 @@ struct DoubleMethod {
     }
     static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
     static constexpr decltype(MethodKernels::nearest_of_few) nearest_of_few = nullptr;
-    static constexpr RefineKernels refine() { return {}; }
 
   private:
     static Vectors<D> load(const double* const (&from)[3], std::size_t i) {

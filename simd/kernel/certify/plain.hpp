@@ -37,7 +37,6 @@ struct PlainMethod : RaysInFloat<Arch> {
         PlainFinish<Arch, textbook>(scene, found).all_rays();
     }
     static void finish_all(const SceneView& scene, const Found& found) { finish(scene, found); }
-    static constexpr RefineKernels refine() { return {}; }
     static constexpr auto nearest_of_few = SolvedOnce<Arch, textbook>::nearest;
 };
 

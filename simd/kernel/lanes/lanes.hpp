@@ -4,6 +4,7 @@
 #if defined(__AVX512F__) && !defined(_mm512_rsqrt23_ps)
 #define _mm512_rsqrt23_ps _mm512_rsqrt14_ps
 #endif
+#include "simd/isa_name.hpp"
 #include "simd/kernel/lanes/portable.hpp"
 
 #include <xsimd/xsimd.hpp>
@@ -26,6 +27,38 @@ namespace raylane::simd {
 using Sse42 = xsimd::sse4_2;
 using Avx2 = xsimd::fma3<xsimd::avx2>;
 using Avx512 = xsimd::avx512f;
+
+namespace detail {
+
+template <Isa isa>
+struct ArchOf;
+template <>
+struct ArchOf<Isa::portable> {
+    using Type = Portable;
+};
+template <>
+struct ArchOf<Isa::sse42> {
+    using Type = Sse42;
+};
+template <>
+struct ArchOf<Isa::avx2> {
+    using Type = Avx2;
+};
+template <>
+struct ArchOf<Isa::avx512> {
+    using Type = Avx512;
+};
+#ifdef __aarch64__
+template <>
+struct ArchOf<Isa::neon> {
+    using Type = Neon;
+};
+#endif
+
+} // namespace detail
+
+template <Isa isa>
+using ArchOf = typename detail::ArchOf<isa>::Type;
 
 /// Stands for Arch, but with numbers that are double. Its Lanes are in doubles.hpp.
 template <class Arch>

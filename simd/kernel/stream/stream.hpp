@@ -3,6 +3,7 @@
 #include "simd/kernel/certify/slots.hpp"
 #include "simd/kernel/lanes/doubles.hpp"
 #include "simd/kernel/lanes/vectors.hpp"
+#include "simd/kernel/traverse/rays.hpp"
 #include "simd/kernels.hpp"
 
 namespace raylane::simd {

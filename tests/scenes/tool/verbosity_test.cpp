@@ -1,3 +1,4 @@
+#include "simd/isa.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
 
@@ -38,10 +39,11 @@ TEST_CASE("quiet, nothing is said of what goes well") {
 
 TEST_CASE("verbose, it is said what was done, in a pipe, too") {
     const Workshop workshop;
+    const std::string isa(raylane::simd::name_of(raylane::simd::narrowest_isa()));
     const std::string said =
-        workshop.render("picture.png", {"-v", "--threads", "1", "--isa", "portable"}).err;
+        workshop.render("picture.png", {"-v", "--threads", "1", "--isa", isa}).err;
     CHECK(said.starts_with("scene.json: 1 shapes, read and built in "));
-    CHECK(said.find("\nvector engine, portable, exact precision, 1 threads\n") !=
+    CHECK(said.find("\nvector engine, " + isa + ", exact precision, 1 threads\n") !=
           std::string::npos);
     CHECK(said.find("\npicture.png: 16 x 12 pixels, ") != std::string::npos);
 }
