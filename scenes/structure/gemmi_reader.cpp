@@ -203,8 +203,9 @@ namespace raylane::scenes {
 namespace {
 
 [[noreturn]] void fail(const InputFile& file, const char* format) {
-    throw BadInput(file.name(), "",
-                   std::string("this raylane was built without gemmi, which reads ") + format);
+    throw BadInput(
+        file.name(), "",
+        std::string("cannot be read: raylane was built without gemmi-dev, which reads ") + format);
 }
 
 } // namespace
