@@ -33,6 +33,7 @@ case $suite in bookworm | trixie) ;; *) usage >&2; exit 2 ;; esac
 [ $# -gt 0 ] || { usage >&2; exit 2; }
 [ "$(id -u)" -eq 0 ] || { echo "tests/bare.sh: only root may change roots" >&2; exit 3; }
 
+{ # read as a whole before it runs: a commit meanwhile may change this file
 project=$(cd "$(dirname "$0")/.." && pwd)
 # shellcheck source=tests/have.sh
 . "$project/tests/have.sh"
@@ -90,3 +91,4 @@ chroot "$root" env -i "${environment[@]}" sh -c 'cd /raylane && exec "$@"' sh "$
 took=$((SECONDS - began))
 echo "bare $suite: exit code $status after $((took / 60)) min $((took % 60)) s on $(nproc) processors: $*"
 exit $status
+}
