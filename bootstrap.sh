@@ -123,7 +123,8 @@ build() { # target, options of cmake
     esac
     log=build/bootstrap.log
     mkdir -p build
-    if ! cmake --preset release "$@" >"$log" 2>&1; then
+    # RAYLANE_ISAS=all ./bootstrap.sh test: kernels for all instruction sets, not for this machine's own.
+    if ! cmake --preset release "-DRAYLANE_ISAS=${RAYLANE_ISAS:-native}" "$@" >"$log" 2>&1; then
         cat "$log" >&2
         fail 1 "configuring failed; see above, or $log"
     fi

@@ -19,7 +19,7 @@ else
 fi
 
 cmake --fresh --preset release -B build/tidy -GNinja -DCMAKE_CXX_COMPILER=clang++ \
-    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DRAYLANE_BENCHMARKS=OFF -DRAYLANE_TESTS=OFF
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DRAYLANE_UNITY=OFF -DRAYLANE_BENCHMARKS=OFF -DRAYLANE_TESTS=OFF
 # The check that is left out takes as long as all others.
 printf '%s\n' "$files" |
     xargs -P "$(nproc)" -n 1 clang-tidy --quiet --warnings-as-errors='*' -p build/tidy \
