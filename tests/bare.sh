@@ -79,7 +79,7 @@ if [ -n "$ccache" ]; then
     shared=${CCACHE_DIR:-$HOME/.cache/ccache}
     mkdir -p "$shared" "$root/ccache"
     mount --bind "$shared" "$root/ccache"
-    environment+=(CCACHE_DIR=/ccache CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    environment+=(CCACHE_DIR=/ccache)
     chroot "$root" env -i "${environment[@]}" sh -c \
         'apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -qq --no-install-recommends ccache' >/dev/null
 fi
