@@ -12,7 +12,6 @@ using namespace raylane::tests;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
 
 /// Of hours. Others may want the processor, and sanitizers look the memory over at the end.
 constexpr std::chrono::seconds soon{20};
@@ -20,8 +19,9 @@ constexpr std::chrono::seconds soon{20};
 const std::vector<std::string> render_for_hours =
     joined({"render", "scene.json", "-o", "out/picture.png", "--stats", "out/stats.json"}, hours);
 
-/// The process ends soon after the signal and leaves nothing.
-void check_end(const Workshop& workshop, Process& process, int signal) {
+/// Checks that the process ends soon after the signal and leaves no file. Returns its standard
+/// error.
+std::string end_of(const Workshop& workshop, Process& process, int signal) {
     const auto start = Clock::now();
     process.send(signal);
     const Outcome outcome = process.wait();
@@ -29,8 +29,21 @@ void check_end(const Workshop& workshop, Process& process, int signal) {
     CHECK(outcome.code == 128 + signal);
     CHECK(outcome.exited);
     CHECK(outcome.out.empty());
-    CHECK(outcome.err.empty());
     CHECK(workshop.is_output_empty());
+    return outcome.err;
+}
+
+/// Checks the same, and that standard error is empty.
+void check_end(const Workshop& workshop, Process& process, int signal) {
+    CHECK(end_of(workshop, process, signal).empty());
+}
+
+/// Checks the same on a terminal, where the progress line ends in a line break.
+void check_end_on_terminal(const Workshop& workshop, Process& process, int signal) {
+    const std::string err = end_of(workshop, process, signal);
+    CAPTURE(err);
+    CHECK(err.ends_with("\x1B[K\r\n"));
+    CHECK(count_of("\n", err) == 1);
 }
 
 } // namespace
@@ -38,11 +51,16 @@ void check_end(const Workshop& workshop, Process& process, int signal) {
 TEST_CASE("an interrupted rendering ends soon and leaves nothing") {
     for (const int signal : {SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
         const Workshop workshop;
-        Process process = workshop.start(render_for_hours);
+        Process process = workshop.start(render_for_hours, on_terminal());
         REQUIRE(workshop.wait_for_files(process, 2));
-        REQUIRE(process.wait_for_work(milliseconds(100))); // amid the pixels
-        check_end(workshop, process, signal);
+        REQUIRE(process.wait_for_err("rays/s")); // it is rendering
+        check_end_on_terminal(workshop, process, signal);
     }
+    // A pipe gets its first progress line after a second.
+    const Workshop workshop;
+    Process process = workshop.start(joined(render_for_hours, {"--verbose"}));
+    REQUIRE(process.wait_for_err("rays/s"));
+    CHECK(end_of(workshop, process, SIGHUP).find("raylane") == std::string::npos);
 }
 
 TEST_CASE("an interrupted rendering leaves the picture that was there") {
@@ -77,15 +95,15 @@ TEST_CASE("reading a scene can be interrupted") {
         ::close(writer);
     }
     {
-        // A scene that takes seconds and hundreds of megabytes to build.
+        // A scene that takes seconds and hundreds of megabytes to build. On a machine that builds
+        // it before the signal, the rendering without a journal ends in the same way.
         workshop.write("scene.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
             "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
             "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
                          "depth": 7}]})");
-        Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png"});
-        REQUIRE(workshop.wait_for_files(process, 1));
-        REQUIRE(process.wait_for_work(milliseconds(200)));
-        check_end(workshop, process, SIGTERM);
+        Process process = workshop.start(joined(render_for_hours, {"--no-resume"}), on_terminal());
+        REQUIRE(process.wait_for_err(" million shapes "));
+        check_end_on_terminal(workshop, process, SIGTERM);
     }
 }
 
@@ -94,16 +112,23 @@ TEST_CASE("waiting for a reader of the picture can be interrupted") {
     REQUIRE(::mkfifo((workshop.path() / "pipe.png").c_str(), 0600) == 0);
     Process process =
         workshop.start({"render", "scene.json", "--stats", "out/stats.json", "-o", "pipe.png"});
-    std::this_thread::sleep_for(std::chrono::seconds(1)); // nothing tells that it waits
+    REQUIRE(comes_true([&] { return process.waits_in_open(); }));
     check_end(workshop, process, SIGINT);
 }
 
 TEST_CASE("a signal at any moment leaves the whole picture, or at most a journal") {
     const Workshop workshop;
+    const std::vector<std::string> arguments = {"render", "scene.json", "-o", "out/picture.png"};
+    const auto start = Clock::now();
+    REQUIRE(workshop.run(arguments).code == 0);
+    const auto duration = Clock::now() - start;
+    std::filesystem::remove(workshop.output() / "picture.png");
     int interrupted = 0;
-    for (int i = 0; i < 60; ++i) {
-        Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png"});
-        std::this_thread::sleep_for(std::chrono::microseconds(100 * i));
+    constexpr int count = 60;
+    for (int i = 0; i < count; ++i) {
+        Process process = workshop.start(arguments);
+        // The moments range from the start to after the end. Each check holds at any moment.
+        std::this_thread::sleep_for(duration * i / (count - 10));
         process.send(SIGINT);
         const Outcome outcome = process.wait();
         const bool there = std::filesystem::remove(workshop.output() / "picture.png");
@@ -118,12 +143,17 @@ TEST_CASE("a signal at any moment leaves the whole picture, or at most a journal
 
 TEST_CASE("signals that the caller has ignored stay so") {
     const Workshop workshop;
-    Setup ignoring;
-    ignoring.in_child = [] { ::signal(SIGINT, SIG_IGN); };
-    Process process = workshop.start(render_for_hours, ignoring);
-    REQUIRE(workshop.wait_for_files(process, 2));
+    Setup ignoring = on_terminal();
+    ignoring.in_child = [prepare = ignoring.in_child] {
+        prepare();
+        ::signal(SIGINT, SIG_IGN);
+    };
+    // A rendering with a journal goes on for a while after the first signal. This one has none.
+    Process process = workshop.start(joined(render_for_hours, {"--no-resume"}), ignoring);
+    REQUIRE(process.wait_for_err("rays/s"));
     process.send(SIGINT);
-    CHECK(process.wait_for_work(milliseconds(200)));
+    for (int line = 0; line < 3; ++line)
+        CHECK(process.wait_for_further_err("rays/s"));
     CHECK(workshop.wait_for_files(process, 2));
-    check_end(workshop, process, SIGHUP);
+    check_end_on_terminal(workshop, process, SIGHUP);
 }

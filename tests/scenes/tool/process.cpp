@@ -5,13 +5,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <iterator>
 #include <poll.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <system_error>
-#include <thread>
-#include <time.h>
 #include <unistd.h>
 
 namespace raylane::tests {
@@ -118,6 +118,25 @@ void Process::send(int signal) const {
     checked(::kill(child_, signal), "kill");
 }
 
+void Process::stop() const {
+    send(SIGSTOP);
+    siginfo_t stopped{};
+    checked(::waitid(P_PID, static_cast<id_t>(child_), &stopped, WSTOPPED | WEXITED | WNOWAIT),
+            "waitid");
+}
+
+bool Process::waits_in_open() const {
+    const std::string folder = "/proc/" + std::to_string(child_);
+    long call = -1; // not a number while it runs
+    std::ifstream(folder + "/syscall") >> call;
+    if (call != SYS_openat) return false;
+    std::string status;
+    std::getline(std::ifstream(folder + "/stat"), status);
+    // The state follows the name, which is in parentheses. Opening a regular file never sleeps in
+    // S.
+    return status.find(") S ") != std::string::npos;
+}
+
 int Process::unnamed_files_in(const std::filesystem::path& directory) const {
     const std::string start = std::filesystem::canonical(directory).string() + "/";
     int count = 0;
@@ -136,22 +155,8 @@ bool Process::wait_for_err(std::string_view text) {
     return collect(std::chrono::steady_clock::now() + patience, text);
 }
 
-bool Process::wait_for_work(std::chrono::milliseconds duration) const {
-    const auto end = std::chrono::steady_clock::now() + patience;
-    clockid_t clock{};
-    checked(::clock_getcpuclockid(child_, &clock), "clock_getcpuclockid");
-    while (std::chrono::steady_clock::now() < end) {
-        siginfo_t ended{};
-        checked(::waitid(P_PID, static_cast<id_t>(child_), &ended, WEXITED | WNOHANG | WNOWAIT),
-                "waitid");
-        if (ended.si_pid == child_) return false;
-        timespec used{};
-        checked(::clock_gettime(clock, &used), "clock_gettime");
-        if (std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec) >= duration)
-            return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
+bool Process::wait_for_further_err(std::string_view text) {
+    return collect(std::chrono::steady_clock::now() + patience, text, err_text_.size());
 }
 
 Outcome Process::wait() {
@@ -165,13 +170,14 @@ Outcome Process::wait() {
             usage.ru_maxrss / 1024};
 }
 
-/// Until it writes no more, or has written what is expected. False if that takes too long, and if
-/// what is expected has not come.
-bool Process::collect(std::chrono::steady_clock::time_point end, std::string_view expected) {
+/// Reads until the process closes both ends, or until standard error has the expected text at or
+/// after a character. Returns false at the deadline, and if the expected text is missing.
+bool Process::collect(std::chrono::steady_clock::time_point end, std::string_view expected,
+                      std::size_t from) {
     using std::chrono::milliseconds;
     std::array<pollfd, 2> sources = {pollfd{out_, POLLIN, 0}, pollfd{err_, POLLIN, 0}};
     const auto has_come = [&] {
-        return !expected.empty() && err_text_.find(expected) != std::string::npos;
+        return !expected.empty() && err_text_.find(expected, from) != std::string::npos;
     };
     while (!has_come() && (sources[0].fd >= 0 || sources[1].fd >= 0)) {
         const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());

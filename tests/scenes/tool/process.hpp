@@ -37,18 +37,23 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     void send(int signal) const;
-    /// Until it has written that on standard error. False if it does not in two minutes.
+    /// Sends SIGSTOP, and waits until it has stopped or ended.
+    void stop() const;
+    /// Waits until it has written a text on standard error. Returns false if it ends without, or
+    /// after two minutes.
     bool wait_for_err(std::string_view text);
-    /// Until it has had a processor for so long, however long that takes where there are many who
-    /// want one. False if it has ended before, or if that takes two minutes.
-    bool wait_for_work(std::chrono::milliseconds duration) const;
+    /// Waits for a text that it writes from now on.
+    bool wait_for_further_err(std::string_view text);
+    /// True if its main thread waits in open(2), as for the other end of a pipe with a name.
+    bool waits_in_open() const;
     /// How many files without a name it has open in a directory.
     int unnamed_files_in(const std::filesystem::path& directory) const;
     /// Takes what it writes until it ends, and kills it where that takes minutes.
     Outcome wait();
 
   private:
-    bool collect(std::chrono::steady_clock::time_point end, std::string_view expected);
+    bool collect(std::chrono::steady_clock::time_point end, std::string_view expected,
+                 std::size_t from = 0);
 
     pid_t child_ = -1;
     int out_ = -1, err_ = -1; // where to read what it writes

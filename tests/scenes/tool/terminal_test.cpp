@@ -2,6 +2,8 @@
 #include "tests/scenes/tool/workshop.hpp"
 
 #include <csignal>
+#include <fstream>
+#include <sys/stat.h>
 
 using namespace raylane::tests;
 
@@ -23,6 +25,11 @@ std::string form_of(const std::string& text) {
     return form;
 }
 
+/// A scene in NFF, but for its shapes; and one of these.
+const std::string nff_head = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\n"
+                             "resolution 4 4\nl 9 9 9\n";
+const std::string nff_line = "s 0 0 0 1\n";
+
 } // namespace
 
 TEST_CASE("a good rendering says nothing in a pipe") {
@@ -39,7 +46,7 @@ TEST_CASE("a rendering shows its progress on a terminal, and at the end a summar
     const Workshop workshop;
     // The ball fills a tile every so often; on a fast machine it takes more samples to be seen.
     Outcome outcome{};
-    for (const char* samples : {"1024", "4096", "16384"}) {
+    for (const char* samples : {"1024", "4096", "16384", "65536"}) {
         outcome = workshop.run({"render", "scene.json", "-o", "out/picture.png", "--size", "64x64",
                                 "--threads", "1", "--spp", samples},
                                on_terminal());
@@ -57,32 +64,63 @@ TEST_CASE("a rendering shows its progress on a terminal, and at the end a summar
 
 TEST_CASE("reading and building show their progress on a terminal, and nothing in a pipe") {
     const Workshop workshop;
-    // Seconds of work, which are told of every tenth of one.
-    workshop.write("scene.json", R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
-        "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
-        "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
-                     "depth": 7}]})");
-    const Outcome shown = workshop.run({"info", "scene.json"}, on_terminal());
-    CHECK(shown.code == 0);
-    CHECK(form_of(shown.err).find("\rN million shapes read\x1B[K") != std::string::npos);
-    CHECK(form_of(shown.err).find("\r[N] N % of N million shapes placed\x1B[K") !=
-          std::string::npos);
-    CHECK(shown.err.ends_with("\r\x1B[K"));
+    const std::filesystem::path pipe = workshop.path() / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    {
+        // A file that does not end before its progress has been seen.
+        Process process = workshop.start({"info", "pipe"}, on_terminal());
+        std::ofstream file(pipe);
+        file << nff_head;
+        for (int i = 0; i < 200'000; ++i)
+            file << nff_line;
+        file.flush();
+        CHECK(process.wait_for_err("\r0.2 million shapes read\x1B[K"));
+        file.close();
+        const Outcome shown = process.wait();
+        CHECK(shown.code == 0);
+        CHECK(shown.err.ends_with("\r\x1B[K"));
+    }
+    const auto flake = [](const char* depth) {
+        return R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+            "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
+            "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
+                         "depth": )" +
+               std::string(depth) + "}]}";
+    };
+    {
+        // Five million shapes, which take one thread seconds. A tenth of one is enough.
+        workshop.write("scene.json", flake("7"));
+        Setup setup = on_terminal();
+        setup.in_child = [prepare = setup.in_child] {
+            prepare();
+            ::setenv("RAYLANE_THREADS", "1", 1);
+        };
+        Process process = workshop.start({"info", "scene.json"}, setup);
+        CHECK(process.wait_for_err(" million shapes placed\x1B[K"));
+        process.send(SIGHUP);
+        CHECK(form_of(process.wait().err).find("\r[N] N % of N million shapes placed\x1B[K") !=
+              std::string::npos);
+    }
+    workshop.write("scene.json", flake("6"));
     CHECK(workshop.run({"info", "scene.json"}).err.empty());
 }
 
 TEST_CASE("reading a file shows how much of it has been read") {
     const Workshop workshop;
-    // Some tenths of a second's reading.
-    const std::string line = "s 0 0 0 1\n";
-    std::string text = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 4 4\n"
-                       "l 9 9 9\n";
-    while (text.size() < (std::size_t{24} << 20))
-        text += line;
-    workshop.write("scene.nff", text);
-    const Outcome shown = workshop.run({"info", "scene.nff"}, on_terminal());
-    CHECK(shown.code == 0);
-    CHECK(form_of(shown.err).find("\r[N] N % N million shapes read\x1B[K") != std::string::npos);
+    // Some tenths of a second's reading; on a fast machine it takes more to be seen.
+    std::string err;
+    for (const std::size_t megabytes : {24, 96, 384}) {
+        std::string text = nff_head;
+        while (text.size() < megabytes << 20)
+            text += nff_line;
+        workshop.write("scene.nff", text);
+        Process process = workshop.start({"info", "scene.nff"}, on_terminal());
+        const bool is_seen = process.wait_for_err(" % ");
+        process.send(SIGHUP);
+        err = process.wait().err;
+        if (is_seen) break;
+    }
+    CHECK(form_of(err).find("\r[N] N % N million shapes read\x1B[K") != std::string::npos);
 }
 
 TEST_CASE("an error is one line on a terminal, too") {

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "tests/comes_true.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 #include "tests/scenes/tool/process.hpp"
 
 #include <algorithm>
 #include <cstdlib>
-#include <thread>
 
 namespace raylane::tests {
 
@@ -36,17 +36,6 @@ inline Setup on_terminal(const char* kind = "xterm") {
     setup.terminal = true;
     setup.in_child = [kind] { ::setenv("TERM", kind, 1); };
     return setup;
-}
-
-/// Until that is so. False if it takes a minute.
-template <class Condition>
-bool comes_true(const Condition& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) return false;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
 }
 
 /// A directory to run the tool in, with a scene and an empty directory for what comes out.
@@ -98,6 +87,24 @@ class Workshop {
 
 inline bool is_one_line(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n');
+}
+
+/// Returns the last line that a terminal shows: without a progress bar that was wiped away.
+inline std::string last_line(std::string text) {
+    while (text.ends_with('\n') || text.ends_with('\r'))
+        text.pop_back();
+    const std::size_t wiped = text.rfind("\r\x1B[K"), broken = text.rfind('\n');
+    if (broken != std::string::npos && (wiped == std::string::npos || broken > wiped))
+        return text.substr(broken + 1);
+    return wiped == std::string::npos ? text : text.substr(wiped + 4);
+}
+
+/// Returns how often a text has a part.
+inline std::size_t count_of(const std::string& part, const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++count;
+    return count;
 }
 
 } // namespace raylane::tests
