@@ -1,9 +1,9 @@
 #include "simd/threads.hpp"
 #include "tests/catch.hpp"
+#include "tests/comes_true.hpp"
 #include "tests/sanitized.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
@@ -20,8 +20,7 @@ bool meets(int threads) {
     simd::on_threads(threads, [&] {
         simd::parallel_for(static_cast<std::size_t>(threads), [&](std::size_t) {
             ++here;
-            for (int wait = 0; here < threads && wait < 10'000; ++wait)
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            tests::comes_true([&] { return here >= threads; });
         });
     });
     return here == threads;
