@@ -5,6 +5,7 @@
 #   hosts_test.sh RAYLANE SCENE    as root; 77 where that, or MPI, is not there
 set -eu
 
+. "$(dirname "$0")/../wait.sh"
 raylane=$(realpath "$1")
 scene=$(realpath "$2")
 wire=$(realpath "$(dirname "$0")/wire.py")
@@ -39,15 +40,17 @@ on_both() {
         --mca oob_tcp_if_include 10.77.0.0/24 "$raylane" "$@"
 }
 
+is_ready_or_gone() {
+    grep -q ready wire.out || ! kill -0 "$relay"
+}
+
 for conditions in "0.1 0" "5 0.01"; do
     : >wire.out # what the last one said is not this one's
     # shellcheck disable=SC2086 # milliseconds and loss
     "$wire" $one 10.77.0.1/24 $two 10.77.0.2/24 $conditions >>wire.out &
     relay=$!
-    until grep -q ready wire.out; do
-        kill -0 "$relay" || exit 1
-        sleep 0.1
-    done
+    wait_until is_ready_or_gone
+    grep -q ready wire.out
     rm -f ./*.png
     "$raylane" render "$scene" -q -o one.png --size 400x300
     start=$(date +%s%N)

@@ -9,6 +9,7 @@ raylane=$1
 scene=$2
 command -v mpirun >/dev/null || exit 77
 [ -e "$(dirname "$raylane")/raylane-mpi.so" ] || exit 77
+. "$(dirname "$0")/../../wait.sh"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -60,22 +61,20 @@ echo "a scene that ranks of a host share"
 "$raylane" render "$scene" -q -o one.pfm --size 150x90
 job 2 render built.rl -o many.pfm --size 150x90 2>err || fail "a built scene"
 same one.pfm many.pfm
+both_map() { # mapped, processes
+    count=0
+    for process in $(pgrep -f "$2"); do
+        ! grep -qsF "$1" "/proc/$process/maps" || count=$((count + 1))
+    done
+    [ $count -ge 2 ]
+}
 # Two ranks that draw this for hours have the same memory.
 shares() { # mapped, scene and options...
     mapped=$1
     shift
     job 2 render "$@" -o long.png --size 4000x4000 --spp 65536 --no-resume >out 2>err &
-    sharing=
-    tries=0
-    while [ -z "$sharing" ] && [ $tries -lt 300 ]; do
-        sleep 0.2
-        tries=$((tries + 1))
-        count=0
-        for process in $(pgrep -f "^$raylane render $* -o long.png"); do
-            ! grep -qsF "$mapped" "/proc/$process/maps" || count=$((count + 1))
-        done
-        [ $count -lt 2 ] || sharing=1
-    done
+    sharing=1
+    wait_until both_map "$mapped" "^$raylane render $* -o long.png" || sharing=
     pkill -KILL -f "^$raylane render $* -o long.png" || true
     wait $! || true
     [ -n "$sharing" ] || fail "ranks do not share $*"
@@ -189,21 +188,29 @@ PYTHON
 mkfifo pipe
 exec 3<>pipe # waits for nobody
 job 2 trace "$scene" many-rays.npy -o pipe --threads 2 2>err 3>&- &
-work() { # seconds of a processor that the ranks have had
-    ranks=$(pgrep -d , -f "^$raylane trace $scene many-rays.npy") || return 0
-    ps -o cputimes= -p "$ranks" | tr '\n' ' '
+has_bytes() { # pipe that is open as descriptor 3
+    python3 -c 'import fcntl, struct, sys, termios
+count = struct.unpack("i", fcntl.ioctl(3, termios.FIONREAD, bytes(4)))[0]
+sys.exit(0 if count > 0 else 1)'
 }
-# Until they do nothing any more, as all that may be begun is done.
-before=none
-now=
-tries=0
-while [ -z "$now" ] || [ "$before" != "$now" ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 60 ] || break
-    sleep 3
-    before=$now
-    now=$(work)
-done
+# Succeeds where none of two ranks' threads runs or wants to at any of ten looks: all that may be begun is done.
+# A thread that waits for a processor is in state R.
+all_sleep() {
+    for look in 1 2 3 4 5 6 7 8 9 10; do
+        count=0
+        for process in $(pgrep -f "^$raylane trace $scene many-rays.npy"); do
+            states=$(sed 's/.*) \(.\) .*/\1/' "/proc/$process"/task/*/stat 2>/dev/null | tr -d '\n')
+            case $states in
+            *[!S]* | '') return 1 ;;
+            esac
+            count=$((count + 1))
+        done
+        [ "$count" -eq 2 ] || return 1
+        [ "$look" -eq 10 ] || sleep 0.1
+    done
+}
+wait_until has_bytes || fail "no answer is written"
+wait_until all_sleep || fail "ranks that nobody reads from do not come to rest"
 found=0
 for process in $(pgrep -f "^$raylane trace $scene many-rays.npy"); do
     found=$((found + 1))
@@ -238,23 +245,27 @@ refused 2 "none.npy: no such file" trace "$scene" none.npy
 refused 2 "err: must be an array in NumPy's format" trace "$scene" err
 
 echo "what ends a rank loses no tile that was done"
-long="--size 600x600 --spp 484"
-# shellcheck disable=SC2086 # a list of options
-"$raylane" render "$scene" -q -o one.png $long
+has_begun_or_ended() { # process
+    [ -e many.png.part ] || ! kill -0 "$1" 2>/dev/null
+}
 for signal in KILL TERM; do
-    for seconds in 3 4 6 9; do # until it is ended in the midst of it, however fast this machine is
+    for samples in 484 484 1936 7744 30976; do # more on a machine where it ends before there is a journal
+        long="--size 600x600 --spp $samples"
         rm -f many.png many.png.part
-        # shellcheck disable=SC2086
+        # shellcheck disable=SC2086 # a list of options
         job 2 render "$scene" -o many.png $long >out 2>err &
-        sleep "$seconds"
+        ranks=$!
+        wait_until has_begun_or_ended $ranks || fail "no journal is begun"
         # The rank that was started last.
         pkill -"$signal" -n -f "^$raylane render $scene -o many.png" || true
         status=0
-        wait $! || status=$?
+        wait $ranks || status=$?
         [ ! -e many.png.part ] || break
     done
-    [ "$status" -ne 0 ] || continue # too fast
+    [ "$status" -ne 0 ] || fail "$signal came too late each time"
     [ -e many.png.part ] || fail "$signal left nothing to go on with"
+    # shellcheck disable=SC2086
+    "$raylane" render "$scene" -q -o one.png $long
     # shellcheck disable=SC2086
     job 2 render "$scene" -o many.png $long 2>err || fail "it does not go on"
     grep -q "many.png.part: goes on at" err || fail "it has begun anew"
