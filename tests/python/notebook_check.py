@@ -14,7 +14,6 @@ import socket
 import subprocess
 import sys
 import tempfile
-import time
 import urllib.request
 
 import raylane
@@ -90,7 +89,6 @@ def look(driver, url, picture):
     driver.execute_script("arguments[0].scrollIntoView()", handle)
     handle.send_keys(*[Keys.ARROW_RIGHT] * 4)
     wait("another picture", lambda: bits() != before)
-    time.sleep(1.0)
     camera = raylane._orbit.turned(raylane.load(SCENE).camera, 20, 0)
     expected = raylane.render(raylane.load(SCENE), camera=camera, width=160, height=120)._repr_png_()
     wait("the turned picture", lambda: base64.b64decode(bits()) == expected, 20)
