@@ -91,7 +91,7 @@ TEST_CASE("all rays of a beam meet what it says, in the same light", "[long]") {
     Random random(tests::seed(5));
     for_each_shape_type([&]<class Shape>(std::type_identity<Shape>) {
         Counts counts;
-        for (int round = 0; round < tests::rounds(30, 2); ++round) {
+        for (int round = 0; round < tests::rounds(10, 2, 30); ++round) {
             Builder builder;
             set_up(builder, random);
             const int count = random.integer(1, 20);
@@ -111,7 +111,7 @@ TEST_CASE("all rays of a beam meet what it says, in the same light", "[long]") {
 TEST_CASE("a beam on a mirror follows what it shows", "[long]") {
     Random random(tests::seed(6));
     int even = 0, off = 0;
-    for (int round = 0; round < tests::rounds(40, 3); ++round) {
+    for (int round = 0; round < tests::rounds(20, 3, 40); ++round) {
         Builder builder;
         set_up(builder, random);
         builder.background = Color(0.6F);

@@ -1,7 +1,7 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/ray_sets.hpp"
-#include "tests/sanitized.hpp"
+#include "tests/simd/rounds.hpp"
 
 using namespace little_scene;
 using namespace raylane;
@@ -60,7 +60,7 @@ bool same(const Hit<double>& a, const Hit<double>& b) {
 TEST_CASE("the hierarchy loses no hit of a heap of all kinds") {
     for (const bool lattice : {false, true})
         for (const int of_each_kind : {1, 40, 100}) {
-            if (tests::sanitized && of_each_kind == 100) continue; // takes a minute
+            if (of_each_kind == 100 && !tests::is_full()) continue; // with sanitizers a minute
             const Aimed aimed = heap(lattice, of_each_kind, 20 + of_each_kind);
             Searcher<double> by_hierarchy(aimed.scene, Search::hierarchy);
             Searcher<double> by_trying(aimed.scene, Search::every_shape);

@@ -4,6 +4,7 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/ray_sets.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <cmath>
 
@@ -14,11 +15,7 @@ using ray_sets::Set;
 
 namespace {
 
-#ifdef RAYLANE_FEW_RAYS
-constexpr int rounds = 1'000;
-#else
-constexpr int rounds = 5'000;
-#endif
+const int rounds = tests::fixed_rounds(1'500, 1'000, 5'000);
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

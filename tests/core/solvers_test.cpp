@@ -2,6 +2,7 @@
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
 #include "tests/ray_sets.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <cmath>
 #include <cstring>
@@ -68,11 +69,7 @@ void compare(const Shape& shape, const Ray<float>& ray, Tally& tally) {
 }
 
 // Sanitizers slow the oracle down ten times and look for other things.
-#ifdef RAYLANE_FEW_RAYS
-constexpr int rays_per_set = 1'500;
-#else
-constexpr int rays_per_set = 15'000;
-#endif
+const int rays_per_set = tests::fixed_rounds(4'000, 1'500, 15'000);
 constexpr int rays_per_shape = 10;
 
 } // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/catch.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
@@ -19,11 +20,7 @@ namespace mp = boost::multiprecision;
 using Number = mp::number<mp::cpp_bin_float<256, mp::digit_base_2>, mp::et_off>;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-#ifdef RAYLANE_FEW_RAYS
-inline constexpr int rounds = 1000;
-#else
-inline constexpr int rounds = 20000;
-#endif
+inline const int rounds = tests::fixed_rounds(6'000, 1'000, 20'000);
 
 class Random {
   public:

@@ -23,7 +23,7 @@ using namespace raylane::mutations;
 namespace {
 
 int rounds() {
-    return tests::rounds(500);
+    return tests::rounds(200, 20, 500);
 }
 
 ScaledFilters scaled_filters_of(Isa isa) {

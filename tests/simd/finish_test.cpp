@@ -25,7 +25,7 @@ using ray_sets::Set;
 namespace {
 
 int rounds() {
-    return tests::rounds(100);
+    return tests::rounds(40, 20, 100);
 }
 
 constexpr double sentinel = -12345.0;

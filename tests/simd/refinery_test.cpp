@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t ray_count = 331; // the last packet is not full
 
 int rounds() {
-    return tests::rounds(200);
+    return tests::rounds(70, 20, 200);
 }
 
 /// Rays with room for them.

@@ -5,14 +5,29 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 
 namespace raylane::tests {
 
-/// Number of rounds of what is random. RAYLANE_TEST_ROUNDS asks for fewer where a processor is
-/// emulated; sanitizers allow for a few.
-inline int rounds(int usual, int few = 20) {
+/// True if RAYLANE_TEST_ROUNDS is `full`, as in `.ci/nightly`: tests take the time that they need.
+inline bool is_full() {
+    const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
+    return wanted != nullptr && std::strcmp(wanted, "full") == 0;
+}
+
+/// Number of rounds of a random test: `usual`, with sanitizers `few`, in full runs `full` if that
+/// is given. RAYLANE_TEST_ROUNDS may be another number, for example a small one on an emulated
+/// processor.
+inline int rounds(int usual, int few = 20, int full = 0) {
+    if (is_full()) return full != 0 ? full : usual;
     const char* const wanted = std::getenv("RAYLANE_TEST_ROUNDS");
     return wanted != nullptr ? std::atoi(wanted) : sanitized ? few : usual;
+}
+
+/// The same for a test whose checks need so many rounds: another number than `full` changes
+/// nothing.
+inline int fixed_rounds(int usual, int few, int full) {
+    return is_full() ? full : sanitized ? few : usual;
 }
 
 /// Seed of random numbers. RAYLANE_TEST_SEED asks for others than usual.

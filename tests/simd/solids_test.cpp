@@ -2,6 +2,7 @@
 #include "tests/core/little_scene.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/simd/picture.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -241,7 +242,9 @@ Scene cut_crowd(int way, int place) {
 
 TEST_CASE("a crowd that is cut is the same picture by both engines", "[native]") {
     const int way = GENERATE(range(0, 12));
-    const int place = GENERATE(range(0, tests::sanitized ? 1 : 3));
+    const int place = GENERATE(range(0, 3));
+    // Each way and each place, or all pairs of them.
+    if (place != way % 3 && !tests::is_full()) return;
     const Scene scene = cut_crowd(way, place);
     const std::vector<Color> seen = picture(scene, simd::Engine::vector);
     CAPTURE(way, place);

@@ -22,7 +22,7 @@ using namespace raylane::tests;
 namespace {
 
 int rounds() {
-    return tests::rounds(200, 5);
+    return tests::rounds(70, 5, 200);
 }
 
 constexpr std::size_t rays_per_nest = 512;

@@ -4,6 +4,7 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/sanitized.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <cmath>
 
@@ -63,7 +64,7 @@ TEST_CASE("waves that outgrow their queues are divided", "[long]") {
 }
 
 TEST_CASE("a sample that outgrows a queue by itself is followed to its end", "[long]") {
-    const Scene scene = panes(tests::sanitized ? 13 : 15);
+    const Scene scene = panes(tests::fixed_rounds(13, 13, 15));
     Settings settings = scene.settings();
     settings.width = settings.height = 3;
     const Film expected = simd::render(scene, settings, by(simd::Engine::reference)).film;
