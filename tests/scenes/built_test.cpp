@@ -7,8 +7,8 @@
 #include "simd/render.hpp"
 #include "simd/stream_tracer.hpp"
 #include "tests/catch.hpp"
-#include "tests/sanitized.hpp"
 #include "tests/scenes/temporary_directory.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -275,7 +275,7 @@ TEST_CASE("a built file with any byte changed is refused, and behind that so is 
         export_scene(built, scene);
         const std::string whole = tests::content_of(built);
         int refused = 0, read = 0;
-        const int rounds = tests::sanitized ? 300 : 3000;
+        const int rounds = tests::fixed_rounds(800, 300, 3000);
         for (int round = 0; round < rounds; ++round) {
             std::string other = whole;
             const std::size_t at = engine() % other.size();

@@ -4,6 +4,7 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/scaled_down.hpp"
 #include "tests/scenes/shared_scene.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +16,7 @@ using namespace raylane;
 namespace {
 
 core::Settings test_settings(const core::Scene& scene) {
-#ifdef RAYLANE_FEW_RAYS
-    constexpr int longest = 48;
-#else
-    constexpr int longest = 160;
-#endif
+    const int longest = tests::fixed_rounds(80, 48, 160); // pixels
     core::Settings settings = tests::scaled_down(scene.settings(), longest);
     settings.grid = std::min(settings.grid, 2);
     return settings;

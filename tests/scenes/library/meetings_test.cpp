@@ -35,7 +35,7 @@ TEST_CASE("pairs of shapes that meet are hit in the order of real arithmetic", "
     ray_sets::Random random(seed(20261122));
     for (const Way way : meetings::all_ways) {
         Tally tally;
-        for (int round = 0; round < rounds(4, 1); ++round)
+        for (int round = 0; round < rounds(2, 1, 4); ++round)
             for (int kind = 0; kind < core::kind_count; ++kind)
                 for (int other = 0; other < core::kind_count; ++other) {
                     meetings::MeetingMaker maker(kind, other, way, random);
@@ -50,7 +50,7 @@ TEST_CASE("many shapes that meet are hit in the order of real arithmetic", "[mee
     ray_sets::Random random(seed(20261123));
     for (const meetings::Kind& kind : meetings::gatherings) {
         Tally tally;
-        for (int round = 0; round < rounds(2, 1); ++round) {
+        for (int round = 0; round < rounds(1, 1, 2); ++round) {
             const int size = random.integer(kind.least, kind.most);
             ask(kind.make(size, random, 200), Limits::none, Sides::both, Ways::one, tally);
             ask(kind.make(size, random, 100), Limits::at_crossings, sides_of(round), Ways::all,

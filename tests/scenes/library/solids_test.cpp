@@ -162,7 +162,7 @@ TEST_CASE("solids of any others are what real arithmetic says") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(17));
     SolidTally wrong;
-    const int scenes = rounds(120);
+    const int scenes = rounds(50, 20, 120);
     for (int i = 0; i < scenes; ++i) {
         std::vector<AnyShapeInDouble> before;
         Expression made{Op::intersect};
@@ -177,7 +177,7 @@ TEST_CASE("a crowd that is cut is what real arithmetic says") {
     const bool lattice = GENERATE(true, false);
     Random random(seed(23));
     SolidTally wrong;
-    const int scenes = rounds(60);
+    const int scenes = rounds(30, 20, 60);
     for (int i = 0; i < scenes; ++i)
         ask(any_cut_crowd(random, lattice), random, lattice, 100, wrong);
     check(wrong, lattice);
