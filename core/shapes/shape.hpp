@@ -13,7 +13,7 @@
 #include <limits>
 #include <span>
 
-/// Contents of each shape's file, in this order: its numbers and traits, validate(), bounds_of() if
+/// Contents of each shape's file, in this order (types.hpp has its numbers and traits): validate(), bounds_of() if
 /// it is bounded, crossings(), outward_direction() (see normal.hpp), form_along() and
 /// normal_along() (see form.hpp), and of solids forms_at() (see side.hpp).
 namespace raylane::core {

@@ -1,0 +1,40 @@
+# For the scripts of this folder to read: steps, each with its budget.
+#
+# step SECONDS NAME begins a step and ends the one before; `step` alone ends the last. A step fails the
+# run at once. So does one that took more than twice its budget, at the end of the run: budgets are for
+# two idle cores without a compiler cache, and other machines differ.
+
+cd "$(dirname "$0")/.."
+steps=$(mktemp)
+results=$(mktemp -d)
+trap 'rm -rf "$steps" "$results"' EXIT
+started=$(date +%s)
+name=
+step() {
+    now=$(date +%s)
+    if [ -n "$name" ]; then
+        took=$((now - began))
+        late=
+        [ "$took" -le $((2 * budget)) ] || late="  more than twice its budget"
+        printf '%5d s of %5d  %s%s\n' "$took" "$budget" "$name" "$late" | tee -a "$steps"
+    fi
+    if [ $# -eq 0 ]; then
+        total=$(($(date +%s) - started))
+        printf '\n'
+        cat "$steps"
+        printf '%5d s in all\n' "$total"
+        ! grep -q 'more than twice its budget$' "$steps" || exit 1
+        return
+    fi
+    budget=$1
+    name=$2
+    began=$now
+    printf '\n== %s\n' "$name"
+}
+slowest() { # build: tests of the last run of ctest
+    echo "the ten slowest tests, in seconds:"
+    awk '/^[0-9]+\/[0-9]+ Testing: / { sub(/^.* Testing: /, ""); test = $0 }
+        /^Test time = / { printf "%7.2f  %s\n", $4, test }' \
+        "build/$1/Testing/Temporary/LastTest.log" | sort -rn | head -n 10
+}
+. tests/have.sh
