@@ -35,7 +35,7 @@ struct ElementaryArrays {
                                             of_one<Functions::atan>};
 };
 
-/// From a unit of its own.
+/// Defined in the kernel unit of each instruction set.
 template <simd::Isa isa>
 ElementaryUnit elementary();
 

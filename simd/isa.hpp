@@ -12,9 +12,9 @@ inline constexpr Isa all_isas[] = {Isa::portable, Isa::sse42, Isa::avx2, Isa::av
 /// True if this program has kernels for it (RAYLANE_ISAS).
 bool is_built(Isa isa);
 
-/// True if it is built, and this processor and the system on it can run it: portable on any. avx2
-/// stands for AVX2 and FMA, avx512 for the F, CD, BW, DQ and VL parts, and neon is what every
-/// AArch64 processor has; of WebAssembly, sse42 stands for its SIMD.
+/// True if it is built, and this processor and the system on it can run it. portable runs on any.
+/// avx2 stands for AVX2 and FMA, avx512 for the F, CD, BW, DQ and VL parts. Every AArch64 processor
+/// has neon. In WebAssembly, sse42 stands for its SIMD.
 bool is_available(Isa isa);
 
 /// The widest that is available. Throws std::runtime_error if none is.

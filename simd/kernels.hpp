@@ -87,7 +87,7 @@ struct Kernels {
     ShadeKernels shade[2][2];
 };
 
-/// The parts of Kernels, each compiled in a unit of its own (units/) for each instruction set.
+/// The parts of Kernels. Each file of units/ defines some of them for each instruction set.
 template <Isa isa>
 struct KernelParts {
     static int lanes();

@@ -31,7 +31,7 @@ struct CeilingUnit {
         capped_cone, quadric, ellipsoid;
 };
 
-/// From a unit of its own.
+/// Defined in the kernel unit of each instruction set.
 template <simd::Isa isa>
 CeilingUnit ceiling();
 

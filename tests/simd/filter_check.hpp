@@ -35,7 +35,7 @@ struct FilterChecks {
                         std::size_t ray);
 };
 
-/// From a unit of its own.
+/// Defined in the kernel unit of each instruction set.
 template <Isa isa>
 FilterChecks filter_checks();
 

@@ -11,7 +11,7 @@ struct ScaledFilters {
     float* half_ulp; ///< the constant that the filters of this instruction set use
 };
 
-/// From a unit of its own.
+/// Defined in the kernel unit of each instruction set.
 template <Isa isa>
 ScaledFilters scaled_filters();
 
