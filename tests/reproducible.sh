@@ -30,7 +30,7 @@ lay() { # folder: the source, as it is here, at another time
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH
 lay "$first"
-sleep 2 # of the clock itself, whatever the load: files of one second, or in archives two, would tell the same time
+sleep 2 # files of one second, in archives of two, have the same time; load changes nothing
 lay "$second"
 options="-GNinja -DRAYLANE_TESTS=OFF -DRAYLANE_BENCHMARKS=OFF -DCMAKE_INSTALL_PREFIX=/usr"
 [ -z "${KERNELS-}" ] || options="$options -DRAYLANE_KERNELS=$(realpath "$KERNELS")"

@@ -3,6 +3,7 @@
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/scaled_down.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +17,7 @@ using namespace raylane;
 namespace {
 
 core::Settings small_settings(const core::Scene& scene) {
-#ifdef RAYLANE_FEW_RAYS
-    constexpr int longest = 32;
-#else
-    constexpr int longest = 64;
-#endif
+    const int longest = tests::fixed_rounds(40, 32, 64); // pixels
     core::Settings settings = tests::scaled_down(scene.settings(), longest);
     settings.grid = 1;
     return settings;

@@ -3,6 +3,7 @@
 #include "tests/catch.hpp"
 #include "tests/scaled_scene.hpp"
 #include "tests/scenes/scaled_down.hpp"
+#include "tests/simd/rounds.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -15,9 +16,7 @@ using namespace raylane;
 namespace {
 
 core::Settings test_settings(const core::Scene& scene, int longest) {
-#ifdef RAYLANE_FEW_RAYS
-    longest /= 4;
-#endif
+    longest /= tests::fixed_rounds(2, 4, 1);
     core::Settings settings = tests::scaled_down(scene.settings(), longest);
     settings.grid = 1;
     return settings;

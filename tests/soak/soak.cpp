@@ -193,7 +193,7 @@ int soak(double minutes, const std::string& folder, bool leaks, bool is_wrong) {
     const auto start = Clock::now();
     const double all = 60.0 * minutes;
     for (double seconds = 0.0; seconds < all && wrong == 0;) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        std::this_thread::sleep_for(std::chrono::milliseconds(200)); // between two looks at memory
         seconds = std::chrono::duration<double>(Clock::now() - start).count();
         memory.look(seconds, all);
     }
