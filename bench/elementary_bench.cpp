@@ -1,6 +1,7 @@
 #include "bench/elementary_unit.hpp"
 #include "core/numbers/elementary.hpp"
 #include "simd/by_isa.hpp"
+#include "simd/isa.hpp"
 
 #include <benchmark/benchmark.h>
 

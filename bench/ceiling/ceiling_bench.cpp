@@ -1,6 +1,7 @@
 #include "bench/ceiling/prepare.hpp"
 #include "bench/method_rays.hpp"
 #include "simd/by_isa.hpp"
+#include "simd/isa.hpp"
 
 /// The ceiling of each kind beside raylane's precisions: the same rays at the same shapes.
 namespace raylane::bench {

@@ -1,3 +1,5 @@
+#include "core/shapes/normal.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"

@@ -17,8 +17,6 @@ namespace {
 
 const int rounds = tests::fixed_rounds(1'500, 1'000, 5'000);
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// From a point to the farthest of a shape's bounds.
 template <class Shape>
 double reach_of(const Shape& shape, const Vec3d& from) {
@@ -36,7 +34,7 @@ double reach_of(const Shape& shape, const Vec3d& from) {
 template <class Real, class Shape>
 double nearest(const Shape& shape, const Ray<Real>& ray, Precision precision) {
     std::uint64_t widened = 0;
-    double t = infinity;
+    double t = infinity<double>;
     for (const Crossing<Real>& crossing : solve(shape, ray, Start{}, widened, precision))
         if (crossing.t > Real(0)) t = std::min(t, static_cast<double>(crossing.t));
     return t;
@@ -66,7 +64,7 @@ bool is_at_an_edge(const Shape& shape, const Ray<double>& ray, bool hits, double
             const Ray<double> beside{
                 Vec3d(ray.origin + by * std::cos(angle) * u + by * std::sin(angle) * v),
                 ray.direction};
-            if ((nearest(shape, beside, Precision::exact) < infinity) != hits) return true;
+            if ((nearest(shape, beside, Precision::exact) < infinity<double>) != hits) return true;
         }
     return false;
 }
@@ -87,13 +85,13 @@ Seen look_at(Precision precision) {
         const Ray<double> right{convert<double>(ray.origin), convert<double>(ray.direction)};
         const double stretch = length(right.direction);
         const double off = displacement(shape, precision, reach_of(shape, right.origin));
-        if (!(off < infinity) || !(stretch > 0.0)) continue;
+        if (!(off < infinity<double>) || !(stretch > 0.0)) continue;
         ++seen.bounded;
 
         const Ray<double> unit{right.origin, right.direction / stretch};
         const double drawn = nearest(shape, ray, precision) * stretch;
-        const bool hits = nearest(shape, unit, Precision::exact) < infinity;
-        if ((drawn < infinity) != hits) {
+        const bool hits = nearest(shape, unit, Precision::exact) < infinity<double>;
+        if ((drawn < infinity<double>) != hits) {
             ++seen.flipped;
             INFO("shape " << name_of(kind_of<Shape>) << ", round " << i << ", off " << off);
             REQUIRE((is_on_a_line(shape, unit, off) || is_at_an_edge(shape, unit, hits, off)));
@@ -166,18 +164,18 @@ TEST_CASE("what has no bound is told so") {
             Random random(78);
             if (!tests::Nature<Shape>::has_displacement)
                 CHECK(displacement(ray_sets::Target<Shape>::make(random, false), precision,
-                                   reach) == infinity);
+                                   reach) == infinity<double>);
         });
         // A cone as a quadric has an apex.
         const Quadric cone{{0, 0, 0}, 1, -1, 1, 0, 0, 0, 0, 0, 0, 0, Vec3f(-1), Vec3f(1)};
-        CHECK(displacement(cone, precision, reach) == infinity);
+        CHECK(displacement(cone, precision, reach) == infinity<double>);
         const Quadric cut{{0, 0, 0}, 1, -1, 1, 0, 0, 0, 0, 0, 0, 0, {-1, 0.25F, -1}, Vec3f(1)};
-        CHECK((displacement(cut, precision, reach) < infinity) ==
+        CHECK((displacement(cut, precision, reach) < infinity<double>) ==
               (precision == Precision::robust)); // A may vanish
         // It touches its box, where some of it or all may be cut off.
         const Quadric ball{{0, 0, 0}, 1, 1, 1, 0, 0, 0, 0, 0, 0, -1, Vec3f(-1), Vec3f(1)};
-        CHECK(displacement(ball, precision, reach) == infinity);
-        CHECK(displacement(Sphere{{0, 0, 0}, 1}, precision, 1e9) == infinity);
+        CHECK(displacement(ball, precision, reach) == infinity<double>);
+        CHECK(displacement(Sphere{{0, 0, 0}, 1}, precision, 1e9) == infinity<double>);
     }
 }
 

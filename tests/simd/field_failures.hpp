@@ -1,6 +1,8 @@
 #pragma once
 
 #include "core/scene/camera_rays.hpp"
+#include "core/shapes/normal.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/render.hpp"
 #include "tests/core/little_scene.hpp"

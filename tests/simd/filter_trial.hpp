@@ -3,6 +3,7 @@
 #include "core/shapes/shape_table.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/by_isa.hpp"
+#include "simd/isa.hpp"
 #include "tests/random.hpp"
 #include "tests/simd/filter_check.hpp"
 
@@ -16,8 +17,6 @@ namespace raylane::filter_trial {
 
 using namespace core;
 using namespace simd;
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline FilterChecks checks_of(Isa isa) {
     return of_isa(isa, []<Isa which>() { return filter_checks<which>(); });
@@ -45,10 +44,10 @@ inline Ray<double> with_unit_direction(Ray<double> ray) {
 /// The first crossing with t > 0, and what t may be off by. Not known where one of the crossings
 /// may be anywhere, even in double-double: at a line that touches a cone's extension, say.
 struct First {
-    double t = infinity;
+    double t = infinity<double>;
     double error = 0.0;
     bool known = true;
-    bool exists() const { return t < infinity; }
+    bool exists() const { return t < infinity<double>; }
 };
 
 template <class Shape>
@@ -56,7 +55,7 @@ First first_crossing(const Shape& shape, const Ray<double>& ray) {
     std::uint64_t widened = 0;
     First first;
     for (const core::Crossing<double>& crossing : solve(shape, ray, Start{}, widened)) {
-        first.known = first.known && crossing.error < infinity;
+        first.known = first.known && crossing.error < infinity<double>;
         if (!(crossing.t > 0.0 && crossing.t < first.t)) continue;
         first.t = crossing.t;
         first.error = crossing.error;

@@ -116,7 +116,7 @@ TEST_CASE("a plane may be met beyond the largest float") {
         const FilterStream view = stream.view();
         checks_of(isa).bound_rays(Kind::plane, view_of(block), 0, view);
         CHECK(stream.answer(0).possible);
-        CHECK(stream.answer(0).lower < infinity);
+        CHECK(stream.answer(0).lower < infinity<double>);
     }
 }
 
@@ -168,7 +168,7 @@ struct Tightness {
     }
 
     static double quantile(std::vector<double> values, double q) {
-        if (values.empty()) return infinity;
+        if (values.empty()) return infinity<double>;
         std::sort(values.begin(), values.end());
         return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
     }

@@ -1,4 +1,6 @@
+#include "core/shapes/normal.hpp"
 #include "core/shapes/shape_table.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/isa.hpp"
 #include "simd/tracing.hpp"

@@ -19,7 +19,6 @@ using ray_sets::Set;
 /// Streams of rays that all but miss: the bounds of a shape, or the shape itself.
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr int of_each_kind = tests::sanitized ? 6 : 40;
 
 struct Stream {
@@ -79,7 +78,8 @@ Ray<float> along_bounds(const Shape& shape, Random& random) {
     Vec3f origin = ray_sets::rounded(target - random.uniform(0.0, 9.0) * direction);
     origin[axis] = upper ? bounds.upper[axis] : bounds.lower[axis];
     for (int step = random.integer(-8, 2); step != 0; step += step < 0 ? 1 : -1)
-        origin[axis] = std::nextafter(origin[axis], (step > 0) == upper ? infinity : -infinity);
+        origin[axis] =
+            std::nextafter(origin[axis], (step > 0) == upper ? infinity<float> : -infinity<float>);
     return {origin, ray_sets::rounded(direction)};
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("traversal and brute force agree on rays along the faces of bounds", "
             const Hit<double> found = by_hierarchy.nearest(stream.get(i), {}, all).hit;
             hits += truth.any() ? 1 : 0;
             lost_by_reference += found.shape == truth.shape && found.t == truth.t ? 0 : 1;
-            const float t = truth.any() ? static_cast<float>(truth.t) : infinity;
+            const float t = truth.any() ? static_cast<float>(truth.t) : infinity<float>;
             wrong += stream.shape[i] == truth.shape && stream.t[i] == t ? 0 : 1;
         }
         INFO(stream.size() << " rays, " << hits << " hits");

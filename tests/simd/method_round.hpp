@@ -1,5 +1,7 @@
 #pragma once
 
+#include "core/shapes/normal.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "simd/query/as_core.hpp"
 #include "simd/query/query.hpp"

@@ -14,7 +14,7 @@ using namespace raylane::core;
 
 namespace {
 
-Solid of_shape(const PartShape& shape, MaterialIndex material = no_material) {
+Solid of_shape(const PartShape& shape, MaterialIndex material) {
     Solid solid;
     solid.shape = shape;
     solid.material = material;
