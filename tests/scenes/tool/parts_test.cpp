@@ -399,7 +399,8 @@ TEST_CASE("parts are put together, and verified, where their instruction set is 
     // All of it is drawn again as it was, which cannot be.
     const Outcome again = workshop.run(joined(verify, {"--whole"}));
     CHECK(again.code == 2);
-    CHECK(again.err.starts_with("raylane: --isa: this processor has no " + absent + ", but "));
+    CHECK(again.err.starts_with("raylane: --isa: this program was built without " + absent +
+                                ", with "));
 }
 
 TEST_CASE("a part that was interrupted goes on, too") {
