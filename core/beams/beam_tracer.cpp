@@ -12,7 +12,6 @@ namespace raylane::core {
 
 namespace {
 
-
 double largest(const Color& color) {
     return static_cast<double>(std::max({color.x, color.y, color.z}));
 }

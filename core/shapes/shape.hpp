@@ -13,9 +13,9 @@
 #include <limits>
 #include <span>
 
-/// Contents of each shape's file, in this order (types.hpp has its numbers and traits): validate(), bounds_of() if
-/// it is bounded, crossings(), outward_direction() (see normal.hpp), form_along() and
-/// normal_along() (see form.hpp), and of solids forms_at() (see side.hpp).
+/// Contents of each shape's file, in this order: validate(), bounds_of() if it is bounded,
+/// crossings(), outward_direction() (see normal.hpp), form_along() and normal_along() (see
+/// form.hpp), and of solids forms_at() (see side.hpp). types.hpp has its numbers and traits.
 namespace raylane::core {
 
 /// Re-entry: which rays that leave a shape may meet it again.
