@@ -8,9 +8,9 @@ usage() {
 }
 
 # Processor seconds of compiling and megabytes of build/release, by g++ 12 on Debian 12 without a compiler cache.
-render_seconds=650
-render_megabytes=60
-test_seconds=2200
+render_seconds=850
+render_megabytes=40
+test_seconds=2800
 test_megabytes=700
 
 # Each with its purpose. gemmi and OpenEXR are optional, and cost 1.8 MB to download and 35 processor seconds.
