@@ -37,7 +37,7 @@ struct BoundedCheck {
     }
 };
 
-/// BoundedCheck of an instruction set, by a unit of its own.
+/// Runs BoundedCheck; defined in the kernel unit of each instruction set.
 template <Isa isa>
 int bounded_operation(int operation, const BoundedColumns& a, const BoundedColumns& b,
                       BoundedColumns& result);

@@ -19,17 +19,14 @@ struct Trace : Streams<Arch> {
     template <bool nearest_first>
     using Walk = FrustumWalk<Arch, Method, nearest_first>;
 
-    /// Shapes that a frustum of rays to a light, and one that looks for the nearest, may have
-    /// before it: as many as it takes for its rays to be done otherwise. What a float method makes
-    /// of a ray may depend on that, so its frusta are left alone; nor are they put in another
-    /// order.
-    static constexpr int unlimited = 0x7FFFFFFF;
-    static constexpr int most_occluders = Method::certifies ? 512 : unlimited;
-    static constexpr int most_candidates = Method::certifies ? 2048 : unlimited;
+    /// Rays may go any way, and in another order: the answer to one does not depend on that, nor on
+    /// more than the ray is in float.
+    static_assert(Method::certifies && Method::rounded_alone);
 
-    /// True if rays may go any way, and in another order: what becomes of one does not depend on
-    /// that, nor on more than it is in float.
-    static constexpr bool any_way = Method::certifies && Method::rounded_alone;
+    /// Shapes that a frustum of rays to a light, and one that looks for the nearest, may have
+    /// before it: with more, its rays are faster by another way.
+    static constexpr int most_occluders = 512;
+    static constexpr int most_candidates = 2048;
 
     static bool makes_frusta(const Coherence* coherence) {
         return coherence != nullptr && !coherence->loose;
@@ -70,8 +67,7 @@ struct Trace : Streams<Arch> {
                          TraceCounters& counters) {
         if (!makes_frusta(coherence)) {
             occluded_of_any(scene, kind_bits, 0, count, rays, occlusions, workspace, counters);
-        } else if (any_way && coherence->converging &&
-                   SortedByDirection<Arch>::has_room(count, workspace)) {
+        } else if (coherence->converging && SortedByDirection<Arch>::has_room(count, workspace)) {
             const SortedByDirection<Arch> sorted(rays, occlusions, count, workspace);
             occluded_frusta(scene, kind_bits, *coherence, count, sorted.rays, sorted.occlusions,
                             workspace, counters);
@@ -123,14 +119,12 @@ struct Trace : Streams<Arch> {
         return result;
     }
 
-    /// True if random rays go by lists: where the way matters, whatever their number.
+    /// True if random rays go by lists.
     static bool makes_lists(const SceneView& scene, std::size_t count) {
-        return scene.small || (any_way && !scene.large && count >= long_list);
+        return scene.small || (!scene.large && count >= long_list);
     }
 
-    /// Rays that have no more in common than `coherence` says, which is loose or null. However many
-    /// there are, the way of a float method is the same: what it makes of a ray then does not
-    /// depend on who goes with it.
+    /// Rays that have no more in common than `coherence` says, which is loose or null.
     static void nearest_of_any(const SceneView& scene, std::uint32_t kind_bits,
                                const Coherence* coherence, std::size_t begin, std::size_t end,
                                const RoundedRays& rays, const Candidates& candidates,

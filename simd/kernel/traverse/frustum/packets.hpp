@@ -37,21 +37,6 @@ struct alignas(64) Packet : Streams<Arch> {
     }
 };
 
-/// Packet for methods that ask for more than this: where its rays are in the stream.
-template <class Arch, class Method>
-requires(!Method::rounded_alone) struct alignas(64) Packet<Arch, Method> {
-    static constexpr std::size_t size = 16;
-
-    const RoundedRays* stream;
-    std::size_t begin;
-
-    void gather(const RoundedRays& rays, std::size_t i) {
-        stream = &rays;
-        begin = i;
-    }
-    RayLanes<Arch, Method> packet(std::size_t k) const { return {*stream, begin + k}; }
-};
-
 /// Faces that waited for rays of a frustum which cross them within what they cut, and these rays.
 template <class Arch>
 class CrossedFaces {
