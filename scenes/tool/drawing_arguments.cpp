@@ -6,7 +6,7 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr const char* group = "Atoms (PDB, mmCIF, CIF, XYZ, GRO, LAMMPS)";
+constexpr const char* atoms_group = "Atoms (PDB, mmCIF, CIF, XYZ, GRO, LAMMPS)";
 
 std::array<int, 3> repeat_argument(const std::string& text) {
     std::array<int, 3> result{};
@@ -30,7 +30,7 @@ std::array<int, 3> repeat_argument(const std::string& text) {
 
 void DrawingArguments::add_to(CLI::App& command) {
     const auto add = [&](const char* name, Argument& value, const char* help, const char* type) {
-        add_option(command, name, value, help, type)->group(group);
+        add_option(command, name, value, help, type)->group(atoms_group);
     };
     add("--style", style,
         "balls (and sticks), sticks, licorice, spheres (van der Waals' radii) or points (default: "
@@ -54,7 +54,7 @@ void DrawingArguments::add_to(CLI::App& command) {
     add("--repeat", repeat, "Cells side by side, such as 2x2x1", "AxBxC");
     const auto flag = [&](const char* name, bool& value, const char* help) {
         add_flag(command, name, value, help);
-        command.get_option(name)->group(group);
+        command.get_option(name)->group(atoms_group);
     };
     flag("--cell", cell, "Show the cell's edges");
     flag("--ellipsoids", ellipsoids,

@@ -14,7 +14,7 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr const char* group = "Pictures";
+constexpr const char* pictures_group = "Pictures";
 
 /// X,Y,WxH.
 core::Region crop_argument(const std::string& text) {
@@ -97,7 +97,7 @@ std::string text_of(const core::Settings& settings, const core::Settings& own, b
 
 void PictureArguments::add_to(CLI::App& command) {
     const auto add = [&](const char* name, Argument& value, const char* help, const char* type) {
-        add_option(command, name, value, help, type)->group(group);
+        add_option(command, name, value, help, type)->group(pictures_group);
     };
     add("--crop", crop,
         "Draw this part of the picture alone: from X to the right and Y downwards, in pixels of "
@@ -111,11 +111,11 @@ void PictureArguments::add_to(CLI::App& command) {
     add_flag(command, "--layers", layers,
              "Into EXR, what each pixel's middle shows as well: Z (the distance along the ray), "
              "N.X, N.Y, N.Z, id.shape, id.material, and the number of samples");
-    command.get_option("--layers")->group(group);
+    command.get_option("--layers")->group(pictures_group);
     add_flag(command, "--alpha", alpha,
              "Leave out the background, so that the picture can be laid over another: PNG or EXR "
              "say how much of each pixel is covered");
-    command.get_option("--alpha")->group(group);
+    command.get_option("--alpha")->group(pictures_group);
     add("--outline", outline,
         "Draw lines where one surface is seen before another, so many pixels wide; 0: none "
         "(default: as the scene says)",

@@ -9,7 +9,7 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr const char* group = "Camera";
+constexpr const char* camera_group = "Camera";
 
 /// As "1,-1,-0.5"; nothing if it is none, or 0.
 std::optional<core::Vec3f> direction_in(const std::string& text) {
@@ -127,7 +127,7 @@ core::Scene seen(core::Scene scene, const ViewChange& change, const core::Settin
 
 void ViewArguments::add_to(CLI::App& command) {
     const auto add = [&](const char* name, Argument& value, const char* help, const char* type) {
-        add_option(command, name, value, help, type)->group(group);
+        add_option(command, name, value, help, type)->group(camera_group);
     };
     add("--view", view,
         "See all that has an end from front, back, left, right, top, bottom, x, y, z or corner, or "
@@ -139,7 +139,7 @@ void ViewArguments::add_to(CLI::App& command) {
         "WAY");
     add("--zoom", zoom, "How much larger (default: 1)", "TIMES");
     add_flag(command, "--orthographic", orthographic, "Without perspective");
-    command.get_option("--orthographic")->group(group);
+    command.get_option("--orthographic")->group(camera_group);
     add("--depth-cue", depth_cue,
         "How much of the background the farthest has, 0 to 0.99 (default: as the scene says; "
         "atoms: 0.3)",
