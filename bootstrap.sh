@@ -8,7 +8,7 @@ usage() {
 }
 
 # Processor seconds of compiling and megabytes of build/release, by g++ 12 on Debian 12 without a compiler cache.
-render_seconds=850
+render_seconds=660
 render_megabytes=40
 test_seconds=2800
 test_megabytes=700
