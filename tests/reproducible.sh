@@ -47,7 +47,8 @@ elif [ "${1-}" = kernels ]; then
     set --
     for isa in sse42 avx2 avx512; do
         for unit in "$project"/simd/units/*.cpp; do
-            set -- "$@" "simd/CMakeFiles/raylane_simd-$isa.dir/units/${unit##*/}.o"
+            name=$(basename "$unit" .cpp)
+            set -- "$@" "simd/CMakeFiles/raylane_simd-$name-$isa.dir/units/$name.cpp.o"
         done
     done
     build() { quietly cmake --build build/own --target "$@"; }

@@ -45,8 +45,8 @@ if [ "$form" = lanes ]; then
     emulate raylane-test-lanes
     exit
 fi
-programs=simd
-[ "$form" = quick ] || programs="core simd simd-threads simd-allocation scenes scenes-threads scenes-memory \
+programs="simd simd-shapes"
+[ "$form" = quick ] || programs="core simd simd-shapes simd-threads simd-allocation scenes scenes-threads scenes-memory \
     scenes-library scenes-library-threads"
 # shellcheck disable=SC2046,SC2086 # lists of words
 cmake --build --preset aarch64 --parallel "$(nproc)" --target raylane $(printf 'raylane-test-%s ' $programs)

@@ -1,11 +1,10 @@
 #include "core/shapes/normal.hpp"
 #include "core/shapes/shape_table.hpp"
-#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
-#include "simd/isa.hpp"
-#include "simd/tracing.hpp"
+#include "core/shapes/types.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"
+#include "tests/simd/finish_kernels.hpp"
 #include "tests/simd/mutations.hpp"
 #include "tests/simd/rounds.hpp"
 
@@ -60,7 +59,7 @@ struct Finish {
 
 /// One ray and one shape through a unit's finish, and if it says so through the next one.
 template <class Shape>
-Finish finish(const Kernels& kernels, const Shape& shape, const Ray<double>& ray,
+Finish finish(const FinishKernels& kernels, const Shape& shape, const Ray<double>& ray,
               const Start& start, bool again) {
     constexpr ShapeId id = 7;
     Block<Shape> block;
@@ -94,9 +93,8 @@ Finish finish(const Kernels& kernels, const Shape& shape, const Ray<double>& ray
                          {normal[0], normal[1], normal[2]},
                          {nullptr, nullptr, nullptr},
                          hit};
-    const MethodKernels& method = Tracing{&kernels}.method();
-    method.finish(view, found);
-    if (again) method.refine.finish_again(view, found);
+    kernels.finish(view, found);
+    if (again) kernels.refine.finish_again(view, found);
     return {t[0], error[0], hit[0]};
 }
 
@@ -117,7 +115,7 @@ double part_needed(const Started<Shape>& attempt, Aim aim) {
         ray.direction = normalized(ray.direction);
     }
     const Finish result =
-        finish(kernels_of(best_isa()), attempt.shape, ray, attempt.start, aim == Aim::again);
+        finish(finish_kernels_of(best_isa()), attempt.shape, ray, attempt.start, aim == Aim::again);
     if ((result.hit & hit_doubtful) != 0) return 0.0;
     const auto truth = first_crossing(attempt.shape, attempt.ray, attempt.start);
     if (result.hit == hit_none) return truth ? 1.0 : 0.0;
@@ -133,7 +131,7 @@ double part_needed(const Started<Shape>& attempt, Aim aim) {
     // Without the last rounding, to double, which would hide all others; and of rays that need it.
     const double rounding = 0x1p-52 * std::abs(result.t), error = result.error - rounding;
     const bool needs_it =
-        (finish(kernels_of(best_isa()), attempt.shape, ray, attempt.start, false).hit &
+        (finish(finish_kernels_of(best_isa()), attempt.shape, ray, attempt.start, false).hit &
          hit_doubtful) != 0;
     if (!needs_it || !(error > rounding)) return 0.0;
     return std::max(std::abs(off) - 0.5 * rounding, 0.0) / error;

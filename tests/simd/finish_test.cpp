@@ -2,10 +2,9 @@
 #include "core/shapes/shape_table.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
-#include "simd/isa.hpp"
-#include "simd/tracing.hpp"
 #include "tests/catch.hpp"
 #include "tests/ray_sets.hpp"
+#include "tests/simd/finish_kernels.hpp"
 #include "tests/simd/rounds.hpp"
 
 #include <array>
@@ -246,11 +245,11 @@ void check_all(Rays& rays, const Tables& tables, bool adverse, Random& random, S
     std::optional<Rays> before;
     for (const Isa isa : all_isas) {
         if (!is_available(isa)) continue;
-        CAPTURE(std::string(kernels_of(isa).name));
-        const Tracing tracing{&kernels_of(isa), Precision::exact};
+        CAPTURE(std::string(name_of(isa)));
+        const FinishKernels kernels = finish_kernels_of(isa);
         const Found found = rays.view(random);
-        tracing.method().finish(scene, found);
-        if (way == Way::again) tracing.method().refine.finish_again(scene, found);
+        kernels.finish(scene, found);
+        if (way == Way::again) kernels.refine.finish_again(scene, found);
         for (std::size_t i = 0; i < rays.hit.size(); ++i) {
             if (i >= rays.rays.size() || rays.slot[i] == no_slot) {
                 if (!rays.untouched(i)) FAIL("wrote to a lane without a shape");
