@@ -2,7 +2,8 @@
 # Tests that optional dependencies may be missing.
 #
 #   tests/optional_test.sh
-#       Configures with each one hidden in turn. The summary must call its part off and name Debian's package.
+#       Configures with all hidden, and with each one of the tool hidden in turn, by RAYLANE_TEST_ROUNDS=full each one
+#       of tests and benchmarks, too. The summary must call its part off and name Debian's package.
 #   tests/optional_test.sh --build [OPTIONS]
 #       Builds the tool in build/without with all hidden. The tool must render, and refuse each missing part in one
 #       line. OPTIONS are cmake's: -DRAYLANE_KERNELS=BUILD takes another build's kernels.
@@ -50,7 +51,9 @@ hide_each() {
     for pair in $tool $others; do
         set -- "$@" "-DCMAKE_DISABLE_FIND_PACKAGE_${pair%=*}=OFF"
     done
-    for pair in $tool $others; do
+    in_turn=$tool
+    [ "${RAYLANE_TEST_ROUNDS-}" != full ] || in_turn="$tool $others"
+    for pair in $in_turn; do
         configure "$folder/all" "$@" "-DCMAKE_DISABLE_FIND_PACKAGE_${pair%=*}=ON"
         is_off "$pair"
     done
