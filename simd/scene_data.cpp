@@ -2,6 +2,7 @@
 
 #include "core/reference/containing.hpp"
 #include "core/shapes/rounded_to_floats.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 #include <array>

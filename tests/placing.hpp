@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/kinds.hpp"
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 
 #include <tuple>
 #include <type_traits>

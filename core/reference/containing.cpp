@@ -1,6 +1,7 @@
 #include "core/reference/containing.hpp"
 
 #include "core/reference/enclosing.hpp"
+#include "core/shapes/side_of.hpp"
 
 #include <algorithm>
 #include <cmath>

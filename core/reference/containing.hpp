@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/reference/parts_near.hpp"
+#include "core/shapes/ray.hpp"
 #include "core/shapes/side.hpp"
 
 #include <cstdint>

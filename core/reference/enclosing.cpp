@@ -1,5 +1,7 @@
 #include "core/reference/enclosing.hpp"
 
+#include "core/shapes/shapes.hpp"
+
 namespace raylane::core {
 
 namespace {

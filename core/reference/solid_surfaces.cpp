@@ -2,7 +2,7 @@
 
 #include "core/numbers/infinity.hpp"
 #include "core/shapes/shapes.hpp"
-#include "core/shapes/side.hpp"
+#include "core/shapes/side_of.hpp"
 #include "core/shapes/solve.hpp"
 
 #include <algorithm>

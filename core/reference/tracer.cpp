@@ -7,6 +7,7 @@
 #include "core/optics/optics.hpp"
 #include "core/reference/enclosing.hpp"
 #include "core/scene/pattern.hpp"
+#include "core/shapes/shapes.hpp"
 
 #include <algorithm>
 

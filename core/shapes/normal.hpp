@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/shapes/ray.hpp"
+#include "core/shapes/shapes.hpp"
 
 /// Each shape has
 ///   Vec3<Real> outward_direction(shape, point, face)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/shapes/shapes.hpp"
 #include "core/shapes/types.hpp"
 
 #include <algorithm>

@@ -1,33 +1,10 @@
 #pragma once
 
-#include "core/numbers/bounded.hpp"
-#include "core/numbers/dyadic.hpp"
-#include "core/shapes/shapes.hpp"
+#include <cstdint>
 
-#include <algorithm>
-
-/// Which side of a solid a point is on. Each solid, and what is a half-space within solids, has
-///   std::array<Real, n> forms_at(shape, point)
-/// polynomials that are less than 0 inside of it, all of them, and of which one is more than 0
-/// outside.
 namespace raylane::core {
 
+/// Which side of a solid a point is on.
 enum class Side : std::int8_t { inside = -1, surface = 0, outside = 1 };
-
-/// As real arithmetic says: in double with error bounds and, where that leaves a doubt, in exact
-/// numbers.
-template <class Shape>
-Side side_of(const Shape& solid, const Vec3d& point) {
-    bool is_known = true;
-    for (const Bounded<double>& form : forms_at(solid, convert<Bounded<double>>(point))) {
-        if (form.value > form.error) return Side::outside;
-        is_known = is_known && form.value < -form.error;
-    }
-    if (is_known) return Side::inside;
-    int most = -1;
-    for (const Dyadic& form : forms_at(solid, convert<Dyadic>(point)))
-        most = std::max(most, form.sign());
-    return static_cast<Side>(most);
-}
 
 } // namespace raylane::core

@@ -9,20 +9,6 @@
 
 namespace raylane::core {
 
-namespace detail {
-
-template <class Shape>
-inline constexpr bool is_triangle = false;
-template <class Number>
-inline constexpr bool is_triangle<TriangleOf<Number>> = true;
-template <class Number>
-inline constexpr bool is_triangle<SmoothTriangleOf<Number>> = true;
-
-} // namespace detail
-
-template <class Shape>
-concept AnyTriangle = detail::is_triangle<Shape>;
-
 void validate(const AnyTriangle auto& t) {
     for (const auto& [name, corner] : {std::pair("a", t.a), {"b", t.b}, {"c", t.c}})
         checks::require_point(name, corner);

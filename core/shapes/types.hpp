@@ -72,6 +72,20 @@ struct SmoothTriangleOf {
                                         .costs = MethodCosts{1.03, 0.98, 1.0, 2.32}};
 };
 
+namespace detail {
+
+template <class Shape>
+inline constexpr bool is_triangle = false;
+template <class Number>
+inline constexpr bool is_triangle<TriangleOf<Number>> = true;
+template <class Number>
+inline constexpr bool is_triangle<SmoothTriangleOf<Number>> = true;
+
+} // namespace detail
+
+template <class Shape>
+concept AnyTriangle = detail::is_triangle<Shape>;
+
 /// Any parallelepiped, solid: corner + u edge_u + v edge_v + w edge_w for u, v, w in [0, 1].
 template <class Number>
 struct BoxOf {

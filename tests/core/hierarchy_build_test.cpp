@@ -1,4 +1,5 @@
 #include "core/hierarchy/hierarchy.hpp"
+#include "core/shapes/shapes.hpp"
 #include "tests/catch.hpp"
 #include "tests/shapes/shapes.hpp"
 

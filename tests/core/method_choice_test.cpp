@@ -1,5 +1,6 @@
 #include "core/scene/method_choice.hpp"
 #include "core/shapes/displacement.hpp"
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"

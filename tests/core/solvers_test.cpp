@@ -1,3 +1,4 @@
+#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"

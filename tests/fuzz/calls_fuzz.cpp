@@ -1,4 +1,4 @@
-#include "core/shapes/side.hpp"
+#include "core/shapes/side_of.hpp"
 #include "tests/fuzz/shapes.hpp"
 #include "tests/scenes/library/exam_in_double.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/shapes/ray.hpp"
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 #include "tests/oracle/root.hpp"
 
 #include <optional>

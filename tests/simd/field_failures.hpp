@@ -2,8 +2,8 @@
 
 #include "core/scene/camera_rays.hpp"
 #include "core/shapes/normal.hpp"
-#include "core/shapes/shapes.hpp"
 #include "core/shapes/solve.hpp"
+#include "core/shapes/types.hpp"
 #include "simd/render.hpp"
 #include "tests/core/little_scene.hpp"
 #include "tests/oracle.hpp"

@@ -1,5 +1,6 @@
 #include "core/reference/search.hpp"
 #include "core/shapes/bounds.hpp"
+#include "core/shapes/shapes.hpp"
 #include "simd/stream_tracer.hpp"
 #include "tests/catch.hpp"
 #include "tests/oracle.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/validate.hpp"
+#include "core/shapes/shapes.hpp"
 #include "tests/simd/hard_cases.hpp"
 
 #include <cmath>

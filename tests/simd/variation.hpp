@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/shapes/shapes.hpp"
+#include "core/shapes/types.hpp"
 #include "tests/random.hpp"
 
 #include <utility>

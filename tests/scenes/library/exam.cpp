@@ -1,6 +1,7 @@
 #include "tests/scenes/library/exam.hpp"
 
 #include "core/scene/validate.hpp"
+#include "core/shapes/shapes.hpp"
 #include "scenes/library/internals.hpp"
 #include "simd/isa.hpp"
 #include "simd/stream/row_worker.hpp"
