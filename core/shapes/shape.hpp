@@ -15,7 +15,7 @@
 
 /// Contents of each shape's file, in this order: validate(), bounds_of() if it is bounded,
 /// crossings(), outward_direction() (see normal.hpp), form_along() and normal_along() (see
-/// form.hpp), and of solids forms_at() (see side.hpp). types.hpp has its numbers and traits.
+/// form.hpp), and of solids forms_at() (see side_of.hpp). types.hpp has its numbers and traits.
 namespace raylane::core {
 
 /// Re-entry: which rays that leave a shape may meet it again.
@@ -24,10 +24,6 @@ enum class MeetsAgain : std::uint8_t {
     inward, ///< those that go to the inside of a convex surface
     always,
 };
-
-/// Time for a ray at twelve shapes of a kind by each precision, relative to exact's: the geometric
-/// mean of AVX2's and AVX-512's medians, as bench/chart.sh measures them.
-using MethodCosts = std::array<double, std::size(all_precisions)>;
 
 /// A trait without a default: a shape that does not state it does not compile.
 template <class Value>
@@ -42,7 +38,6 @@ struct ShapeTraits {
     Stated<bool> bounded;    ///< it has bounds, and a place in the hierarchy
     Stated<bool> flat_faces; ///< its normals, those for shading too, are the same all over a face
     Stated<MeetsAgain> meets_again;
-    Stated<MethodCosts> costs;
 };
 
 /// How many numbers a shape is.

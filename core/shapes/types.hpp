@@ -18,10 +18,8 @@ struct SphereOf {
     Vec3<Number> center;
     Number radius; ///< > 0
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = MethodCosts{2.29, 1.70, 1.0, 3.37}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = false, .meets_again = MeetsAgain::inward};
 };
 
 /// The unbounded plane through `point`; its front is where `normal` points.
@@ -30,10 +28,8 @@ struct PlaneOf {
     Vec3<Number> point;
     Vec3<Number> normal;
 
-    static constexpr ShapeTraits traits{.bounded = false,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.43, 1.56, 1.0, 2.78}};
+    static constexpr ShapeTraits traits{
+        .bounded = false, .flat_faces = true, .meets_again = MeetsAgain::never};
 };
 
 template <class Number>
@@ -42,10 +38,8 @@ struct DiscOf {
     Vec3<Number> normal;
     Number radius; ///< > 0
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.07, 1.18, 1.0, 2.15}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = true, .meets_again = MeetsAgain::never};
 };
 
 /// Front: the side from which a, b, c run counter-clockwise.
@@ -53,10 +47,8 @@ template <class Number>
 struct TriangleOf {
     Vec3<Number> a, b, c;
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.19, 1.18, 1.0, 2.35}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = true, .meets_again = MeetsAgain::never};
 };
 
 /// A triangle with a normal at each corner, interpolated for shading only; the surface is the flat
@@ -66,10 +58,8 @@ struct SmoothTriangleOf {
     Vec3<Number> a, b, c;
     Vec3<Number> normal_a, normal_b, normal_c;
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::never,
-                                        .costs = MethodCosts{1.03, 0.98, 1.0, 2.32}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = false, .meets_again = MeetsAgain::never};
 };
 
 namespace detail {
@@ -92,10 +82,8 @@ struct BoxOf {
     Vec3<Number> corner;
     Vec3<Number> edge_u, edge_v, edge_w;
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = true,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = MethodCosts{1.34, 1.31, 1.0, 2.41}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = true, .meets_again = MeetsAgain::inward};
 };
 
 /// Points at distance `radius` from the line base + s axis, with s in [0, 1]. Capped: solid.
@@ -105,12 +93,8 @@ struct CylinderOf {
     Vec3<Number> axis;
     Number radius; ///< > 0
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = ends == Ends::open
-                                                     ? MethodCosts{1.10, 1.08, 1.0, 1.72}
-                                                     : MethodCosts{1.40, 1.31, 1.0, 2.31}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = false, .meets_again = MeetsAgain::inward};
 };
 
 /// Points at distance base_radius + s (top_radius - base_radius) from base + s axis, s in [0, 1].
@@ -122,12 +106,8 @@ struct ConeOf {
     Number base_radius; ///< >= 0
     Number top_radius;  ///< >= 0, not both 0
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = ends == Ends::open
-                                                     ? MethodCosts{0.92, 1.05, 1.0, 1.72}
-                                                     : MethodCosts{1.45, 1.52, 1.0, 2.86}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = false, .meets_again = MeetsAgain::inward};
 };
 
 /// The surface Q(p) = 0 for p = x - center, inside the axis-aligned box lower <= p <= upper, where
@@ -140,10 +120,8 @@ struct QuadricOf {
     Number xx, yy, zz, xy, xz, yz, x, y, z, one;
     Vec3<Number> lower, upper;
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::always,
-                                        .costs = MethodCosts{0.87, 1.01, 1.0, 1.77}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = false, .meets_again = MeetsAgain::always};
 };
 
 /// The points center + a axis_u + b axis_v + c axis_w with a^2 + b^2 + c^2 <= 1, solid. The
@@ -153,10 +131,8 @@ struct EllipsoidOf {
     Vec3<Number> center;
     Vec3<Number> axis_u, axis_v, axis_w;
 
-    static constexpr ShapeTraits traits{.bounded = true,
-                                        .flat_faces = false,
-                                        .meets_again = MeetsAgain::inward,
-                                        .costs = MethodCosts{1.0, 1.0, 1.0, 2.0}};
+    static constexpr ShapeTraits traits{
+        .bounded = true, .flat_faces = false, .meets_again = MeetsAgain::inward};
 };
 
 template <class Shape>

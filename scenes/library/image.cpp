@@ -1,6 +1,5 @@
 #include "raylane/image.hpp"
 
-#include "core/scene/method_choice.hpp"
 #include "scenes/image/writer.hpp"
 #include "scenes/library/convert.hpp"
 #include "scenes/library/internals.hpp"
@@ -25,13 +24,6 @@ core::Settings settings_for(const Scene& scene, const RenderOptions& options) {
     return converted<core::Settings>(*options.settings);
 }
 
-core::Precision precision_for(const Scene& scene, const core::Settings& settings,
-                              const RenderOptions& options) {
-    const std::optional<core::Precision> precision = library::core_precision(options.precision);
-    return precision ? *precision
-                     : core::choose_method(library::Internals::of(scene), settings).precision;
-}
-
 simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
                             const simd::RenderOptions& options) {
     library::require_threads(options.threads);
@@ -44,11 +36,10 @@ simd::Rendering render_with(const Scene& scene, const core::Settings& settings,
     }
 }
 
-simd::RenderOptions inner_options(const Scene& scene, const core::Settings& settings,
-                                  const RenderOptions& options) {
+simd::RenderOptions inner_options(const core::Settings& settings, const RenderOptions& options) {
     simd::RenderOptions inner;
     inner.threads = options.threads;
-    inner.precision = precision_for(scene, settings, options);
+    inner.precision = library::core_precision(options.precision);
     inner.layers = options.layers;
     if (const auto& crop = options.crop) {
         const auto is_within = [](int first, int count, int all) { // without sums that overflow
@@ -104,14 +95,14 @@ void require_side(const char* field, int pixels) {
 
 Image render(const Scene& scene, const RenderOptions& options) {
     const core::Settings settings = settings_for(scene, options);
-    return image_of(render_with(scene, settings, inner_options(scene, settings, options)));
+    return image_of(render_with(scene, settings, inner_options(settings, options)));
 }
 
 std::optional<Image> render(const Scene& scene, const RenderOptions& options,
                             const ProgressCallback& progress) {
     if (!progress) return render(scene, options);
     const core::Settings settings = settings_for(scene, options);
-    simd::RenderOptions inner = inner_options(scene, settings, options);
+    simd::RenderOptions inner = inner_options(settings, options);
     const core::Region drawn = simd::drawn_part(settings, inner.crop);
     const std::int64_t total = std::int64_t{drawn.x1 - drawn.x0} * (drawn.y1 - drawn.y0);
     simd::Progress made;

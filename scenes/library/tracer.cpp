@@ -115,20 +115,18 @@ void library::require_threads(int threads) {
                                           ", got " + std::to_string(threads));
 }
 
-std::optional<core::Precision> library::core_precision(Precision precision) {
+core::Precision library::core_precision(Precision precision) {
     static_assert(int(Precision::fast) == int(core::Precision::fast) &&
                   int(Precision::robust) == int(core::Precision::robust) &&
                   int(Precision::exact) == int(core::Precision::exact) &&
                   int(Precision::plain_double) == int(core::Precision::plain_double));
-    if (precision == Precision::automatic) return std::nullopt;
     if (precision > Precision::plain_double) throw InvalidValue("precision", "must be a Precision");
     return static_cast<core::Precision>(precision);
 }
 
 Tracer::Tracer(const Scene& scene, const TracerOptions& options) : scene_(scene) {
     library::require_threads(options.threads);
-    const core::Precision precision =
-        library::core_precision(options.precision).value_or(core::Precision::exact);
+    const core::Precision precision = library::core_precision(options.precision);
     tracer_ = library::translated([&] {
         return std::make_shared<const simd::StreamTracer>(
             library::Internals::of(scene_),

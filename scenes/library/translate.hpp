@@ -7,7 +7,6 @@
 #include "scenes/errors.hpp"
 #include "simd/default_rounding.hpp"
 
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,7 +33,7 @@ decltype(auto) translated(const F& f) {
 
 /// Throws InvalidValue, field "threads".
 void require_threads(int threads);
-/// None for Precision::automatic. Throws InvalidValue if it is no Precision.
-std::optional<core::Precision> core_precision(Precision precision);
+/// Throws InvalidValue if it is no Precision.
+core::Precision core_precision(Precision precision);
 
 } // namespace raylane::library

@@ -52,7 +52,7 @@ struct Names<PixelFilter> {
 };
 template <>
 struct Names<Precision> {
-    static constexpr std::array names = {"fast", "robust", "exact", "double", "automatic"};
+    static constexpr std::array names = {"fast", "robust", "exact", "double"};
 };
 
 /// Axes of a checker, as "xz".

@@ -1,5 +1,4 @@
 #include "core/scene/features.hpp"
-#include "core/scene/method_choice.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 #include "scenes/tool/arguments.hpp"
@@ -10,7 +9,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <utility>
@@ -56,21 +54,9 @@ Json names_where(const core::Features& features, bool wanted) {
     return names;
 }
 
-Json methods_of(const core::MethodChoice& choice) {
-    Json methods = Json::array();
-    for (const core::MethodEstimate& method : choice.considered) {
-        Json json = {{"precision", name_of(method.precision)}, {"relative_time", method.cost}};
-        json["pixels"] = std::isfinite(method.pixels) ? Json(method.pixels) : Json();
-        json["objection"] = method.objection.empty() ? Json() : Json(method.objection);
-        methods.push_back(std::move(json));
-    }
-    return methods;
-}
-
 Json info_of(const std::string& name, const core::Scene& scene) {
     const core::Settings& settings = scene.settings();
     const core::Features features = features_of(scene, settings);
-    const core::MethodChoice choice = core::choose_method(scene, settings);
     const std::size_t film_bytes =
         static_cast<std::size_t>(settings.width) * settings.height * sizeof(core::Color);
     return {{"scene", printable(name, 4096)},
@@ -92,8 +78,6 @@ Json info_of(const std::string& name, const core::Scene& scene) {
             {"hierarchy_nodes", scene.hierarchy().nodes.size()},
             {"needed", names_where(features, true)},
             {"left_out", names_where(features, false)},
-            {"auto_precision", name_of(choice.precision)},
-            {"methods", methods_of(choice)},
             {"scene_bytes", scene.bytes()},
             {"double_bytes", scene.double_bytes()},
             {"film_bytes", film_bytes}};
@@ -122,29 +106,6 @@ void print_line(const std::string& name, const std::string& value) {
     std::printf("%-10s %s\n", name.c_str(), value.c_str());
 }
 
-/// Prints the method that --precision auto takes, and the objections to the others.
-void print_methods(const Json& info) {
-    const auto& chosen = info["auto_precision"];
-    print_line("precision",
-               chosen.get<std::string>() +
-                   ", by --precision auto: the cheapest that cannot be told from exact");
-    for (const Json& method : info["methods"]) {
-        char figures[96];
-        std::snprintf(figures, sizeof figures, "  %-7s %.2f of exact's time",
-                      method["precision"].get<std::string>().c_str(),
-                      method["relative_time"].get<double>());
-        std::string text = figures;
-        if (!method["pixels"].is_null() && method["pixels"] != 0.0) {
-            std::snprintf(figures, sizeof figures, ", off by %.2g pixels at most",
-                          method["pixels"].get<double>());
-            text += figures;
-        }
-        if (!method["objection"].is_null())
-            text += "; no: " + method["objection"].get<std::string>();
-        print_line("", text);
-    }
-}
-
 void print(const Json& info) {
     const auto line = print_line;
     const auto number = [&](const char* key) { return info[key].dump(); };
@@ -167,7 +128,6 @@ void print(const Json& info) {
              (has_limit ? ", " + number("max_see_through") + " surfaces seen through" : ""));
     line("needs", joined(info["needed"]));
     line("left out", joined(info["left_out"]));
-    print_methods(info);
     const std::string doubles =
         info["double_bytes"] == 0 ? "" : " and " + bytes_text(info["double_bytes"]) + " of doubles";
     line("memory", bytes_text(info["scene_bytes"]) + " scene with " + number("hierarchy_nodes") +

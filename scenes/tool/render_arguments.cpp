@@ -78,10 +78,9 @@ void RenderArguments::add_to(CLI::App& command) {
         "N");
     add("--precision", precision,
         "What decides where rays hit: fast (textbook formulas in float), robust (the best in "
-        "float), exact (certified, as real numbers would have it), double (robust's "
-        "formulas in double), or auto: the cheapest of these that cannot be told from exact by "
-        "eye (default: exact)",
-        "fast|robust|exact|double|auto");
+        "float), exact (certified, as real numbers would have it) or double (robust's "
+        "formulas in double) (default: exact)",
+        "fast|robust|exact|double");
     add("--transfer", transfer, "From light to PNG (default: as the scene says)", "srgb|linear");
     add("--stats", stats, "Write figures about the rendering as JSON; - is standard output",
         "FILE");
@@ -140,12 +139,11 @@ core::Settings Overrides::applied_to(core::Settings settings) const {
     return settings;
 }
 
-std::optional<core::Precision> precision_argument(const std::string& text) {
-    std::vector<std::pair<std::string_view, std::optional<core::Precision>>> choices;
+core::Precision precision_argument(const std::string& text) {
+    std::vector<std::pair<std::string_view, core::Precision>> choices;
     for (const core::Precision precision : core::all_precisions)
         choices.emplace_back(core::name_of(precision), precision);
-    choices.emplace_back("auto", std::nullopt);
-    return choice_argument<std::optional<core::Precision>>("--precision", text, choices);
+    return choice_argument<core::Precision>("--precision", text, choices);
 }
 
 std::optional<PicturePart> part_argument(const Argument& text) {

@@ -41,7 +41,7 @@ struct Overrides {
 };
 
 /// None: auto, which wants to see the scene. Throws BadInput.
-std::optional<core::Precision> precision_argument(const std::string& text);
+core::Precision precision_argument(const std::string& text);
 
 /// Throws BadInput.
 std::optional<PicturePart> part_argument(const Argument& text);

@@ -1,4 +1,3 @@
-#include "core/scene/method_choice.hpp"
 #include "scenes/atomic_file.hpp"
 #include "scenes/image/exr.hpp"
 #include "scenes/library/raylane/version.h"
@@ -214,7 +213,7 @@ FilmStrip::Share share_of(const Job& job, const PicturePart& part) {
 int render(const RenderArguments& arguments) {
     const Overrides overrides(arguments);
     simd::RenderOptions options = options_of(arguments);
-    const std::optional<core::Precision> precision = precision_argument(*arguments.precision);
+    options.precision = precision_argument(*arguments.precision);
     PictureChoice picture(arguments.picture);
     const std::optional<PicturePart> part_asked = part_argument(arguments.part);
     std::optional<PicturePart> part_of_tiles;
@@ -232,10 +231,6 @@ int render(const RenderArguments& arguments) {
     const Verbosity verbosity = job.is_first() ? asked : Verbosity::quiet;
     const int threads_to_load = options.threads;
     if (!arguments.threads) options.threads = job.share_of_threads(options.threads);
-    const auto prepare = [&](const core::Scene& scene, const core::Settings& settings) {
-        picture.apply_to(options, settings);
-        options.precision = precision ? *precision : core::choose_method(scene, settings).precision;
-    };
     const bool is_frame = arguments.frames.is_one(); // drawn like any other scene
     std::optional<FilmStrip> strip;                  // whose pictures ranks draw in turns
     std::optional<std::size_t> place;                // in a film
@@ -289,7 +284,7 @@ int render(const RenderArguments& arguments) {
             OutputFile output(name, exr_of);
             output.be_durable(); // whoever goes on with the film takes it for whole
             const core::Settings settings = settings_of(scene.settings());
-            prepare(scene, settings);
+            picture.apply_to(options, settings);
             const std::string fingerprint = fingerprint_of(scene);
             ResumableRendering drawing = resumable(name, scene, settings, fingerprint);
             write(drawing, output, drawing.draw(progress), settings, scene.settings(), fingerprint);
@@ -333,7 +328,7 @@ int render(const RenderArguments& arguments) {
             if (stats) require_other_output("--stats", *files.stats, "--output", name);
             output.emplace(name, exr_of);
         }
-        prepare(*loaded, settings);
+        picture.apply_to(options, settings);
         fingerprint = fingerprint_of(*loaded);
     });
     const core::Scene& scene = *loaded;

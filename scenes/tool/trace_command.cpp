@@ -161,8 +161,7 @@ void answer_all(const Answers& answers, Job& job, int threads, simd::Progress& p
 }
 
 int trace(const TraceArguments& arguments) {
-    const core::Precision precision =
-        precision_argument(*arguments.precision).value_or(core::Precision::exact);
+    const core::Precision precision = precision_argument(*arguments.precision);
     int threads = threads_argument(arguments.threads);
     const LoadOptions load_options = arguments.scene_arguments.load_options();
     const std::string scene_file = file_argument("SCENE", *arguments.scene);
@@ -240,7 +239,7 @@ Command add_trace_command(CLI::App& app) {
              "Say of each ray whether it hits anything, and no more");
     add_option(command, "--precision", arguments->precision,
                "What decides where rays hit, as render has it (default: exact)",
-               "fast|robust|exact|double|auto");
+               "fast|robust|exact|double");
     add_option(command, "--threads", arguments->threads, "Threads (default: all processors)", "N");
     arguments->scene_arguments.add_to(command);
     return {&command, [arguments] { return trace(*arguments); }, true};

@@ -112,8 +112,7 @@ class Verifier {
         options_ = options_of(render_);
         for (const simd::Isa each : simd::all_isas)
             if (isa && *isa == simd::name_of(each)) said_isa_ = each;
-        options_.precision =
-            precision_argument(*render_.precision).value_or(core::Precision::exact);
+        options_.precision = precision_argument(*render_.precision);
         picture_.apply_to(options_, settings_);
         options_.threads = threads_;
         part_ = options_.crop.value_or(core::Region{0, 0, settings_.width, settings_.height});

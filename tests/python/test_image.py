@@ -111,7 +111,7 @@ def test_what_cannot_be_drawn_says_where(ball, tmp_path):
         ({"alpha": "no"}, "alpha: must be True or False, got 'no'"),
         ({"camera": raylane.Camera(field_of_view=0)}, "camera/field_of_view: must be"),
         ({"camera": raylane.Camera(field_of_view="0")}, "camera/field_of_view: must be a number, got '0'"),
-        ({"precision": None}, 'precision: must be one of "fast", "robust", "exact", "double", "automatic", got None'),
+        ({"precision": None}, 'precision: must be one of "fast", "robust", "exact", "double", got None'),
         ({"threads": "2"}, "threads: must be a whole number, got '2'"),
         ({"threads": 2**40}, "threads: must be a whole number from 0 to 4096, got 1099511627776"),
         ({"layers": "no"}, "layers: must be True or False, got 'no'"),

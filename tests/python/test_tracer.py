@@ -277,7 +277,7 @@ def test_whatever_the_rounding_of_the_process(ball):
 def test_precisions(crowd):
     origins, directions = rays(2000)
     exact = Tracer(crowd).intersect(origins, directions)
-    for precision in ("fast", "robust", "double", "automatic"):
+    for precision in ("fast", "robust", "double"):
         hits = Tracer(crowd, precision=precision).intersect(origins, directions)
         assert (hits.shape == exact.shape).mean() > 0.99
 

@@ -15,9 +15,6 @@ enum class Precision : std::uint8_t {
     robust,       ///< float, by the best formulas that float has
     exact,        ///< certified by proven error bounds
     plain_double, ///< double, by robust's formulas
-    /// Choice by purpose. Of a picture: the cheapest of these whose error shows nowhere, as
-    /// `raylane info` tells. Of a Tracer, which does not know what its rays are for: exact.
-    automatic,
 };
 
 } // namespace raylane

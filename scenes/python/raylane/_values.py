@@ -11,7 +11,7 @@ from ._fields import Fields
 Vector = Tuple[float, float, float]
 """A point, a direction or, as red, green and blue, a colour: any three numbers."""
 
-Precision = Literal["fast", "robust", "exact", "double", "automatic"]
+Precision = Literal["fast", "robust", "exact", "double"]
 """How the hits of rays are found. ``"exact"`` decides as real arithmetic does for the numbers given, and is
 hardly slower than ``"robust"``; the others are there to compare with."""
 

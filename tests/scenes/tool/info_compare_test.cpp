@@ -51,21 +51,6 @@ TEST_CASE("info says what a scene holds and needs") {
     CHECK(workshop.names() == std::vector<std::string>{"out", "scene.json"});
 }
 
-TEST_CASE("info says which precision auto takes, and why not the others") {
-    const Workshop workshop;
-    const Outcome text = workshop.run({"info", "scene.json"});
-    CHECK(contains(text.out, "precision  exact, by --precision auto: "));
-    CHECK(contains(text.out, "robust  1.70 of exact's time; no: reflections and refractions "
-                             "magnify its errors\n"));
-    const Json info = json_of(workshop.run({"info", "--json", "scene.json"}));
-    CHECK(info["auto_precision"] == "exact");
-    REQUIRE(info["methods"].size() == 4);
-    CHECK(info["methods"][0]["precision"] == "exact");
-    CHECK(info["methods"][0]["objection"].is_null());
-    CHECK(info["methods"][1]["pixels"].is_null());
-    CHECK(info["methods"][1]["objection"] == "reflections and refractions magnify its errors");
-}
-
 TEST_CASE("info says what doubles take") {
     const Workshop workshop;
     const auto info_with = [&](const std::string& radius) {
@@ -91,33 +76,6 @@ TEST_CASE("info says what doubles take") {
     CHECK(in_doubles["scene_bytes"] == in_floats["scene_bytes"].get<int>() + 5 * 16 * 8);
     CHECK(workshop.run({"info", "ball.json"}).out.find("640 bytes of doubles") !=
           std::string::npos);
-}
-
-TEST_CASE("auto draws what info says, by the picture's own size") {
-    const Workshop workshop;
-    workshop.write("eggs.json", R"({
-        "image": {"width": 200, "height": 200},
-        "camera": {"from": [0, 0, 6], "at": [0, 0, 0], "field_of_view": 60},
-        "lights": [{"type": "directional", "direction": [0, -1, -1]}],
-        "materials": {"plain": {}},
-        "objects": [{"type": "quadric", "material": "plain", "center": [0, 0, 0],
-                     "matrix": [[1, 0, 0, 0], [0, 2, 0, 0], [0, 0, 3, 0], [0, 0, 0, -1]],
-                     "lower": [-1.1, -1.1, -1.1], "upper": [1.1, 1.1, 1.1]}]
-    })");
-    const Json info = json_of(workshop.run({"info", "--json", "eggs.json"}));
-    CHECK(info["auto_precision"] == "fast");
-    CHECK(info["methods"][0]["pixels"] > 0.0);
-    CHECK(info["methods"][0]["pixels"] < 0.1);
-
-    const auto drawn_with = [&](const std::vector<std::string>& options) {
-        const std::vector<std::string> usual = {
-            "render", "eggs.json", "--precision", "auto",
-            "-o",     "eggs.pfm",  "--stats",     "eggs-stats.json"};
-        REQUIRE(workshop.run(joined(usual, options)).code == 0);
-        return Json::parse(std::ifstream(workshop.path() / "eggs-stats.json"))["precision"];
-    };
-    CHECK(drawn_with({}) == "fast");
-    CHECK(drawn_with({"--size", "2000x2000", "--spp", "1"}) == "exact");
 }
 
 TEST_CASE("compare says by how much pictures differ, and whether") {

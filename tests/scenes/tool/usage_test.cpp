@@ -111,7 +111,7 @@ TEST_CASE("an option's value that is none is told in one line") {
         {{"--threads", "many"}, threads + "\"many\""},
         {{"--engine", "foo"}, "--engine: must be vector or reference, got \"foo\""},
         {{"--precision", "half"},
-         "--precision: must be fast, robust, exact, double or auto, got \"half\""},
+         "--precision: must be fast, robust, exact or double, got \"half\""},
         {{"--isa", "avx1"},
          "--isa: must be portable, sse4.2, avx2, avx512 or neon, got \"avx1\", did you mean "
          "\"avx2\"?"},
