@@ -185,15 +185,18 @@ Format format_of(InputFile& file) {
     std::string ending = ending_of(name);
     if (ending == ".gz") ending = ending_of(name.stem());
     for (const auto& [known, format] : endings)
-        if (ending == known) return format;
+        if (ending == known) {
+            if (format != Format::built) file.take_as_text();
+            return format;
+        }
 
     std::string_view head = file.head();
     if (looks_built(head)) return Format::built;
     if (is_binary(head))
         throw BadInput(file.name(), "",
                        "must be a scene or atoms in a text format, got a binary file");
-    static constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (head.starts_with(byte_order_mark)) head.remove_prefix(byte_order_mark.size());
+    file.take_as_text();
+    head = file.head();
     require_any(head);
     if (looks_like_json(head)) return Format::json;
     if (looks_like_pov(head)) return Format::pov;

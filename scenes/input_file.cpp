@@ -27,6 +27,15 @@ std::size_t in_memory(std::uint64_t bytes) {
     return static_cast<std::size_t>(bytes);
 }
 
+/// Makes line feeds of carriage returns that no line feed follows. `next` is behind the text.
+void end_lines(std::span<char> text, std::optional<char> next) {
+    for (auto at = text.begin();; ++at) {
+        at = std::find(at, text.end(), '\r');
+        if (at == text.end()) return;
+        if (at + 1 != text.end() ? *(at + 1) != '\n' : next != '\n') *at = '\n';
+    }
+}
+
 } // namespace
 
 InputFile::InputFile(const std::filesystem::path& path)
@@ -75,6 +84,16 @@ std::string_view InputFile::head() {
     return std::string_view(head_).substr(head_used_, head_size);
 }
 
+void InputFile::take_as_text() {
+    if (is_text_) return;
+    head();
+    if (head_.starts_with("\xEF\xBB\xBF")) head_.erase(0, 3);
+    char next = 0;
+    if (head_.ends_with('\r') && read_some(std::span(&next, 1)) == 1) held_back_ = next;
+    end_lines(head_, held_back_);
+    is_text_ = true;
+}
+
 std::size_t InputFile::read(std::span<char> buffer) {
     if (head_.empty()) head();
     if (head_used_ == head_.size()) return read_some(buffer);
@@ -119,12 +138,30 @@ bool InputFile::rewind() {
         head_.clear();
         inflater_.reset();
         bytes_read_ = 0;
+        held_back_.reset();
+        if (std::exchange(is_text_, false)) take_as_text();
     }
     head_used_ = 0;
     return true;
 }
 
 std::size_t InputFile::read_some(std::span<char> buffer) {
+    return is_text_ ? read_text(buffer) : read_bytes(buffer);
+}
+
+std::size_t InputFile::read_text(std::span<char> buffer) {
+    if (buffer.empty()) return 0;
+    std::size_t count = 0;
+    if (held_back_) buffer[count++] = *std::exchange(held_back_, {});
+    count += read_bytes(buffer.subspan(count));
+    char next = 0;
+    if (count > 0 && buffer[count - 1] == '\r' && read_bytes(std::span(&next, 1)) == 1)
+        held_back_ = next;
+    end_lines(buffer.first(count), held_back_);
+    return count;
+}
+
+std::size_t InputFile::read_bytes(std::span<char> buffer) {
     return inflater_ != nullptr ? inflater_->read(buffer) : read_as_it_is(buffer);
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -50,6 +51,9 @@ class InputFile {
 
     /// The first bytes, at most 64 KiB, without consuming them.
     std::string_view head();
+    /// Makes this a text, before any of it is read: a byte order mark at its start is left out, and
+    /// a carriage return that no line feed follows is read as a line feed.
+    void take_as_text();
     /// Fills `buffer` as far as the file goes; returns how many bytes, 0 at the end. Throws
     /// SystemRefused, and BadInput if the file turns out to have another length than at first: it
     /// is being written.
@@ -64,6 +68,8 @@ class InputFile {
 
   private:
     std::size_t read_some(std::span<char> buffer);
+    std::size_t read_text(std::span<char> buffer);
+    std::size_t read_bytes(std::span<char> buffer);
     std::size_t read_as_it_is(std::span<char> buffer);
     void require_same_size() const;
 
@@ -74,6 +80,8 @@ class InputFile {
     std::string head_; // read ahead; all of a text
     std::size_t head_used_ = 0;
     std::unique_ptr<Inflater> inflater_; // of what is compressed
+    bool is_text_ = false;
+    std::optional<char> held_back_; // of a text: read ahead, behind a carriage return
 };
 
 } // namespace raylane::scenes

@@ -28,6 +28,7 @@ void Inclusion::include(const JsonValue& value, const std::function<void(InputFi
     if (depth() == deepest)
         value.fail("must not be included more than " + std::to_string(deepest) + " deep");
     InputFile file(path);
+    file.take_as_text();
     files_.push_back(path);
     try {
         read(file);

@@ -25,11 +25,6 @@ bool ends_word(int c) {
 } // namespace
 
 JsonText::JsonText(InputFile& file) : file_(file) {
-    static constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (file.head().starts_with(byte_order_mark)) {
-        std::array<char, byte_order_mark.size()> skipped;
-        file.read(skipped);
-    }
     current_ = next();
 }
 

@@ -21,7 +21,6 @@ pov::Source source_of(InputFile& file) {
     std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
     if (folder.empty()) folder = ".";
     std::string text = file.read_all();
-    skip_byte_order_mark(text);
     return {file.name(), std::move(text), folder};
 }
 

@@ -22,11 +22,6 @@ bool is_blank(char c) {
 
 } // namespace
 
-void skip_byte_order_mark(std::string& text) {
-    static constexpr std::string_view mark = "\xEF\xBB\xBF";
-    if (text.starts_with(mark)) text.erase(0, mark.size());
-}
-
 TextPosition position_of(const Place& place) {
     const std::string_view before = std::string_view(place.source->text).substr(0, place.offset);
     const std::size_t line_begin = before.rfind('\n') + 1; // of npos that is 0

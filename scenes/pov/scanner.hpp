@@ -23,9 +23,6 @@ struct Place {
     std::size_t offset = 0;
 };
 
-/// Some editors begin a file with one.
-void skip_byte_order_mark(std::string& text);
-
 /// Line and column, both from 1.
 TextPosition position_of(const Place& place);
 [[noreturn]] void fail(const Place& place, std::string_view message);

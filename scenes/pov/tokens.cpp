@@ -336,8 +336,11 @@ void Tokens::open(const std::string& name, const Place& place) {
         fail(place,
              "must be a file beside this one, or one of POV-Ray's that are known here, got \"" +
                  printable(name) + "\"");
-    if (!text) text = InputFile(path).read_all();
-    skip_byte_order_mark(*text);
+    if (!text) {
+        InputFile file(path);
+        file.take_as_text();
+        text = file.read_all();
+    }
     sources_.push_back({path.empty() ? name : path.string(), std::move(*text), path.parent_path()});
     included_.emplace(name, &sources_.back());
     enter({Scanner(sources_.back()), FrameKind::file, place});

@@ -25,14 +25,12 @@ class Reader {
            const TachyonShading& over)
         : file_(file), words_(file, on_remark), over_(over), shading_(over),
           objects_(builder_, words_, shading_) {
-        skip_byte_order_mark();
         builder_.workers = workers;
         builder_.wants_light = false;
     }
     core::Scene read();
 
   private:
-    void skip_byte_order_mark();
     void read_statement();
     void read_resolution();
     void read_sky_light();
@@ -51,13 +49,6 @@ class Reader {
     std::vector<core::Light> lights_;
     bool reserved_ = false;
 };
-
-/// Some editors begin a file with one.
-void Reader::skip_byte_order_mark() {
-    static constexpr std::string_view mark = "\xEF\xBB\xBF";
-    std::array<char, mark.size()> skipped{};
-    if (file_.head().starts_with(mark)) file_.read(skipped);
-}
 
 core::Scene Reader::read() {
     if (!words_.next_statement() || !is_keyword(words_.statement(), "BEGIN_SCENE"))

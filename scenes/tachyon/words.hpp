@@ -82,6 +82,7 @@ class TachyonWords {
     }
 
     std::vector<Source> sources_; // the one that is read is the last
+    int included_ = 0;            // files so far
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::string_view word_;

@@ -36,6 +36,45 @@ TEST_CASE("a scene's format follows the content where the ending says nothing") 
     CHECK(distance_in("# a comment {\n\n" + nff, ending) == 7.0F);
 }
 
+TEST_CASE("lines end as on any system, and a byte order mark may come first") {
+    // One that is longer than what is read at once, in lines of all lengths.
+    std::string balls = nff + "l 0 9 0\n";
+    for (int i = 0; i < 20'000; ++i)
+        balls += std::string(static_cast<std::size_t>(i % 7), ' ') + "s 0 0 0 1\n";
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {"a.json", "// a remark\n" + json},
+        {"a.nff", balls},
+        {"a.pov", "// a remark\ncamera { location <0, 0, -5> look_at 0 }\nsphere { 0, 1 }\n"},
+        {"a.dat", "BEGIN_SCENE\nRESOLUTION 8 8\n# a remark\nCAMERA ZOOM 1 ASPECTRATIO 1 "
+                  "ANTIALIASING 0 RAYDEPTH 3\nCENTER 0 0 -5 VIEWDIR 0 0 1 UPDIR 0 1 0\n"
+                  "END_CAMERA\nSPHERE CENTER 0 0 0 RAD 1 TEXTURE AMBIENT 0 DIFFUSE 1 SPECULAR 0 "
+                  "OPACITY 1\nCOLOR 1 1 1 TEXFUNC 0\nEND_SCENE\n"},
+        {"a.xyz", "2\na remark\nC 0 0 0\nO 0 0 5\n"},
+        {"a.dump", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 9\n"
+                   "0 9\n0 9\nITEM: ATOMS id type x y z\n1 1 4 4 4\n"},
+    };
+    for (const auto& [name, text] : files) {
+        CAPTURE(name);
+        const raylane::core::Scene expected = parse_scene(name, text);
+        for (const std::string end : {"\r\n", "\r"})
+            for (const std::string mark : {"", "\xEF\xBB\xBF"}) {
+                std::string other = mark;
+                for (const char c : text)
+                    other += c == '\n' ? end : std::string(1, c);
+                CAPTURE(end == "\r", mark.empty());
+                const TemporaryFile file(other, std::filesystem::path(name).extension().string());
+                const raylane::core::Scene in_memory = parse_scene(name, other),
+                                           on_disk = load_scene(file.path());
+                CHECK(in_memory.shape_count() == expected.shape_count());
+                CHECK(on_disk.shape_count() == expected.shape_count());
+                CHECK(on_disk.camera().from.z == expected.camera().from.z);
+            }
+    }
+    CHECK(raylane::tests::message_of<BadInput>([&] {
+              parse_scene("a.nff", "# a remark\r\rv\rfrom 0 0 no\r");
+          }).starts_with("a.nff:4: "));
+}
+
 TEST_CASE("a file of another kind is told from a scene with a mistake") {
     const auto error_of = [](const std::string& text, const std::string& ending) {
         return raylane::tests::message_of<BadInput>([&] { parse_scene("a" + ending, text); });

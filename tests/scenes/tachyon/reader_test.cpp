@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 using namespace raylane;
@@ -300,6 +301,27 @@ TEST_CASE("a Tachyon scene includes files that are beside it") {
           "\"balls.dat\"");
     directory.write("balls.dat", ball);
     CHECK(load_scene(path).shape_count() == 1);
+    // Ten files of ten each, and so on: 1,000 are enough.
+    directory.write("deep.dat", "");
+    for (const std::string name : {"d.dat", "c.dat", "b.dat", "balls.dat"}) {
+        std::string text;
+        for (int i = 0; i < 10; ++i)
+            text += "INCLUDE " +
+                    std::string(name == "d.dat"   ? "deep.dat"
+                                : name == "c.dat" ? "d.dat"
+                                : name == "b.dat" ? "c.dat"
+                                                  : "b.dat") +
+                    "\n";
+        directory.write(name, text);
+    }
+    CHECK(tests::message_in<BadInput>(directory.path(), [&] {
+              load_scene(path);
+          }).ends_with(": INCLUDE: must be one of 1,000 files at most, got \"deep.dat\""));
+    // Nobody writes into it.
+    std::filesystem::remove(directory.path() / "balls.dat");
+    REQUIRE(::mkfifo((directory.path() / "balls.dat").c_str(), 0600) == 0);
+    CHECK(tests::message_in<BadInput>(directory.path(), [&] { load_scene(path); }) ==
+          "a.dat:3: INCLUDE: must name a file, got \"balls.dat\"");
 }
 
 TEST_CASE("each mistake in a Tachyon scene has its line of error") {
