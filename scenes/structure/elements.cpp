@@ -75,10 +75,6 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-bool is_letter(char c) {
-    return lower(c) >= 'a' && lower(c) <= 'z';
-}
-
 } // namespace
 
 const ElementData& data_of(Element element) {
@@ -93,15 +89,6 @@ Element element_of(std::string_view symbol) {
     const auto* const found = std::find_if(elements.begin() + 1, elements.end(), is_same);
     if (found != elements.end()) return static_cast<Element>(found - elements.begin());
     return symbol.size() == 1 && (lower(symbol[0]) == 'd' || lower(symbol[0]) == 't') ? 1 : 0;
-}
-
-Element element_of_label(std::string_view label, bool any_case) {
-    while (!label.empty() && !is_letter(label[0]))
-        label.remove_prefix(1);
-    if (label.empty()) return 0;
-    if (label.size() > 1 && is_letter(label[1]) && (any_case || lower(label[1]) == label[1]))
-        if (const Element element = element_of(label.substr(0, 2))) return element;
-    return element_of(label.substr(0, 1));
 }
 
 Element element_of_mass(double mass) {

@@ -27,11 +27,6 @@ const ElementData& data_of(Element element);
 /// By symbol, whatever its case; 0 if there is none. "D" and "T" are hydrogen.
 Element element_of(std::string_view symbol);
 
-/// The same of a label that begins with a symbol, as "Fe2+", "C12" or "OW": of the two letters that
-/// it begins with if they are one (the second in lower case, or both if `any_case`), else of the
-/// first.
-Element element_of_label(std::string_view label, bool any_case = false);
-
 /// Of the element whose atoms weigh that, within half a dalton; 0 if there is none.
 Element element_of_mass(double mass);
 

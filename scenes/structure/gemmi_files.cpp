@@ -83,7 +83,7 @@ Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& ce
               const gemmi::Fractional& at, const gemmi::Mat33& turned) {
     Atom atom;
     copy(cell.orthogonalize(at), atom.at);
-    atom.element = number_of(site.element);
+    atom.element = site.type_symbol == site.label ? 0 : number_of(site.element); // gemmi copies it
     atom.name = site.label;
     atom.occupancy = static_cast<float>(site.occ);
     atom.has_u = site.aniso.nonzero();

@@ -11,7 +11,7 @@ namespace raylane::scenes::gemmi_files {
 
 struct Atom {
     double at[3]; ///< angstrom
-    int element;  ///< atomic number; 0: unknown
+    int element;  ///< atomic number; 0: not said
     std::string name;
     int serial = 0;
     float b_factor = 0.0F, occupancy = 1.0F;

@@ -1,6 +1,7 @@
 #include "core/shapes/checks.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/structure/kind_table.hpp"
+#include "scenes/structure/labels.hpp"
 #include "scenes/structure/lines.hpp"
 #include "scenes/structure/readers.hpp"
 
@@ -95,7 +96,8 @@ class ModelReader : public FrameReader {
                                        " must be from -1e30 to 1e30");
             const Element element = atom.element > 0 && atom.element < element_count
                                         ? static_cast<Element>(atom.element)
-                                        : Element{0};
+                                    : is_small ? element_of_label(atom.name)
+                                               : element_of_atom(atom.name, residue.name);
             frame.positions.push_back(
                 core::convert<float>(core::Vec3d(atom.at[0], atom.at[1], atom.at[2])));
             frame.kinds.push_back(static_cast<std::uint16_t>(kinds.index_of(
@@ -119,25 +121,68 @@ class ModelReader : public FrameReader {
     std::size_t number_ = 0;
 };
 
-/// Refuses what gemmi takes without a word: coordinates that are none. Takes charges away,
-/// which it is strict about and nobody asks for; and reads CONECT, which it leaves out.
+bool is_atom(std::string_view line) {
+    return line.starts_with("ATOM") || line.starts_with("HETATM");
+}
+
+/// A field of a record, without blanks. Columns count from 1, as in the PDB format.
+std::string_view field(std::string_view line, std::size_t column, std::size_t width) {
+    return line.size() < column ? std::string_view() : trimmed(line.substr(column - 1, width));
+}
+
+/// True where names begin in column 13 throughout, which only symbols of two letters and names of
+/// four are to do: AMBER, CHARMM and older tools write so.
+bool is_shifted(const InputFile& file, std::string_view text) {
+    bool any = false;
+    InputFile again(file.name(), text);
+    for (Lines lines(again); lines.next();) {
+        const std::string_view line = lines.text();
+        if (!is_atom(line) || line.size() < 16 || !is_polymer_residue(field(line, 18, 3))) continue;
+        if (line[12] == ' ') return false;
+        any = any || field(line, 13, 4).size() < 4;
+    }
+    return any;
+}
+
+/// The element of an atom of a PDB file that does not say it: by columns, and where these are of no
+/// use, by the name and its residue.
+Element element_of_record(std::string_view line, bool is_shifted) {
+    const std::string_view name = field(line, 13, 4), residue = field(line, 18, 3);
+    const bool begins_early = line.size() > 13 && line[12] != ' ' && name.size() < 4;
+    if (begins_early && !is_shifted && !is_polymer_residue(residue))
+        if (const Element element = element_of(field(line, 13, 2))) return element;
+    if (line.size() > 13 && line[12] == ' ' && !is_shifted)
+        if (const Element element = element_of(field(line, 14, 1))) return element;
+    return element_of_atom(name, residue);
+}
+
+/// Refuses what gemmi takes without a word: coordinates that are none. Says the elements that the
+/// file does not. Takes charges away, which gemmi is strict about and nobody asks for; and reads
+/// CONECT, which it leaves out.
 std::string checked(const InputFile& file, std::string_view text, Orders& bonds) {
-    constexpr std::size_t charge = 78;
+    constexpr std::size_t symbol = 76, charge = 78;
+    const bool names_are_shifted = is_shifted(file, text);
     InputFile again(file.name(), text);
     std::string result;
     result.reserve(text.size());
     std::map<std::pair<int, int>, int> directed;
+    std::string with_element;
     for (Lines lines(again); lines.next();) {
         std::string_view line = lines.text();
-        if (line.starts_with("ATOM") || line.starts_with("HETATM")) {
-            for (std::size_t at = 30; at < 54; at += 8) {
-                const std::string_view field =
-                    trimmed(line.size() > at ? line.substr(at, 8) : std::string_view());
-                if (!number_in(field))
-                    lines.fail("a coordinate must be a number, got \"" + printable(field) + "\"",
-                               at + 1);
-            }
+        if (is_atom(line)) {
+            for (std::size_t column = 31; column < 55; column += 8)
+                if (const std::string_view x = field(line, column, 8); !number_in(x))
+                    lines.fail("a coordinate must be a number, got \"" + printable(x) + "\"",
+                               column);
             line = line.substr(0, charge);
+            if (element_of(field(line, symbol + 1, 2)) == 0) {
+                const Element element = element_of_record(line, names_are_shifted);
+                const std::string_view said = element != 0 ? data_of(element).symbol : "X";
+                with_element = line.substr(0, symbol);
+                with_element.resize(charge - said.size(), ' ');
+                with_element += said;
+                line = with_element;
+            }
         } else if (line.starts_with("CONECT")) {
             const auto serial = [&](std::size_t at) {
                 const double number =

@@ -1,5 +1,6 @@
 #include "scenes/errors.hpp"
 #include "scenes/structure/kind_table.hpp"
+#include "scenes/structure/labels.hpp"
 #include "scenes/structure/lines.hpp"
 #include "scenes/structure/readers.hpp"
 
@@ -12,28 +13,6 @@ namespace raylane::scenes {
 namespace {
 
 constexpr double angstroms_per_nanometre = 10.0;
-
-/// By the name of an atom in a residue: "CA" is a carbon, unless the residue is one of calcium.
-Element element_of_atom(std::string_view name, std::string_view residue) {
-    while (!name.empty() && name.front() >= '0' && name.front() <= '9')
-        name.remove_prefix(1);
-    if (name.empty()) return 0;
-    std::string_view ion = residue;
-    while (!ion.empty() &&
-           (ion.back() == '+' || ion.back() == '-' || (ion.back() >= '0' && ion.back() <= '9')))
-        ion.remove_suffix(1);
-    std::string_view letters = name;
-    while (!letters.empty() && (letters.back() < 'A' || letters.back() > 'z'))
-        letters.remove_suffix(1);
-    const auto same = [](char a, char b) { return (a | ' ') == (b | ' '); };
-    const bool is_ion = letters.size() > 1 &&
-                        std::equal(letters.begin(), letters.end(), ion.begin(), ion.end(), same);
-    if (is_ion)
-        if (const Element element = element_of(letters)) return element;
-    // Two letters, the second a small one, are a symbol; of those of proteins the first counts.
-    if (const Element element = element_of_label(name)) return element;
-    return element_of_label(name, true);
-}
 
 class GroReader : public FrameReader {
   public:

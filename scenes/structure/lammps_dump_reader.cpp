@@ -1,6 +1,7 @@
 #include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 #include "scenes/structure/kind_table.hpp"
+#include "scenes/structure/labels.hpp"
 #include "scenes/structure/lines.hpp"
 #include "scenes/structure/readers.hpp"
 
@@ -218,7 +219,7 @@ class DumpReader : public FrameReader {
                                       part.y * frame.cell.edges[1] + part.z * frame.cell.edges[2]);
         }
         const std::size_t kind = kinds.index_of(label, [&](std::string_view name) {
-            return has_element_ ? element_of_label(name, true) : Element{0};
+            return has_element_ ? element_of_label(name) : Element{0};
         });
         if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 types");
         if (has_radius_) frame.radii.push_back(radius);

@@ -1,5 +1,6 @@
 #include "scenes/errors.hpp"
 #include "scenes/structure/kind_table.hpp"
+#include "scenes/structure/labels.hpp"
 #include "scenes/structure/lines.hpp"
 #include "scenes/structure/readers.hpp"
 
@@ -64,7 +65,7 @@ Element element_of_species(std::string_view label) {
     const auto [stop, error] = std::from_chars(label.data(), label.data() + label.size(), number);
     if (error == std::errc() && stop == label.data() + label.size())
         return number > 0 && number < element_count ? static_cast<Element>(number) : Element{0};
-    return element_of_label(label, true);
+    return element_of_label(label);
 }
 
 class XyzReader : public FrameReader {
@@ -114,6 +115,7 @@ class XyzReader : public FrameReader {
         columns_ = usual_columns();
         const std::string_view text = trimmed(lines_.text());
         frame.title = text;
+        has_types_ = text.starts_with("Atoms. Timestep:"); // LAMMPS' dump xyz, without dump_modify
         std::string_view key, value;
         for (Pairs pairs(text); pairs.next(key, value);) {
             const std::string name = in_lower_case(key);
@@ -230,7 +232,9 @@ class XyzReader : public FrameReader {
                     words.get(column.name);
             }
         }
-        const std::size_t kind = kinds.index_of(species, element_of_species);
+        const std::size_t kind = kinds.index_of(species, [&](std::string_view label) {
+            return has_types_ ? Element{0} : element_of_species(label);
+        });
         if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 elements");
         if (has_radius_) frame.radii.push_back(radius);
         frame.positions.push_back(position);
@@ -241,7 +245,7 @@ class XyzReader : public FrameReader {
     Lines lines_;
     std::vector<Column> columns_;
     std::vector<std::size_t> of_column_; // index of the property
-    bool has_radius_ = false;
+    bool has_radius_ = false, has_types_ = false;
     std::size_t frames_ = 0;
 };
 

@@ -67,16 +67,12 @@ std::string xyz_of(int count) {
 
 } // namespace
 
-TEST_CASE("elements are told by symbols, labels and masses") {
+TEST_CASE("elements are told by symbols and masses") {
     CHECK(element_of("Fe") == 26);
     CHECK(element_of("CL") == 17);
     CHECK(element_of("D") == 1);
     CHECK(element_of("Q") == 0);
     CHECK(element_of("") == 0);
-    CHECK(element_of_label("Fe2+") == 26);
-    CHECK(element_of_label("CA") == 6);
-    CHECK(element_of_label("CA", true) == 20);
-    CHECK(element_of_label("1HB") == 1);
     CHECK(element_of_mass(15.9994) == 8);
     CHECK(element_of_mass(0.3) == 0);
     for (Element z = 1; z < element_count; ++z) {

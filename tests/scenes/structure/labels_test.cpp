@@ -1,0 +1,93 @@
+#include "scenes/structure/labels.hpp"
+#include "tests/catch.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace raylane::scenes;
+
+namespace {
+
+/// The symbol; empty for none.
+std::string symbol_of(Element element) {
+    return element == 0 ? "" : std::string(data_of(element).symbol);
+}
+
+} // namespace
+
+TEST_CASE("a label begins with the symbol of its element") {
+    const std::vector<std::pair<std::string, std::string>> labels = {
+        {"Fe2+", "Fe"}, {"C12", "C"},   {"CL1", "Cl"},  {"c1", "C"}, {"AlIV", "Al"}, {"SiT1", "Si"},
+        {"C1'", "C"},   {"B-iso", "B"}, {"Zr1a", "Zr"}, {"OW", "O"}, {"OH1", "O"},   {"O-H", "O"},
+        {"D", "H"},     {"1HB", "H"},   {"(Na)", "Na"}, {"PB", "Pb"}};
+    for (const auto& [label, symbol] : labels) {
+        CAPTURE(label);
+        CHECK(symbol_of(element_of_label(label)) == symbol);
+    }
+}
+
+TEST_CASE("labels of ghosts, dummies, vectors and vacancies are of no element") {
+    for (const char* label : {"Bq", "BQ1", "Du", "Tv", "X", "Xx", "Gh(O)", "Q1", "Vac", "UNK", "M1",
+                              "T1", "", "12", "-"}) {
+        CAPTURE(label);
+        CHECK(element_of_label(label) == 0);
+    }
+}
+
+TEST_CASE("labels of minerals' water are oxygen") {
+    CHECK(symbol_of(element_of_label("Wat1")) == "O");
+    CHECK(symbol_of(element_of_label("W1")) == "W");
+}
+
+TEST_CASE("labels are of no element that no sample has") {
+    CHECK(symbol_of(element_of_label("NH4")) == "N");
+    CHECK(symbol_of(element_of_label("Nh")) == "Nh");
+    CHECK(symbol_of(element_of_label("NO3")) == "N");
+}
+
+TEST_CASE("an atom that is named like its residue is an ion") {
+    CHECK(symbol_of(element_of_atom("CA", "CA")) == "Ca");
+    CHECK(symbol_of(element_of_atom("CA", "CA2+")) == "Ca");
+    CHECK(symbol_of(element_of_atom("ZN", "ZN2")) == "Zn");
+    CHECK(symbol_of(element_of_atom("NA", "NA")) == "Na");
+    CHECK(symbol_of(element_of_atom("CD", "CDL")) == "C");
+}
+
+TEST_CASE("in amino acids and nucleotides the first letter is the symbol") {
+    for (const auto& [name, symbol] :
+         std::vector<std::pair<std::string, std::string>>{{"CA", "C"},
+                                                          {"HA", "H"},
+                                                          {"1HB", "H"},
+                                                          {"CD1", "C"},
+                                                          {"HG", "H"},
+                                                          {"NE2", "N"},
+                                                          {"SE", "S"},
+                                                          {"HE21", "H"},
+                                                          {"OXT", "O"}}) {
+        CAPTURE(name);
+        CHECK(symbol_of(element_of_atom(name, "GLN")) == symbol);
+    }
+    CHECK(symbol_of(element_of_atom("SE", "MSE")) == "Se");
+}
+
+TEST_CASE("elsewhere some symbols have two letters") {
+    for (const auto& [name, symbol] :
+         std::vector<std::pair<std::string, std::string>>{{"CL1", "Cl"},
+                                                          {"BR1", "Br"},
+                                                          {"SI1", "Si"},
+                                                          {"FE", "Fe"},
+                                                          {"NA", "N"},
+                                                          {"CA1", "C"},
+                                                          {"ZN", "Zn"},
+                                                          {"MG1", "Mg"},
+                                                          {"PB", "P"},
+                                                          {"F1", "F"},
+                                                          {"Co1", "Co"},
+                                                          {"HO1", "H"}}) {
+        CAPTURE(name);
+        CHECK(symbol_of(element_of_atom(name, "LIG")) == symbol);
+    }
+    CHECK(element_of_atom("MW", "SOL") == 0); // of water models
+    CHECK(element_of_atom("", "LIG") == 0);
+}
