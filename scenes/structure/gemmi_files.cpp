@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <gemmi/cif.hpp>
 #include <gemmi/mmcif.hpp>
 #include <gemmi/pdb.hpp>
 #include <gemmi/smcif.hpp>
+#include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace raylane::scenes::gemmi_files {
@@ -170,6 +173,52 @@ Model model_of(const gemmi::SmallStructure& structure) {
     return model;
 }
 
+/// An operation of symmetry with its decimals as parts of 24: "0.5-Y" is "12/24-Y".
+std::string with_fractions(const std::string& operation) {
+    constexpr double parts = 24.0;
+    std::string result;
+    for (std::size_t at = 0; at < operation.size();) {
+        const std::size_t end =
+            std::min(operation.find_first_not_of("0123456789.", at), operation.size());
+        const std::string number = operation.substr(at, end - at);
+        if (number.find('.') != std::string::npos) {
+            const double value = parts * std::strtod(number.c_str(), nullptr);
+            result += std::to_string(std::lround(value)) + "/24";
+            at = end;
+        } else {
+            result += operation[at++];
+        }
+    }
+    return result;
+}
+
+/// A space group by its name: as it is, with the setting as ICSD has it (H, R; S and Z for origins
+/// 1 and 2), with a bar that older names leave out, or short ("F 4/m -3 2/m" is "F m -3 m").
+const gemmi::SpaceGroup* group_of(const std::string& name, const gemmi::UnitCell& cell) {
+    const auto find = [&](const std::string& as) {
+        return gemmi::find_spacegroup_by_name(as, cell.alpha, cell.gamma);
+    };
+    if (const gemmi::SpaceGroup* group = find(name)) return group;
+    std::string own = name, setting;
+    const std::size_t last = own.find_last_not_of(' ');
+    if (last != std::string::npos && last > 1 && own[last - 1] == ' ')
+        if (const std::size_t known = std::string("HRSZ").find(own[last]); known < 4) {
+            setting = std::string(":") + "HR12"[known];
+            own.resize(last - 1);
+        }
+    std::string with_bar = own, short_name;
+    if (const std::size_t three = with_bar.find(" 3 "); three != std::string::npos)
+        with_bar.insert(three + 1, "-");
+    for (std::size_t at = 0; at < own.size(); ++at)
+        if (at + 1 < own.size() && own[at + 1] == '/')
+            ++at;
+        else
+            short_name += own[at];
+    for (const std::string& other : {own, with_bar, short_name})
+        if (const gemmi::SpaceGroup* group = find(other + setting)) return group;
+    return nullptr;
+}
+
 /// What the file says itself, or else its space group's.
 void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure) {
     for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
@@ -177,15 +226,30 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure)
         if (!operations) continue;
         structure.cell.images.clear();
         for (const std::string& text : operations) {
-            const gemmi::Op op = gemmi::parse_triplet(gemmi::cif::as_string(text));
+            const gemmi::Op op = gemmi::parse_triplet(with_fractions(gemmi::cif::as_string(text)));
             if (op != gemmi::Op::identity())
                 structure.cell.images.emplace_back(
                     gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
         }
         return;
     }
-    const gemmi::SpaceGroup* group = gemmi::find_spacegroup_by_name(
-        structure.spacegroup_hm, structure.cell.alpha, structure.cell.gamma);
+    for (const char* tag : {"_space_group_name_Hall", "_symmetry_space_group_name_Hall"}) {
+        const std::string* hall = block.find_value(tag);
+        if (hall == nullptr || gemmi::cif::is_null(*hall)) continue;
+        try {
+            const gemmi::GroupOps operations =
+                gemmi::symops_from_hall(gemmi::cif::as_string(*hall).c_str());
+            structure.cell.images.clear();
+            for (const gemmi::Op& op : operations)
+                if (op != gemmi::Op::identity())
+                    structure.cell.images.emplace_back(
+                        gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
+        } catch (const std::exception&) {
+            continue; // it may be misspelt: the other name is left
+        }
+        return;
+    }
+    const gemmi::SpaceGroup* group = group_of(structure.spacegroup_hm, structure.cell);
     for (const char* tag : {"_space_group_IT_number", "_symmetry_Int_Tables_number"})
         if (const std::string* number = block.find_value(tag); number && group == nullptr)
             group = gemmi::find_spacegroup_by_number(gemmi::cif::as_int(*number, 0));
@@ -225,7 +289,10 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
             "must have a cell (_cell_length_a, ...), as its coordinates are parts of it");
     std::size_t site = 0;
     Sites placed;
-    for (auto row : block.find("_atom_site_", {"label", "fract_x", "fract_y", "fract_z"})) {
+    std::map<std::string, std::string>
+        group_of_assembly; // the first of those that exclude each other
+    for (auto row : block.find("_atom_site_", {"label", "fract_x", "fract_y", "fract_z",
+                                               "?disorder_assembly", "?disorder_group"})) {
         const gemmi::SmallStructure::Site& of = structure.sites.at(site++);
         bool lacks = false;
         for (std::size_t axis = 1; axis < 4; ++axis)
@@ -233,6 +300,11 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
                 lacks = true;
             else
                 require_coordinate(row[axis], of.label);
+        if (row.has(5) && !gemmi::cif::is_null(row[5])) {
+            const std::string assembly = row.has(4) ? row.str(4) : std::string();
+            if (group_of_assembly.emplace(assembly, row.str(5)).first->second != row.str(5))
+                continue;
+        }
         if (!lacks) placed.push_back(of);
     }
     structure.sites = std::move(placed);
@@ -241,7 +313,22 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
     return structure;
 }
 
-/// Coordinates have to be numbers; columns that gemmi asks for may have their other names.
+/// Adds a column to a table, of `value` or of the numbers of rows if that is empty.
+void add_column(gemmi::cif::Loop& loop, const std::string& tag, const std::string& value) {
+    std::vector<std::string> values;
+    const std::size_t width = loop.width(), rows = loop.length();
+    values.reserve(rows * (width + 1));
+    for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t column = 0; column < width; ++column)
+            values.push_back(std::move(loop.values[row * width + column]));
+        values.push_back(value.empty() ? std::to_string(row + 1) : value);
+    }
+    loop.tags.push_back(tag);
+    loop.values = std::move(values);
+}
+
+/// Coordinates have to be numbers. Columns that gemmi asks for and that nothing drawn depends on
+/// are added where they are missing, or have another's place.
 void check_macromolecule(gemmi::cif::Document& document) {
     for (gemmi::cif::Block& block : document.blocks) {
         gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
@@ -249,10 +336,17 @@ void check_macromolecule(gemmi::cif::Document& document) {
         if (loop->find_tag("_atom_site.auth_seq_id") < 0)
             if (const int label = loop->find_tag("_atom_site.label_seq_id"); label >= 0)
                 loop->tags[static_cast<std::size_t>(label)] = "_atom_site.auth_seq_id";
-        for (const char* column : {"id", "type_symbol", "label_alt_id", "label_asym_id",
-                                   "occupancy", "B_iso_or_equiv", "auth_seq_id"})
-            if (loop->find_tag("_atom_site." + std::string(column)) < 0)
-                throw std::runtime_error("must have a column _atom_site." + std::string(column));
+        const std::pair<const char*, const char*> columns[] = {{"id", ""},
+                                                               {"type_symbol", "X"},
+                                                               {"label_alt_id", "."},
+                                                               {"label_asym_id", "A"},
+                                                               {"occupancy", "1"},
+                                                               {"B_iso_or_equiv", "0"},
+                                                               {"auth_seq_id", "1"}};
+        for (const auto& [column, value] : columns)
+            if (const std::string tag = "_atom_site." + std::string(column);
+                loop->find_tag(tag) < 0)
+                add_column(*loop, tag, value);
         for (auto row : block.find("_atom_site.", {"id", "Cartn_x", "Cartn_y", "Cartn_z"}))
             for (std::size_t axis = 1; axis < 4; ++axis)
                 require_coordinate(row[axis], "atom " + row[0]);
