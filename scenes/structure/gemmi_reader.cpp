@@ -27,12 +27,10 @@ namespace {
     if (text.starts_with(name + ":")) {
         text.erase(0, name.size() + 1);
         const std::size_t end = text.find(": ");
-        if (end != std::string::npos) {
-            const int read =
-                std::sscanf(text.c_str(), "%zu:%zu", &position.line, &position.column); // NOLINT
-            if (read < 1) position = {};
-            text.erase(0, end + 2);
-        }
+        const bool has_place = end != std::string::npos &&
+                               std::sscanf(text.c_str(), "%zu:%zu", &position.line, // NOLINT
+                                           &position.column) >= 1;
+        text.erase(0, has_place ? end + 2 : text.find_first_not_of(' '));
     }
     throw BadInput(
         {{.file = name, .position = position, .place = {}, .message = printable(text, 200)}});
@@ -40,15 +38,20 @@ namespace {
 
 using Orders = std::map<std::pair<int, int>, int>; ///< of bonds, by serial numbers, ascending
 
+struct ModelAndBonds {
+    gemmi_files::Model model;
+    Orders bonds;
+};
+
 /// Models, one after the other.
 class ModelReader : public FrameReader {
   public:
-    ModelReader(std::string file, std::vector<gemmi_files::Model> models, Orders bonds)
-        : file_(std::move(file)), models_(std::move(models)), bonds_(std::move(bonds)) {}
+    ModelReader(std::string file, std::vector<ModelAndBonds> models)
+        : file_(std::move(file)), models_(std::move(models)) {}
 
     bool next(Structure& frame) override {
         if (number_ == models_.size()) return false;
-        const gemmi_files::Model& model = models_[number_++];
+        const auto& [model, bonds] = models_[number_++];
         frame = {};
         frame.title = model.title;
         if (model.has_cell)
@@ -59,11 +62,18 @@ class ModelReader : public FrameReader {
         std::unordered_map<int, AtomIndex> atom_of;
         for (const gemmi_files::Chain& chain : model.chains) {
             if (!model.is_small) frame.chains.push_back(chain.name);
-            for (const gemmi_files::Residue& residue : chain.residues)
-                add(residue, model.is_small, frame, kinds, atom_of);
+            const gemmi_files::Residue* before = nullptr;
+            char conformer = '\0';
+            for (const gemmi_files::Residue& residue : chain.residues) {
+                const bool is_same_place = before != nullptr && before->number == residue.number &&
+                                           before->insertion == residue.insertion;
+                if (!is_same_place) conformer = '\0';
+                add(residue, model.is_small, conformer, frame, kinds, atom_of);
+                before = &residue;
+            }
         }
         if (model.is_small) frame.properties.erase(frame.properties.begin());
-        for (const auto& [serials, order] : bonds_) {
+        for (const auto& [serials, order] : bonds) {
             const auto a = atom_of.find(serials.first), b = atom_of.find(serials.second);
             if (a == atom_of.end() || b == atom_of.end()) continue;
             frame.bonds.push_back({std::min(a->second, b->second), std::max(a->second, b->second),
@@ -73,8 +83,10 @@ class ModelReader : public FrameReader {
     }
 
   private:
-    void add(const gemmi_files::Residue& residue, bool is_small, Structure& frame, KindTable& kinds,
-             std::unordered_map<int, AtomIndex>& atom_of) const {
+    /// Of places that exclude each other, adds those of the first, `conformer`, of which residues
+    /// of one number (1CBN has SER or PRO as residue 22) share one.
+    void add(const gemmi_files::Residue& residue, bool is_small, char& conformer, Structure& frame,
+             KindTable& kinds, std::unordered_map<int, AtomIndex>& atom_of) const {
         const auto index = static_cast<std::uint32_t>(frame.of_residue.size());
         if (!is_small)
             frame.of_residue.push_back(
@@ -83,8 +95,6 @@ class ModelReader : public FrameReader {
                  .insertion = residue.insertion,
                  .chain = static_cast<std::uint32_t>(frame.chains.size() - 1),
                  .is_hetero = residue.is_hetero});
-        // Of places that exclude each other, those of the first.
-        char conformer = '\0';
         for (const gemmi_files::Atom& atom : residue.atoms) {
             if (conformer == '\0') conformer = atom.conformer;
             if (atom.conformer != '\0' && atom.conformer != conformer) continue;
@@ -116,8 +126,7 @@ class ModelReader : public FrameReader {
     }
 
     std::string file_;
-    std::vector<gemmi_files::Model> models_;
-    Orders bonds_;
+    std::vector<ModelAndBonds> models_;
     std::size_t number_ = 0;
 };
 
@@ -156,84 +165,165 @@ Element element_of_record(std::string_view line, bool is_shifted) {
     return element_of_atom(name, residue);
 }
 
-/// Refuses what gemmi takes without a word: coordinates that are none. Says the elements that the
-/// file does not. Takes charges away, which gemmi is strict about and nobody asks for; and reads
-/// CONECT, which it leaves out.
-std::string checked(const InputFile& file, std::string_view text, Orders& bonds) {
-    constexpr std::size_t symbol = 76, charge = 78;
-    const bool names_are_shifted = is_shifted(file, text);
-    InputFile again(file.name(), text);
-    std::string result;
-    result.reserve(text.size());
-    std::map<std::pair<int, int>, int> directed;
-    std::string with_element;
-    for (Lines lines(again); lines.next();) {
-        std::string_view line = lines.text();
-        if (is_atom(line)) {
-            for (std::size_t column = 31; column < 55; column += 8)
-                if (const std::string_view x = field(line, column, 8); !number_in(x))
-                    lines.fail("a coordinate must be a number, got \"" + printable(x) + "\"",
-                               column);
-            line = line.substr(0, charge);
-            if (element_of(field(line, symbol + 1, 2)) == 0) {
-                const Element element = element_of_record(line, names_are_shifted);
-                const std::string_view said = element != 0 ? data_of(element).symbol : "X";
-                with_element = line.substr(0, symbol);
-                with_element.resize(charge - said.size(), ' ');
-                with_element += said;
-                line = with_element;
-            }
-        } else if (line.starts_with("CONECT")) {
-            const auto serial = [&](std::size_t at) {
-                const double number =
-                    line.size() > at ? number_in(trimmed(line.substr(at, 5))).value_or(0.0) : 0.0;
-                return number > 0.0 && number < 1e6 ? static_cast<int>(number) : 0;
-            };
-            const int from = serial(6);
-            for (std::size_t at = 11; at < 31; at += 5)
-                if (const int to = serial(at); to != 0 && to != from) ++directed[{from, to}];
-        }
-        // Of other records nothing is drawn, and gemmi reads beyond the end of some (LINK, "NaN").
-        constexpr std::string_view records[] = {"HEADER", "TITLE",  "CRYST1", "MODEL", "ENDMDL",
-                                                "ATOM",   "HETATM", "ANISOU", "TER",   "END"};
-        if (std::none_of(std::begin(records), std::end(records),
-                         [&](std::string_view record) { return line.starts_with(record); }))
-            line = {};
-        // No PDB has others, and gemmi shifts their bits into signs.
-        for (const char c : line)
-            result.push_back(static_cast<unsigned char>(c) > 127 ? '?' : c);
-        result.push_back('\n');
-    }
-    // Each bond is there from both of its ends, a double one twice from each.
+using Directed = std::map<std::pair<int, int>, int>; ///< CONECT's, from one serial to another
+
+/// One model of a PDB file, as a file of its own.
+struct ModelText {
+    std::string text;
+    std::size_t lines_of_head = 0;
+    std::uint64_t first_line = 0; ///< of the file, behind the head
+    Directed bonds;
+};
+
+/// Each bond is there from both of its ends, a double one twice from each.
+void add_orders(const Directed& directed, Orders& orders) {
     for (const auto& [serials, times] : directed) {
-        int& order = bonds[std::minmax(serials.first, serials.second)];
+        int& order = orders[std::minmax(serials.first, serials.second)];
         order = std::max(order, times);
     }
-    return result;
+}
+
+/// Takes a PDB file apart into models. gemmi wants their numbers to be unique, and leaves CONECT
+/// out, which is of the model that it stands in, or of all.
+class PdbModels {
+  public:
+    PdbModels(const InputFile& file, std::string_view text)
+        : names_are_shifted_(is_shifted(file, text)) {
+        InputFile again(file.name(), text);
+        for (Lines lines(again); lines.next();)
+            take(lines);
+        for (ModelText& model : models_)
+            for (const auto& [serials, times] : of_all_)
+                model.bonds[serials] += times;
+    }
+
+    const std::vector<ModelText>& models() const { return models_; }
+
+  private:
+    void take(const Lines& lines) {
+        const std::string_view line = lines.text();
+        if (line.starts_with("MODEL")) {
+            open(lines.number());
+            in_model_ = true;
+        } else if (line.starts_with("END")) {
+            is_open_ = in_model_ = false;
+        } else if (is_atom(line)) {
+            if (!is_open_) open(lines.number());
+            append_atom(lines);
+            return;
+        } else if (line.starts_with("CONECT")) {
+            take_bonds(line, in_model_ ? models_.back().bonds : of_all_);
+        } else if (line.starts_with("HEADER") || line.starts_with("TITLE") ||
+                   line.starts_with("CRYST1")) {
+            if (!is_open_) {
+                append(line.starts_with("CRYST1") ? cell_ = std::string() : title_, line);
+                return;
+            }
+            append(models_.back().text, line);
+            return;
+        } else if (is_open_ && (line.starts_with("ANISOU") || line.starts_with("TER"))) {
+            append(models_.back().text, line);
+            return;
+        }
+        // Of other records nothing is drawn, and gemmi reads beyond the end of some (LINK, "NaN").
+        if (is_open_) append(models_.back().text, {});
+    }
+
+    void open(std::uint64_t line) {
+        ModelText& model = models_.emplace_back();
+        model.text = title_ + cell_;
+        model.lines_of_head =
+            static_cast<std::size_t>(std::count(model.text.begin(), model.text.end(), '\n'));
+        model.first_line = line;
+        is_open_ = true;
+    }
+
+    /// No PDB has other characters, and gemmi shifts their bits into signs.
+    static void append(std::string& text, std::string_view line) {
+        for (const char c : line)
+            text.push_back(static_cast<unsigned char>(c) > 127 ? '?' : c);
+        text.push_back('\n');
+    }
+
+    /// Refuses coordinates that are no numbers, which gemmi takes without a word. Says the element
+    /// that the file does not, and leaves the charge out, which gemmi is strict about.
+    void append_atom(const Lines& lines) {
+        constexpr std::size_t symbol = 76, charge = 78;
+        std::string_view line = lines.text();
+        for (std::size_t column = 31; column < 55; column += 8)
+            if (const std::string_view x = field(line, column, 8); !number_in(x))
+                lines.fail("a coordinate must be a number, got \"" + printable(x) + "\"", column);
+        line = line.substr(0, charge);
+        std::string with_element;
+        if (element_of(field(line, symbol + 1, 2)) == 0) {
+            const Element element = element_of_record(line, names_are_shifted_);
+            const std::string_view said = element != 0 ? data_of(element).symbol : "X";
+            with_element = line.substr(0, symbol);
+            with_element.resize(charge - said.size(), ' ');
+            with_element += said;
+            line = with_element;
+        }
+        append(models_.back().text, line);
+    }
+
+    static void take_bonds(std::string_view line, Directed& bonds) {
+        const auto serial = [&](std::size_t column) {
+            const double number = number_in(field(line, column, 5)).value_or(0.0);
+            return number > 0.0 && number < 1e6 ? static_cast<int>(number) : 0;
+        };
+        const int from = serial(7);
+        for (std::size_t column = 12; column < 32; column += 5)
+            if (const int to = serial(column); to != 0 && to != from) ++bonds[{from, to}];
+    }
+
+    bool names_are_shifted_;
+    bool is_open_ = false;  ///< atoms go on with the last model
+    bool in_model_ = false; ///< between MODEL and ENDMDL
+    std::string title_, cell_;
+    std::vector<ModelText> models_;
+    Directed of_all_;
+};
+
+/// gemmi's message with the line of the file, not of the model's text.
+std::string with_line_of(const ModelText& model, const std::string& file, std::string message) {
+    std::size_t line = 0;
+    if (std::sscanf(message.c_str(), "Problem in line %zu:", &line) != 1 || // NOLINT
+        line <= model.lines_of_head)
+        return message;
+    return file + ":" + std::to_string(model.first_line + line - model.lines_of_head - 1) +
+           message.substr(message.find(": "));
 }
 
 } // namespace
 
 std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
-    Orders bonds;
-    const std::string text = checked(file, file.read_all(), bonds);
-    try {
-        std::vector<gemmi_files::Model> models = gemmi_files::read_pdb(text, file.name());
-        if (models.empty())
-            throw BadInput(file.name(), "", "must have ATOM or HETATM records, got none");
-        return std::make_unique<ModelReader>(file.name(), std::move(models), std::move(bonds));
-    } catch (const gemmi_files::Refused& refused) {
-        fail(file.name(), refused.what());
+    const PdbModels texts(file, file.read_all());
+    std::vector<ModelAndBonds> models;
+    for (const ModelText& of : texts.models()) {
+        try {
+            for (gemmi_files::Model& model : gemmi_files::read_pdb(of.text, file.name())) {
+                ModelAndBonds& added = models.emplace_back();
+                added.model = std::move(model);
+                add_orders(of.bonds, added.bonds);
+            }
+        } catch (const gemmi_files::Refused& refused) {
+            fail(file.name(), with_line_of(of, file.name(), refused.what()));
+        }
     }
+    if (models.empty())
+        throw BadInput(file.name(), "", "must have ATOM or HETATM records, got none");
+    return std::make_unique<ModelReader>(file.name(), std::move(models));
 }
 
 std::unique_ptr<FrameReader> open_cif(InputFile& file) {
     const std::string text = file.read_all();
     try {
-        std::vector<gemmi_files::Model> models = gemmi_files::read_cif(text, file.name());
+        std::vector<ModelAndBonds> models;
+        for (gemmi_files::Model& model : gemmi_files::read_cif(text, file.name()))
+            models.push_back({std::move(model), {}});
         if (models.empty())
             throw BadInput(file.name(), "", "must have a table _atom_site, got none");
-        return std::make_unique<ModelReader>(file.name(), std::move(models), Orders());
+        return std::make_unique<ModelReader>(file.name(), std::move(models));
     } catch (const gemmi_files::Refused& refused) {
         fail(file.name(), refused.what());
     }

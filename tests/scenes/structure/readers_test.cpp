@@ -203,6 +203,72 @@ TEST_CASE("places of an atom that exclude each other are one") {
     CHECK(frames(open_pdb, first + second)[0].size() == 1);
 }
 
+TEST_CASE("two residues of one number exclude each other, too") {
+    if (!has_gemmi()) return;
+    std::string serine = pdb_atom("ATOM", 1, " CB", "SER", 'A', 5, 1, 2, 3, "C"),
+                proline = pdb_atom("ATOM", 2, " CB", "PRO", 'A', 5, 1, 2, 4, "C");
+    serine[16] = 'A';
+    proline[16] = 'B';
+    const std::string next = pdb_atom("ATOM", 3, " CB", "ALA", 'A', 6, 5, 2, 3, "C");
+    CHECK(frames(open_pdb, serine + proline + next)[0].names ==
+          std::vector<std::string>{"CB", "CB"});
+}
+
+TEST_CASE("models of a PDB file may have one number, and bonds of their own") {
+    if (!has_gemmi()) return;
+    const auto model = [](double x) {
+        return "MODEL        1\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, x, 2, 3, "N") +
+               pdb_atom("ATOM", 2, " CA", "ALA", 'A', 5, x + 1, 2, 3, "C");
+    };
+    const std::string bond = "CONECT    1    2\nCONECT    2    1\n", end = "ENDMDL\n";
+    const std::vector<Structure> all =
+        frames(open_pdb, model(1) + bond + end + model(2) + bond + end + model(3) + end);
+    REQUIRE(all.size() == 3);
+    CHECK(all[1].positions[0].x == 2.0F);
+    REQUIRE(all[0].bonds.size() == 1);
+    CHECK(all[0].bonds[0].order == 1);
+    CHECK(all[1].bonds.size() == 1);
+    CHECK(all[2].bonds.empty());
+}
+
+TEST_CASE("elements that a PDB file does not say follow from its columns or its names") {
+    if (!has_gemmi()) return;
+    const auto elements = [](const std::string& text) {
+        return elements_of(frames(open_pdb, text).at(0));
+    };
+    const auto atom = [](const std::string& name, const std::string& residue) {
+        return pdb_atom("HETATM", 1, name.c_str(), residue.c_str(), 'A', 5, 1, 2, 3, "  ");
+    };
+    CHECK(elements(atom(" CA ", "ALA") + atom("HE21", "GLN") + atom(" 2HB", "ALA")) == "C H H ");
+    CHECK(elements(atom("CA  ", "ALA") + atom("HG  ", "LEU") + atom("CD1 ", "LEU") +
+                   atom("CA  ", " CA")) == "C H C Ca ");
+    CHECK(elements(atom("CA  ", " CA") + atom(" CA ", "ALA") + atom("FE  ", "HEM") +
+                   atom(" NA ", "HEM")) == "Ca C Fe N ");
+}
+
+TEST_CASE("a table of a macromolecule's atoms needs coordinates and names alone") {
+    if (!has_gemmi()) return;
+    const std::vector<std::pair<std::string, std::string>> columns = {
+        {"id", "1"},           {"type_symbol", "C"},     {"label_atom_id", "CA"},
+        {"label_alt_id", "."}, {"label_comp_id", "ALA"}, {"label_asym_id", "A"},
+        {"Cartn_x", "1"},      {"Cartn_y", "2"},         {"Cartn_z", "3"},
+        {"occupancy", "1"},    {"B_iso_or_equiv", "9"},  {"auth_seq_id", "5"}};
+    for (const char* missing : {"", "id", "type_symbol", "label_alt_id", "label_asym_id",
+                                "occupancy", "B_iso_or_equiv", "auth_seq_id"}) {
+        CAPTURE(missing);
+        std::string text = "data_a\nloop_\n", row;
+        for (const auto& [name, value] : columns)
+            if (name != missing) {
+                text += "_atom_site." + name + "\n";
+                row += value + " ";
+            }
+        const Structure frame = frames(open_cif, text + row + "\n").at(0);
+        CHECK(elements_of(frame) == "C ");
+        CHECK(frame.positions.at(0) == Vec3f(1, 2, 3));
+    }
+    CHECK(complaint(open_cif, "data_I\n_a 1\ndata_I\n_a 1\n") == "a: duplicate block name: I");
+}
+
 TEST_CASE("coordinates are the floats nearest to what the file says") {
     // Just below what is in the middle of two floats, which is the double nearest to it.
     const auto x = [](const std::string& number) {
