@@ -44,7 +44,9 @@ class Pairs {
         if (open == '"' || open == '\'' || open == '{' || open == '[') {
             const char close = open == '{' ? '}' : open == '[' ? ']' : open;
             text_.remove_prefix(1);
-            const std::size_t end = text_.find(close);
+            std::size_t end = text_.find(close);
+            if (text_.starts_with("[")) end = text_.find("]]") + 1; // rows in brackets of their own
+            if (end == 0) end = std::string_view::npos;
             value = text_.substr(0, end);
             text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
         } else {
@@ -170,9 +172,10 @@ class XyzReader : public FrameReader {
     }
 
     void read_numbers(std::string_view text, int count, const char* what, double* to) {
+        constexpr std::string_view separators = " \t,[]";
         for (int k = 0; k < count; ++k) {
-            text = trimmed(text);
-            const std::size_t end = std::min(text.find_first_of(" \t,"), text.size());
+            text.remove_prefix(std::min(text.find_first_not_of(separators), text.size()));
+            const std::size_t end = std::min(text.find_first_of(separators), text.size());
             const std::optional<double> value = number_in(text.substr(0, end));
             if (!value)
                 lines_.fail(std::string(what) + " must have " + std::to_string(count) +
@@ -198,6 +201,16 @@ class XyzReader : public FrameReader {
         }
     }
 
+    /// A number, or NaN or infinity as programs write of what was not computed.
+    static double property_of(Words& words, const std::string& name) {
+        const std::string_view word = words.get(name);
+        if (const std::optional<double> value = number_in(word)) return *value;
+        std::string text = in_lower_case(word);
+        if (text.starts_with('-') || text.starts_with('+')) text.erase(0, 1);
+        if (text == "nan" || text == "inf" || text == "infinity") return std::nan("");
+        words.fail(name + " must be a number, got \"" + printable(word) + "\"");
+    }
+
     void read_atom(Structure& frame, KindTable& kinds) {
         Words words(lines_);
         std::string_view species = "X";
@@ -219,7 +232,7 @@ class XyzReader : public FrameReader {
             case Column::Is::property: {
                 double sum = 0.0, value = 0.0;
                 for (int i = 0; i < column.count; ++i) {
-                    value = words.number(column.name);
+                    value = property_of(words, column.name);
                     sum += value * value;
                 }
                 // Of several, as a force's, the length.

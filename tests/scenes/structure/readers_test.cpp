@@ -3,6 +3,7 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/structure/frames.hpp"
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -164,6 +165,27 @@ TEST_CASE("LAMMPS' data has sections, and bonds by numbers of atoms") {
           std::string::npos);
     CHECK(complaint(open_lammps_data, with("1 1 10 20", "1 1 10 21")) ==
           "a:29:8: must be the number of an atom, and there is no 21");
+}
+
+TEST_CASE("extended XYZ may have a cell in brackets, and properties that were not computed") {
+    for (const std::string cell : {"\"5 0 0 0 6 0 0 0 7\"", "[[5,0,0],[0,6,0],[0,0,7]]",
+                                   "[[5, 0, 0], [0, 6, 0], [0, 0, 7]]", "[5 0 0 0 6 0 0 0 7]"}) {
+        const Structure frame =
+            frames(open_xyz, "1\nLattice=" + cell +
+                                 " Properties=species:S:1:pos:R:3:q:R:1:f:R:3 energy=NaN\n"
+                                 "Si 1 2 3 nan 0 -Inf 1\n")
+                .at(0);
+        CAPTURE(cell);
+        CHECK(frame.cell.edges[2].z == 7.0);
+        CHECK(frame.cell.edges[1].y == 6.0);
+        REQUIRE(frame.properties.size() == 2);
+        CHECK(std::isnan(frame.properties[0].values.at(0)));
+        CHECK(std::isnan(frame.properties[1].values.at(0)));
+    }
+    CHECK(complaint(open_xyz, "1\nLattice=[[5,0,0],[0,6]]\nSi 0 0 0\n")
+              .find("Lattice must have 9 numbers") != std::string::npos);
+    CHECK(complaint(open_xyz, "1\nProperties=species:S:1:pos:R:3:q:R:1\nSi 1 2 3 none\n") ==
+          "a:3:10: q must be a number, got \"none\"");
 }
 
 TEST_CASE("PDB has residues, bonds and models") {
