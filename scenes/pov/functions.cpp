@@ -182,7 +182,7 @@ Tuple of_strings_or_streams(Tokens& tokens, const Token& name) {
 }
 
 Tuple of_vectors_named(Tokens& tokens, const Token& name) {
-    if (name.is("version")) return Tuple::of(tokens.version);
+    if (name.is("version")) return Tuple::of(tokens.version.value_or(3.7));
     if (name.is("defined") || name.is("dimension_size")) return of_names(tokens, name);
     tokens.expect("(");
     Tuple result;

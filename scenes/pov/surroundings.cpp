@@ -39,6 +39,8 @@ const Camera* named_camera(Tokens& tokens) {
 
 Camera read_camera(Tokens& tokens) {
     Camera camera;
+    Place angle_place = tokens.peek().place;
+    bool is_wide = false; // of a projection whose angles have other bounds
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (const Camera* known = named_camera(tokens)) {
@@ -63,13 +65,13 @@ Camera read_camera(Tokens& tokens) {
             camera.look_at = read_vector(tokens);
         } else if (word.is("angle")) {
             camera.angle = read_number(tokens);
-            if (!(*camera.angle > 0.0 && *camera.angle < 180.0))
-                fail(word.place, "must be an angle between 0 and 180 degrees");
-            if (tokens.accept(",")) read_number(tokens);
+            angle_place = word.place;
+            if (tokens.accept(",") || (is_wide && at_tuple(tokens))) read_number(tokens);
         } else if (word.is("orthographic") || word.is("perspective")) {
             camera.orthographic = word.is("orthographic");
         } else if (is_projection(word)) {
             if (word.is("cylinder")) read_number(tokens);
+            is_wide = true;
             tokens.remark(word.place, "has a camera that is " + word.quoted() +
                                           ", whose picture is drawn in perspective");
         } else if (word.is("aperture") || word.is("blur_samples") || word.is("confidence") ||
@@ -88,6 +90,12 @@ Camera read_camera(Tokens& tokens) {
             fail(word.place, "must be of a camera, got " + word.quoted());
         }
     }
+    if (camera.angle && !(*camera.angle > 0.0 && *camera.angle < 180.0)) {
+        // ASE writes `orthographic angle 0`, which is none.
+        if (!is_wide && !(camera.orthographic && *camera.angle == 0.0))
+            fail(angle_place, "must be an angle between 0 and 180 degrees");
+        camera.angle.reset();
+    }
     return camera;
 }
 
@@ -97,6 +105,7 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
     const double width = core::length(right), height = core::length(up);
     const bool is_left = core::dot(core::cross(direction, up), right) < 0.0;
     Vec3d location = given.location;
+    Vec3d sky = given.look_at ? given.sky : up;
     View view;
     if (given.look_at) {
         direction = *given.look_at - location;
@@ -104,13 +113,14 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
         const Vec3d aside = core::cross(given.sky, direction);
         if (aside != Vec3d(0.0)) right = (is_left ? width : -width) * core::normalized(aside);
         up = height * core::normalized(core::cross(direction, is_left ? right : -right));
+        if (aside == Vec3d(0.0)) sky = up;
     }
     if (!(width > 0.0 && height > 0.0 && core::length(direction) > 0.0))
         fail(place, "must have a right, an up and a direction that have lengths");
     if (given.angle) focus = 0.5 * width / core::slope_of_view(*given.angle);
     double size = 1.0; // of an orthographic picture, by what right and up say
     if (given.look_at && (!given.has_size || given.angle)) size = core::length(direction) / focus;
-    Vec3d at = location + direction, sky = given.look_at ? given.sky : up;
+    Vec3d at = location + direction;
     // Floats have to tell these points from each other.
     if (!given.look_at)
         at = location + std::max(1.0, core::length(location)) * core::normalized(direction);

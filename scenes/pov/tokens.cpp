@@ -203,8 +203,7 @@ void Tokens::directive(const Place& hash) {
     }
     if (name == "version") {
         accept("unofficial");
-        const double number = read_number(*this);
-        if (frames_.size() == 1) version = number;
+        version = read_number(*this);
         accept(";");
         return;
     }
@@ -326,6 +325,8 @@ void Tokens::open(const std::string& name, const Place& place) {
         }
     }
     if (path.empty()) text = standard_include(name);
+    // POV-Ray's own end with #version and what `version` was before.
+    if (text && !version) version = 3.7;
     if (text && text->empty())
         without_names_ += (without_names_.empty() ? "\"" : " or \"") + name + "\"";
     const std::filesystem::path installed = "/usr/share/povray/include";

@@ -72,8 +72,10 @@ class Tokens {
     /// From 0 to 1.
     double next_random(double stream, const Place& place);
 
-    int depth = 0;         ///< of what is read
-    double version = 3.62; ///< of the language; POV-Ray 3.7 takes that for one without
+    int depth = 0; ///< of what is read
+    /// Version of the language by the last #version; none if there was none. POV-Ray 3.7 then takes
+    /// the scene for one of 3.62, and the word `version` for 3.7.
+    std::optional<double> version;
     Shared<Texture> default_texture = std::make_shared<const Texture>();
     /// For the end of a message: of which included files a name may be that is not known.
     std::string perhaps_of() const;

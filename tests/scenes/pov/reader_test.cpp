@@ -195,6 +195,47 @@ TEST_CASE("solids are made of others as there") {
         2);
 }
 
+TEST_CASE("the version that is in force at the end decides on the gamma") {
+    const auto transfer = [](const std::string& text) {
+        return read(text + "sphere { 0, 1 }").scene.settings().transfer;
+    };
+    const std::string include = "#include \"colors.inc\"\n";
+    CHECK(transfer("") == core::Transfer::linear);
+    CHECK(transfer(include) == core::Transfer::srgb);
+    CHECK(transfer("#version 3.6;\n" + include) == core::Transfer::linear);
+    CHECK(transfer(include + "#version 3.6;\n") == core::Transfer::linear);
+    // As POV-Ray's own files begin and end.
+    CHECK(transfer("#declare T = version;\n#version 3.5;\n#version T;\n") == core::Transfer::srgb);
+    const tests::TemporaryDirectory directory;
+    directory.write("own.inc", "#version 3.7;\n");
+    CHECK(load_scene(directory.write("a.pov", camera + "#include \"own.inc\"\nsphere { 0, 1 }"))
+              .settings()
+              .transfer == core::Transfer::srgb);
+}
+
+TEST_CASE("a camera along its sky keeps its right") {
+    const core::Camera down =
+        read("sphere { 0, 1 }", "camera { location <0, 10, 0> look_at <0, 0, 0> }\n")
+            .scene.camera();
+    CHECK(down.from == core::Vec3f(0, 10, 0));
+    CHECK(core::dot(down.up, core::Vec3f(0, 1, 0)) == 0.0F);
+    CHECK(std::abs(down.up.z) == 1.0F);
+    CHECK(down.up.x == 0.0F);
+}
+
+TEST_CASE("angles of a camera are bounded as its projection is") {
+    const auto angle = [](const std::string& of) {
+        return "camera { " + of + " location <0, 0, -9> look_at 0 }\nsphere { 0, 1 }";
+    };
+    CHECK(complaint(angle("angle 0")) == "a.pov:1:10: must be an angle between 0 and 180 degrees");
+    CHECK(complaint(angle("orthographic angle 200")) ==
+          "a.pov:1:23: must be an angle between 0 and 180 degrees");
+    CHECK(read(angle("orthographic angle 0"), "").scene.camera().projection ==
+          core::Projection::orthographic);
+    CHECK(read(angle("fisheye angle 225"), "").remarks_on("drawn in perspective"));
+    CHECK(read(angle("spherical angle 360 180"), "").remarks_on("drawn in perspective"));
+}
+
 TEST_CASE("the camera, lights, fog and settings are those of POV-Ray") {
     const Read flat = read(R"(#version 3.7;
         global_settings { assumed_gamma 1 max_trace_level 7 adc_bailout 0.25 }
