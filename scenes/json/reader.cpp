@@ -255,7 +255,12 @@ void SceneReader::take_light(const JsonValue& value) {
 void SceneReader::take_material(std::string_view name, const JsonValue& value) {
     if (materials_.contains(name)) refuse_again(value);
     const auto entry = materials_.emplace(name, 0).first;
-    entry->second = add_material(value);
+    try {
+        entry->second = add_material(value);
+    } catch (const BadInput&) {
+        entry->second = add({}); // or each object of it would be a mistake, too
+        throw;
+    }
     named_.push_back(entry->second);
 }
 

@@ -322,6 +322,17 @@ TEST_CASE("complaints about geometry") {
     });
 }
 
+TEST_CASE("a mistake in a material is none of the objects of it") {
+    const std::string balls =
+        R"("objects": [{"type": "sphere", "material": "red", "center": [0, 0, 0], "radius": 1},
+                       {"type": "sphere", "material": "red", "center": [3, 0, 0], "radius": 1}])";
+    const std::string complaint = R"(/materials/red: unknown key "colour", did you mean "color"?)";
+    const std::string lights = R"("lights": [{"type": "point", "position": [30, 30, 30]}])";
+    const std::string materials = R"("materials": {"red": {"colour": [1, 0, 0]}})";
+    check({{"{" + camera + ", " + lights + ", " + materials + ", " + balls + "}", complaint},
+           {"{" + camera + ", " + lights + ", " + balls + ", " + materials + "}", complaint}});
+}
+
 TEST_CASE("a light on a surface is told by the object, however many shapes that is") {
     const std::string ball =
         R"({"type": "sphere", "material": "clay", "center": [0, 0, 0], "radius": 1}, )";
