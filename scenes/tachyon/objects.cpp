@@ -90,12 +90,13 @@ TachyonTexture TachyonObjects::texture() {
 
 void TachyonObjects::read_texture_definition() {
     const std::string name(words_.take());
-    textures_.insert_or_assign(name, read_texture(words_));
+    textures_.emplace(name,
+                      read_texture(words_)); // of several of one name, Tachyon takes the first
 }
 
 void TachyonObjects::read_texture_alias() {
     const std::string name(words_.take());
-    textures_.insert_or_assign(name, texture());
+    textures_.emplace(name, texture());
 }
 
 template <class Shape>

@@ -101,6 +101,12 @@ TEST_CASE("a Tachyon texture is a material, once") {
     CHECK(scene.material_of(2).pattern.colors[0] == Color(1, 0.5F, 0.25F));
     CHECK(scene.material_of(2).specular == 0.0F);
 
+    // The first of a name counts.
+    const std::string blue =
+        "TEXDEF red AMBIENT 0 DIFFUSE 1 SPECULAR 0 OPACITY 1 COLOR 0 0 1 TEXFUNC 0\n";
+    CHECK(scene_of(red + blue + "SPHERE CENTER 0 0 0 RAD 1 red").material_of(0).pattern.colors[0] ==
+          Color(1, 0, 0));
+
     TachyonShading over;
     over.highlight = TachyonShading::Highlight::none;
     CHECK(read(red + "SPHERE CENTER 0 0 0 RAD 1 r", over).scene.material_of(0).specular == 0.0F);
