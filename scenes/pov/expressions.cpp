@@ -166,14 +166,35 @@ double comparison(std::string_view sign, double a, double b) {
     return holds ? 1.0 : 0.0;
 }
 
-Tuple read_comparison(Tokens& tokens) {
+bool is_comparison(const Token& sign) {
     static constexpr std::string_view signs[] = {"<", "<=", ">", ">=", "=", "!="};
+    return sign.kind == TokenKind::symbol &&
+           std::find(std::begin(signs), std::end(signs), sign.text) != std::end(signs);
+}
+
+/// True before a string, or the name of one.
+bool at_string(Tokens& tokens) {
+    const Token& token = tokens.peek();
+    if (begins_string(token)) return true;
+    const Value* value = token.kind == TokenKind::word ? tokens.find(token.text) : nullptr;
+    return value != nullptr && value->get_if<std::string>() != nullptr;
+}
+
+/// Of strings, by the bytes that they have.
+Tuple read_comparison_of_strings(Tokens& tokens) {
+    const std::string first = read_string(tokens);
+    const Token sign = tokens.next();
+    if (!is_comparison(sign))
+        fail(sign.place, "must compare the string with another, got " + sign.quoted());
+    return Tuple::of(comparison(sign.text, first.compare(read_string(tokens)), 0.0));
+}
+
+Tuple read_comparison(Tokens& tokens) {
+    if (at_string(tokens)) return read_comparison_of_strings(tokens);
     Tuple value = read_tuple(tokens);
     for (;;) {
         const Token sign = tokens.ahead();
-        if (sign.kind != TokenKind::symbol ||
-            std::find(std::begin(signs), std::end(signs), sign.text) == std::end(signs))
-            return value;
+        if (!is_comparison(sign)) return value;
         tokens.next();
         value = Tuple::of(comparison(sign.text, value.at[0], read_tuple(tokens).at[0]));
     }

@@ -77,6 +77,22 @@ std::string read_substr(Tokens& tokens, const Place& place) {
     return text.substr(static_cast<std::size_t>(first) - 1, static_cast<std::size_t>(count));
 }
 
+/// "chr(CODE)", a character of Unicode.
+std::string read_chr(Tokens& tokens) {
+    tokens.expect("(");
+    const Place place = tokens.peek().place;
+    const double number = read_number(tokens);
+    tokens.expect(")");
+    if (!(number >= 1.0 && number < 65536.0))
+        fail(place, "must be the code of a character, from 1 to 65535");
+    const auto code = static_cast<unsigned>(number);
+    const auto byte = [](unsigned bits) { return static_cast<char>(bits); };
+    const char last = byte(0x80 | (code & 0x3F)), middle = byte(0x80 | (code >> 6 & 0x3F));
+    if (code < 0x80) return {byte(code)};
+    if (code < 0x800) return {byte(0xC0 | code >> 6), last};
+    return {byte(0xE0 | code >> 12), middle, last};
+}
+
 char in_case(char c, bool upper) {
     const char first = upper ? 'a' : 'A';
     return c >= first && c <= first + 25 ? static_cast<char>(c ^ ' ') : c;
@@ -91,7 +107,8 @@ std::string read_in_case(Tokens& tokens, bool upper) {
     return text;
 }
 
-constexpr std::string_view functions[] = {"concat", "str", "vstr", "substr", "strlwr", "strupr"};
+constexpr std::string_view functions[] = {"chr",    "concat", "str",   "vstr",
+                                          "substr", "strlwr", "strupr"};
 
 } // namespace
 
@@ -112,6 +129,7 @@ std::string read_string(Tokens& tokens) {
         if (const auto* text = value.get_if<std::string>()) return *text;
     }
     if (token.is("str") || token.is("vstr")) return read_str(tokens, token.is("vstr"));
+    if (token.is("chr")) return read_chr(tokens);
     if (token.is("concat")) return read_concat(tokens, token.place);
     if (token.is("substr")) return read_substr(tokens, token.place);
     if (token.is("strlwr") || token.is("strupr")) return read_in_case(tokens, token.is("strupr"));

@@ -49,6 +49,9 @@ TEST_CASE("POV-Ray: str makes of a number what POV-Ray does") {
     CHECK(text("str(7.123456789, 0, -1)") == "7.123457");
     CHECK(text("vstr(3, <1, 2, 3>, \", \", 0, 1)") == "1.0, 2.0, 3.0");
     CHECK(text("concat(strupr(\"ab\"), substr(\"abcdef\", 2, 3), strlwr(\"XY\"))") == "ABbcdxy");
+    CHECK(text("concat(chr(65), chr(233), chr(8364))") == "A\u00e9\u20ac");
+    CHECK(complaint("#debug chr(0)") ==
+          "a.pov:1:12: must be the code of a character, from 1 to 65535");
     CHECK(number("strlen(str(7, 0, 0))") == "1");
     for (const char* number : {"2 + tan(1e308*10)", "2 + sin(1e308*10)", "2 + cos(-1e308*10)",
                                "2 + exp(1e308*10 - 1e308*10)", "2 + cosh(1e308*10 - 1e308*10)"}) {
@@ -59,6 +62,17 @@ TEST_CASE("POV-Ray: str makes of a number what POV-Ray does") {
     CHECK(complaint("sphere { 0, 1 pigment { color srgb <1e308*10 - 1e308*10, 0.5, 0.5> } }")
               .ends_with("must be of finite numbers"));
     CHECK(complaint("#debug str(1") == "a.pov:1:13: must be \",\", got the end of the file");
+}
+
+TEST_CASE("POV-Ray: strings are compared") {
+    const std::string name = "#declare V = \"a\"; ";
+    CHECK(number("(V = \"a\")", name) == "1");
+    CHECK(number("(\"a\" != V)", name) == "0");
+    CHECK(number("(V < \"b\" & \"ab\" > V)", name) == "1");
+    CHECK(number("(concat(V, V) = \"aa\" | V = \"b\")", name) == "1");
+    CHECK(complaint(name + "#if (V) #end") ==
+          "a.pov:1:25: must compare the string with another, got \")\"");
+    CHECK(complaint(name + "#if (V = 1) #end") == "a.pov:1:28: must be a string, got \"1\"");
 }
 
 TEST_CASE("POV-Ray: a name is declared where it is found") {
