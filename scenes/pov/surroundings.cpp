@@ -261,6 +261,7 @@ core::Light light_of(const LightSource& source, bool mirrored) {
 core::Fog read_fog(Tokens& tokens) {
     core::Fog fog;
     double distance = 0.0;
+    bool is_ground = false; // everywhere, it would hide what is above it
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (read_motion(tokens) != nullptr) continue;
@@ -276,8 +277,8 @@ core::Fog read_fog(Tokens& tokens) {
         if (word.is("distance")) {
             distance = read_number(tokens);
         } else if (word.is("fog_type")) {
-            if (read_number(tokens) != 1.0)
-                tokens.remark(word.place, "has fog by height, which is everywhere here");
+            is_ground = read_number(tokens) != 1.0;
+            if (is_ground) tokens.remark(word.place, "has fog by height, which is left out");
         } else if (word.is("turbulence") || word.is("turb_depth") || word.is("omega") ||
                    word.is("lambda") || word.is("octaves") || word.is("fog_offset") ||
                    word.is("fog_alt") || word.is("up")) {
@@ -286,7 +287,7 @@ core::Fog read_fog(Tokens& tokens) {
             fail(word.place, "must be of fog, got " + word.quoted());
         }
     }
-    if (distance > 0.0) {
+    if (distance > 0.0 && !is_ground) {
         fog.kind = core::FogKind::exponential;
         fog.density = static_cast<float>(1.0 / distance);
     }

@@ -236,6 +236,14 @@ TEST_CASE("angles of a camera are bounded as its projection is") {
     CHECK(read(angle("spherical angle 360 180"), "").remarks_on("drawn in perspective"));
 }
 
+TEST_CASE("fog by height is left out, and a scene of nothing says so") {
+    const Read ground = read("fog { fog_type 2 distance 5 fog_alt 0.3 rgb 1 } sphere { 0, 1 }");
+    CHECK(ground.scene.fog().kind == core::FogKind::none);
+    CHECK(ground.remarks_on("fog by height, which is left out"));
+    CHECK_FALSE(ground.remarks_on("background alone"));
+    CHECK(read("").remarks_on("has no object, so the background alone is seen"));
+}
+
 TEST_CASE("the camera, lights, fog and settings are those of POV-Ray") {
     const Read flat = read(R"(#version 3.7;
         global_settings { assumed_gamma 1 max_trace_level 7 adc_bailout 0.25 }
