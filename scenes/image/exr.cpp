@@ -209,6 +209,18 @@ std::vector<std::pair<std::string, std::string>> texts_of(const Imf::Header& hea
     return texts;
 }
 
+/// Refuses before there is room for pixels: without a channel OpenEXR fills in black, and of one
+/// that has few samples a small file may claim a large window.
+void require_channels(const Imf::Header& header, const std::vector<const char*>& names) {
+    for (const char* name : names)
+        if (header.channels().findChannel(name) == nullptr)
+            throw MalformedPicture("must be an EXR with channels R, G and B, or Y, got none \"" +
+                                   std::string(name) + "\"");
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+            throw MalformedPicture("must be an EXR whose channels have a sample for each pixel");
+}
+
 /// What the display window shows, of a file that may have more or less.
 void read_pixels(Imf::InputFile& file, Image& image) {
     const Imath::Box2i shown = file.header().displayWindow(), there = file.header().dataWindow();
@@ -224,6 +236,7 @@ void read_pixels(Imf::InputFile& file, Image& image) {
     std::vector<const char*> names = {"R", "G", "B"};
     if (is_grey) names = {"Y"};
     if (has_alpha) names.push_back("A");
+    require_channels(file.header(), names);
     const Imf::Channel* const first = file.header().channels().findChannel(names.front());
     image.bits = first != nullptr && first->type == Imf::HALF ? 16 : 32;
 
@@ -284,6 +297,7 @@ ExrPicture read_own(Imf::InputFile& file) {
         throw damaged("EXR");
     const int width = shown.max.x + 1, height = shown.max.y + 1;
     check_size(width, height);
+    require_channels(file.header(), {"R", "G", "B"});
     ChannelReader reader(file, width);
     ExrPicture picture;
     picture.film = core::Film(width, height, reader.has("A"));
