@@ -110,16 +110,7 @@ std::string read_in_case(Tokens& tokens, bool upper) {
 constexpr std::string_view functions[] = {"chr",    "concat", "str",   "vstr",
                                           "substr", "strlwr", "strupr"};
 
-} // namespace
-
-bool begins_string(const Token& token) {
-    return token.kind == TokenKind::string ||
-           (token.kind == TokenKind::word && std::find(std::begin(functions), std::end(functions),
-                                                       token.text) != std::end(functions));
-}
-
-std::string read_string(Tokens& tokens) {
-    const Token token = tokens.next();
+std::string read_one(Tokens& tokens, const Token& token) {
     const Level level(tokens.depth, token.place);
     if (token.kind == TokenKind::string) return std::string(token.text);
     if (token.kind == TokenKind::word) {
@@ -134,6 +125,21 @@ std::string read_string(Tokens& tokens) {
     if (token.is("substr")) return read_substr(tokens, token.place);
     if (token.is("strlwr") || token.is("strupr")) return read_in_case(tokens, token.is("strupr"));
     fail(token.place, "must be a string, got " + token.quoted());
+}
+
+} // namespace
+
+bool begins_string(const Token& token) {
+    return token.kind == TokenKind::string ||
+           (token.kind == TokenKind::word && std::find(std::begin(functions), std::end(functions),
+                                                       token.text) != std::end(functions));
+}
+
+std::string read_string(Tokens& tokens) {
+    const Token token = tokens.next();
+    std::string text = read_one(tokens, token);
+    tokens.count_string(text.size(), token.place);
+    return text;
 }
 
 } // namespace raylane::scenes::pov

@@ -157,9 +157,21 @@ Token Tokens::raw_word(const char* what) {
     return token;
 }
 
-void Tokens::count_turn(const Place& place) {
-    if (++turns_ > most_turns)
-        fail(place, "must not go round loops and macros more than 20 million times");
+void Tokens::count_steps(std::size_t steps, const Place& place) {
+    if ((steps_ += steps) > most_steps)
+        fail(place,
+             "must not take more than 20 million steps: turns of loops, and five for a macro");
+}
+
+Share Tokens::reserve(std::size_t bytes, const Place& place) {
+    if (*array_bytes_ + bytes > most_bytes)
+        fail(place, "must not have arrays of more than 256 MB in all");
+    return {array_bytes_, bytes};
+}
+
+void Tokens::count_string(std::size_t bytes, const Place& place) {
+    if ((string_bytes_ += bytes) > most_bytes)
+        fail(place, "must not make strings of more than 256 MB in all");
 }
 
 void Tokens::enter(Frame frame) {
@@ -246,6 +258,7 @@ Value Tokens::copied(Value value, const Place& place) {
     if (array == nullptr) return value;
     tokens_ += (*array)->values.size();
     if (tokens_ > most_tokens) fail(place, "must copy fewer elements of arrays, at most 1e9");
+    static_cast<void>(reserve((*array)->share.bytes(), place)); // before it is copied
     return {std::make_shared<Array>(**array)};
 }
 
@@ -267,7 +280,7 @@ void Tokens::begin_macro() {
 }
 
 void Tokens::call(const Shared<Macro> macro, const Place& place) {
-    count_turn(place);
+    count_steps(5, place);
     const Level level(depth, place);
     expect("(");
     Frame frame{macro->body, FrameKind::macro, place};
@@ -306,7 +319,7 @@ void Tokens::read_argument(Frame& frame, std::string_view parameter) {
 void Tokens::include() {
     const Token token = peek();
     const std::string name = read_string(*this);
-    count_turn(token.place);
+    count_steps(5, token.place);
     open(name, token.place);
 }
 

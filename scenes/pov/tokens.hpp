@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <unordered_map>
 
@@ -14,8 +15,9 @@ namespace raylane::scenes::pov {
 /// Limits that no scene that is meant comes near to.
 inline constexpr int deepest = 128; ///< statements, expressions, macros in each other
 inline constexpr std::size_t most_shapes = std::size_t{1} << 24;
-inline constexpr std::size_t most_turns = 20'000'000;     ///< of all loops and macros
-inline constexpr std::size_t most_tokens = 1'000'000'000; ///< of all that is expanded
+inline constexpr std::size_t most_steps = 20'000'000;           ///< turns of loops; a macro is five
+inline constexpr std::size_t most_bytes = std::size_t{1} << 28; ///< of arrays, and of strings
+inline constexpr std::size_t most_tokens = 1'000'000'000;       ///< of all that is expanded
 inline constexpr std::size_t most_elements = std::size_t{1} << 20;
 inline constexpr std::size_t longest_string = std::size_t{1} << 16;
 
@@ -61,6 +63,10 @@ class Tokens {
     void declare(std::string_view name, Value value, bool is_local);
     /// A value to keep under another name: an array is one of its own, so that none is in itself.
     Value copied(Value value, const Place& place);
+    /// Fails where all arrays would have more than `most_bytes`.
+    Share reserve(std::size_t bytes, const Place& place);
+    /// Fails where all strings that were ever made have more than `most_bytes`.
+    void count_string(std::size_t bytes, const Place& place);
     /// In the scope of what is read.
     void declare_here(std::string_view name, Value value);
 
@@ -138,7 +144,7 @@ class Tokens {
     /// One or two numbers.
     std::array<double, 2> read_in_parentheses();
     bool is_declared();
-    void count_turn(const Place& place);
+    void count_steps(std::size_t steps, const Place& place);
     void enter(Frame frame);
 
     std::deque<Source> sources_;
@@ -150,7 +156,8 @@ class Tokens {
     std::map<std::string, const Source*> included_;
     std::vector<std::uint32_t> random_; ///< where each stream is
     std::string without_names_{};       ///< POV-Ray's own files, included, that are not read
-    std::size_t turns_ = 0, tokens_ = 0, frames_entered_ = 0;
+    std::size_t steps_ = 0, tokens_ = 0, frames_entered_ = 0, string_bytes_ = 0;
+    std::shared_ptr<std::size_t> array_bytes_ = std::make_shared<std::size_t>(0);
 };
 
 /// What may stand behind "#declare NAME =", or as an argument of a macro.

@@ -323,7 +323,23 @@ TEST_CASE("POV-Ray's language is known by its ending, and by how it begins") {
 TEST_CASE("what goes on for ever ends") {
     CHECK(complaint("#macro A() A() #end A()").find("deep") != std::string::npos);
     if (!raylane::tests::sanitized) // takes a minute
-        CHECK(complaint("#while (1) #end").find("20 million times") != std::string::npos);
+        CHECK(complaint("#while (1) #end").find("20 million steps") != std::string::npos);
+    if (!raylane::tests::sanitized)
+        CHECK(complaint("#macro A(n) #if (n > 0) A(n - 1) A(n - 1) #end #end A(100)")
+                  .find("20 million steps") != std::string::npos);
+    const std::string text = "#declare S = \"0123456789abcdef\"; "
+                             "#for (I, 1, 12) #declare S = concat(S, S); #end\n",
+                      arrays = "#declare B = array[1000];\n";
+    CHECK(complaint(text + "#while (1) #declare T = concat(S, \"\"); #end")
+              .find("strings of more than 256 MB") != std::string::npos);
+    CHECK(complaint(arrays + "#for (I, 0, 999) #declare B[I] = array[1000000]; #end")
+              .find("arrays of more than 256 MB") != std::string::npos);
+    CHECK(
+        complaint(arrays + "#declare C = array[1000000]; #for (I, 0, 999) #declare B[I] = C; #end")
+            .find("arrays of more than 256 MB") != std::string::npos);
+    // What is gone does not count.
+    CHECK(read("#for (I, 1, 100) #declare C = array[100000]; #end sphere { 0, 1 }")
+              .scene.shape_count() == 1);
     std::string doubled = "#declare A = sphere { 0, 1 }\n";
     for (int i = 0; i < 40; ++i)
         doubled += "#declare A = union { object { A } object { A } }\n";
