@@ -4,7 +4,9 @@
 
 namespace raylane::core {
 
+/// Hidden, for GCC would otherwise export it where its address is taken.
 template <class Real>
-inline constexpr Real infinity = std::numeric_limits<Real>::infinity();
+[[gnu::visibility("hidden")]] inline constexpr Real
+    infinity = std::numeric_limits<Real>::infinity();
 
 } // namespace raylane::core
