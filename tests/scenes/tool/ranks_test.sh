@@ -253,7 +253,7 @@ has_begun_or_ended() { # process
     [ -e many.png.part ] || ! kill -0 "$1" 2>/dev/null
 }
 for signal in KILL TERM; do
-    for samples in 64 64 256 1936 30976; do # more on a machine where it ends before there is a journal
+    for samples in 484 484 1936 7744 30976; do # more on a machine where it ends before there is a journal
         long="--size 600x600 --spp $samples"
         rm -f many.png many.png.part
         # shellcheck disable=SC2086 # a list of options
