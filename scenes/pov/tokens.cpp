@@ -163,10 +163,11 @@ void Tokens::count_steps(std::size_t steps, const Place& place) {
              "must not take more than 20 million steps: turns of loops, and five for a macro");
 }
 
-Share Tokens::reserve(std::size_t bytes, const Place& place) {
+std::shared_ptr<void> Tokens::reserve(std::size_t bytes, const Place& place) {
     if (*array_bytes_ + bytes > most_bytes)
         fail(place, "must not have arrays of more than 256 MB in all");
-    return {array_bytes_, bytes};
+    *array_bytes_ += bytes;
+    return {nullptr, [all = array_bytes_, bytes](std::nullptr_t) { *all -= bytes; }};
 }
 
 void Tokens::count_string(std::size_t bytes, const Place& place) {
@@ -258,8 +259,10 @@ Value Tokens::copied(Value value, const Place& place) {
     if (array == nullptr) return value;
     tokens_ += (*array)->values.size();
     if (tokens_ > most_tokens) fail(place, "must copy fewer elements of arrays, at most 1e9");
-    static_cast<void>(reserve((*array)->share.bytes(), place)); // before it is copied
-    return {std::make_shared<Array>(**array)};
+    std::shared_ptr<void> room = reserve((*array)->values.size() * sizeof(Value), place);
+    auto copy = std::make_shared<Array>(**array);
+    copy->room = std::move(room);
+    return {std::move(copy)};
 }
 
 void Tokens::begin_macro() {

@@ -3,6 +3,7 @@
 #include "scenes/input_file.hpp"
 #include "scenes/pov/value.hpp"
 
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <map>
@@ -64,7 +65,8 @@ class Tokens {
     /// A value to keep under another name: an array is one of its own, so that none is in itself.
     Value copied(Value value, const Place& place);
     /// Fails where all arrays would have more than `most_bytes`.
-    Share reserve(std::size_t bytes, const Place& place);
+    /// They are given back with what it returns.
+    std::shared_ptr<void> reserve(std::size_t bytes, const Place& place);
     /// Fails where all strings that were ever made have more than `most_bytes`.
     void count_string(std::size_t bytes, const Place& place);
     /// In the scope of what is read.

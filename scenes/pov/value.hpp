@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -130,39 +129,11 @@ struct LightSource {
 };
 
 struct Value;
-/// A part of the bytes that all arrays have at once.
-class Share {
-  public:
-    Share() = default;
-    Share(std::shared_ptr<std::size_t> all, std::size_t bytes)
-        : all_(std::move(all)), bytes_(bytes) {
-        if (all_ != nullptr) *all_ += bytes_;
-    }
-    Share(const Share& other) : Share(other.all_, other.bytes_) {}
-    Share& operator=(const Share& other) {
-        Share(other).swap(*this);
-        return *this;
-    }
-    ~Share() {
-        if (all_ != nullptr) *all_ -= bytes_;
-    }
-    std::size_t bytes() const { return bytes_; }
-
-  private:
-    void swap(Share& other) {
-        std::swap(all_, other.all_);
-        std::swap(bytes_, other.bytes_);
-    }
-
-    std::shared_ptr<std::size_t> all_;
-    std::size_t bytes_ = 0;
-};
-
 struct Array {
     std::vector<std::size_t> sizes;
     std::vector<Value> values;
-    int depth = 1; ///< of arrays in it
-    Share share{};
+    int depth = 1;                ///< of arrays in it
+    std::shared_ptr<void> room{}; ///< in Tokens::reserve's bytes, given back with the array
 };
 struct Macro {
     std::string_view name;

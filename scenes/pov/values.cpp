@@ -38,7 +38,7 @@ Value read_array(Tokens& tokens, const Place& place) {
         if ((count *= size) > most_elements) break;
     if (count == 0 || count > most_elements || array->sizes.size() > 4)
         fail(place, "must be an array of 1 to " + std::to_string(most_elements) + " elements");
-    array->share = tokens.reserve(count * sizeof(Value), place);
+    array->room = tokens.reserve(count * sizeof(Value), place);
     array->values.resize(count);
     std::size_t at = 0;
     if (tokens.ahead().is("{")) read_elements(tokens, *array, 0, at);
