@@ -219,18 +219,21 @@ const gemmi::SpaceGroup* group_of(const std::string& name, const gemmi::UnitCell
     return nullptr;
 }
 
+void add_operation(const gemmi::Op& op, gemmi::UnitCell& cell) {
+    if (op != gemmi::Op::identity())
+        cell.images.emplace_back(
+            gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
+}
+
 /// What the file says itself, or else its space group's.
 void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure) {
     for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
         gemmi::cif::Column operations = block.find_values(tag);
         if (!operations) continue;
         structure.cell.images.clear();
-        for (const std::string& text : operations) {
-            const gemmi::Op op = gemmi::parse_triplet(with_fractions(gemmi::cif::as_string(text)));
-            if (op != gemmi::Op::identity())
-                structure.cell.images.emplace_back(
-                    gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
-        }
+        for (const std::string& text : operations)
+            add_operation(gemmi::parse_triplet(with_fractions(gemmi::cif::as_string(text))),
+                          structure.cell);
         return;
     }
     for (const char* tag : {"_space_group_name_Hall", "_symmetry_space_group_name_Hall"}) {
@@ -241,9 +244,7 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure)
                 gemmi::symops_from_hall(gemmi::cif::as_string(*hall).c_str());
             structure.cell.images.clear();
             for (const gemmi::Op& op : operations)
-                if (op != gemmi::Op::identity())
-                    structure.cell.images.emplace_back(
-                        gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
+                add_operation(op, structure.cell);
         } catch (const std::exception&) {
             continue; // it may be misspelt: the other name is left
         }
