@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -36,18 +37,30 @@ namespace {
         {{.file = name, .position = position, .place = {}, .message = printable(text, 200)}});
 }
 
-using Orders = std::map<std::pair<int, int>, int>; ///< of bonds, by serial numbers, ascending
+using Directed = std::map<std::pair<int, int>, int>; ///< CONECT's, from one serial to another
+using Orders = std::map<std::pair<int, int>, int>;   ///< of bonds, by serial numbers, ascending
+
+/// Each bond is there from both of its ends, a double one twice from each.
+Orders orders_of(const Directed& directed) {
+    Orders orders;
+    for (const auto& [serials, times] : directed) {
+        int& order = orders[std::minmax(serials.first, serials.second)];
+        order = std::max(order, times);
+    }
+    return orders;
+}
 
 struct ModelAndBonds {
     gemmi_files::Model model;
-    Orders bonds;
+    Directed bonds; ///< beside those of all models
 };
 
 /// Models, one after the other.
 class ModelReader : public FrameReader {
   public:
-    ModelReader(std::string file, std::vector<ModelAndBonds> models)
-        : file_(std::move(file)), models_(std::move(models)) {}
+    ModelReader(std::string file, std::vector<ModelAndBonds> models, Directed bonds_of_all)
+        : file_(std::move(file)), models_(std::move(models)),
+          bonds_of_all_(std::move(bonds_of_all)), orders_of_all_(orders_of(bonds_of_all_)) {}
 
     bool next(Structure& frame) override {
         if (number_ == models_.size()) return false;
@@ -73,7 +86,14 @@ class ModelReader : public FrameReader {
             }
         }
         if (model.is_small) frame.properties.erase(frame.properties.begin());
-        for (const auto& [serials, order] : bonds) {
+        Orders own;
+        if (!bonds.empty()) {
+            Directed both = bonds_of_all_;
+            for (const auto& [serials, times] : bonds)
+                both[serials] += times;
+            own = orders_of(both);
+        }
+        for (const auto& [serials, order] : bonds.empty() ? orders_of_all_ : own) {
             const auto a = atom_of.find(serials.first), b = atom_of.find(serials.second);
             if (a == atom_of.end() || b == atom_of.end()) continue;
             frame.bonds.push_back({std::min(a->second, b->second), std::max(a->second, b->second),
@@ -127,6 +147,8 @@ class ModelReader : public FrameReader {
 
     std::string file_;
     std::vector<ModelAndBonds> models_;
+    Directed bonds_of_all_;
+    Orders orders_of_all_;
     std::size_t number_ = 0;
 };
 
@@ -165,8 +187,6 @@ Element element_of_record(std::string_view line, bool is_shifted) {
     return element_of_atom(name, residue);
 }
 
-using Directed = std::map<std::pair<int, int>, int>; ///< CONECT's, from one serial to another
-
 /// One model of a PDB file, as a file of its own.
 struct ModelText {
     std::string text;
@@ -175,35 +195,25 @@ struct ModelText {
     Directed bonds;
 };
 
-/// Each bond is there from both of its ends, a double one twice from each.
-void add_orders(const Directed& directed, Orders& orders) {
-    for (const auto& [serials, times] : directed) {
-        int& order = orders[std::minmax(serials.first, serials.second)];
-        order = std::max(order, times);
-    }
-}
-
 /// Takes a PDB file apart into models. gemmi wants their numbers to be unique, and leaves CONECT
 /// out, which is of the model that it stands in, or of all.
 class PdbModels {
   public:
-    PdbModels(const InputFile& file, std::string_view text)
-        : names_are_shifted_(is_shifted(file, text)) {
+    /// `text` has to stay as long as this does.
+    PdbModels(const InputFile& file, std::string_view text) : file_(file), text_(text) {
         InputFile again(file.name(), text);
         for (Lines lines(again); lines.next();)
             take(lines);
-        for (ModelText& model : models_)
-            for (const auto& [serials, times] : of_all_)
-                model.bonds[serials] += times;
     }
 
     const std::vector<ModelText>& models() const { return models_; }
+    const Directed& bonds_of_all() const { return of_all_; }
 
   private:
     void take(const Lines& lines) {
         const std::string_view line = lines.text();
         if (line.starts_with("MODEL")) {
-            open(lines.number());
+            is_open_ = false; // its first atom opens it
             in_model_ = true;
         } else if (line.starts_with("END")) {
             is_open_ = in_model_ = false;
@@ -212,14 +222,15 @@ class PdbModels {
             append_atom(lines);
             return;
         } else if (line.starts_with("CONECT")) {
-            take_bonds(line, in_model_ ? models_.back().bonds : of_all_);
+            take_bonds(line, in_model_ && is_open_ ? models_.back().bonds : of_all_);
         } else if (line.starts_with("HEADER") || line.starts_with("TITLE") ||
                    line.starts_with("CRYST1")) {
-            if (!is_open_) {
-                append(line.starts_with("CRYST1") ? cell_ = std::string() : title_, line);
-                return;
-            }
-            append(models_.back().text, line);
+            if (is_open_)
+                append(models_.back().text, line);
+            else if (line.starts_with("CRYST1"))
+                append(cell_ = std::string(), line);
+            else if (title_.size() + line.size() < longest_title)
+                append(title_, line);
             return;
         } else if (is_open_ && (line.starts_with("ANISOU") || line.starts_with("TER"))) {
             append(models_.back().text, line);
@@ -256,7 +267,8 @@ class PdbModels {
         line = line.substr(0, charge);
         std::string with_element;
         if (element_of(field(line, symbol + 1, 2)) == 0) {
-            const Element element = element_of_record(line, names_are_shifted_);
+            if (!names_are_shifted_) names_are_shifted_ = is_shifted(file_, text_);
+            const Element element = element_of_record(line, *names_are_shifted_);
             const std::string_view said = element != 0 ? data_of(element).symbol : "X";
             with_element = line.substr(0, symbol);
             with_element.resize(charge - said.size(), ' ');
@@ -276,9 +288,14 @@ class PdbModels {
             if (const int to = serial(column); to != 0 && to != from) ++bonds[{from, to}];
     }
 
-    bool names_are_shifted_;
-    bool is_open_ = false;  ///< atoms go on with the last model
-    bool in_model_ = false; ///< between MODEL and ENDMDL
+    /// Each model has it: without a limit, many models of a long title would take its square.
+    static constexpr std::size_t longest_title = 4096;
+
+    const InputFile& file_;
+    std::string_view text_;
+    std::optional<bool> names_are_shifted_; ///< once an element has been looked for
+    bool is_open_ = false;                  ///< atoms go on with the last model
+    bool in_model_ = false;                 ///< between MODEL and ENDMDL
     std::string title_, cell_;
     std::vector<ModelText> models_;
     Directed of_all_;
@@ -297,22 +314,20 @@ std::string with_line_of(const ModelText& model, const std::string& file, std::s
 } // namespace
 
 std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
-    const PdbModels texts(file, file.read_all());
+    const std::string whole = file.read_all();
+    const PdbModels texts(file, whole);
     std::vector<ModelAndBonds> models;
     for (const ModelText& of : texts.models()) {
         try {
-            for (gemmi_files::Model& model : gemmi_files::read_pdb(of.text, file.name())) {
-                ModelAndBonds& added = models.emplace_back();
-                added.model = std::move(model);
-                add_orders(of.bonds, added.bonds);
-            }
+            for (gemmi_files::Model& model : gemmi_files::read_pdb(of.text, file.name()))
+                models.push_back({std::move(model), of.bonds});
         } catch (const gemmi_files::Refused& refused) {
             fail(file.name(), with_line_of(of, file.name(), refused.what()));
         }
     }
     if (models.empty())
         throw BadInput(file.name(), "", "must have ATOM or HETATM records, got none");
-    return std::make_unique<ModelReader>(file.name(), std::move(models));
+    return std::make_unique<ModelReader>(file.name(), std::move(models), texts.bonds_of_all());
 }
 
 std::unique_ptr<FrameReader> open_cif(InputFile& file) {
@@ -323,7 +338,7 @@ std::unique_ptr<FrameReader> open_cif(InputFile& file) {
             models.push_back({std::move(model), {}});
         if (models.empty())
             throw BadInput(file.name(), "", "must have a table _atom_site, got none");
-        return std::make_unique<ModelReader>(file.name(), std::move(models));
+        return std::make_unique<ModelReader>(file.name(), std::move(models), Directed());
     } catch (const gemmi_files::Refused& refused) {
         fail(file.name(), refused.what());
     }

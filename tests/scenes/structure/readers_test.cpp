@@ -253,6 +253,19 @@ TEST_CASE("models of a PDB file may have one number, and bonds of their own") {
     CHECK(all[2].bonds.empty());
 }
 
+TEST_CASE("a long title is not that of each of many models") {
+    if (!has_gemmi()) return;
+    std::string text;
+    for (int i = 0; i < 10'000; ++i)
+        text += "TITLE     " + std::string(60, 'A') + "\nMODEL\n";
+    for (int i = 0; i < 100; ++i)
+        text += "MODEL\n" + pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, i, 2, 3, "N");
+    const std::vector<Structure> all = frames(open_pdb, text);
+    REQUIRE(all.size() == 100);
+    CHECK(all[99].positions[0].x == 99.0F);
+    CHECK(all[99].title.size() < 4096);
+}
+
 TEST_CASE("elements that a PDB file does not say follow from its columns or its names") {
     if (!has_gemmi()) return;
     const auto elements = [](const std::string& text) {
