@@ -44,11 +44,11 @@ class Pairs {
         if (open == '"' || open == '\'' || open == '{' || open == '[') {
             const char close = open == '{' ? '}' : open == '[' ? ']' : open;
             text_.remove_prefix(1);
-            std::size_t end = text_.find(close);
-            if (text_.starts_with("[")) end = text_.find("]]") + 1; // rows in brackets of their own
-            if (end == 0) end = std::string_view::npos;
+            const bool has_rows = open == '[' && text_.starts_with("["); // each in brackets, too
+            const std::size_t end = has_rows ? text_.find("]]", 1) : text_.find(close);
             value = text_.substr(0, end);
-            text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
+            text_.remove_prefix(end == std::string_view::npos ? text_.size()
+                                                              : end + (has_rows ? 2 : 1));
         } else {
             const std::size_t end = std::min(text_.find_first_of(" \t"), text_.size());
             value = text_.substr(0, end);
@@ -61,12 +61,13 @@ class Pairs {
     std::string_view text_;
 };
 
-/// An atomic number stands for its element.
-Element element_of_species(std::string_view label) {
+/// An atomic number stands for its element, unless numbers are types.
+Element element_of_species(std::string_view label, bool has_types) {
     int number = 0;
     const auto [stop, error] = std::from_chars(label.data(), label.data() + label.size(), number);
     if (error == std::errc() && stop == label.data() + label.size())
-        return number > 0 && number < element_count ? static_cast<Element>(number) : Element{0};
+        return number > 0 && number < element_count && !has_types ? static_cast<Element>(number)
+                                                                  : Element{0};
     return element_of_label(label);
 }
 
@@ -117,7 +118,7 @@ class XyzReader : public FrameReader {
         columns_ = usual_columns();
         const std::string_view text = trimmed(lines_.text());
         frame.title = text;
-        has_types_ = text.starts_with("Atoms. Timestep:"); // LAMMPS' dump xyz, without dump_modify
+        has_types_ = text.starts_with("Atoms. Timestep:"); // LAMMPS' dump xyz
         std::string_view key, value;
         for (Pairs pairs(text); pairs.next(key, value);) {
             const std::string name = in_lower_case(key);
@@ -201,7 +202,7 @@ class XyzReader : public FrameReader {
         }
     }
 
-    /// A number, or NaN or infinity as programs write of what was not computed.
+    /// Takes NaN and infinity, too: programs write them for a property that was not computed.
     static double property_of(Words& words, const std::string& name) {
         const std::string_view word = words.get(name);
         if (const std::optional<double> value = number_in(word)) return *value;
@@ -245,9 +246,8 @@ class XyzReader : public FrameReader {
                     words.get(column.name);
             }
         }
-        const std::size_t kind = kinds.index_of(species, [&](std::string_view label) {
-            return has_types_ ? Element{0} : element_of_species(label);
-        });
+        const std::size_t kind = kinds.index_of(
+            species, [&](std::string_view label) { return element_of_species(label, has_types_); });
         if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 elements");
         if (has_radius_) frame.radii.push_back(radius);
         frame.positions.push_back(position);

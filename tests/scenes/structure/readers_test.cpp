@@ -182,10 +182,25 @@ TEST_CASE("extended XYZ may have a cell in brackets, and properties that were no
         CHECK(std::isnan(frame.properties[0].values.at(0)));
         CHECK(std::isnan(frame.properties[1].values.at(0)));
     }
+    // Other keys may come behind them, and behind an empty value.
+    for (const std::string before : {"name=\"\" ", "name='' ", "a=[[1,2],[3,4]] ", "a=[] "}) {
+        CAPTURE(before);
+        CHECK(frames(open_xyz, "1\n" + before + "Lattice=\"5 0 0 0 6 0 0 0 7\"\nSi 1 2 3\n")
+                  .at(0)
+                  .cell.edges[2]
+                  .z == 7.0);
+    }
     CHECK(complaint(open_xyz, "1\nLattice=[[5,0,0],[0,6]]\nSi 0 0 0\n")
               .find("Lattice must have 9 numbers") != std::string::npos);
     CHECK(complaint(open_xyz, "1\nProperties=species:S:1:pos:R:3:q:R:1\nSi 1 2 3 none\n") ==
           "a:3:10: q must be a number, got \"none\"");
+}
+
+TEST_CASE("LAMMPS' XYZ has types or elements") {
+    const std::string remark = "2\nAtoms. Timestep: 7\n";
+    CHECK(elements_of(frames(open_xyz, remark + "1 0 0 0\n2 0 0 5\n").at(0)) == "X X ");
+    CHECK(elements_of(frames(open_xyz, remark + "C 0 0 0\nO 0 0 5\n").at(0)) == "C O ");
+    CHECK(elements_of(frames(open_xyz, "2\n\n1 0 0 0\n8 0 0 5\n").at(0)) == "H O ");
 }
 
 TEST_CASE("PDB has residues, bonds and models") {
