@@ -180,7 +180,7 @@ bool at_string(Tokens& tokens) {
     return value != nullptr && value->get_if<std::string>() != nullptr;
 }
 
-/// Of strings, by the bytes that they have.
+/// Compares two strings by their bytes.
 Tuple read_comparison_of_strings(Tokens& tokens) {
     const std::string first = read_string(tokens);
     const Token sign = tokens.next();

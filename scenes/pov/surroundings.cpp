@@ -91,7 +91,7 @@ Camera read_camera(Tokens& tokens) {
         }
     }
     if (camera.angle && !(*camera.angle > 0.0 && *camera.angle < 180.0)) {
-        // ASE writes `orthographic angle 0`, which is none.
+        // ASE writes `orthographic angle 0` for no angle.
         if (!is_wide && !(camera.orthographic && *camera.angle == 0.0))
             fail(angle_place, "must be an angle between 0 and 180 degrees");
         camera.angle.reset();
@@ -261,7 +261,7 @@ core::Light light_of(const LightSource& source, bool mirrored) {
 core::Fog read_fog(Tokens& tokens) {
     core::Fog fog;
     double distance = 0.0;
-    bool is_ground = false; // everywhere, it would hide what is above it
+    bool is_ground = false; // left out: everywhere, it would hide the rest
     tokens.expect("{");
     while (!tokens.accept("}")) {
         if (read_motion(tokens) != nullptr) continue;

@@ -341,7 +341,7 @@ void Tokens::open(const std::string& name, const Place& place) {
         }
     }
     if (path.empty()) text = standard_include(name);
-    // POV-Ray's own end with #version and what `version` was before.
+    // POV-Ray's own files end with #version and the number that `version` was before.
     if (text && !version) version = 3.7;
     if (text && text->empty())
         without_names_ += (without_names_.empty() ? "\"" : " or \"") + name + "\"";

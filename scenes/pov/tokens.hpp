@@ -65,7 +65,7 @@ class Tokens {
     /// A value to keep under another name: an array is one of its own, so that none is in itself.
     Value copied(Value value, const Place& place);
     /// Fails where all arrays would have more than `most_bytes`.
-    /// They are given back with what it returns.
+    /// The bytes are given back with the pointer.
     std::shared_ptr<void> reserve(std::size_t bytes, const Place& place);
     /// Fails where all strings that were ever made have more than `most_bytes`.
     void count_string(std::size_t bytes, const Place& place);
@@ -81,8 +81,8 @@ class Tokens {
     double next_random(double stream, const Place& place);
 
     int depth = 0; ///< of what is read
-    /// Version of the language by the last #version; none if there was none. POV-Ray 3.7 then takes
-    /// the scene for one of 3.62, and the word `version` for 3.7.
+    /// Version of the language by the last #version. Without any, POV-Ray 3.7 takes the scene for
+    /// one of 3.62, and the word `version` for 3.7.
     std::optional<double> version;
     Shared<Texture> default_texture = std::make_shared<const Texture>();
     /// For the end of a message: of which included files a name may be that is not known.

@@ -187,7 +187,7 @@ Element element_of_record(std::string_view line, bool is_shifted) {
     return element_of_atom(name, residue);
 }
 
-/// One model of a PDB file, as a file of its own.
+/// One model of a PDB file, as gemmi reads it.
 struct ModelText {
     std::string text;
     std::size_t lines_of_head = 0;

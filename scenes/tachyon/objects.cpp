@@ -90,8 +90,8 @@ TachyonTexture TachyonObjects::texture() {
 
 void TachyonObjects::read_texture_definition() {
     const std::string name(words_.take());
-    textures_.emplace(name,
-                      read_texture(words_)); // of several of one name, Tachyon takes the first
+    // Of several textures of one name, Tachyon takes the first.
+    textures_.emplace(name, read_texture(words_));
 }
 
 void TachyonObjects::read_texture_alias() {
