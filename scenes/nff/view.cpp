@@ -2,6 +2,7 @@
 
 #include "core/scene/field_of_view.hpp"
 #include "core/scene/validate.hpp"
+#include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 
 #include <algorithm>
