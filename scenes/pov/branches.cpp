@@ -14,16 +14,21 @@ bool Tokens::condition() {
     return value.at[0] != 0.0;
 }
 
-bool Tokens::is_declared() {
-    Scanner& scanner = frames_.back().scanner;
-    Token token = scanner.next();
-    if (!token.is("(")) fail(token.place, "must be \"(\", got " + token.quoted());
+bool Tokens::read_is_declared() {
+    expect("(");
     const Token name = raw_word("a name");
-    do {
-        token = scanner.next();
-        if (token.kind == TokenKind::end) fail(token.place, "must be \")\", got " + token.quoted());
-    } while (!token.is(")"));
-    return find(name.text) != nullptr;
+    const Value* found = find(name.text);
+    Value value = found != nullptr ? *found : Value{};
+    while (is_before("[")) {
+        const auto* known = value.get_if<std::shared_ptr<Array>>();
+        const std::shared_ptr<Array> array = known != nullptr ? *known : nullptr;
+        if (array == nullptr)
+            fail(name.place, "must be the name of an array, got " + name.quoted());
+        const std::vector<std::size_t> indices = read_indices(*this, array->sizes.size());
+        value = array->values[index_in(*array, name, indices)];
+    }
+    expect(")");
+    return value.get_if<std::monostate>() == nullptr;
 }
 
 /// Past the #end of what has begun, or the first word of another branch of it.

@@ -62,6 +62,7 @@ bool is_channel(const Token& token) {
 
 Tuple read_vector_literal(Tokens& tokens, const Place& place) {
     Tuple vector{{}, 0};
+    ++tokens.open_brackets;
     do {
         if (vector.size == 5) fail(place, "must be a vector of at most five numbers");
         const Place here = tokens.peek().place;
@@ -71,6 +72,7 @@ Tuple read_vector_literal(Tokens& tokens, const Place& place) {
         tokens.accept(",");
     } while (!tokens.at(">"));
     tokens.expect(">");
+    --tokens.open_brackets;
     return vector;
 }
 
@@ -86,16 +88,11 @@ Tuple read_primary(Tokens& tokens) {
     }
     if (is_color_word(token)) return color_by(token.text, read_unary(tokens));
     if (token.is("color") || token.is("colour")) return read_color(tokens);
+    if (const Value* value = tokens.value_of(token)) {
+        if (const auto* tuple = value->get_if<Tuple>()) return *tuple;
+        fail(token.place, "must be the name of a number, vector or colour, got " + token.quoted());
+    }
     if (token.kind == TokenKind::word) {
-        if (const Value* value = tokens.find(token.text)) {
-            if (const auto* tuple = value->get_if<Tuple>()) return *tuple;
-            if (value->get_if<std::shared_ptr<Array>>() != nullptr)
-                if (const Value element = read_element(tokens, token);
-                    const auto* tuple = element.get_if<Tuple>())
-                    return *tuple;
-            fail(token.place,
-                 "must be the name of a number, vector or colour, got " + token.quoted());
-        }
         if (const std::optional<Tuple> made = read_function(tokens, token)) return *made;
     }
     if (token.kind == TokenKind::word)
@@ -176,7 +173,7 @@ bool is_comparison(const Token& sign) {
 bool at_string(Tokens& tokens) {
     const Token& token = tokens.peek();
     if (begins_string(token)) return true;
-    const Value* value = token.kind == TokenKind::word ? tokens.find(token.text) : nullptr;
+    const Value* value = tokens.value_of(token);
     return value != nullptr && value->get_if<std::string>() != nullptr;
 }
 
@@ -277,18 +274,13 @@ bool at_tuple(Tokens& tokens) {
     if (token.kind == TokenKind::number || begins_color(token)) return true;
     if (token.kind == TokenKind::symbol)
         return token.is("<") || token.is("(") || token.is("-") || token.is("+") || token.is("!");
-    if (token.kind != TokenKind::word) return false;
-    if (const Value* value = tokens.find(token.text)) {
-        if (const auto* array = value->get_if<std::shared_ptr<Array>>())
-            value = tokens.is_before("[") ? first_of(**array) : nullptr;
-        return value != nullptr && value->get_if<Tuple>() != nullptr;
-    }
-    return is_function(token.text);
+    if (const Value* value = tokens.value_of(token)) return value->get_if<Tuple>() != nullptr;
+    return token.kind == TokenKind::word && is_function(token.text);
 }
 
-std::vector<std::size_t> read_indices(Tokens& tokens) {
+std::vector<std::size_t> read_indices(Tokens& tokens, std::size_t most) {
     std::vector<std::size_t> indices;
-    while (tokens.at("[")) {
+    while (indices.size() < most && tokens.at("[")) {
         const Place place = tokens.next().place;
         const double index = read_number(tokens);
         if (!(index > -1.0 && index < static_cast<double>(most_elements)))
@@ -299,15 +291,7 @@ std::vector<std::size_t> read_indices(Tokens& tokens) {
     return indices;
 }
 
-std::shared_ptr<Array> array_of(Tokens& tokens, const Token& name) {
-    const Value* value = tokens.find(name.text);
-    const auto* array = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
-    if (array == nullptr) fail(name.place, "must be the name of an array, got " + name.quoted());
-    return *array;
-}
-
-std::size_t index_in(const Array& array, const Token& name,
-                     const std::vector<std::size_t>& indices) {
+std::size_t index_in(const Array& array, const Token& name, std::span<const std::size_t> indices) {
     if (indices.size() != array.sizes.size())
         fail(name.place, "must have " + std::to_string(array.sizes.size()) + " indices, got " +
                              std::to_string(indices.size()));
@@ -319,18 +303,6 @@ std::size_t index_in(const Array& array, const Token& name,
         at = at * array.sizes[i] + indices[i];
     }
     return at;
-}
-
-const Value* first_of(const Array& array) {
-    for (const Value& value : array.values)
-        if (value.get_if<std::monostate>() == nullptr) return &value;
-    return nullptr;
-}
-
-Value read_element(Tokens& tokens, const Token& name) {
-    // The scope of the name may end behind the indices.
-    const std::shared_ptr<Array> array = array_of(tokens, name);
-    return array->values[index_in(*array, name, read_indices(tokens))];
 }
 
 } // namespace raylane::scenes::pov

@@ -23,15 +23,9 @@ bool at_tuple(Tokens& tokens);
 bool begins_string(const Token& token);
 std::string read_string(Tokens& tokens);
 
-/// "[1][2]"
-std::vector<std::size_t> read_indices(Tokens& tokens);
-std::shared_ptr<Array> array_of(Tokens& tokens, const Token& name);
+/// "[1][2]", so many at most.
+std::vector<std::size_t> read_indices(Tokens& tokens, std::size_t most = deepest);
 /// Of an element in its values.
-std::size_t index_in(const Array& array, const Token& name,
-                     const std::vector<std::size_t>& indices);
-/// What tells of an array's elements: the first that is set; null if there is none.
-const Value* first_of(const Array& array);
-/// An element of the array of that name, whose indices come next.
-Value read_element(Tokens& tokens, const Token& name);
+std::size_t index_in(const Array& array, const Token& name, std::span<const std::size_t> indices);
 
 } // namespace raylane::scenes::pov

@@ -10,19 +10,6 @@ namespace raylane::scenes::pov {
 
 namespace {
 
-/// What a name stands for if it comes next, and past it; else null.
-template <class T>
-Shared<T> named(Tokens& tokens) {
-    const Token& token = tokens.peek();
-    if (token.kind != TokenKind::word) return nullptr;
-    const Value* value = tokens.find(token.text);
-    const Shared<T>* of = value != nullptr ? value->get_if<Shared<T>>() : nullptr;
-    if (of == nullptr) return nullptr;
-    Shared<T> found = *of;
-    tokens.next();
-    return found;
-}
-
 /// A share, which may be given as a colour: its mean.
 double read_share(Tokens& tokens, const char* what) {
     const Place place = tokens.peek().place;
@@ -189,7 +176,7 @@ Pigment read_pigment(Tokens& tokens, Pigment pigment) {
     tokens.expect("{");
     while (!tokens.accept("}")) {
         const Token word = tokens.peek();
-        if (const auto known = named<Pigment>(tokens)) {
+        if (const auto known = tokens.accept_value<Pigment>()) {
             pigment = *known;
         } else if (const auto motion = read_motion(tokens)) {
             pigment.motion = both(pigment.motion, motion);
@@ -227,7 +214,7 @@ Finish read_finish(Tokens& tokens, Finish finish) {
     Albedo of_albedo;
     tokens.expect("{");
     while (!tokens.accept("}")) {
-        if (const auto known = named<Finish>(tokens)) {
+        if (const auto known = tokens.accept_value<Finish>()) {
             finish = *known;
             continue;
         }
@@ -282,7 +269,7 @@ Shared<Texture> read_texture(Tokens& tokens) {
     auto texture = std::make_shared<Texture>(*tokens.default_texture);
     tokens.expect("{");
     while (!tokens.accept("}")) {
-        if (const auto known = named<Texture>(tokens)) {
+        if (const auto known = tokens.accept_value<Texture>()) {
             *texture = *known;
         } else if (const auto motion = read_motion(tokens)) {
             texture->pigment.motion = both(texture->pigment.motion, motion);
@@ -306,7 +293,7 @@ Interior read_interior(Tokens& tokens) {
     Interior interior;
     tokens.expect("{");
     while (!tokens.accept("}")) {
-        if (const auto known = named<Interior>(tokens)) {
+        if (const auto known = tokens.accept_value<Interior>()) {
             interior = *known;
             continue;
         }
@@ -333,7 +320,7 @@ Material read_material(Tokens& tokens) {
     Material material;
     tokens.expect("{");
     while (!tokens.accept("}")) {
-        if (const auto known = named<Material>(tokens)) {
+        if (const auto known = tokens.accept_value<Material>()) {
             material = *known;
         } else if (tokens.accept("texture")) {
             material.texture = read_texture(tokens);

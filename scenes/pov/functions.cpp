@@ -122,25 +122,22 @@ Vec3d turned(const Vec3d& v, const Vec3d& axis, double degrees) {
     return c * v + s * core::cross(k, v) + ((1.0 - c) * core::dot(k, v)) * k;
 }
 
-Tuple of_names(Tokens& tokens, const Token& name) {
+/// "dimension_size(ARRAY, NUMBER)"
+Tuple read_dimension_size(Tokens& tokens) {
     tokens.expect("(");
     const Token of = tokens.next();
-    const Value* value = tokens.find(of.text);
-    double result = value != nullptr ? 1.0 : 0.0;
-    if (name.is("dimension_size")) {
-        const auto* found = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
-        // For as long as the number is read, which may declare it anew.
-        const std::shared_ptr<Array> array = found != nullptr ? *found : nullptr;
-        if (array == nullptr) fail(of.place, "must be the name of an array, got " + of.quoted());
-        tokens.expect(",");
-        const double which = read_number(tokens);
-        const auto& sizes = array->sizes;
-        if (!(which >= 1.0 && which <= static_cast<double>(sizes.size())))
-            fail(of.place, "must have a dimension of that number, got " + of.quoted());
-        result = static_cast<double>(sizes[static_cast<std::size_t>(which) - 1]);
-    }
+    const Value* value = tokens.value_of(of);
+    const auto* found = value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
+    // For as long as the number is read, which may declare it anew.
+    const std::shared_ptr<Array> array = found != nullptr ? *found : nullptr;
+    if (array == nullptr) fail(of.place, "must be the name of an array, got " + of.quoted());
+    tokens.expect(",");
+    const double which = read_number(tokens);
+    const auto& sizes = array->sizes;
+    if (!(which >= 1.0 && which <= static_cast<double>(sizes.size())))
+        fail(of.place, "must have a dimension of that number, got " + of.quoted());
     tokens.expect(")");
-    return Tuple::of(result);
+    return Tuple::of(static_cast<double>(sizes[static_cast<std::size_t>(which) - 1]));
 }
 
 /// "select(A, BELOW, AT, ABOVE)", by A and 0; without the last, that at 0 is above, too.
@@ -183,7 +180,8 @@ Tuple of_strings_or_streams(Tokens& tokens, const Token& name) {
 
 Tuple of_vectors_named(Tokens& tokens, const Token& name) {
     if (name.is("version")) return Tuple::of(tokens.version.value_or(3.7));
-    if (name.is("defined") || name.is("dimension_size")) return of_names(tokens, name);
+    if (name.is("defined")) return Tuple::of(tokens.read_is_declared() ? 1.0 : 0.0);
+    if (name.is("dimension_size")) return read_dimension_size(tokens);
     tokens.expect("(");
     Tuple result;
     if (name.is("select")) {

@@ -115,22 +115,19 @@ Shared<Motion> read_motion(Tokens& tokens) {
 }
 
 Shared<Motion> read_transform(Tokens& tokens) {
-    const auto named = [&](const Token& word) -> Shared<Motion> {
-        const Value* value = tokens.find(word.text);
-        const auto* motion = value != nullptr ? value->get_if<Shared<Motion>>() : nullptr;
+    const auto named = [&] {
+        Shared<Motion> motion = tokens.accept_value<Motion>();
+        const Token& word = tokens.peek();
         if (motion == nullptr) fail(word.place, "must be a transformation, got " + word.quoted());
-        return *motion;
+        return motion;
     };
-    if (!tokens.at("{")) return named(tokens.next());
-    tokens.expect("{");
-    auto motion = std::make_shared<const Motion>();
-    Shared<Motion> all = motion;
+    if (!tokens.accept("{")) return named();
+    Shared<Motion> all;
     while (!tokens.accept("}")) {
-        Shared<Motion> next = read_motion(tokens);
-        if (next == nullptr) next = named(tokens.next());
-        all = all == motion ? next : both(all, next);
+        const Shared<Motion> next = read_motion(tokens);
+        all = both(all, next != nullptr ? next : named());
     }
-    return all;
+    return all != nullptr ? all : std::make_shared<const Motion>();
 }
 
 } // namespace raylane::scenes::pov

@@ -150,21 +150,8 @@ auto* entry(Table& table, const Token& token) {
 }
 
 const Shared<Object>* named_object(const Tokens& tokens, const Token& token) {
-    const Value* value = token.kind == TokenKind::word ? tokens.find(token.text) : nullptr;
-    if (value == nullptr) return nullptr;
-    if (const auto* array = value->get_if<std::shared_ptr<Array>>())
-        value = tokens.is_before("[") ? first_of(**array) : nullptr;
+    const Value* value = tokens.value_of(token);
     return value != nullptr ? value->get_if<Shared<Object>>() : nullptr;
-}
-
-Shared<Object> read_named(Tokens& tokens) {
-    const Token name = tokens.next();
-    const Value* found = tokens.find(name.text);
-    Value value = found != nullptr ? *found : Value{};
-    if (value.get_if<std::shared_ptr<Array>>() != nullptr) value = read_element(tokens, name);
-    const auto* object = value.get_if<Shared<Object>>();
-    if (object == nullptr) fail(name.place, "must be an object, got " + name.quoted());
-    return *object;
 }
 
 void add_part(Tokens& tokens, Object& object) {
@@ -254,7 +241,7 @@ bool begins_object(const Tokens& tokens, const Token& token) {
 Shared<Object> read_object(Tokens& tokens) {
     const Token word = tokens.peek();
     const Level level(tokens.depth, word.place);
-    if (named_object(tokens, word) != nullptr) return read_named(tokens);
+    if (Shared<Object> named = tokens.accept_value<Object>()) return named;
     tokens.next();
     Object object{.place = word.place};
     const auto* shape = entry(shapes, word);

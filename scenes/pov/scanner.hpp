@@ -27,7 +27,8 @@ struct Place {
 TextPosition position_of(const Place& place);
 [[noreturn]] void fail(const Place& place, std::string_view message);
 
-enum class TokenKind : std::uint8_t { end, word, number, string, symbol };
+/// `element`: an array's name with its indices, which Tokens has read.
+enum class TokenKind : std::uint8_t { end, word, number, string, symbol, element };
 
 struct Token {
     TokenKind kind = TokenKind::end;

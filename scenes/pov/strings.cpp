@@ -113,12 +113,8 @@ constexpr std::string_view functions[] = {"chr",    "concat", "str",   "vstr",
 std::string read_one(Tokens& tokens, const Token& token) {
     const Level level(tokens.depth, token.place);
     if (token.kind == TokenKind::string) return std::string(token.text);
-    if (token.kind == TokenKind::word) {
-        const Value* found = tokens.find(token.text);
-        Value value = found != nullptr ? *found : Value{};
-        if (value.get_if<std::shared_ptr<Array>>() != nullptr) value = read_element(tokens, token);
-        if (const auto* text = value.get_if<std::string>()) return *text;
-    }
+    if (const Value* value = tokens.value_of(token))
+        if (const auto* text = value->get_if<std::string>()) return *text;
     if (token.is("str") || token.is("vstr")) return read_str(tokens, token.is("vstr"));
     if (token.is("chr")) return read_chr(tokens);
     if (token.is("concat")) return read_concat(tokens, token.place);

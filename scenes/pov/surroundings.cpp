@@ -25,16 +25,6 @@ bool is_projection(const Token& word) {
     return std::find(std::begin(others), std::end(others), word.text) != std::end(others);
 }
 
-/// The camera that a name stands for; null, and nothing is read, if it stands for none.
-const Camera* named_camera(Tokens& tokens) {
-    const Token& word = tokens.peek();
-    const Value* value = word.kind == TokenKind::word ? tokens.find(word.text) : nullptr;
-    const auto* camera = value != nullptr ? value->get_if<Shared<Camera>>() : nullptr;
-    if (camera == nullptr) return nullptr;
-    tokens.next();
-    return camera->get();
-}
-
 } // namespace
 
 Camera read_camera(Tokens& tokens) {
@@ -43,7 +33,7 @@ Camera read_camera(Tokens& tokens) {
     bool is_wide = false; // of a projection whose angles have other bounds
     tokens.expect("{");
     while (!tokens.accept("}")) {
-        if (const Camera* known = named_camera(tokens)) {
+        if (const auto known = tokens.accept_value<Camera>()) {
             camera = *known;
             continue;
         }

@@ -4,6 +4,7 @@
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/includes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -51,7 +52,7 @@ bool Tokens::leave_frame(const Place& end) {
     return true;
 }
 
-Token Tokens::next() {
+Token Tokens::expanded() {
     if (peeked_ && is_expanded_) return *std::exchange(peeked_, std::nullopt);
     for (;;) {
         const Token token = peeked_ ? *std::exchange(peeked_, std::nullopt) : raw();
@@ -61,16 +62,54 @@ Token Tokens::next() {
                    value != nullptr && value->get_if<Shared<Macro>>() != nullptr) {
             call(*value->get_if<Shared<Macro>>(), token.place);
         } else {
-            return token;
+            const auto* array =
+                value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
+            return array != nullptr && is_before("[") ? element_of(token, *array) : token;
         }
     }
 }
 
+/// "NAME[1][0]", where elements may be arrays.
+Token Tokens::element_of(Token name, std::shared_ptr<Array> array) {
+    for (;;) {
+        const std::vector<std::size_t> indices = read_indices(*this, array->sizes.size());
+        const Value& element = array->values[index_in(*array, name, indices)];
+        const auto* inner = element.get_if<std::shared_ptr<Array>>();
+        if (inner == nullptr || !is_before("[")) {
+            if (element.get_if<std::monostate>() != nullptr)
+                fail(name.place, "must be an element that has a value, got one of " +
+                                     name.quoted() + " that has none");
+            element_ = element;
+            break;
+        }
+        array = std::shared_ptr<Array>(*inner);
+    }
+    name.kind = TokenKind::element;
+    return name;
+}
+
+Token Tokens::next() {
+    const Token token = expanded();
+    if (token.is("(") || token.is("[") || token.is("{")) ++open_brackets;
+    if (token.is(")") || token.is("]") || token.is("}")) --open_brackets;
+    return token;
+}
+
 const Token& Tokens::peek() {
     if (peeked_ && is_expanded_) return *peeked_;
-    const Token token = next();
+    const Token token = expanded();
     is_expanded_ = true;
     return peeked_.emplace(token);
+}
+
+bool Tokens::ends_expression(const Token& directive) const {
+    if (open_brackets != declared_at_) return false;
+    static constexpr std::array<std::string_view, 5> ends_of_branches = {"else", "elseif", "case",
+                                                                         "range", "break"};
+    const auto& conditions = frames_.back().conditions;
+    if (directive.is("end")) return !conditions.empty() && conditions.back().again;
+    return std::find(ends_of_branches.begin(), ends_of_branches.end(), directive.text) ==
+           ends_of_branches.end();
 }
 
 const Token& Tokens::ahead() {
@@ -78,7 +117,7 @@ const Token& Tokens::ahead() {
         const Token token = raw();
         if (token.is("#")) {
             Scanner beyond = frames_.back().scanner;
-            if (beyond.next().is("end")) {
+            if (!ends_expression(beyond.next())) {
                 directive(token.place);
                 continue;
             }
@@ -91,7 +130,7 @@ const Token& Tokens::ahead() {
 
 bool Tokens::accept(std::string_view what) {
     if (!at(what)) return false;
-    peeked_.reset();
+    next();
     return true;
 }
 
@@ -134,6 +173,11 @@ Tokens::Found Tokens::found(std::string_view name) const {
 
 const Value* Tokens::find(std::string_view name) const {
     return found(name).value;
+}
+
+const Value* Tokens::value_of(const Token& token) const {
+    if (token.kind == TokenKind::element) return &element_;
+    return token.kind == TokenKind::word ? find(token.text) : nullptr;
 }
 
 /// A parameter is here what it stands for.
@@ -193,7 +237,7 @@ void Tokens::directive(const Place& hash) {
     if (name == "include") return include();
     if (name == "if") return begin_if(condition(), hash);
     if (name == "ifdef" || name == "ifndef")
-        return begin_if(is_declared() == (name == "ifdef"), hash);
+        return begin_if(read_is_declared() == (name == "ifdef"), hash);
     if (name == "switch") return begin_switch(hash);
     if (name == "while") return begin_while(hash);
     if (name == "for") return begin_for(hash);
@@ -215,9 +259,11 @@ void Tokens::directive(const Place& hash) {
         return;
     }
     if (name == "version") {
+        const int outer = std::exchange(declared_at_, open_brackets);
         accept("unofficial");
         version = read_number(*this);
-        accept(";");
+        if (ahead().is(";")) peeked_.reset();
+        declared_at_ = outer;
         return;
     }
     if (name == "default") return read_default(*this);
@@ -239,18 +285,41 @@ void Tokens::directive(const Place& hash) {
 void Tokens::declaration(const Token& word) {
     const Token name = raw_word("a name");
     const bool is_local = word.text == "local";
+    const int outer = std::exchange(declared_at_, open_brackets);
     if (at("[")) {
         const std::vector<std::size_t> indices = read_indices(*this);
         expect("=");
         Value value = copied(read_value(*this), name.place);
-        const std::shared_ptr<Array> array = array_of(*this, name);
-        set_element(*array, index_in(*array, name, indices), std::move(value), name.place);
+        const Value* found = find(name.text);
+        const auto* array = found != nullptr ? found->get_if<std::shared_ptr<Array>>() : nullptr;
+        if (array == nullptr)
+            fail(name.place, "must be the name of an array, got " + name.quoted());
+        assign(**array, indices, std::move(value), name);
     } else {
         expect("=");
         Value value = copied(read_value(*this), name.place);
         declare(name.text, std::move(value), is_local);
     }
     if (ahead().is(";")) peeked_.reset();
+    declared_at_ = outer;
+}
+
+/// Arrays in the array that others have, too, are copied.
+void Tokens::assign(Array& array, std::span<const std::size_t> indices, Value value,
+                    const Token& name) {
+    const std::size_t own = std::min(indices.size(), array.sizes.size());
+    const std::size_t index = index_in(array, name, indices.first(own));
+    if (own < indices.size()) {
+        Value& element = array.values[index];
+        if (const auto* inner = element.get_if<std::shared_ptr<Array>>();
+            inner != nullptr && inner->use_count() > 1)
+            element = copied(element, name.place);
+        const auto* inner = element.get_if<std::shared_ptr<Array>>();
+        if (inner == nullptr) fail(name.place, "must have fewer indices");
+        assign(**inner, indices.subspan(own), std::move(value), name);
+        value = element;
+    }
+    set_element(array, index, std::move(value), name.place);
 }
 
 /// An array has names of its own, and no other is in it that may change.
@@ -302,7 +371,7 @@ void Tokens::call(const Shared<Macro> macro, const Place& place) {
         frame.names.erase(alias.parameter);
     if (!at(")"))
         fail(peek().place, "must be \")\" behind the last argument, got " + peek().quoted());
-    peeked_.reset();
+    next();
     enter(std::move(frame));
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 namespace raylane::scenes::pov {
@@ -47,8 +48,9 @@ class Tokens {
     /// The next token. A macro's name is not among them.
     Token next();
     const Token& peek();
-    /// The next token where no directive comes first: what an expression goes on with. A macro's
-    /// name, and the '#' of a directive other than #end, are as they are.
+    /// The next token of an expression. Carries out directives first, within brackets all of them.
+    /// Outside, in what #declare or #version reads, an expression ends at a '#' whose directive may
+    /// depend on the value. A macro's name is as it is.
     const Token& ahead();
     bool at(std::string_view what) { return peek().is(what); }
     /// True, and past it, if it comes next.
@@ -61,6 +63,21 @@ class Tokens {
 
     /// Null for what is not declared.
     const Value* find(std::string_view name) const;
+    /// The value of a name, or of an array's element until the next one is read; null for others.
+    const Value* value_of(const Token& token) const;
+    /// The value that comes next, and past it; null, and nothing is read, if it is not of that
+    /// type.
+    template <class T>
+    Shared<T> accept_value() {
+        const Value* value = value_of(peek());
+        const Shared<T>* known = value != nullptr ? value->get_if<Shared<T>>() : nullptr;
+        if (known == nullptr) return nullptr;
+        Shared<T> found = *known;
+        next();
+        return found;
+    }
+    /// "(NAME)" or "(NAME[0])": true if there is such a value. Begins at the bracket.
+    bool read_is_declared();
     void declare(std::string_view name, Value value, bool is_local);
     /// A value to keep under another name: an array is one of its own, so that none is in itself.
     Value copied(Value value, const Place& place);
@@ -80,7 +97,8 @@ class Tokens {
     /// From 0 to 1.
     double next_random(double stream, const Place& place);
 
-    int depth = 0; ///< of what is read
+    int depth = 0;         ///< of what is read
+    int open_brackets = 0; ///< those that have been read, and not their ends
     /// Version of the language by the last #version. Without any, POV-Ray 3.7 takes the scene for
     /// one of 3.62, and the word `version` for 3.7.
     std::optional<double> version;
@@ -123,6 +141,10 @@ class Tokens {
     };
 
     Found found(std::string_view name) const;
+    Token expanded();
+    Token element_of(Token name, std::shared_ptr<Array> array);
+    void assign(Array& array, std::span<const std::size_t> indices, Value value, const Token& name);
+    bool ends_expression(const Token& directive) const;
     void read_argument(Frame& frame, std::string_view parameter);
     Token raw();
     Token raw_word(const char* what);
@@ -145,14 +167,15 @@ class Tokens {
     bool condition();
     /// One or two numbers.
     std::array<double, 2> read_in_parentheses();
-    bool is_declared();
     void count_steps(std::size_t steps, const Place& place);
     void enter(Frame frame);
 
     std::deque<Source> sources_;
     std::vector<Frame> frames_;
     std::optional<Token> peeked_;
+    Value element_;            ///< of the last token of that kind
     bool is_expanded_ = false; ///< what was peeked at: no directive, and no macro's name
+    int declared_at_ = -1;     ///< open brackets around the value of a #declare that is read
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::map<std::string, const Source*> included_;

@@ -73,14 +73,11 @@ Value read_value(Tokens& tokens) {
     if (tokens.accept("camera")) return shared(read_camera(tokens));
     if (tokens.accept("light_source")) return shared(read_light(tokens));
     if (begins_object(tokens, word)) return {read_object(tokens)};
-    if (word.kind == TokenKind::word)
-        if (const Value* value = tokens.find(word.text)) {
-            const Value copy = *value;
-            const bool is_element =
-                value->get_if<std::shared_ptr<Array>>() != nullptr && tokens.is_before("[");
-            tokens.next();
-            return is_element ? read_element(tokens, word) : copy;
-        }
+    if (const Value* value = tokens.value_of(word)) {
+        Value copy = *value;
+        tokens.next();
+        return copy;
+    }
     if (word.kind == TokenKind::word && !word.is("function"))
         return {read_object(tokens)}; // which says what is not read
     fail(word.place, "must be a value that is read, got " + word.quoted());

@@ -1,0 +1,93 @@
+#include "core/scene/scene.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/pov/read.hpp"
+
+#include <string>
+
+using namespace raylane;
+using tests::camera, tests::complaint, tests::number, tests::read, tests::Read;
+
+namespace {
+
+core::Color color_of(const Read& of, core::ShapeId id = 0) {
+    return of.material_of(id).pattern.colors[0];
+}
+
+} // namespace
+
+TEST_CASE("POV-Ray: an element of an array stands wherever a name may") {
+    const core::Color red(1, 0, 0), green(0, 1, 0);
+    CHECK(color_of(read("#declare T = array[2] { texture { pigment { rgb x } }, "
+                        "texture { pigment { rgb y } } }\nsphere { 0, 1 texture { T[1] } }")) ==
+          green);
+    CHECK(color_of(read("#declare P = array[2] { pigment { rgb x }, pigment { rgb y } }\n"
+                        "sphere { 0, 1 pigment { P[0] } }")) == red);
+    CHECK(read("#declare F = array[1] { finish { specular 0.75 } } sphere { 0, 1 finish { F[0] } }")
+              .material_of()
+              .specular == 0.75F);
+    CHECK(read("#declare I = array[1] { interior { ior 1.25 } }\n"
+               "sphere { 0, 1 pigment { rgbt 1 } interior { I[0] } }")
+              .material_of()
+              .index == 1.25F);
+    CHECK(color_of(read("#declare M = array[1] { material { texture { pigment { rgb y } } } }\n"
+                        "sphere { 0, 1 material { M[0] } }")) == green);
+    CHECK(read("#declare C = array[1] { camera { location 9*x look_at 0 } } camera { C[0] }\n"
+               "sphere { 0, 1 }",
+               "")
+              .scene.camera()
+              .from == core::Vec3f(9, 0, 0));
+    CHECK(number("1", "#declare T = array[1] { transform { translate 5*x } }\n"
+                      "sphere { 0, 1 transform T[0] } sphere { 0, 1 transform { T[0] } }") == "1");
+    CHECK(number("strlen(S[1])", "#declare S = array[2] { \"a\", \"abc\" };") == "3");
+    CHECK(
+        number(
+            "V[1].y + A[1][0] + A[0][1]",
+            "#declare V = array[2] { x, <1, 20, 3> } #declare A = array[2][2] {{1, 2}, {3, 4}}") ==
+        "25");
+    CHECK(complaint("#declare T = array[1]; sphere { 0, 1 texture { T[0] } }") ==
+          "a.pov:1:48: must be an element that has a value, got one of \"T\" that has none");
+}
+
+TEST_CASE("POV-Ray: arrays in arrays keep their own elements") {
+    const std::string nested = "#declare A = array[2]; #declare A[0] = array[2] {1, 2};\n"
+                               "#declare A[1] = array[1] { sphere { 0, 7 } };\n";
+    CHECK(number("A[0][1]", nested) == "2");
+    CHECK(read(nested + "object { A[1][0] }").scene.shape_count() == 1);
+    CHECK(number("A[0][1]*10 + B[0][1]", nested + "#declare B = A; #declare B[0][1] = 5;") == "25");
+    CHECK(number("dimension_size(A[0], 1)", nested) == "2");
+    CHECK(number("defined(A[0][1]) + 2*defined(C[1]) + 4*defined(C[0])",
+                 nested + "#declare C = array[2]; #declare C[0] = 1;") == "5");
+    CHECK(number("N", nested + "#ifdef (A[0][1]) #declare N = 3; #end") == "3");
+    CHECK(complaint(nested + "#declare A[0][1][2] = 5;").find("must have fewer indices") !=
+          std::string::npos);
+    CHECK(complaint("#declare A = array[1] {array[1]} #for (I, 1, 200) #declare A[0][0] = A; #end")
+              .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
+}
+
+TEST_CASE("POV-Ray: macros that yield numbers call themselves") {
+    const std::string halves = "#macro F(n) #if (n<=1) 0 #else (F(n/2)+1) #end #end\n";
+    CHECK(number("F(8)/3", halves) == "1");
+    CHECK(number("F(8)*2 + 1", halves) == "7");
+    CHECK(number("G(4)", "#macro G(n) #if (n<=1) 1 #else n*G(n-1) #end #end\n") == "24");
+    CHECK(number("S(2)*2 + 1",
+                 "#macro S(n) #switch (n) #case (1) 10 #break #case (2) 20 #break #end #end\n") ==
+          "41");
+    CHECK(number("L(3)*2", "#macro L(n) 0 #for (I, 1, n) + I #end #end\n") == "9");
+    CHECK(number("D(3)*2", "#macro D(n) n #local Q = n; #debug \"so\" #end\n") == "6");
+    CHECK(number("vlength(<2 #if (1) * 3 #end, 0, 0>)") == "6");
+    CHECK(number("X", halves + "#declare X = F(8)*2 + 1;") == "7");
+}
+
+TEST_CASE("POV-Ray: a name is declared before a directive that may ask for it") {
+    CHECK(number("N", "#declare N = 5 #if (N = 5) #declare N = 6 #end") == "6");
+    CHECK(number("N", "#declare N = 0 #while (N < 3) #declare N = N + 1 #end") == "3");
+    CHECK(number("N", "#if (1) #declare N = 1 #else #declare N = 2 #end") == "1");
+    CHECK(number("version", "#version 3.6 #if (version = 3.6) #version 3.5 #end") == "3.5");
+    // As many as there are: none is within the one before it.
+    std::string many;
+    for (int i = 0; i < 5000; ++i)
+        many += "#declare N = " + std::to_string(i) + "\n";
+    CHECK(number("N", many) == "4999");
+}
