@@ -2,6 +2,8 @@
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
 
+#include <cmath>
+
 namespace raylane::scenes::pov {
 
 namespace {
@@ -74,6 +76,43 @@ Motion matrix(Tokens& tokens) {
     }
 }
 
+/// By what becomes of the axes. If these stay at right angles and of one length, rounding does not
+/// change that: what is round stays so.
+Motion inverse_of_linear(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Place& place) {
+    constexpr double tolerance = 1e-12;
+    const double square = core::dot(x, x);
+    const auto is_small = [&](double a) { return std::abs(a) <= tolerance * square; };
+    if (is_small(core::dot(x, y)) && is_small(core::dot(y, z)) && is_small(core::dot(z, x)) &&
+        is_small(core::dot(y, y) - square) && is_small(core::dot(z, z) - square)) {
+        const double size = std::abs(square - 1.0) <= tolerance ? 1.0 : std::sqrt(square);
+        const Vec3d rows[3] = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+        const Vec3d a = rows[0] / size, b = rows[1] / size, c = rows[2] / size;
+        const core::Transform scaled = core::Transform::scaling(Vec3d(1.0 / size));
+        return linear(scaled.after(core::Transform::turn(a, b, c)), a / size, b / size, c / size);
+    }
+    const Vec3d crossed[3] = {core::cross(y, z), core::cross(z, x), core::cross(x, y)};
+    const double det = core::dot(x, crossed[0]);
+    double rows[3][4] = {};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) {
+            rows[row][column] = crossed[row][column] / det;
+            if (!std::isfinite(rows[row][column]))
+                fail(place, "must have an inverse of finite numbers");
+        }
+    const auto column = [&](int i) { return Vec3d(rows[0][i], rows[1][i], rows[2][i]); };
+    return linear(core::Transform::matrix(rows), column(0), column(1), column(2));
+}
+
+Shared<Motion> inverse_of(const Motion& motion, const Place& place) {
+    const auto column = [&](int i) {
+        return Vec3d(motion.rows[0][i], motion.rows[1][i], motion.rows[2][i]);
+    };
+    const auto back = std::make_shared<const Motion>(translation(Vec3d(0.0) - column(3)));
+    if (motion.translation) return back;
+    return both(back, std::make_shared<const Motion>(
+                          inverse_of_linear(column(0), column(1), column(2), place)));
+}
+
 } // namespace
 
 Vec3d Motion::direction(const Vec3d& v) const {
@@ -121,13 +160,20 @@ Shared<Motion> read_transform(Tokens& tokens) {
         if (motion == nullptr) fail(word.place, "must be a transformation, got " + word.quoted());
         return motion;
     };
+    const Place place = tokens.peek().place;
     if (!tokens.accept("{")) return named();
     Shared<Motion> all;
+    bool is_inverse = false; // all of it, wherever the word stands
     while (!tokens.accept("}")) {
+        if (tokens.accept("inverse")) {
+            is_inverse = true;
+            continue;
+        }
         const Shared<Motion> next = read_motion(tokens);
         all = both(all, next != nullptr ? next : named());
     }
-    return all != nullptr ? all : std::make_shared<const Motion>();
+    if (all == nullptr) return std::make_shared<const Motion>();
+    return is_inverse ? inverse_of(*all, place) : all;
 }
 
 } // namespace raylane::scenes::pov

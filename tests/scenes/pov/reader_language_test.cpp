@@ -91,3 +91,30 @@ TEST_CASE("POV-Ray: a name is declared before a directive that may ask for it") 
         many += "#declare N = " + std::to_string(i) + "\n";
     CHECK(number("N", many) == "4999");
 }
+
+TEST_CASE("POV-Ray: a transformation is inverse where the word stands in its braces") {
+    const std::string turned =
+        "#declare T = transform { rotate <0, 90, 90> translate x scale 2 }\n";
+    const auto center = [&](const std::string& motion) {
+        std::string text;
+        scenes::for_each_by_id(read(turned + "sphere { <1, 2, 3>, 1 " + motion + " }").scene,
+                               [&](const auto& shape, core::ShapeId) {
+                                   CHECK(core::kind_of<std::decay_t<decltype(shape)>> ==
+                                         core::Kind::sphere);
+                                   for (const auto value : core::numbers_of(shape))
+                                       text += scenes::to_text(static_cast<float>(value)) + " ";
+                               });
+        return text;
+    };
+    const std::string back = center("scale 1/2 translate -x rotate -90*z rotate -90*y");
+    CHECK(back == center("transform { T inverse }"));
+    CHECK(back == center("transform { inverse T }"));
+    CHECK(back != center("transform { T }"));
+    CHECK(center("transform T inverse") == center("transform T"));
+    CHECK(center("transform { T transform { T inverse } }") == "1 2 3 1 ");
+    CHECK(center("translate <4, 5, 6> transform { translate <4, 5, 6> inverse }") == "1 2 3 1 ");
+    CHECK(center("transform { rotate <10, 20, 30> inverse } rotate <10, 20, 30>") == "1 2 3 1 ");
+    CHECK(read("#declare T = transform { matrix <1, 2, 0, 0, 1, 0, 0, 0, 1, 5, 6, 7> }\n"
+               "box { 0, 1 transform { T } transform { T inverse } }")
+              .scene.shape_count() == 1);
+}
