@@ -192,6 +192,7 @@ void Assembly::add(const Object& object, const Look& inherited, const Shared<Mot
         if (clips.empty()) return add_shape(object, object.shape, look, motion);
         if (add_quadric(object, look, motion, clips)) return;
         break;
+    case ObjectKind::light:
     case ObjectKind::merge:
     case ObjectKind::intersection:
     case ObjectKind::difference:
@@ -200,6 +201,15 @@ void Assembly::add(const Object& object, const Look& inherited, const Shared<Mot
     Solid solid = clipped(made_of(object, look, motion), clips);
     solid.material = materials.index_of(look, object.place);
     put(object, solid, core::no_material);
+}
+
+/// Those in it, whatever it is: no light is hidden, clipped or taken away.
+void Assembly::add_lights(const Object& object, const Shared<Motion>& above) {
+    if (object.lights == 0) return;
+    const Shared<Motion> motion = both(object.motion, above);
+    if (object.light != nullptr) lights.push_back(object.light->moved(motion));
+    for (const Shared<Object>& part : object.parts)
+        add_lights(*part, motion);
 }
 
 /// What an object is made of, without its clips.

@@ -13,12 +13,14 @@ class Assembly {
         : materials(builder, tokens), builder_(builder) {}
 
     Materials materials;
+    std::vector<LightSource> lights; ///< where they have come to
 
     /// z against z, of all that is added from then on.
     void set_mirrored();
     /// `texture`: where it has none of its own.
     void add(const Object& object, const Shared<Texture>& texture) {
         add(object, {texture, nullptr, mirror_}, mirror_, {});
+        add_lights(object, mirror_);
     }
 
   private:
@@ -29,6 +31,7 @@ class Assembly {
     using Clips = std::vector<Clip>;
 
     void add(const Object& object, const Look& inherited, const Shared<Motion>& above, Clips clips);
+    void add_lights(const Object& object, const Shared<Motion>& above);
     void add_mesh(const Object& object, const Look& look, const Shared<Motion>& motion);
     void add_shape(const Object& object, const core::PartShape& shape, const Look& look,
                    const Shared<Motion>& motion);

@@ -129,8 +129,8 @@ class Modifiers {
 
     void read_flag(const Token& word) {
         static constexpr std::string_view without_meaning[] = {
-            "hollow",      "double_illuminate", "sturm", "hierarchy",
-            "split_union", "cutaway_textures",  "orient"};
+            "hollow",      "double_illuminate", "sturm",  "hierarchy",
+            "split_union", "cutaway_textures",  "orient", "global_lights"};
         const bool is_ignored = std::find(std::begin(without_meaning), std::end(without_meaning),
                                           word.text) != std::end(without_meaning);
         if (is_ignored || word.is("no_shadow") || word.is("no_reflection") || word.is("no_image") ||
@@ -164,11 +164,14 @@ class Modifiers {
 /// Counts what is so many times in an object from then on.
 void count_in(Object& object, const Object& part, std::size_t times) {
     object.count += times * part.count;
+    object.lights += times * part.lights;
     object.depth = std::max(object.depth, part.depth + 1);
     if (object.depth > deepest)
         fail(object.place, "must not be nested more than " + std::to_string(deepest) + " deep");
     if (object.count > most_shapes)
         fail(object.place, "must not be of more than " + std::to_string(most_shapes) + " shapes");
+    if (object.lights > most_lights)
+        fail(object.place, "must not be of more than " + std::to_string(most_lights) + " lights");
 }
 
 void read_modifiers(Tokens& tokens, Object& object) {

@@ -140,6 +140,14 @@ Shared<Motion> both(const Shared<Motion>& first, const Shared<Motion>& second) {
     return std::make_shared<const Motion>(std::move(motion));
 }
 
+LightSource LightSource::moved(const Shared<Motion>& motion) const {
+    LightSource light = *this;
+    if (motion == nullptr) return light;
+    light.position = motion->point(position);
+    light.point_at = motion->point(point_at);
+    return light;
+}
+
 Shared<Motion> read_motion(Tokens& tokens) {
     const Token word = tokens.peek();
     const auto made = [](Motion motion) {

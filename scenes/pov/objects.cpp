@@ -2,6 +2,7 @@
 
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
+#include "scenes/pov/surroundings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -133,14 +134,14 @@ const Named<core::PartShape (*)(Tokens&)> shapes[] = {
 const Named<Shared<Mesh> (*)(Tokens&)> meshes[] = {
     {"mesh", read_mesh}, {"mesh2", read_mesh2}, {"polygon", read_polygon}};
 const Named<ObjectKind> compounds[] = {{"union", ObjectKind::all_in_one},
+                                       {"light_group", ObjectKind::all_in_one},
                                        {"merge", ObjectKind::merge},
                                        {"intersection", ObjectKind::intersection},
                                        {"difference", ObjectKind::difference}};
-constexpr std::string_view not_read[] = {"bicubic_patch",  "blob",          "cubic", "height_field",
-                                         "isosurface",     "julia_fractal", "lathe", "light_group",
-                                         "ovus",           "parametric",    "poly",  "polynomial",
-                                         "prism",          "quartic",       "sor",   "sphere_sweep",
-                                         "superellipsoid", "text",          "torus"};
+constexpr std::string_view not_read[] = {
+    "bicubic_patch", "blob", "cubic",        "height_field",   "isosurface", "julia_fractal",
+    "lathe",         "ovus", "parametric",   "poly",           "polynomial", "prism",
+    "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",       "torus"};
 
 template <class Table>
 auto* entry(Table& table, const Token& token) {
@@ -234,7 +235,7 @@ bool has_no_area(Tokens& tokens, const core::TriangleOf<double>& triangle, const
 
 bool begins_object(const Tokens& tokens, const Token& token) {
     return entry(shapes, token) != nullptr || entry(compounds, token) != nullptr ||
-           entry(meshes, token) != nullptr || token.is("object") ||
+           entry(meshes, token) != nullptr || token.is("object") || token.is("light_source") ||
            named_object(tokens, token) != nullptr;
 }
 
@@ -244,6 +245,13 @@ Shared<Object> read_object(Tokens& tokens) {
     if (Shared<Object> named = tokens.accept_value<Object>()) return named;
     tokens.next();
     Object object{.place = word.place};
+    if (word.is("light_source")) {
+        object.kind = ObjectKind::light;
+        object.light = std::make_shared<const LightSource>(read_light(tokens));
+        object.count = object.pieces = 0;
+        object.lights = 1;
+        return std::make_shared<const Object>(std::move(object));
+    }
     const auto* shape = entry(shapes, word);
     const auto* mesh = entry(meshes, word);
     const auto* compound = entry(compounds, word);
@@ -264,6 +272,8 @@ Shared<Object> read_object(Tokens& tokens) {
         object.count = object.mesh->triangles.size();
     } else if (compound != nullptr) {
         object.kind = compound->read;
+        if (word.is("light_group"))
+            tokens.remark(word.place, "has lights of a group, which shine everywhere here");
         object.count = 0;
         if (object.kind == ObjectKind::all_in_one) object.pieces = 0;
         while (begins_object(tokens, tokens.peek()) ||

@@ -52,9 +52,9 @@ class Reader {
         while (tokens_.peek().kind != TokenKind::end)
             read_statement();
         if (!has_camera_) set_camera(Camera{}, beginning);
-        for (const LightSource& light : lights_) {
+        for (const LightSource& light : assembly_.lights) {
             try {
-                builder_.add_light(light_of(light, mirrored_));
+                builder_.add_light(light_of(light));
             } catch (const core::InvalidValue& invalid) {
                 fail(light.place, invalid.what());
             }
@@ -74,17 +74,9 @@ class Reader {
         const Token word = tokens_.peek();
         if (begins_object(tokens_, word)) return add(read_object(tokens_));
         if (tokens_.accept(";")) return;
-        if (const Value* value = tokens_.find(word.text))
-            if (const auto* light = value->get_if<Shared<LightSource>>()) {
-                lights_.push_back(**light);
-                tokens_.next();
-                return;
-            }
         if (tokens_.accept("camera")) {
             const Camera camera = read_camera(tokens_);
             set_camera(camera, word.place);
-        } else if (tokens_.accept("light_source")) {
-            lights_.push_back(read_light(tokens_));
         } else if (tokens_.accept("background")) {
             tokens_.expect("{");
             background_ = read_color(tokens_);
@@ -133,6 +125,10 @@ class Reader {
         if (added_ > most_shapes)
             fail(object->place,
                  "must be one of at most " + std::to_string(most_shapes) + " shapes");
+        added_lights_ += object->lights;
+        if (added_lights_ > most_lights)
+            fail(object->place,
+                 "must be one of at most " + std::to_string(most_lights) + " lights");
         if (has_camera_)
             assembly_.add(*object, tokens_.default_texture);
         else
@@ -193,11 +189,10 @@ class Reader {
         Shared<Texture> texture; ///< the default where it stands
     };
     std::vector<Waiting> waiting_;
-    std::vector<LightSource> lights_;
     Tuple background_{{}, 5};
     Place camera_place_{};
     double aspect_ = 1.0;
-    std::size_t added_ = 0;
+    std::size_t added_ = 0, added_lights_ = 0;
     bool has_background_ = false, has_camera_ = false, mirrored_ = false;
 };
 

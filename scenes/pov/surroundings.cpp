@@ -151,10 +151,9 @@ LightSource read_light(Tokens& tokens) {
     LightSource light;
     tokens.expect("{");
     light.place = tokens.peek().place;
-    if (const Value* value = tokens.find(tokens.peek().text);
-        value != nullptr && value->get_if<Shared<LightSource>>() != nullptr) {
-        light = **value->get_if<Shared<LightSource>>();
-        tokens.next();
+    if (const auto known = tokens.accept_value<Object>()) {
+        if (known->light == nullptr) fail(light.place, "must be a light, got another object");
+        light = known->light->moved(known->motion);
     } else {
         light.position = read_vector(tokens);
         tokens.accept(",");
@@ -165,8 +164,7 @@ LightSource read_light(Tokens& tokens) {
     bool has_area = false, is_ball = false;
     while (!tokens.accept("}")) {
         if (const auto motion = read_motion(tokens)) {
-            light.position = motion->point(light.position);
-            light.point_at = motion->point(light.point_at);
+            light = light.moved(motion);
             continue;
         }
         if (at_tuple(tokens)) {
@@ -230,17 +228,13 @@ LightSource read_light(Tokens& tokens) {
     return light;
 }
 
-core::Light light_of(const LightSource& source, bool mirrored) {
-    const auto seen = [&](Vec3d v) {
-        if (mirrored) v.z = 0.0 - v.z;
-        return core::convert<float>(v);
-    };
+core::Light light_of(const LightSource& source) {
     core::Light light;
-    light.position = seen(source.position);
+    light.position = core::convert<float>(source.position);
     light.color = core::convert<float>(source.color);
     if (source.parallel) {
         light.kind = core::LightKind::directional;
-        light.direction = seen(source.point_at - source.position);
+        light.direction = core::convert<float>(Vec3d(source.point_at - source.position));
     } else if (source.radius > 0.0) {
         light.kind = core::LightKind::sphere;
         light.radius = static_cast<float>(source.radius);

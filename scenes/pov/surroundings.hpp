@@ -28,6 +28,6 @@ struct View {
 };
 View view_of(const Camera& camera, Tokens& tokens, const Place& place);
 
-core::Light light_of(const LightSource& light, bool mirrored);
+core::Light light_of(const LightSource& light);
 
 } // namespace raylane::scenes::pov

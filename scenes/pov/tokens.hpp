@@ -17,6 +17,7 @@ namespace raylane::scenes::pov {
 /// Limits that no scene that is meant comes near to.
 inline constexpr int deepest = 128; ///< statements, expressions, macros in each other
 inline constexpr std::size_t most_shapes = std::size_t{1} << 24;
+inline constexpr std::size_t most_lights = std::size_t{1} << 16;
 inline constexpr std::size_t most_steps = 20'000'000;           ///< turns of loops; a macro is five
 inline constexpr std::size_t most_bytes = std::size_t{1} << 28; ///< of arrays, and of strings
 inline constexpr std::size_t most_tokens = 1'000'000'000;       ///< of all that is expanded

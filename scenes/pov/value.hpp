@@ -91,6 +91,16 @@ enum class ObjectKind : std::uint8_t {
     merge,
     intersection,
     difference,
+    light,
+};
+
+struct LightSource {
+    Place place{};
+    core::Vec3d position{0.0}, point_at{0.0}, color{1.0};
+    bool parallel = false;
+    double radius = 0.0; ///< of a ball that shines: its color is then the radiance
+
+    LightSource moved(const Shared<Motion>& motion) const;
 };
 
 /// What statements of objects make.
@@ -99,6 +109,7 @@ struct Object {
     Place place{};
     core::PartShape shape{};
     Shared<Mesh> mesh{};
+    Shared<LightSource> light{};
     std::vector<Shared<Object>> parts{};
     std::vector<Shared<Object>> clips{};
     Shared<Texture> texture{};
@@ -107,6 +118,7 @@ struct Object {
     bool inverse = false;
     bool is_hidden = false; ///< that is left out
     std::size_t count = 1;  ///< of shapes in it, its clips with them
+    std::size_t lights = 0; ///< in it
     std::size_t pieces = 1; ///< that it is in a scene, each with all of its clips
     int depth = 1;          ///< of objects in it
 };
@@ -119,13 +131,6 @@ struct Camera {
     bool orthographic = false;
     bool has_size = false; ///< right or up
     Shared<Motion> motion{};
-};
-
-struct LightSource {
-    Place place{};
-    core::Vec3d position{0.0}, point_at{0.0}, color{1.0};
-    bool parallel = false;
-    double radius = 0.0; ///< of a ball that shines: its color is then the radiance
 };
 
 struct Value;
@@ -144,8 +149,7 @@ struct Macro {
 struct Value {
     std::variant<std::monostate, Tuple, std::string, std::shared_ptr<Array>, Shared<Macro>,
                  Shared<Pigment>, Shared<Finish>, Shared<Texture>, Shared<Interior>,
-                 Shared<Material>, Shared<Object>, Shared<Motion>, Shared<Camera>,
-                 Shared<LightSource>>
+                 Shared<Material>, Shared<Object>, Shared<Motion>, Shared<Camera>>
         of{};
 
     template <class T>

@@ -71,7 +71,6 @@ Value read_value(Tokens& tokens) {
     if (tokens.accept("interior")) return shared(read_interior(tokens));
     if (tokens.accept("transform")) return {read_transform(tokens)};
     if (tokens.accept("camera")) return shared(read_camera(tokens));
-    if (tokens.accept("light_source")) return shared(read_light(tokens));
     if (begins_object(tokens, word)) return {read_object(tokens)};
     if (const Value* value = tokens.value_of(word)) {
         Value copy = *value;

@@ -38,6 +38,10 @@ TEST_CASE("POV-Ray: an element of an array stands wherever a name may") {
                "")
               .scene.camera()
               .from == core::Vec3f(9, 0, 0));
+    CHECK(read("#declare L = array[1] { light_source { 9*x, rgb 1 } } light_source { L[0] }")
+              .scene.lights()
+              .at(0)
+              .position == core::Vec3f(9, 0, 0));
     CHECK(number("1", "#declare T = array[1] { transform { translate 5*x } }\n"
                       "sphere { 0, 1 transform T[0] } sphere { 0, 1 transform { T[0] } }") == "1");
     CHECK(number("strlen(S[1])", "#declare S = array[2] { \"a\", \"abc\" };") == "3");
@@ -117,4 +121,40 @@ TEST_CASE("POV-Ray: a transformation is inverse where the word stands in its bra
     CHECK(read("#declare T = transform { matrix <1, 2, 0, 0, 1, 0, 0, 0, 1, 5, 6, 7> }\n"
                "box { 0, 1 transform { T } transform { T inverse } }")
               .scene.shape_count() == 1);
+}
+
+TEST_CASE("POV-Ray: lights are in unions, and objects") {
+    const auto positions = [](const std::string& text) {
+        std::string all;
+        const Read of = read(text);
+        for (const core::Light& light : of.scene.lights())
+            all += std::to_string(static_cast<int>(light.position.x)) + " ";
+        return all;
+    };
+    CHECK(positions("union { sphere { 0, 1 } light_source { 2*x, rgb 1 } translate x }") == "3 ");
+    const std::string light = "#declare L = light_source { x, rgb 1 }\n";
+    CHECK(positions(light + "L light_source { L translate x } object { L translate 2*x }") ==
+          "1 2 3 ");
+    CHECK(positions(light + "#declare U = union { object { L } object { L translate x } }\n"
+                            "object { U } object { U translate 9*x }") == "1 2 10 11 ");
+    CHECK(positions("difference { sphere { 0, 2 } light_source { 3*x, rgb 1 } sphere { x, 1 } }") ==
+          "3 ");
+    CHECK(positions("union { light_source { x, rgb 1 } no_image }") == "1 ");
+    CHECK(
+        positions("light_group { light_source { x, rgb 1 } sphere { 0, 0.5 } global_lights off }") ==
+        "1 ");
+    const core::Light parallel =
+        read(light + "union { light_source { 2*x, rgb 1 parallel point_at 0 } rotate 90*z }")
+            .scene.lights()
+            .at(0);
+    CHECK(parallel.direction == core::Vec3f(0, -2, 0));
+    // The camera that sees the world in a mirror.
+    CHECK(read("union { light_source { <1, 2, 3>, rgb 1 } }",
+               "camera { location <0, 0, -9> look_at 0 }")
+              .scene.lights()
+              .at(0)
+              .position == core::Vec3f(1, 2, -3));
+    CHECK(complaint("#declare U = union { light_source { x, rgb 1 } }\n"
+                    "#for (I, 1, 40) #declare U = union { object { U } object { U } } #end\nU")
+              .find("must not be of more than 65536 lights") != std::string::npos);
 }
