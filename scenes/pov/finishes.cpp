@@ -2,6 +2,7 @@
 
 #include "core/numbers/more_functions.hpp"
 #include "scenes/pov/expressions.hpp"
+#include "scenes/pov/patterns.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -21,104 +22,6 @@ double read_share(Tokens& tokens, const char* what) {
         return mean;
     }
     return tuple.at[0];
-}
-
-struct MapEntry {
-    double at;
-    Tuple color;
-};
-
-/// "{ [0 rgb 1] [1 rgb 0] }"
-std::vector<MapEntry> read_color_map(Tokens& tokens) {
-    std::vector<MapEntry> entries;
-    tokens.expect("{");
-    while (!tokens.accept("}")) {
-        tokens.expect("[");
-        const double at = read_number(tokens);
-        tokens.accept(",");
-        // Of old there were two numbers, and two colours.
-        const bool is_old = !begins_color(tokens.peek()) && tokens.peek().kind == TokenKind::number;
-        const double to = is_old ? read_number(tokens) : at;
-        entries.push_back({at, read_color(tokens)});
-        tokens.accept(",");
-        if (is_old) entries.push_back({to, read_color(tokens)});
-        tokens.expect("]");
-        if (entries.size() > most_elements) fail(tokens.peek().place, "must have fewer colours");
-    }
-    return entries;
-}
-
-Tuple mean_of(const std::vector<MapEntry>& entries) {
-    Tuple mean{{}, 5};
-    for (const MapEntry& entry : entries)
-        for (std::size_t i = 0; i < 5; ++i)
-            mean.at[i] += entry.color.at[i] / static_cast<double>(entries.size());
-    return mean;
-}
-
-constexpr std::string_view other_patterns[] = {
-    "agate",           "aoi",      "average", "boxed",       "bozo",         "brick",
-    "bumps",           "cells",    "crackle", "cylindrical", "density_file", "dents",
-    "facets",          "function", "granite", "hexagon",     "image_map",    "julia",
-    "leopard",         "mandel",   "marble",  "object",      "onion",        "pavement",
-    "pigment_pattern", "planar",   "quilted", "radial",      "ripples",      "slope",
-    "spherical",       "spiral1",  "spiral2", "spotted",     "square",       "tiling",
-    "triangular",      "waves",    "wood",    "wrinkles"};
-
-/// All up to the brace, of which colours give one.
-void read_other_pattern(Tokens& tokens, Pigment& pigment, const Token& word) {
-    tokens.remark(word.place, "has the pattern " + word.quoted() + ", drawn as one colour");
-    bool has_color = false;
-    for (std::size_t open = 0; open > 0 || !tokens.at("}");) {
-        if (tokens.accept("color_map") || tokens.accept("colour_map")) {
-            const std::vector<MapEntry> entries = read_color_map(tokens);
-            if (!entries.empty()) pigment.color = mean_of(entries);
-            has_color = true;
-        } else if (!has_color && begins_color(tokens.peek())) {
-            pigment.color = read_color(tokens);
-            has_color = true;
-        } else {
-            const Token token = tokens.next();
-            if (token.kind == TokenKind::end)
-                fail(token.place, "must be \"}\", got " + token.quoted());
-            open += token.is("{") ? 1 : 0;
-            open -= token.is("}") ? 1 : 0;
-        }
-    }
-    pigment.kind = PigmentKind::color;
-}
-
-void read_checker(Tokens& tokens, Pigment& pigment) {
-    pigment.kind = PigmentKind::checker;
-    pigment.color = {{0.0, 0.0, 1.0, 0.0, 0.0}, 5};
-    pigment.other = {{0.0, 1.0, 0.0, 0.0, 0.0}, 5};
-    for (Tuple* color : {&pigment.color, &pigment.other}) {
-        if (!at_tuple(tokens)) return;
-        *color = read_color(tokens);
-        tokens.accept(",");
-    }
-}
-
-/// One color after the other, or each in its half.
-void set_gradient(Tokens& tokens, Pigment& pigment, const std::vector<MapEntry>& entries,
-                  const Place& place) {
-    const auto is_at = [&](std::size_t i, double at) { return entries[i].at == at; };
-    const auto same = [&](std::size_t i, std::size_t j) {
-        return entries[i].color.at == entries[j].color.at;
-    };
-    if (pigment.kind == PigmentKind::gradient) {
-        const bool in_steps = entries.size() == 4 && is_at(0, 0.0) && is_at(1, 0.5) &&
-                              is_at(2, 0.5) && is_at(3, 1.0) && same(0, 1) && same(2, 3);
-        if (in_steps || (entries.size() == 2 && is_at(0, 0.0) && is_at(1, 1.0))) {
-            pigment.in_steps = in_steps;
-            pigment.color = entries.front().color;
-            pigment.other = entries.back().color;
-            return;
-        }
-    }
-    tokens.remark(place, "has a map of colours, drawn as one");
-    pigment.kind = PigmentKind::color;
-    if (!entries.empty()) pigment.color = mean_of(entries);
 }
 
 void read_reflection(Tokens& tokens, Finish& finish, const Place& place) {
@@ -172,30 +75,17 @@ void set_by_albedo(Finish& finish, const Albedo& is) {
 
 } // namespace
 
-Pigment read_pigment(Tokens& tokens, Pigment pigment) {
-    tokens.expect("{");
-    while (!tokens.accept("}")) {
+Pigment read_pigment(Tokens& tokens, Pigment given, std::string_view end) {
+    Texture texture{std::move(given), {}};
+    Pigment& pigment = texture.pigment;
+    while (!tokens.accept(end)) {
         const Token word = tokens.peek();
         if (const auto known = tokens.accept_value<Pigment>()) {
             pigment = *known;
         } else if (const auto motion = read_motion(tokens)) {
             pigment.motion = both(pigment.motion, motion);
-        } else if (tokens.accept("checker")) {
-            read_checker(tokens, pigment);
-        } else if (tokens.accept("gradient")) {
-            pigment.kind = PigmentKind::gradient;
-            pigment.direction = read_vector(tokens);
-            pigment.color = {{0.0, 0.0, 0.0, 0.0, 0.0}, 5};
-            pigment.other = {{1.0, 1.0, 1.0, 0.0, 0.0}, 5};
-            tokens.accept(",");
-        } else if (tokens.accept("color_map") || tokens.accept("colour_map")) {
-            set_gradient(tokens, pigment, read_color_map(tokens), word.place);
-        } else if (tokens.accept("quick_color") || tokens.accept("quick_colour")) {
-            read_color(tokens);
-        } else if (std::find(std::begin(other_patterns), std::end(other_patterns), word.text) !=
-                   std::end(other_patterns)) {
-            tokens.next();
-            read_other_pattern(tokens, pigment, word);
+        } else if (read_pattern(tokens, texture)) {
+            continue;
         } else if (at_tuple(tokens)) {
             const bool only_channel = word.is("transmit") || word.is("filter");
             const Tuple before = pigment.color;
@@ -207,7 +97,12 @@ Pigment read_pigment(Tokens& tokens, Pigment pigment) {
             fail(word.place, "must be of a pigment, got " + word.quoted() + tokens.perhaps_of());
         }
     }
-    return pigment;
+    return std::move(pigment);
+}
+
+Pigment read_pigment(Tokens& tokens, Pigment pigment) {
+    tokens.expect("{");
+    return read_pigment(tokens, std::move(pigment), "}");
 }
 
 Finish read_finish(Tokens& tokens, Finish finish) {
@@ -266,9 +161,13 @@ Finish read_finish(Tokens& tokens, Finish finish) {
 }
 
 Shared<Texture> read_texture(Tokens& tokens) {
-    auto texture = std::make_shared<Texture>(*tokens.default_texture);
     tokens.expect("{");
-    while (!tokens.accept("}")) {
+    return read_texture(tokens, "}");
+}
+
+Shared<Texture> read_texture(Tokens& tokens, std::string_view end) {
+    auto texture = std::make_shared<Texture>(*tokens.default_texture);
+    while (!tokens.accept(end)) {
         if (const auto known = tokens.accept_value<Texture>()) {
             *texture = *known;
         } else if (const auto motion = read_motion(tokens)) {
@@ -277,13 +176,12 @@ Shared<Texture> read_texture(Tokens& tokens) {
             texture->pigment = read_pigment(tokens, texture->pigment);
         } else if (tokens.accept("finish")) {
             texture->finish = read_finish(tokens, texture->finish);
-        } else {
-            const Token word = tokens.next();
-            if (!word.is("normal"))
-                fail(word.place,
-                     "must be of a texture, got " + word.quoted() + tokens.perhaps_of());
+        } else if (tokens.at("normal")) {
+            tokens.remark(tokens.next().place, "bends normals, which are drawn as they are");
             tokens.skip_braces();
-            tokens.remark(word.place, "bends normals, which are drawn as they are");
+        } else if (!read_pattern(tokens, *texture)) {
+            const Token& word = tokens.peek();
+            fail(word.place, "must be of a texture, got " + word.quoted() + tokens.perhaps_of());
         }
     }
     return texture;

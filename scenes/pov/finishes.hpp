@@ -11,6 +11,9 @@ Finish read_finish(Tokens& tokens, Finish finish);
 Shared<Texture> read_texture(Tokens& tokens);
 Interior read_interior(Tokens& tokens);
 Material read_material(Tokens& tokens);
+/// The same behind the brace or bracket, up to its end.
+Pigment read_pigment(Tokens& tokens, Pigment pigment, std::string_view end);
+Shared<Texture> read_texture(Tokens& tokens, std::string_view end);
 /// "#default { ... }"
 void read_default(Tokens& tokens);
 

@@ -59,12 +59,27 @@ struct Finish {
     double phong = 0.0, phong_size = 40.0, specular = 0.0, roughness = 0.05;
     double reflection = 0.0;
     bool fresnel = false;
+
+    bool operator==(const Finish&) const = default;
 };
 
 struct Texture {
     Pigment pigment;
     Finish finish;
 };
+
+/// A map of colours, of pigments or of textures, as far as a pattern of them is drawn.
+enum class MapOf : std::uint8_t { colors, pigments, textures };
+struct PatternMap {
+    enum class Form : std::uint8_t { run, steps, other };
+
+    MapOf of{};
+    Form form = Form::other;
+    Texture first{}, last{};
+    Texture mean{};     ///< over places from 0 to 1
+    Texture weighted{}; ///< the mean for which places are weights
+};
+
 struct Interior {
     double index = 1.0;
     bool has_index = false;
@@ -149,7 +164,8 @@ struct Macro {
 struct Value {
     std::variant<std::monostate, Tuple, std::string, std::shared_ptr<Array>, Shared<Macro>,
                  Shared<Pigment>, Shared<Finish>, Shared<Texture>, Shared<Interior>,
-                 Shared<Material>, Shared<Object>, Shared<Motion>, Shared<Camera>>
+                 Shared<Material>, Shared<Object>, Shared<Motion>, Shared<Camera>,
+                 Shared<PatternMap>>
         of{};
 
     template <class T>

@@ -1,6 +1,7 @@
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/objects.hpp"
+#include "scenes/pov/patterns.hpp"
 #include "scenes/pov/surroundings.hpp"
 
 #include <algorithm>
@@ -71,6 +72,10 @@ Value read_value(Tokens& tokens) {
     if (tokens.accept("interior")) return shared(read_interior(tokens));
     if (tokens.accept("transform")) return {read_transform(tokens)};
     if (tokens.accept("camera")) return shared(read_camera(tokens));
+    if (const std::optional<MapOf> kind = map_of(word)) {
+        tokens.next();
+        return shared(read_map(tokens, *kind));
+    }
     if (begins_object(tokens, word)) return {read_object(tokens)};
     if (const Value* value = tokens.value_of(word)) {
         Value copy = *value;

@@ -1,0 +1,139 @@
+#include "core/scene/scene.hpp"
+#include "scenes/scene_file.hpp"
+#include "tests/catch.hpp"
+#include "tests/scenes/message_of.hpp"
+#include "tests/scenes/pov/read.hpp"
+
+#include <string>
+
+using namespace raylane;
+using tests::complaint, tests::read, tests::Read;
+
+namespace {
+
+core::Pattern pattern_of(const Read& of) {
+    return of.material_of().pattern;
+}
+
+Read with_pigment(const std::string& text, const std::string& before = "") {
+    return read(before + "sphere { 0, 1 pigment { " + text + " } }");
+}
+
+Read with_texture(const std::string& text, const std::string& before = "") {
+    return read(before + "sphere { 0, 1 texture { " + text + " } }");
+}
+
+const core::Color red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1), white(1, 1, 1),
+    grey(0.5F, 0.5F, 0.5F);
+
+} // namespace
+
+TEST_CASE("POV-Ray: checkers are of colours, pigments and textures") {
+    for (const std::string text :
+         {"checker rgb x, rgb y", "checker pigment { rgb x } pigment { rgb y }",
+          "checker pigment { rgb x }, rgb y", "checker R[0] pigment { P }"}) {
+        CAPTURE(text);
+        const Read checker = with_pigment(
+            text + " scale 2", "#declare R = array[1] { rgb x } #declare P = pigment { rgb y }\n");
+        CHECK(pattern_of(checker).kind == core::PatternKind::checker);
+        CHECK(pattern_of(checker).colors[0] == red);
+        CHECK(pattern_of(checker).colors[1] == green);
+        CHECK(pattern_of(checker).size == 2.0F);
+        CHECK(checker.remarks.empty());
+    }
+    const Read textures = with_texture("checker texture { pigment { rgb x } } texture { T[0] }",
+                                       "#declare T = array[1] { texture { pigment { rgb y } } }\n");
+    CHECK(pattern_of(textures).colors[0] == red);
+    CHECK(pattern_of(textures).colors[1] == green);
+    CHECK(textures.remarks.empty());
+    CHECK(pattern_of(with_pigment("checker")).colors[0] == blue);
+    const Read nested =
+        with_pigment("checker pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } } rgb x");
+    CHECK(pattern_of(nested).colors[0] == grey);
+    CHECK(pattern_of(nested).colors[1] == red);
+    CHECK(nested.remarks_on("patterns in a pattern"));
+}
+
+TEST_CASE("POV-Ray: a pattern of textures has the mean of their finishes") {
+    const Read mirror =
+        with_texture("checker texture { pigment { rgb 1 } finish { reflection 0.5 } } "
+                     "texture { pigment { rgb 1 } finish { reflection 0 } }");
+    CHECK(mirror.material_of().reflectivity == 0.25F);
+    CHECK(mirror.remarks_on("a pattern of several finishes, drawn with their mean"));
+    const Read dull =
+        with_texture("checker texture { pigment { rgb 1 } finish { ambient 0 diffuse 0.5 } } "
+                     "texture { pigment { rgb 1 } finish { ambient 0 diffuse 0.25 } }");
+    const core::Material& material = dull.material_of();
+    for (const int i : {0, 1})
+        CHECK(material.diffuse * material.pattern.colors[static_cast<std::size_t>(i)].x ==
+              Approx(i == 0 ? 0.5F : 0.25F));
+}
+
+TEST_CASE("POV-Ray: gradients are of maps of colours, pigments and textures") {
+    for (const std::string text :
+         {"color_map { [0 rgb x] [1 rgb y] }", "color_map { [0, 1 rgb x rgb y] }",
+          "pigment_map { [0 rgb x] [1 P] }", "color_map { C }", "colour_map { M[0] }"}) {
+        CAPTURE(text);
+        const Read gradient =
+            with_pigment("gradient y " + text, "#declare P = pigment { rgb y }\n"
+                                               "#declare C = color_map { [0 rgb x] [1 rgb y] }\n"
+                                               "#declare M = array[1] { color_map { C } }\n");
+        CHECK(pattern_of(gradient).kind == core::PatternKind::gradient);
+        CHECK(pattern_of(gradient).colors[0] == red);
+        CHECK(pattern_of(gradient).colors[1] == green);
+    }
+    const Read textures = with_texture(
+        "gradient y texture_map { [0 pigment { rgb x } finish { diffuse 0.5 }] [1 T] }",
+        "#declare T = texture { pigment { rgb y } finish { diffuse 0.5 } }\n");
+    CHECK(pattern_of(textures).kind == core::PatternKind::gradient);
+    CHECK(pattern_of(textures).colors[1] == green);
+    CHECK(textures.material_of().diffuse == 0.5F);
+    CHECK(pattern_of(with_pigment("gradient y color_map { [0 rgb 0] [0.5 rgb 0] [0.5 rgb 1] "
+                                  "[1 rgb 1] }"))
+              .kind == core::PatternKind::stripes);
+    CHECK(complaint("sphere { 0, 1 pigment { gradient y color_map { } } }") ==
+          "a.pov:1:48: must have an entry, got an empty map");
+}
+
+TEST_CASE("POV-Ray: a pattern that is not drawn has the mean of its colours") {
+    const auto color = [](const std::string& text) {
+        const Read of = with_pigment(text, "#declare N = 3;\n");
+        CHECK(of.remarks_on("drawn as one"));
+        CHECK(pattern_of(of).kind == core::PatternKind::solid);
+        return pattern_of(of).colors[0];
+    };
+    CHECK(color("bozo") == grey);
+    CHECK(color("image_map { png \"none.png\" map_type 1 interpolate 2 once }") == grey);
+    CHECK(color("wood color_map { [0 rgb 0] [1 rgb 1] }") == grey);
+    // By how much of the map each has.
+    CHECK(
+        color("marble turbulence 1 color_map { [0 rgb 0] [0.75 rgb 0] [0.75 rgb 1] [1 rgb 1] }") ==
+        core::Color(0.25F, 0.25F, 0.25F));
+    CHECK(color("granite color_map { [0.25 rgb x] [0.75 rgb x] }") == red);
+    CHECK(color("average pigment_map { [3 rgb 0] [1 rgb 1] }") == core::Color(0.25F, 0.25F, 0.25F));
+    CHECK(color("hexagon pigment { rgb x } rgb 0, rgb 0").x == Approx(1.0F / 3));
+    CHECK(color("object { box { 0, 1 } rgb 0, rgb 1 }") == grey);
+    CHECK(color("brick rgb 1, rgb 1 brick_size <4, 2, 1> mortar 0.25") == white);
+    CHECK(color("spiral1 N color_map { [0 rgb 1] [1 rgb 1] } warp { turbulence 1 octaves 3 }") ==
+          white);
+    CHECK(color("function { F(x, y, z) } color_map { [0 rgb 1] [1 rgb 1] }") == white);
+    CHECK(color("crackle form <1, 0, 0> metric 2 solid pigment_map { [0 rgb 1] [1 rgb 1] }") ==
+          white);
+    CHECK(color("density_file df3 \"a.df3\" interpolate 1 color_map { [0 rgb 1] [1 rgb 1] }") ==
+          white);
+    const Read textures = with_texture("granite texture_map { [0 pigment { rgb 0 }] [1 pigment { "
+                                       "rgb 1 } finish { phong 1 }] } scale 3");
+    CHECK(pattern_of(textures).colors[0] == grey);
+    CHECK(textures.material_of().specular == 0.5F);
+    CHECK(textures.remarks_on("has the pattern \"granite\", drawn as one colour"));
+}
+
+TEST_CASE("POV-Ray: words that change how a pattern lies are left out") {
+    const Read turbulent = with_pigment("checker rgb 0, rgb 1 turbulence 0.5 frequency 2");
+    CHECK(pattern_of(turbulent).kind == core::PatternKind::checker);
+    CHECK(turbulent.remarks_on("has \"turbulence\" of a pattern, which is not drawn"));
+    CHECK(turbulent.remarks_on("has \"frequency\" of a pattern, which is not drawn"));
+    const Read on_surface = with_texture("uv_mapping pigment { checker rgb 0, rgb 1 }");
+    CHECK(pattern_of(on_surface).kind == core::PatternKind::checker);
+    CHECK(on_surface.remarks_on("patterns on a surface's own axes, drawn in space"));
+}
