@@ -184,9 +184,38 @@ void draw_flat_box(Object& object) {
     }
 }
 
+/// A cone's radii of different signs are on both sides of its apex: it is two cones.
+void divide_cone(Object& object) {
+    std::visit(
+        [&]<class Shape>(Shape& cone) {
+            if constexpr (requires { cone.base_radius; }) {
+                const Shape given = cone;
+                cone.base_radius = std::abs(cone.base_radius);
+                cone.top_radius = std::abs(cone.top_radius);
+                if (!(given.base_radius * given.top_radius < 0.0)) return;
+                const Vec3d apex = given.base + given.base_radius /
+                                                    (given.base_radius - given.top_radius) *
+                                                    given.axis;
+                const Vec3d top = given.base + given.axis;
+                for (const Shape& half :
+                     {Shape{given.base, apex - given.base, cone.base_radius, 0.0},
+                      Shape{top, apex - top, cone.top_radius, 0.0}}) {
+                    Object part{.place = object.place};
+                    part.shape = half;
+                    object.parts.push_back(std::make_shared<const Object>(std::move(part)));
+                }
+                object.kind = ObjectKind::all_in_one;
+                object.count = object.pieces = object.parts.size();
+                object.depth = 2;
+            }
+        },
+        object.shape);
+}
+
 /// Leaves out what has no size, as PyMOL writes it.
 void leave_out_if_flat(Tokens& tokens, Object& object) {
     draw_flat_box(object);
+    divide_cone(object);
     if (object.kind != ObjectKind::shape) return;
     const bool is_flat = std::visit(
         [&](const auto& shape) {
@@ -201,8 +230,9 @@ void leave_out_if_flat(Tokens& tokens, Object& object) {
                                    shape.radius;
                                })
                 return shape.axis == Vec3d(0.0) || shape.radius == 0.0;
-            else if constexpr (requires { shape.axis; })
-                return shape.axis == Vec3d(0.0);
+            else if constexpr (requires { shape.base_radius; })
+                return shape.axis == Vec3d(0.0) ||
+                       (shape.base_radius == 0.0 && shape.top_radius == 0.0);
             else if constexpr (requires { shape.edge_u; })
                 return shape.edge_u == Vec3d(0.0) || shape.edge_v == Vec3d(0.0) ||
                        shape.edge_w == Vec3d(0.0);
