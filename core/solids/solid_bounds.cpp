@@ -1,11 +1,14 @@
 #include "core/numbers/infinity.hpp"
 #include "core/shapes/shapes.hpp"
+#include "core/solids/half_spaces.hpp"
 #include "core/solids/hull.hpp"
 #include "core/solids/solid_collector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 /// Where a solid and its parts may be, and where it matters.
 namespace raylane::core {
@@ -49,11 +52,25 @@ Bounds SolidCollector::bounds_of_part(Index index, bool outside) const {
             if constexpr (kind_of<Shape> == Kind::plane)
                 return bounds_of_half_space(shape, reversed);
             else if constexpr (kind_of<Shape> == Kind::quadric)
-                return everywhere();
+                return bounds_of_common(std::array{HalfSpace{shape, reversed}});
             else
                 return reversed ? everywhere() : core::bounds_of(shape);
         },
         shapes_[index]);
+}
+
+/// Returns bounds of the points inside of all planes and quadrics that a node has itself, or
+/// outside of all of them if the node is a union.
+Bounds SolidCollector::bounds_between_parts(Index index) const {
+    const bool outside = solids_.nodes_[index].op == Solids::Op::any;
+    std::vector<HalfSpace> half_spaces;
+    solids_.each_child(index, [&](Index child) {
+        const Node& node = solids_.nodes_[child];
+        if (node.op == Solids::Op::part && (node.kind == Kind::plane || node.kind == Kind::quadric))
+            half_spaces.push_back({shapes_[child], node.reversed != outside});
+        return true;
+    });
+    return bounds_of_common(half_spaces);
 }
 
 /// Of nodes from one on.
@@ -74,6 +91,8 @@ void SolidCollector::find_hulls(Index first) {
             if (!is_empty(more)) around_any.include(more);
             return true;
         });
+        if (!is_finite(common_to_all))
+            common_to_all = common(common_to_all, bounds_between_parts(index));
         hulls_[index] =
             of_all ? Hulls{common_to_all, around_any} : Hulls{around_any, common_to_all};
     }

@@ -1,6 +1,7 @@
 #include "core/solids/solid_collector.hpp"
 
 #include "core/shapes/shapes.hpp"
+#include "core/solids/half_spaces.hpp"
 #include "core/solids/hull.hpp"
 #include "core/solids/transform.hpp"
 
@@ -40,15 +41,8 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
     const auto in_list = [&]<class Shape>(const Shape& shape) {
         std::get<ShapeList<InFloat<Shape>>>(lists).add(shape, node.shape);
     };
-    const auto with_bounds = [&](QuadricOf<double> quadric, const Bounds& bounds) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto lower = static_cast<double>(bounds.lower[axis]) - quadric.center[axis];
-            const auto upper = static_cast<double>(bounds.upper[axis]) - quadric.center[axis];
-            const double beside = 0x1p-20 * (upper - lower) + 0x1p-20 * std::abs(lower) +
-                                  0x1p-20 * std::abs(upper) + 0x1p-100;
-            quadric.lower[axis] = static_cast<double>(static_cast<float>(lower - beside));
-            quadric.upper[axis] = static_cast<double>(static_cast<float>(upper + beside));
-        }
+    const auto with_bounds = [&](const QuadricOf<double>& surface, const Bounds& bounds) {
+        const QuadricOf<double> quadric = within(surface, bounds);
         shapes_[part] = quadric;
         node.kind = Kind::quadric;
         in_list(quadric);

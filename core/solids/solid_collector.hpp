@@ -44,6 +44,7 @@ class SolidCollector {
     void find_bounds(Index solid);
     void note_counted(Index solid);
     Bounds bounds_of_part(Index index, bool outside) const;
+    Bounds bounds_between_parts(Index index) const;
     void find_hulls(Index first);
     Bounds allowed(Index part) const;
     bool has_bounds(Index solid) const;
