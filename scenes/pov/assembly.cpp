@@ -1,8 +1,10 @@
 #include "scenes/pov/assembly.hpp"
 
 #include "core/shapes/invalid_value.hpp"
+#include "core/solids/half_spaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace raylane::scenes::pov {
@@ -62,6 +64,22 @@ Solid part_of(const Object& object) {
             }
         },
         object.shape);
+}
+
+/// POV-Ray draws nothing farther from a ray's origin than 1e7.
+constexpr float far_away = 0x1p24F;
+const core::Bounds farthest{core::Vec3f(-far_away), core::Vec3f(far_away)};
+
+/// A quadric as a part of others, in a box that only says where it is.
+Solid as_far_as_seen(Solid quadric) {
+    constexpr double size = 2.0 * double{far_away};
+    Solid box;
+    box.shape = core::BoxOf<double>{
+        Vec3d(-0.5 * size), {size, 0.0, 0.0}, {0.0, size, 0.0}, {0.0, 0.0, size}};
+    box.cuts_nothing = true;
+    Solid result{Made::by_clip};
+    result.parts = {std::move(quadric), std::move(box)};
+    return result;
 }
 
 /// No zero of it is negative.
@@ -141,11 +159,13 @@ void Assembly::add_mesh(const Object& object, const Look& look, const Shared<Mot
 
 void Assembly::add_shape(const Object& object, const core::PartShape& shape, const Look& look,
                          const Shared<Motion>& motion) {
-    if (std::holds_alternative<core::QuadricOf<double>>(shape))
-        fail(object.place, "must be clipped by a box: a quadric by itself has no end");
     Solid solid;
     solid.shape = shape;
     solid = moved(object, solid, motion);
+    if (auto* quadric = std::get_if<core::QuadricOf<double>>(&solid.shape)) {
+        const core::Bounds own = core::bounds_of_common(std::array{core::HalfSpace{*quadric}});
+        *quadric = core::within(*quadric, core::is_finite(own) ? own : farthest);
+    }
     const auto* plane = solid.made == Made::of_shape ? plane_of(solid.shape) : nullptr;
     put(object, solid, materials.index_of(look, object.place, plane));
 }
@@ -214,7 +234,12 @@ void Assembly::add_lights(const Object& object, const Shared<Motion>& above) {
 
 /// What an object is made of, without its clips.
 Solid Assembly::made_of(const Object& object, const Look& look, const Shared<Motion>& motion) {
-    if (object.kind == ObjectKind::shape) return moved(object, part_of(object), motion);
+    if (object.kind == ObjectKind::shape) {
+        Solid solid = moved(object, part_of(object), motion);
+        return std::holds_alternative<core::QuadricOf<double>>(object.shape)
+                   ? as_far_as_seen(std::move(solid))
+                   : solid;
+    }
     if (object.kind == ObjectKind::mesh)
         fail(object.place,
              "must have an inside to be a part of another object, and a mesh has none");

@@ -8,6 +8,7 @@
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -104,6 +105,32 @@ TEST_CASE("shapes are read as they are written") {
         shapes_of(read("quadric { <1, 1, 0>, <0, 0, 0>, <0, 0, 0>, -1 clipped_by { box { -2, 2 } } "
                        "translate <1, 0, 0> }")
                       .scene) == "quadric 1 0 0 1 1 0 0 0 0 0 0 0 -1 -2 -2 -2 2 2 2\n");
+}
+
+TEST_CASE("a quadric without a box ends at its ellipsoid, or where POV-Ray's depth ends") {
+    const auto ends_of = [](const std::string& text) {
+        std::vector<float> ends;
+        scenes::for_each_by_id(read(text).scene, [&](const auto& shape, core::ShapeId) {
+            for (const auto number : core::numbers_of(shape))
+                ends.push_back(static_cast<float>(number));
+        });
+        REQUIRE(ends.size() == 19);
+        return std::vector<float>(ends.end() - 6, ends.end());
+    };
+    const auto ellipsoid =
+        ends_of("quadric { <1, 0.25, 1>, 0, 0, -1 rotate 90*z translate <3, 0, 0> }");
+    const float expected[] = {-2.0F, -1.0F, -1.0F, 2.0F, 1.0F, 1.0F};
+    for (std::size_t i = 0; i < 6; ++i)
+        CHECK(ellipsoid[i] == Approx(expected[i]).epsilon(1e-3));
+    for (const float end : ends_of("quadric { <1, 0, 1>, 0, 0, -1 scale 0.1 }"))
+        CHECK(std::abs(end) > 1e7F);
+    CHECK(read("intersection { quadric { <1, 0, 1>, 0, 0, -1 } plane { y, 1 } plane { -y, 1 } }")
+              .scene.shape_count() == 3);
+    CHECK(read("difference { box { -1, 1 } quadric { <1, 0, 1>, 0, 0, -0.25 } }")
+              .scene.shape_count() == 2);
+    CHECK(
+        read("quadric { <1, -1, 1>, 0, 0, 0 clipped_by { plane { y, 1 } } }").scene.shape_count() ==
+        1);
 }
 
 TEST_CASE("what moves objects is applied in its order, exactly") {
@@ -309,7 +336,6 @@ TEST_CASE("a mistake costs one line, with its place") {
     CHECK(complaint("#include \"none.inc\"")
               .starts_with("a.pov:1:10: must be a file beside this one"));
     CHECK(complaint("#declare A = 1/0;") == "a.pov:1:15: must not be divided by 0");
-    CHECK(complaint("quadric { x, y, z, 1 }").starts_with("a.pov:1:1: must be clipped by a box"));
     CHECK(complaint("intersection { sphere { 0, 1 } triangle { 0, x, y } }")
               .starts_with("a.pov:1:32: must have an inside"));
 }
