@@ -74,11 +74,11 @@ class Modifiers {
 
     void read_one(const Token& word) {
         if (word.is("texture")) {
-            Shared<Texture> texture = read_texture(tokens_);
-            const Tuple& color = texture->pigment.color;
-            if (object_.texture != nullptr && (color.at[3] != 0.0 || color.at[4] != 0.0))
-                tokens_.remark(word.place, "has layers of textures, of which the last is drawn");
-            object_.texture = std::move(texture);
+            const Shared<Texture> texture = read_texture(tokens_);
+            object_.texture = object_.texture == nullptr
+                                  ? texture
+                                  : std::make_shared<const Texture>(
+                                        layered(tokens_, *object_.texture, *texture, word.place));
         } else if (word.is("pigment")) {
             Texture texture = own_texture();
             texture.pigment = read_pigment(tokens_, texture.pigment);

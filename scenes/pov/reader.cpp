@@ -82,6 +82,8 @@ class Reader {
             background_ = read_color(tokens_);
             tokens_.expect("}");
             has_background_ = true;
+        } else if (tokens_.accept("default")) {
+            read_default(tokens_);
         } else if (tokens_.accept("fog")) {
             builder_.fog = read_fog(tokens_);
         } else if (tokens_.accept("global_settings")) {
@@ -92,7 +94,8 @@ class Reader {
                                "sets ambient_light behind objects that are drawn without");
             assembly_.materials.ambient_light = settings_.ambient_light;
         } else if (tokens_.accept("sky_sphere")) {
-            read_sky();
+            const SkySphere sky = read_sky_sphere(tokens_);
+            if (!has_background_) background_ = sky.color;
             tokens_.remark(word.place, "has a sky_sphere, of which one colour is drawn");
         } else if (word.is("rainbow") || word.is("media")) {
             tokens_.next();
@@ -100,22 +103,6 @@ class Reader {
             tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
         } else {
             read_object(tokens_); // which says what it is not
-        }
-    }
-
-    void read_sky() {
-        tokens_.expect("{");
-        while (!tokens_.accept("}")) {
-            if (read_motion(tokens_) != nullptr) continue;
-            const Token word = tokens_.next();
-            if (word.is("pigment")) {
-                const Pigment pigment = read_pigment(tokens_, {});
-                if (!has_background_) background_ = pigment.color;
-            } else if (word.is("emission")) {
-                read_color(tokens_);
-            } else {
-                fail(word.place, "must be of a sky_sphere, got " + word.quoted());
-            }
         }
     }
 

@@ -37,6 +37,10 @@ Token Tokens::raw() {
     for (;;) {
         const Token token = frames_.back().scanner.next();
         if (++tokens_ > most_tokens) fail(token.place, "must expand to at most 1e9 words");
+        if (token.is("}") && frames_.back().kind == FrameKind::function) {
+            frames_.pop_back();
+            return {TokenKind::symbol, ")", 0.0, token.place};
+        }
         if (token.kind != TokenKind::end || !leave_frame(token.place)) return token;
     }
 }
@@ -283,8 +287,12 @@ void Tokens::directive(const Place& hash) {
 }
 
 void Tokens::declaration(const Token& word) {
-    const Token name = raw_word("a name");
+    Token name = raw_word("a name");
     const bool is_local = word.text == "local";
+    if (name.is("deprecated")) { // "deprecated once MESSAGE NAME"
+        if (accept("once"); begins_string(peek())) read_string(*this);
+        name = next();
+    }
     const int outer = std::exchange(declared_at_, open_brackets);
     if (at("[")) {
         const std::vector<std::size_t> indices = read_indices(*this);
@@ -351,11 +359,36 @@ void Tokens::begin_macro() {
     declare(name.text, Value{Shared<Macro>(std::move(macro))}, false);
 }
 
+Value Tokens::read_function_value() {
+    Macro macro{"function", {"x", "y", "z"}, frames_.back().scanner, true};
+    if (accept("(")) {
+        macro.parameters.clear();
+        for (Token token = next(); !token.is(")"); token = next())
+            if (!token.is(",")) macro.parameters.push_back(token.text);
+    }
+    expect("{");
+    Scanner& scanner = frames_.back().scanner;
+    macro.body = scanner;
+    Token token = scanner.next();
+    const Place begin = token.place;
+    // Braces in it are those of a pigment, a pattern, a transformation or a spline.
+    bool is_expression = true;
+    for (int open = 1;; token = scanner.next()) {
+        if (token.kind == TokenKind::end) fail(begin, "must be a function that has a \"}\"");
+        if (token.is("{")) is_expression = false;
+        open += token.is("{") ? 1 : token.is("}") ? -1 : 0;
+        if (open == 0) break;
+    }
+    --open_brackets;
+    if (!is_expression) return {NotDrawn{}};
+    return {std::make_shared<const Macro>(std::move(macro))};
+}
+
 void Tokens::call(const Shared<Macro> macro, const Place& place) {
     count_steps(5, place);
     const Level level(depth, place);
     expect("(");
-    Frame frame{macro->body, FrameKind::macro, place};
+    Frame frame{macro->body, macro->is_function ? FrameKind::function : FrameKind::macro, place};
     for (const std::string_view parameter : macro->parameters) {
         if (at(")"))
             fail(place, "must be called with " + std::to_string(macro->parameters.size()) +
@@ -373,6 +406,10 @@ void Tokens::call(const Shared<Macro> macro, const Place& place) {
         fail(peek().place, "must be \")\" behind the last argument, got " + peek().quoted());
     next();
     enter(std::move(frame));
+    if (macro->is_function) { // in parentheses, as its value is
+        peeked_ = Token{TokenKind::symbol, "(", 0.0, place};
+        is_expanded_ = true;
+    }
 }
 
 /// A name by itself stands for what has the name, which the macro may change.

@@ -87,6 +87,9 @@ class Tokens {
     std::shared_ptr<void> reserve(std::size_t bytes, const Place& place);
     /// Fails where all strings that were ever made have more than `most_bytes`.
     void count_string(std::size_t bytes, const Place& place);
+    /// "function(A, B) { EXPRESSION }", past the word: a macro; one of a pigment or the like is not
+    /// drawn.
+    Value read_function_value();
     /// In the scope of what is read.
     void declare_here(std::string_view name, Value value);
 
@@ -124,7 +127,7 @@ class Tokens {
         std::size_t frame, serial; ///< a frame of another serial is not the one that is meant
         std::string_view name;
     };
-    enum class FrameKind : std::uint8_t { file, macro };
+    enum class FrameKind : std::uint8_t { file, macro, function };
     struct Frame {
         Scanner scanner;
         FrameKind kind;

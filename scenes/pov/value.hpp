@@ -148,6 +148,12 @@ struct Camera {
     Shared<Motion> motion{};
 };
 
+struct SkySphere {
+    Tuple color{{}, 5};
+};
+/// The value of a skipped statement: normal, media, a function of a pigment, ...
+struct NotDrawn {};
+
 struct Value;
 struct Array {
     std::vector<std::size_t> sizes;
@@ -159,13 +165,14 @@ struct Macro {
     std::string_view name;
     std::vector<std::string_view> parameters;
     Scanner body;
+    bool is_function = false; ///< an expression, up to a brace
 };
 
 struct Value {
     std::variant<std::monostate, Tuple, std::string, std::shared_ptr<Array>, Shared<Macro>,
                  Shared<Pigment>, Shared<Finish>, Shared<Texture>, Shared<Interior>,
                  Shared<Material>, Shared<Object>, Shared<Motion>, Shared<Camera>,
-                 Shared<PatternMap>>
+                 Shared<PatternMap>, Shared<SkySphere>, NotDrawn>
         of{};
 
     template <class T>

@@ -64,7 +64,7 @@ Value read_value(Tokens& tokens) {
     if (at_tuple(tokens)) return {begins_color(word) ? read_color(tokens) : read_tuple(tokens)};
     if (begins_string(word)) return {read_string(tokens)};
     if (tokens.accept("array")) return read_array(tokens, word.place);
-    if (tokens.accept("texture")) return {read_texture(tokens)};
+    if (tokens.accept("texture")) return {read_layers(tokens)};
     if (tokens.accept("pigment"))
         return shared(read_pigment(tokens, tokens.default_texture->pigment));
     if (tokens.accept("finish")) return shared(read_finish(tokens, tokens.default_texture->finish));
@@ -76,14 +76,22 @@ Value read_value(Tokens& tokens) {
         tokens.next();
         return shared(read_map(tokens, *kind));
     }
+    if (tokens.accept("function")) return tokens.read_function_value();
+    if (tokens.accept("sky_sphere")) return shared(read_sky_sphere(tokens));
+    static constexpr std::string_view not_drawn[] = {
+        "density", "density_map", "media", "normal", "normal_map", "rainbow", "slope_map"};
+    if (std::find(std::begin(not_drawn), std::end(not_drawn), word.text) != std::end(not_drawn)) {
+        tokens.next();
+        tokens.skip_braces();
+        return {NotDrawn{}};
+    }
     if (begins_object(tokens, word)) return {read_object(tokens)};
     if (const Value* value = tokens.value_of(word)) {
         Value copy = *value;
         tokens.next();
         return copy;
     }
-    if (word.kind == TokenKind::word && !word.is("function"))
-        return {read_object(tokens)}; // which says what is not read
+    if (word.kind == TokenKind::word) return {read_object(tokens)}; // which says what is not read
     fail(word.place, "must be a value that is read, got " + word.quoted());
 }
 

@@ -121,3 +121,22 @@ TEST_CASE("POV-Ray: a name that is not known may be of an include without use") 
           std::string::npos);
     CHECK(complaint("sphere { 0, VMin(x) }").find("math.inc") == std::string::npos);
 }
+
+TEST_CASE("POV-Ray: maps of colours, layers, skies and functions have names") {
+    const Read layers = read("#declare M = color_map { [0 rgb 1] [1 rgb 0] }\n"
+                             "#declare T = texture { pigment { rgb <0, 1, 0> } }\n"
+                             "  texture { pigment { bozo color_map { M } } }\n"
+                             "sphere { 0, 1 texture { T } }");
+    CHECK(layers.material_of().pattern.colors[0] == core::Vec3f(0.5F));
+    const Read seen = read("sphere { 0, 1 texture { pigment { rgb <0, 1, 0> } }\n"
+                           "texture { pigment { rgbt <1, 0, 0, 0.75> } } }");
+    CHECK(seen.material_of().pattern.colors[0] == core::Vec3f(0.25F, 0.75F, 0.0F));
+    CHECK(seen.material_of().opacity == 1.0F);
+    CHECK(read("#declare S = sky_sphere { pigment { rgb <0, 0, 1> } }\nsky_sphere { S }")
+              .scene.background() == core::Vec3f(0.0F, 0.0F, 1.0F));
+    CHECK(number("F(2, 3) * 2", "#declare F = function(a, b) { a + b*b }") == "22");
+    CHECK(number("F(1, 2, 3)", "#declare F = function { x + y*z }") == "7");
+    CHECK(read("#declare N = normal { bumps 1 } #declare P = function { pigment { bozo } }\n"
+               "sphere { 0, 1 normal { N } }")
+              .scene.shape_count() == 1);
+}
