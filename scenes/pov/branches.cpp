@@ -28,7 +28,8 @@ bool Tokens::read_is_declared() {
         value = array->values[index_in(*array, name, indices)];
     }
     expect(")");
-    return value.get_if<std::monostate>() == nullptr;
+    return value.get_if<std::monostate>() == nullptr ||
+           (found == nullptr && standard_names_.contains(name.text));
 }
 
 /// Past the #end of what has begun, or the first word of another branch of it.

@@ -97,7 +97,7 @@ Tuple read_primary(Tokens& tokens) {
     }
     if (token.kind == TokenKind::word)
         fail(token.place,
-             "must be a number, and " + token.quoted() + " is not known" + tokens.perhaps_of());
+             "must be a number, and " + token.quoted() + " is not known" + tokens.origin_of(token));
     fail(token.place, "must be a number, got " + token.quoted());
 }
 

@@ -94,7 +94,7 @@ Pigment read_pigment(Tokens& tokens, Pigment given, std::string_view end) {
                 std::copy(before.at.begin(), before.at.begin() + 3, pigment.color.at.begin());
             pigment.kind = PigmentKind::color;
         } else {
-            fail(word.place, "must be of a pigment, got " + word.quoted() + tokens.perhaps_of());
+            fail(word.place, "must be of a pigment, got " + word.quoted() + tokens.origin_of(word));
         }
     }
     return std::move(pigment);
@@ -120,7 +120,8 @@ SkySphere read_sky_sphere(Tokens& tokens) {
         else if (word.is("emission"))
             read_color(tokens);
         else
-            fail(word.place, "must be of a sky_sphere, got " + word.quoted() + tokens.perhaps_of());
+            fail(word.place,
+                 "must be of a sky_sphere, got " + word.quoted() + tokens.origin_of(word));
     }
     return sky;
 }
@@ -205,7 +206,7 @@ Shared<Texture> read_texture(Tokens& tokens, std::string_view end) {
             tokens.skip_braces();
         } else if (!read_pattern(tokens, *texture)) {
             const Token& word = tokens.peek();
-            fail(word.place, "must be of a texture, got " + word.quoted() + tokens.perhaps_of());
+            fail(word.place, "must be of a texture, got " + word.quoted() + tokens.origin_of(word));
         }
     }
     return texture;

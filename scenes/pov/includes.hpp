@@ -1,12 +1,21 @@
 #pragma once
 
-#include <optional>
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace raylane::scenes::pov {
 
-/// What is known of the files that come with POV-Ray, in its language; nothing for other names.
-std::optional<std::string> standard_include(std::string_view name);
+/// A file that comes with POV-Ray, as far as raylane knows it.
+struct StandardFile {
+    std::string_view name;
+    std::vector<std::string_view> includes; ///< other files that it includes
+    /// In POV-Ray's language, by the name that is declared; empty for names that are not read.
+    std::map<std::string_view, std::string> declarations;
+};
+
+/// Returns null for other names.
+const StandardFile* standard_file(std::string_view name);
 
 } // namespace raylane::scenes::pov

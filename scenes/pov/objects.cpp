@@ -290,7 +290,7 @@ Shared<Object> read_object(Tokens& tokens) {
             fail(word.place,
                  "must be made of quadrics, and " + word.quoted() + " is not: it is not read");
         fail(word.place,
-             "must be an object that is read, got " + word.quoted() + tokens.perhaps_of());
+             "must be an object that is read, got " + word.quoted() + tokens.origin_of(word));
     }
     tokens.expect("{");
     if (shape != nullptr) {

@@ -2,7 +2,6 @@
 
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
-#include "scenes/pov/includes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +14,10 @@ Tokens::Tokens(Source source, const OnRemark& on_remark) : on_remark_(on_remark)
     frames_.push_back({Scanner(sources_.front()), FrameKind::file});
 }
 
-std::string Tokens::perhaps_of() const {
-    if (without_names_.empty()) return "";
-    return ": it may be of " + without_names_ + ", whose names are not read";
+std::string Tokens::origin_of(const Token& name) const {
+    const auto standard = standard_names_.find(name.text);
+    if (name.kind != TokenKind::word || standard == standard_names_.end()) return "";
+    return ": it is of \"" + std::string(standard->second.file) + "\", and not read";
 }
 
 bool Tokens::is_by_convert() const {
@@ -30,7 +30,8 @@ bool Tokens::is_by_convert() const {
 
 void Tokens::remark(const Place& place, const std::string& what) {
     if (!on_remark_ || !remarks_.insert(what).second) return;
-    on_remark_(text_of({place.source->name, position_of(place), "", what}));
+    const Place& at = standard_use_ ? *standard_use_ : place;
+    on_remark_(text_of({at.source->name, position_of(at), "", what}));
 }
 
 Token Tokens::raw() {
@@ -65,6 +66,9 @@ Token Tokens::expanded() {
         } else if (const Value* value = token.kind == TokenKind::word ? find(token.text) : nullptr;
                    value != nullptr && value->get_if<Shared<Macro>>() != nullptr) {
             call(*value->get_if<Shared<Macro>>(), token.place);
+        } else if (value == nullptr && declare_standard(token)) {
+            peeked_ = token;
+            is_expanded_ = false;
         } else {
             const auto* array =
                 value != nullptr ? value->get_if<std::shared_ptr<Array>>() : nullptr;
@@ -432,12 +436,42 @@ void Tokens::include() {
     open(name, token.place);
 }
 
+/// Has the names of a file, and of those that it includes, declared where they are used.
+void Tokens::include_standard(const StandardFile& file) {
+    // POV-Ray's own files end with #version and the number that `version` was before.
+    if (!version) version = 3.7;
+    if (!standard_files_.insert(file.name).second) return;
+    for (const std::string_view other : file.includes)
+        include_standard(*standard_file(other));
+    for (const auto& [name, declaration] : file.declarations) {
+        standard_names_.insert_or_assign(name, StandardName{file.name, declaration});
+        frames_.front().names.erase(name);
+    }
+}
+
+/// True if one of POV-Ray's own files declares a name, which then is declared.
+bool Tokens::declare_standard(const Token& name) {
+    const auto standard = standard_names_.find(name.text);
+    if (name.kind != TokenKind::word || standard == standard_names_.end() ||
+        standard->second.declaration.empty())
+        return false;
+    const StandardName declared = standard->second;
+    standard_names_.erase(standard);
+    const std::optional<Place> use = standard_use_;
+    if (!standard_use_) standard_use_ = name.place;
+    sources_.push_back({std::string(declared.file), std::string(declared.declaration), {}});
+    enter({Scanner(sources_.back()), FrameKind::file, name.place});
+    directive(raw().place);
+    frames_.pop_back();
+    standard_use_ = use;
+    return true;
+}
+
 /// Beside the file that includes it, or of those that come with POV-Ray, or where Open Babel has
 /// its own.
 void Tokens::open(const std::string& name, const Place& place) {
     if (const auto known = included_.find(name); known != included_.end())
         return enter({Scanner(*known->second), FrameKind::file, place});
-    std::optional<std::string> text;
     std::filesystem::path path;
     for (const std::filesystem::path& folder : {place.source->folder, sources_.front().folder}) {
         std::error_code none;
@@ -446,25 +480,18 @@ void Tokens::open(const std::string& name, const Place& place) {
             break;
         }
     }
-    if (path.empty()) text = standard_include(name);
-    // POV-Ray's own files end with #version and the number that `version` was before.
-    if (text && !version) version = 3.7;
-    if (text && text->empty())
-        without_names_ += (without_names_.empty() ? "\"" : " or \"") + name + "\"";
+    if (path.empty())
+        if (const StandardFile* file = standard_file(name)) return include_standard(*file);
     const std::filesystem::path installed = "/usr/share/povray/include";
-    if (std::error_code none; path.empty() && !text && name == "babel_povray3.inc" &&
+    if (std::error_code none; path.empty() && name == "babel_povray3.inc" &&
                               std::filesystem::is_regular_file(installed / name, none))
         path = installed / name;
-    if (path.empty() && !text)
-        fail(place,
-             "must be a file beside this one, or one of POV-Ray's that are known here, got \"" +
-                 printable(name) + "\"");
-    if (!text) {
-        InputFile file(path);
-        file.take_as_text();
-        text = file.read_all();
-    }
-    sources_.push_back({path.empty() ? name : path.string(), std::move(*text), path.parent_path()});
+    if (path.empty())
+        fail(place, "must be a file beside this one, or one of POV-Ray's, got \"" +
+                        printable(name) + "\"");
+    InputFile file(path);
+    file.take_as_text();
+    sources_.push_back({path.string(), file.read_all(), path.parent_path()});
     included_.emplace(name, &sources_.back());
     enter({Scanner(sources_.back()), FrameKind::file, place});
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/input_file.hpp"
+#include "scenes/pov/includes.hpp"
 #include "scenes/pov/value.hpp"
 
 #include <cstddef>
@@ -107,8 +108,9 @@ class Tokens {
     /// one of 3.62, and the word `version` for 3.7.
     std::optional<double> version;
     Shared<Texture> default_texture = std::make_shared<const Texture>();
-    /// For the end of a message: of which included files a name may be that is not known.
-    std::string perhaps_of() const;
+    /// For the end of a message: the file of POV-Ray's own, if it is included, that declares the
+    /// name, which is not read.
+    std::string origin_of(const Token& name) const;
     /// True of a file that raylane has written, by its first words.
     bool is_by_convert() const;
     const Source& main() const { return sources_.front(); }
@@ -160,6 +162,8 @@ class Tokens {
     void call(Shared<Macro> macro, const Place& place);
     void include();
     void open(const std::string& name, const Place& place);
+    void include_standard(const StandardFile& file);
+    bool declare_standard(const Token& name);
     void begin_if(bool holds, const Place& place);
     void begin_switch(const Place& place);
     void begin_while(const Place& place);
@@ -174,7 +178,7 @@ class Tokens {
     void count_steps(std::size_t steps, const Place& place);
     void enter(Frame frame);
 
-    std::deque<Source> sources_;
+    std::deque<Source> sources_; ///< tokens and names refer to their texts
     std::vector<Frame> frames_;
     std::optional<Token> peeked_;
     Value element_;            ///< of the last token of that kind
@@ -184,7 +188,13 @@ class Tokens {
     std::set<std::string> remarks_;
     std::map<std::string, const Source*> included_;
     std::vector<std::uint32_t> random_; ///< where each stream is
-    std::string without_names_{};       ///< POV-Ray's own files, included, that are not read
+    /// A name that one of POV-Ray's own files declares. It is declared where it is used first.
+    struct StandardName {
+        std::string_view file, declaration; ///< empty: it is not read
+    };
+    std::unordered_map<std::string_view, StandardName> standard_names_;
+    std::set<std::string_view> standard_files_; ///< that are included
+    std::optional<Place> standard_use_;         ///< of the standard name that is being declared
     std::size_t steps_ = 0, tokens_ = 0, frames_entered_ = 0, string_bytes_ = 0;
     std::shared_ptr<std::size_t> array_bytes_ = std::make_shared<std::size_t>(0);
 };

@@ -112,16 +112,6 @@ TEST_CASE("POV-Ray: functions are those of POV-Ray") {
     CHECK(complaint("#declare A = rand(0);") == "a.pov:1:19: must be what seed() has made");
 }
 
-TEST_CASE("POV-Ray: a name that is not known may be of an include without use") {
-    const std::string perhaps = ": it may be of \"math.inc\", whose names are not read";
-    CHECK(complaint("#include \"math.inc\"\nsphere { 0, VMin(x) }") ==
-          "a.pov:2:13: must be a number, and \"VMin\" is not known" + perhaps);
-    CHECK(complaint("#include \"math.inc\"\nobject { Round }").find(perhaps) != std::string::npos);
-    CHECK(complaint("#include \"math.inc\"\nsphere { 0, 1 texture { Gold } }").find(perhaps) !=
-          std::string::npos);
-    CHECK(complaint("sphere { 0, VMin(x) }").find("math.inc") == std::string::npos);
-}
-
 TEST_CASE("POV-Ray: maps of colours, layers, skies and functions have names") {
     const Read layers = read("#declare M = color_map { [0 rgb 1] [1 rgb 0] }\n"
                              "#declare T = texture { pigment { rgb <0, 1, 0> } }\n"
