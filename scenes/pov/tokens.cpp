@@ -285,9 +285,32 @@ void Tokens::directive(const Place& hash) {
         read_string(*this);
         return;
     }
+    if (name == "fopen" || name == "write" || name == "fclose") return file_directive(word);
     if (name == "error")
         fail(hash, "is refused by the file itself: " + printable(read_string(*this), 200));
     fail(hash, "must be a directive that is read, got \"#" + printable(name) + "\"");
+}
+
+/// "#fopen NAME "file" write", "#write(NAME, ...)" and "#fclose NAME".
+void Tokens::file_directive(const Token& word) {
+    if (word.is("write")) {
+        expect("(");
+        for (int open = 1; open > 0;) {
+            const Token token = next();
+            if (token.kind == TokenKind::end)
+                fail(word.place, "must have a \")\", got the end of the file");
+            open += token.is("(") ? 1 : token.is(")") ? -1 : 0;
+        }
+        return;
+    }
+    raw_word("a name");
+    if (word.is("fclose")) return;
+    read_string(*this);
+    const Token mode = next();
+    if (!mode.is("write") && !mode.is("append"))
+        fail(mode.place,
+             "must be write or append, as other files are not read, got " + mode.quoted());
+    remark(word.place, "writes a file of its own, which is not written here");
 }
 
 void Tokens::declaration(const Token& word) {

@@ -157,6 +157,7 @@ class Tokens {
     bool leave_frame(const Place& end);
     void directive(const Place& hash);
     void declaration(const Token& word);
+    void file_directive(const Token& word);
     void begin_macro();
     /// By value: an argument may declare the macro's name anew.
     void call(Shared<Macro> macro, const Place& place);

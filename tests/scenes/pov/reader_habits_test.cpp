@@ -130,3 +130,12 @@ TEST_CASE("POV-Ray: maps of colours, layers, skies and functions have names") {
                "sphere { 0, 1 normal { N } }")
               .scene.shape_count() == 1);
 }
+
+TEST_CASE("POV-Ray: a scene that writes files is drawn, and one that reads them is refused") {
+    const Read of = read("#fopen F \"none.txt\" write\n#write (F, \"a\", (1 + 2) * 3, x, \"\\n\")\n"
+                         "#fclose F\nsphere { 0, 1 }");
+    CHECK(of.scene.shape_count() == 1);
+    CHECK(of.remarks == "a.pov:2:2: writes a file of its own, which is not written here\n");
+    CHECK(
+        complaint("#fopen F \"none.txt\" read").starts_with("a.pov:1:21: must be write or append"));
+}
