@@ -60,6 +60,15 @@ void read_reflection(Tokens& tokens, Finish& finish, const Place& place) {
         tokens.remark(place, "has limits of Fresnel's reflection, which are not drawn");
 }
 
+/// "normal { ... }"
+bool accept_normal(Tokens& tokens) {
+    const Place place = tokens.peek().place;
+    if (!tokens.accept("normal")) return false;
+    tokens.skip_braces();
+    tokens.remark(place, "bends normals, which are drawn as they are");
+    return true;
+}
+
 /// Which shares are of all the light that comes back, in all directions.
 struct Albedo {
     bool diffuse = false, phong = false, specular = false;
@@ -103,27 +112,6 @@ Pigment read_pigment(Tokens& tokens, Pigment given, std::string_view end) {
 Pigment read_pigment(Tokens& tokens, Pigment pigment) {
     tokens.expect("{");
     return read_pigment(tokens, std::move(pigment), "}");
-}
-
-SkySphere read_sky_sphere(Tokens& tokens) {
-    SkySphere sky;
-    tokens.expect("{");
-    while (!tokens.accept("}")) {
-        if (const auto known = tokens.accept_value<SkySphere>()) {
-            sky = *known;
-            continue;
-        }
-        if (read_motion(tokens) != nullptr) continue;
-        const Token word = tokens.next();
-        if (word.is("pigment"))
-            sky.color = read_pigment(tokens, {}).color;
-        else if (word.is("emission"))
-            read_color(tokens);
-        else
-            fail(word.place,
-                 "must be of a sky_sphere, got " + word.quoted() + tokens.origin_of(word));
-    }
-    return sky;
 }
 
 Finish read_finish(Tokens& tokens, Finish finish) {
@@ -201,10 +189,7 @@ Shared<Texture> read_texture(Tokens& tokens, std::string_view end) {
             texture->pigment = read_pigment(tokens, texture->pigment);
         } else if (tokens.accept("finish")) {
             texture->finish = read_finish(tokens, texture->finish);
-        } else if (tokens.at("normal")) {
-            tokens.remark(tokens.next().place, "bends normals, which are drawn as they are");
-            tokens.skip_braces();
-        } else if (!read_pattern(tokens, *texture)) {
+        } else if (!accept_normal(tokens) && !read_pattern(tokens, *texture)) {
             const Token& word = tokens.peek();
             fail(word.place, "must be of a texture, got " + word.quoted() + tokens.origin_of(word));
         }
@@ -212,30 +197,11 @@ Shared<Texture> read_texture(Tokens& tokens, std::string_view end) {
     return texture;
 }
 
-Texture layered(Tokens& tokens, const Texture& below, const Texture& above, const Place& place) {
-    const auto& top = above.pigment.color.at;
-    const auto& bottom = below.pigment.color.at;
-    const double filter = top[3], transmit = top[4];
-    if (filter == 0.0 && transmit == 0.0) return above;
-    tokens.remark(place, "has layers of textures, drawn as one");
-    const double own = std::clamp(1.0 - filter - transmit, 0.0, 1.0);
-    Texture result = own < 0.5 ? below : above;
-    result.pigment = above.pigment;
-    result.pigment.kind = PigmentKind::color;
-    auto& color = result.pigment.color.at;
-    for (std::size_t i = 0; i < 3; ++i)
-        color[i] = own * top[i] + (transmit + filter * top[i]) * bottom[i];
-    for (std::size_t i = 3; i < 5; ++i)
-        color[i] = (filter + transmit) * bottom[i];
-    return result;
-}
-
 Shared<Texture> read_layers(Tokens& tokens) {
     Shared<Texture> texture = read_texture(tokens);
     while (tokens.ahead().is("texture")) {
         const Place place = tokens.next().place;
-        texture = std::make_shared<const Texture>(
-            layered(tokens, *texture, *read_texture(tokens), place));
+        texture = layered(tokens, texture, read_texture(tokens), place);
     }
     return texture;
 }
@@ -300,10 +266,7 @@ void read_default(Tokens& tokens) {
             texture.pigment = read_pigment(tokens, texture.pigment);
         } else if (tokens.accept("finish")) {
             texture.finish = read_finish(tokens, texture.finish);
-        } else if (tokens.at("normal")) {
-            tokens.remark(tokens.next().place, "bends normals, which are drawn as they are");
-            tokens.skip_braces();
-        } else {
+        } else if (!accept_normal(tokens)) {
             const Token word = tokens.next();
             fail(word.place, "must be a texture, pigment or finish, got " + word.quoted());
         }

@@ -7,13 +7,10 @@ namespace raylane::scenes::pov {
 
 /// All of these begin at the brace.
 Pigment read_pigment(Tokens& tokens, Pigment pigment);
-SkySphere read_sky_sphere(Tokens& tokens);
 Finish read_finish(Tokens& tokens, Finish finish);
 Shared<Texture> read_texture(Tokens& tokens);
 /// The same, with the layers "texture { ... }" behind it.
 Shared<Texture> read_layers(Tokens& tokens);
-/// A layer on another texture, as one.
-Texture layered(Tokens& tokens, const Texture& below, const Texture& above, const Place& place);
 Interior read_interior(Tokens& tokens);
 Material read_material(Tokens& tokens);
 /// The same behind the brace or bracket, up to its end.

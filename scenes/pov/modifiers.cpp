@@ -1,6 +1,7 @@
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/objects.hpp"
+#include "scenes/pov/patterns.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -74,11 +75,10 @@ class Modifiers {
 
     void read_one(const Token& word) {
         if (word.is("texture")) {
-            const Shared<Texture> texture = read_texture(tokens_);
-            object_.texture = object_.texture == nullptr
-                                  ? texture
-                                  : std::make_shared<const Texture>(
-                                        layered(tokens_, *object_.texture, *texture, word.place));
+            Shared<Texture> texture = read_texture(tokens_);
+            if (object_.texture != nullptr)
+                texture = layered(tokens_, object_.texture, std::move(texture), word.place);
+            object_.texture = std::move(texture);
         } else if (word.is("pigment")) {
             Texture texture = own_texture();
             texture.pigment = read_pigment(tokens_, texture.pigment);
@@ -134,10 +134,12 @@ class Modifiers {
         const bool is_ignored = std::find(std::begin(without_meaning), std::end(without_meaning),
                                           word.text) != std::end(without_meaning);
         if (is_ignored || word.is("no_shadow") || word.is("no_reflection") || word.is("no_image") ||
-            word.is("no_radiosity")) {
+            word.is("no_radiosity") || word.is("uv_mapping")) {
             const bool holds = !at_tuple(tokens_) || read_number(tokens_) != 0.0;
             if (word.is("no_image") && holds) object_.is_hidden = true;
             if (word.is("cutaway_textures")) cuts_textures_ = holds;
+            if (word.is("uv_mapping") && holds)
+                tokens_.remark(word.place, "has patterns on a surface's own axes, drawn in space");
             if ((word.is("no_shadow") || word.is("no_image") || word.is("no_reflection")) && holds)
                 tokens_.remark(word.place,
                                word.is("no_shadow")
@@ -148,6 +150,10 @@ class Modifiers {
         } else if (word.is("normal") || word.is("photons") || word.is("radiosity") ||
                    word.is("interior_texture") || word.is("uv_vectors")) {
             if (!word.is("uv_vectors")) tokens_.skip_braces();
+            while (tokens_.at("<")) {
+                read_tuple(tokens_);
+                tokens_.accept(",");
+            }
             tokens_.remark(word.place, "has " + word.quoted() + ", which is not drawn");
         } else {
             fail(word.place, "must be of an object, got " + word.quoted());

@@ -10,14 +10,6 @@
 
 namespace raylane::scenes::pov {
 
-namespace {
-
-struct Weighted {
-    double weight;
-    Texture texture;
-};
-
-/// A pattern is as one colour.
 Tuple color_of(const Pigment& pigment) {
     Tuple color = pigment.color;
     if (pigment.kind == PigmentKind::color) return color;
@@ -25,6 +17,13 @@ Tuple color_of(const Pigment& pigment) {
         color.at[i] = 0.5 * (color.at[i] + pigment.other.at[i]);
     return color;
 }
+
+namespace {
+
+struct Weighted {
+    double weight;
+    Texture texture;
+};
 
 /// The share of light that a colour is multiplied with.
 double share_of(const Finish& finish) {
@@ -114,7 +113,8 @@ constexpr std::string_view changes[] = {
     "accuracy",   "exponent",   "metric",          "offset",        "solid",        "form",
     "control0",   "control1",   "map_type",        "interpolate",   "once",         "brick_size",
     "mortar",     "agate_turb", "noise_generator", "quick_color",   "quick_colour", "uv_mapping",
-    "use_index",  "use_color",  "use_colour",      "no_bump_scale", "coords",       "size"};
+    "use_index",  "use_color",  "use_colour",      "no_bump_scale", "coords",       "interior",
+    "exterior",   "size"};
 
 template <std::size_t count>
 bool is_one_of(const std::string_view (&words)[count], const Token& token) {
@@ -267,6 +267,8 @@ class PatternReader {
             read_color(tokens_);
         else if (at_tuple(tokens_) && !begins_color(tokens_.peek()))
             read_tuple(tokens_);
+        if ((word.is("interior") || word.is("exterior")) && tokens_.accept(","))
+            read_tuple(tokens_);
         if (word.is("uv_mapping"))
             tokens_.remark(word.place, "has patterns on a surface's own axes, drawn in space");
         else if (pigment().kind != PigmentKind::color && !word.text.starts_with("quick"))
@@ -352,7 +354,9 @@ PatternMap read_map(Tokens& tokens, MapOf kind) {
     std::vector<Weighted> entries;
     while (!tokens.accept("}")) {
         tokens.expect("[");
-        const double at = read_number(tokens);
+        // In an average an entry may have no weight.
+        const bool has_place = at_tuple(tokens) && !begins_color(tokens.peek());
+        const double at = has_place ? read_number(tokens) : 1.0;
         tokens.accept(",");
         if (kind == MapOf::colors)
             read_colors(tokens, at, entries);
@@ -376,6 +380,29 @@ PatternMap read_map(Tokens& tokens, MapOf kind) {
     make_sum_one(entries);
     map.mean = mean_of(entries);
     return map;
+}
+
+Shared<Texture> layered(Tokens& tokens, const Shared<Texture>& below, Shared<Texture> above,
+                        const Place& place) {
+    const auto through = [](const Tuple& color) {
+        return std::clamp(color.at[3] + color.at[4], 0.0, 1.0);
+    };
+    const auto over = [&](const Tuple& top, const Tuple& bottom) {
+        Tuple both{{}, 5};
+        for (std::size_t i = 0; i < 3; ++i)
+            both.at[i] = (1.0 - through(top)) * top.at[i] + through(top) * bottom.at[i];
+        both.at[4] = through(top) * through(bottom);
+        return both;
+    };
+    const Tuple top = color_of(above->pigment), bottom = color_of(below->pigment);
+    if (through(top) == 0.0) return above;
+    tokens.remark(place, "has layers of textures, drawn as one");
+    const bool is_pattern_below = below->pigment.kind != PigmentKind::color;
+    Texture texture = is_pattern_below ? *below : *above;
+    texture.finish = finish_of({{1.0 - through(top), *above}, {through(top), *below}});
+    for (Tuple* color : {&texture.pigment.color, &texture.pigment.other})
+        *color = is_pattern_below ? over(top, *color) : over(*color, bottom);
+    return std::make_shared<const Texture>(std::move(texture));
 }
 
 bool read_pattern(Tokens& tokens, Texture& texture) {

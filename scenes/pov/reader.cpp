@@ -94,9 +94,11 @@ class Reader {
                                "sets ambient_light behind objects that are drawn without");
             assembly_.materials.ambient_light = settings_.ambient_light;
         } else if (tokens_.accept("sky_sphere")) {
-            const SkySphere sky = read_sky_sphere(tokens_);
+            const Sky sky = read_sky(tokens_);
             if (!has_background_) background_ = sky.color;
             tokens_.remark(word.place, "has a sky_sphere, of which one colour is drawn");
+        } else if (tokens_.accept("default")) {
+            read_default(tokens_);
         } else if (word.is("rainbow") || word.is("media")) {
             tokens_.next();
             tokens_.skip_braces();

@@ -4,6 +4,7 @@
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/objects.hpp"
+#include "scenes/pov/patterns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,6 +62,7 @@ Camera read_camera(Tokens& tokens) {
             camera.orthographic = word.is("orthographic");
         } else if (is_projection(word)) {
             if (word.is("cylinder")) read_number(tokens);
+            if (word.is("mesh_camera")) tokens.skip_braces();
             is_wide = true;
             tokens.remark(word.place, "has a camera that is " + word.quoted() +
                                           ", whose picture is drawn in perspective");
@@ -248,6 +250,10 @@ core::Fog read_fog(Tokens& tokens) {
     bool is_ground = false; // left out: everywhere, it would hide the rest
     tokens.expect("{");
     while (!tokens.accept("}")) {
+        if (const auto known = tokens.accept_value<core::Fog>()) {
+            fog = *known;
+            continue;
+        }
         if (read_motion(tokens) != nullptr) continue;
         if (at_tuple(tokens)) {
             const Tuple color = read_color(tokens);
@@ -276,6 +282,30 @@ core::Fog read_fog(Tokens& tokens) {
         fog.density = static_cast<float>(1.0 / distance);
     }
     return fog;
+}
+
+Sky read_sky(Tokens& tokens) {
+    Sky sky;
+    tokens.expect("{");
+    while (!tokens.accept("}")) {
+        if (const auto known = tokens.accept_value<Sky>()) {
+            sky = *known;
+            continue;
+        }
+        if (read_motion(tokens) != nullptr) continue;
+        const Token word = tokens.next();
+        if (word.is("pigment")) {
+            const Tuple color = color_of(read_pigment(tokens, {}));
+            const double through = std::clamp(color.at[3] + color.at[4], 0.0, 1.0);
+            for (std::size_t i = 0; i < 3; ++i)
+                sky.color.at[i] = (1.0 - through) * color.at[i] + through * sky.color.at[i];
+        } else if (word.is("emission")) {
+            read_color(tokens);
+        } else {
+            fail(word.place, "must be of a sky_sphere, got " + word.quoted());
+        }
+    }
+    return sky;
 }
 
 void read_global_settings(Tokens& tokens, GlobalSettings& settings) {

@@ -9,6 +9,7 @@ namespace raylane::scenes::pov {
 Camera read_camera(Tokens& tokens);
 LightSource read_light(Tokens& tokens);
 core::Fog read_fog(Tokens& tokens);
+Sky read_sky(Tokens& tokens);
 
 /// "global_settings { ... }", as far as a picture has them.
 struct GlobalSettings {

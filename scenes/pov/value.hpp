@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/scene/surroundings.hpp"
 #include "core/solids/transform.hpp"
 #include "scenes/pov/scanner.hpp"
 
@@ -148,7 +149,8 @@ struct Camera {
     Shared<Motion> motion{};
 };
 
-struct SkySphere {
+/// The colour that is seen of a sky_sphere.
+struct Sky {
     Tuple color{{}, 5};
 };
 /// The value of a skipped statement: normal, media, a function of a pigment, ...
@@ -172,7 +174,7 @@ struct Value {
     std::variant<std::monostate, Tuple, std::string, std::shared_ptr<Array>, Shared<Macro>,
                  Shared<Pigment>, Shared<Finish>, Shared<Texture>, Shared<Interior>,
                  Shared<Material>, Shared<Object>, Shared<Motion>, Shared<Camera>,
-                 Shared<PatternMap>, Shared<SkySphere>, NotDrawn>
+                 Shared<PatternMap>, Shared<core::Fog>, Shared<Sky>, NotDrawn>
         of{};
 
     template <class T>

@@ -71,15 +71,17 @@ Value read_value(Tokens& tokens) {
     if (tokens.accept("material")) return shared(read_material(tokens));
     if (tokens.accept("interior")) return shared(read_interior(tokens));
     if (tokens.accept("transform")) return {read_transform(tokens)};
+    if (tokens.accept("fog")) return shared(read_fog(tokens));
+    if (tokens.accept("sky_sphere")) return shared(read_sky(tokens));
     if (tokens.accept("camera")) return shared(read_camera(tokens));
     if (const std::optional<MapOf> kind = map_of(word)) {
         tokens.next();
         return shared(read_map(tokens, *kind));
     }
     if (tokens.accept("function")) return tokens.read_function_value();
-    if (tokens.accept("sky_sphere")) return shared(read_sky_sphere(tokens));
-    static constexpr std::string_view not_drawn[] = {
-        "density", "density_map", "media", "normal", "normal_map", "rainbow", "slope_map"};
+    static constexpr std::string_view not_drawn[] = {"density",   "density_map", "media",
+                                                     "normal",    "normal_map",  "rainbow",
+                                                     "slope_map", "spline"};
     if (std::find(std::begin(not_drawn), std::end(not_drawn), word.text) != std::end(not_drawn)) {
         tokens.next();
         tokens.skip_braces();

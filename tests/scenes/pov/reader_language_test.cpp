@@ -89,7 +89,7 @@ TEST_CASE("POV-Ray: a name is declared before a directive that may ask for it") 
     CHECK(number("N", "#declare N = 0 #while (N < 3) #declare N = N + 1 #end") == "3");
     CHECK(number("N", "#if (1) #declare N = 1 #else #declare N = 2 #end") == "1");
     CHECK(number("version", "#version 3.6 #if (version = 3.6) #version 3.5 #end") == "3.5");
-    // As many as there are: none is within the one before it.
+    // Each #declare ends before the next begins.
     std::string many;
     for (int i = 0; i < 5000; ++i)
         many += "#declare N = " + std::to_string(i) + "\n";
@@ -140,9 +140,9 @@ TEST_CASE("POV-Ray: lights are in unions, and objects") {
     CHECK(positions("difference { sphere { 0, 2 } light_source { 3*x, rgb 1 } sphere { x, 1 } }") ==
           "3 ");
     CHECK(positions("union { light_source { x, rgb 1 } no_image }") == "1 ");
-    CHECK(
-        positions("light_group { light_source { x, rgb 1 } sphere { 0, 0.5 } global_lights off }") ==
-        "1 ");
+    CHECK(positions(
+              "light_group { light_source { x, rgb 1 } sphere { 0, 0.5 } global_lights off }") ==
+          "1 ");
     const core::Light parallel =
         read(light + "union { light_source { 2*x, rgb 1 parallel point_at 0 } rotate 90*z }")
             .scene.lights()
@@ -157,4 +157,63 @@ TEST_CASE("POV-Ray: lights are in unions, and objects") {
     CHECK(complaint("#declare U = union { light_source { x, rgb 1 } }\n"
                     "#for (I, 1, 40) #declare U = union { object { U } object { U } } #end\nU")
               .find("must not be of more than 65536 lights") != std::string::npos);
+}
+
+TEST_CASE("POV-Ray: declared values that are not rendered refuse no scene") {
+    const Read values = read(
+        "#declare N = array[1] { normal { bumps 0.5 scale 2 } } #declare M = media { emission 1 }\n"
+        "#declare D = density { spherical } #declare F = function(x, y) { x*y + sin(x) }\n"
+        "#declare S = spline { linear_spline 0, x 1, y } #declare R = rainbow { angle 42 }\n"
+        "#default { normal { N[0] } }\n"
+        "sphere { 0, 1 texture { pigment { rgb x } normal { N[0] } } interior { media { M } } }\n"
+        "sphere { 3*x, 1 texture { pigment { function { F(x, y) } color_map { [0 rgb y] [1 rgb y] "
+        "} } } }");
+    CHECK(color_of(values) == core::Color(1, 0, 0));
+    CHECK(color_of(values, 1) == core::Color(0, 1, 0));
+    CHECK(complaint("#declare F = function { x } sphere { 0, F(1, 2, 3) }") ==
+          "a.pov:1:41: must be the name of a number, vector or colour, got \"F\"");
+    const Read sky =
+        read("#declare S = sky_sphere { pigment { rgb y } pigment { rgbt <1, 0, 0, 0.75> } }\n"
+             "#declare F = fog { distance 4 rgb 1 } sky_sphere { S } fog { F }");
+    CHECK(sky.scene.background() == core::Color(0.25F, 0.75F, 0));
+    CHECK(sky.scene.fog().density == 0.25F);
+    const Read horizon =
+        read("sky_sphere { pigment { gradient y color_map { [0 rgb 0] [1 rgb 1] } } }");
+    CHECK(horizon.scene.background() == core::Color(0.5F, 0.5F, 0.5F));
+}
+
+TEST_CASE("POV-Ray: layers of textures are as one") {
+    const std::string layers =
+        "texture { pigment { rgb x } finish { specular 0.5 } } "
+        "texture { pigment { rgbt <0, 0, 1, 0.75> } finish { specular 0.25 } }";
+    for (const std::string& text : {"sphere { 0, 1 " + layers + " }",
+                                    "#declare T = " + layers + " sphere { 0, 1 texture { T } }"}) {
+        CAPTURE(text);
+        const Read of = read(text);
+        CHECK(color_of(of) == core::Color(0.75F, 0, 0.25F));
+        CHECK(of.material_of().opacity == 1.0F);
+        CHECK(of.material_of().specular == 0.4375F);
+        CHECK(of.remarks_on("has layers of textures, drawn as one"));
+    }
+    CHECK(color_of(read("#declare T = texture { pigment { rgb y } }\n"
+                        "#declare S = sphere { 0, 1 texture { T } }\nobject { S }")) ==
+          core::Color(0, 1, 0));
+    const Read checker = read("sphere { 0, 1 texture { pigment { checker rgb 1, rgb 0 } } "
+                              "texture { pigment { rgbt <0, 0, 0, 0.5> } } }");
+    CHECK(checker.material_of().pattern.kind == core::PatternKind::checker);
+    CHECK(color_of(checker) == core::Color(0.5F, 0.5F, 0.5F));
+    CHECK(read("sphere { 0, 1 texture { pigment { rgb x } } texture { pigment { rgb y } } }")
+              .remarks.empty());
+}
+
+TEST_CASE("POV-Ray: words that a scene can do without refuse none") {
+    const Read words = read(
+        "default { finish { ambient 0.25 } }\n"
+        "sphere { 0, 1 uv_mapping pigment { mandel 50 interior 2, 0.5 exterior 1, 1 rgb y } }\n"
+        "triangle { <3, 0, 0>, <4, 0, 0>, <3, 1, 0> uv_vectors <0, 0>, <1, 0>, <0, 1> }",
+        "camera { mesh_camera { 1 0 mesh { triangle { 0, x, y } } } location 9*z look_at 0 }\n");
+    CHECK(words.scene.shape_count() == 2);
+    CHECK(words.material_of().ambient == 0.25F);
+    CHECK(color_of(words) == core::Color(0, 1, 0));
+    CHECK(words.remarks_on("patterns on a surface's own axes, drawn in space"));
 }
