@@ -31,7 +31,7 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
     if (format == Format::tachyon)
         return read_tachyon(file, options.workers, options.on_remark, options.tachyon);
     return format == Format::json ? read_json(file, options.workers, options.parameters)
-                                  : read_nff(file, options.workers);
+                                  : read_nff(file, options.workers, options.on_remark);
 }
 
 } // namespace

@@ -274,10 +274,16 @@ void SceneBuilder::build_shapes() {
 void SceneBuilder::finish(const NameOfShape& name_of_shape) {
     scene_.find_transmissive();
     for (std::size_t i = 0; i < scene_.lights_.size(); ++i) {
-        const Light& light = scene_.lights_[i];
+        Light& light = scene_.lights_[i];
         if (light.kind != LightKind::point) continue;
         const ShapeId id = surface_through(scene_, light.position);
         if (id == no_shape) continue;
+        if (on_light_moved)
+            if (const auto beside = point_beside_surface(scene_, light.position, camera)) {
+                light.position = *beside;
+                on_light_moved(i);
+                continue;
+            }
         std::string name = name_of_shape ? name_of_shape(id) : "";
         if (name.empty()) name = "shape " + std::to_string(id);
         throw InvalidValue("lights/" + std::to_string(i) + "/position",

@@ -120,7 +120,10 @@ class SceneBuilder {
     /// What of camera, fog and lights build() finds by itself. Throws InvalidValue, field "camera",
     /// if there is nothing that a camera could find its place by.
     Staging staging;
-    bool wants_light = true;             ///< true if build() refuses shapes without a light
+    bool wants_light = true; ///< true if build() refuses shapes without a light
+    /// If set, build() moves each point light that is on a surface off it, to the side that the
+    /// camera sees, and calls this with the light's number. By default it refuses such lights.
+    std::function<void(std::size_t)> on_light_moved;
     std::size_t pack_from = packed_from; ///< so many spheres: they take less memory then
     Workers* workers = nullptr;          ///< that build the hierarchy; default: the caller's thread
 

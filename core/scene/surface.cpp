@@ -2,15 +2,19 @@
 
 #include "core/shapes/solve.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace raylane::core {
 
 namespace {
 
-/// A point is on a surface if a ray that starts there crosses it at t = 0. No plane contains all
-/// three directions, so one of the rays crosses.
+/// No plane contains all three.
+constexpr double directions[3][3] = {{3, 4, 12}, {12, 3, -4}, {-4, 12, 3}};
+
+/// A point is on a surface if a ray that starts there crosses it at t = 0: one of three does.
 template <class Shape>
 bool is_on(const Shape& shape, const Vec3f& point) {
-    static constexpr double directions[3][3] = {{3, 4, 12}, {12, 3, -4}, {-4, 12, 3}};
     for (const auto& d : directions) {
         std::uint64_t widened = 0;
         const Ray<double> ray{convert<double>(point), {d[0], d[1], d[2]}};
@@ -20,22 +24,41 @@ bool is_on(const Shape& shape, const Vec3f& point) {
     return false;
 }
 
+/// True if the way from a point of the surface to the eye goes in there, and out again.
 template <class Shape>
-ShapeId lowest_in_block(const Table<Shape>& table, std::uint32_t index, const Vec3f& point) {
-    ShapeId lowest = no_shape;
-    for_each_in_block(table, index, [&](Place place, ShapeId id) {
-        if (id < lowest && is_on(table.get(place), point)) lowest = id;
-    });
-    return lowest;
+bool hides(const Shape& shape, const Vec3f& point, const Vec3f& eye) {
+    if (point == eye) return false;
+    const Vec3d origin = convert<double>(point);
+    const Ray<double> ray{origin, convert<double>(eye) - origin};
+    std::uint64_t widened = 0;
+    bool is_inside = false;
+    for (const Crossing<double>& crossing : solve(shape, ray, Start{}, widened)) {
+        if (is_inside && crossing.t > 0.0 && crossing.t < 1.0) return true;
+        is_inside = crossing.t == 0.0 && crossing.entering;
+    }
+    return false;
 }
 
-} // namespace
+struct Found {
+    ShapeId id = no_shape;
+    bool hides = false;
+};
 
-ShapeId surface_through(const Scene& scene, const Vec3f& point) {
-    ShapeId lowest = no_shape;
+template <class Shape>
+void find_in_block(const Table<Shape>& table, std::uint32_t index, const Vec3f& point,
+                   const Vec3f& eye, Found& lowest) {
+    for_each_in_block(table, index, [&](Place place, ShapeId id) {
+        const auto& shape = table.get(place);
+        if (id < lowest.id && is_on(shape, point)) lowest = {id, hides(shape, point, eye)};
+    });
+}
+
+/// The shape of the lowest id whose surface has the point.
+Found find(const Scene& scene, const Vec3f& point, const Vec3f& eye) {
+    Found lowest;
     for_each_unbounded_table(scene.shapes(), [&](const auto& table) {
         for (std::uint32_t index = 0; index < table.blocks().size(); ++index)
-            lowest = std::min(lowest, lowest_in_block(table, index, point));
+            find_in_block(table, index, point, eye, lowest);
     });
 
     const BigArray<WideNode>& nodes = scene.hierarchy().nodes;
@@ -51,13 +74,40 @@ ShapeId surface_through(const Scene& scene, const Vec3f& point) {
                 pending.push_back(child);
                 continue;
             }
-            lowest =
-                std::min(lowest, with_table(scene.shapes(), child.kind(), [&](const auto& table) {
-                             return lowest_in_block(table, child.index(), point);
-                         }));
+            with_table(scene.shapes(), child.kind(), [&](const auto& table) {
+                find_in_block(table, child.index(), point, eye, lowest);
+            });
         }
     }
     return lowest;
+}
+
+} // namespace
+
+ShapeId surface_through(const Scene& scene, const Vec3f& point) {
+    return find(scene, point, point).id;
+}
+
+std::optional<Vec3f> point_beside_surface(const Scene& scene, const Vec3f& point,
+                                          const Camera& camera) {
+    const Vec3d origin = convert<double>(point), eye = convert<double>(camera.from);
+    Vec3d aside = point == camera.from ? Vec3d(convert<double>(camera.at) - eye) : eye - origin;
+    double size = length(aside);
+    for (int axis = 0; axis < 3; ++axis)
+        size = std::max(size, std::abs(origin[axis]));
+    if (find(scene, point, camera.from).hides) aside = -aside;
+    const auto clear = [&](const Vec3d& direction, double step) -> std::optional<Vec3f> {
+        const auto beside = convert<float>(Vec3d(origin + step / length(direction) * direction));
+        if (surface_through(scene, beside) != no_shape) return std::nullopt;
+        return beside;
+    };
+    for (double step = size * 0x1p-12; step < size * 0x1p-4; step *= 2.0) {
+        if (const auto beside = clear(aside, step)) return beside;
+        for (const auto& d : directions)
+            for (const double side : {step, -step})
+                if (const auto beside = clear({d[0], d[1], d[2]}, side)) return beside;
+    }
+    return std::nullopt;
 }
 
 } // namespace raylane::core

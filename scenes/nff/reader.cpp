@@ -3,7 +3,6 @@
 #include "core/scene/validate.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/nff/fields.hpp"
-#include "scenes/nff/object_name.hpp"
 #include "scenes/nff/surface.hpp"
 #include "scenes/nff/triangulate.hpp"
 #include "scenes/nff/view.hpp"
@@ -29,8 +28,16 @@ constexpr std::uint64_t sample_size = 1 << 20;
 
 class Reader {
   public:
-    Reader(InputFile& file, core::Workers* workers) : file_(file), fields_(file) {
+    Reader(InputFile& file, core::Workers* workers, const OnRemark& on_remark)
+        : file_(file), fields_(file) {
         builder_.workers = workers;
+        builder_.on_light_moved = [&](std::size_t i) {
+            if (on_remark)
+                on_remark(text_of({file_.name(),
+                                   {lights_[i].line, 0},
+                                   "",
+                                   "l: is on a surface, and shines from beside it here"}));
+        };
     }
     core::Scene read();
 
@@ -261,9 +268,7 @@ core::Scene Reader::build() {
     if (!has_view_) throw BadInput(file_.name(), "", "must have a v entity, got none");
     if (!materials_) add_lights();
     try {
-        return std::move(builder_).build([this](core::ShapeId id) {
-            return nff_object_name(file_, core::rank_in_groups(builder_.polygons(), id));
-        });
+        return std::move(builder_).build();
     } catch (const InvalidValue& invalid) {
         constexpr std::string_view lights = "lights/";
         std::size_t light = 0;
@@ -278,8 +283,8 @@ core::Scene Reader::build() {
 
 } // namespace
 
-core::Scene read_nff(InputFile& file, core::Workers* workers) {
-    return Reader(file, workers).read();
+core::Scene read_nff(InputFile& file, core::Workers* workers, const OnRemark& on_remark) {
+    return Reader(file, workers, on_remark).read();
 }
 
 } // namespace raylane::scenes

@@ -15,6 +15,7 @@ namespace raylane::scenes {
 /// - Ks is what is reflected as well; an index of refraction of 0 is 1 where T is 0.
 /// `workers` build the hierarchy, if there are any.
 /// Throws BadInput, with the line, and SystemRefused.
-core::Scene read_nff(InputFile& file, core::Workers* workers = nullptr);
+core::Scene read_nff(InputFile& file, core::Workers* workers = nullptr,
+                     const OnRemark& on_remark = {});
 
 } // namespace raylane::scenes

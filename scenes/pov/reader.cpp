@@ -45,6 +45,10 @@ class Reader {
         : tokens_(source_of(file), on_remark), assembly_(builder_, tokens_) {
         builder_.workers = workers;
         builder_.wants_light = false;
+        builder_.on_light_moved = [this](std::size_t i) {
+            tokens_.remark(assembly_.lights[i].place,
+                           "has lights on a surface, which shine from beside it here");
+        };
     }
 
     core::Scene read() {

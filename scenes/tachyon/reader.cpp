@@ -27,6 +27,9 @@ class Reader {
           objects_(builder_, words_, shading_) {
         builder_.workers = workers;
         builder_.wants_light = false;
+        builder_.on_light_moved = [this](std::size_t) {
+            words_.remark("LIGHT: on a surface, a light shines from beside it");
+        };
     }
     core::Scene read();
 

@@ -223,6 +223,18 @@ TEST_CASE("an NFF file is the same whatever parts it is read in") {
     CHECK(same);
 }
 
+TEST_CASE("an NFF light on a surface shines from beside it") {
+    raylane::scenes::InputFile file("a.nff",
+                                    view + "l 5 5 5\nl 0 0 1\nf 1 1 1 1 0 0 0 1\ns 0 0 0 1\n");
+    std::string remarks;
+    const core::Scene scene =
+        scenes::read_nff(file, nullptr, [&](const std::string& remark) { remarks += remark; });
+    CHECK(remarks == "a.nff:9: l: is on a surface, and shines from beside it here");
+    CHECK(scene.lights().at(0).position == core::Vec3f(5, 5, 5));
+    CHECK(core::length(scene.lights().at(1).position) == Approx(1.0F).epsilon(0.01));
+    CHECK(core::length(scene.lights().at(1).position) > 1.0F);
+}
+
 TEST_CASE("the Standard Procedural Databases' scenes are read whole") {
     const std::filesystem::path scenes = RAYLANE_SHARED_SCENES;
     if (!std::filesystem::exists(scenes)) {

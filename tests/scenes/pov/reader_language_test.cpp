@@ -217,3 +217,33 @@ TEST_CASE("POV-Ray: words that a scene can do without refuse none") {
     CHECK(color_of(words) == core::Color(0, 1, 0));
     CHECK(words.remarks_on("patterns on a surface's own axes, drawn in space"));
 }
+
+TEST_CASE("POV-Ray: a light on a surface shines from beside it") {
+    const std::string above = "camera { location <0, 3, 9> look_at 0 right -x up y }\n";
+    const auto position = [&](const std::string& light, const std::string& object,
+                              const std::string& before) {
+        const Read of = read("light_source { " + light + ", rgb 1 } " + object, before);
+        CHECK(of.remarks_on("has lights on a surface, which shine from beside it here"));
+        return of.scene.lights().at(0).position;
+    };
+    const auto is_just_above = [](float value, float edge) {
+        return value > edge && value < edge + 0.01F;
+    };
+    const auto is_just_below = [](float value, float edge) {
+        return value < edge && value > edge - 0.01F;
+    };
+    CHECK(is_just_above(position("<2, 0, -3>", "plane { y, 0 }", above).y, 0));
+    CHECK(is_just_below(position("<2, 4, -3>", "plane { y, 4 }", above).y, 4));
+    CHECK(position("<2, 0, -3>", "plane { y, 0 }", camera).y != 0.0F); // edge on
+    CHECK(is_just_above(position("z", "sphere { 0, 1 }", above).z, 1));
+    CHECK(is_just_below(position("-z", "sphere { 0, 1 }", above).z, -1)); // behind the sphere
+    CHECK(is_just_below(position("<0, 5, 0>", "box { <-9, -5, -9>, <9, 5, 10> }", above).y, 5));
+    // Where the camera is, too.
+    CHECK(is_just_above(position("<0, 0, 9>", "box { -9, 9 }",
+                                 "camera { location <0, 0, 9> look_at <0, 0, 20> right -x up y }\n")
+                            .z,
+                        9));
+    CHECK(is_just_below(position("<0, 0, 9>", "box { -9, 9 }", camera).z, 9));
+    CHECK_FALSE(
+        read("light_source { 2*y, rgb 1 } plane { y, 0 }", above).remarks_on("on a surface"));
+}

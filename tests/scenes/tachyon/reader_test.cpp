@@ -232,6 +232,14 @@ TEST_CASE("Tachyon's lights and its sky give light") {
     CHECK(overridden.lights()[1].color == Color(0.75F));
 }
 
+TEST_CASE("a Tachyon light on a surface shines from beside it") {
+    const Reading reading = read(ball + "LIGHT CENTER 1 2 3.5 RAD 0 COLOR 1 1 1\n");
+    CHECK(reading.remarks ==
+          std::vector<std::string>{"a.dat: LIGHT: on a surface, a light shines from beside it"});
+    CHECK(reading.scene.lights().at(0).position.z != -3.5F);
+    CHECK(reading.scene.lights().at(0).position.z == Approx(-3.5F).epsilon(0.01));
+}
+
 TEST_CASE("Tachyon's background and fog are what they can be") {
     CHECK(scene_of("BACKGROUND 0.1 0.2 0.3").background() == Color(0.1F, 0.2F, 0.3F));
     const std::string gradient = "BACKGROUND_GRADIENT SKY_SPHERE UPDIR 0 1 0 TOPVAL 1 BOTTOMVAL "
