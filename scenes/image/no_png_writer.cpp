@@ -1,4 +1,5 @@
 #include "scenes/errors.hpp"
+#include "scenes/image/png_reader.hpp"
 #include "scenes/image/png_writer.hpp"
 
 namespace raylane::scenes {
@@ -6,6 +7,11 @@ namespace raylane::scenes {
 void write_png(AtomicFile& file, const core::Film& film, const PictureOptions& options) {
     static_cast<void>(film), static_cast<void>(options);
     throw BadInput(file.name(), "", "must not be PNG: this raylane is built without libpng");
+}
+
+void read_png(ByteSource& source, Image& image) {
+    static_cast<void>(source), static_cast<void>(image);
+    throw MalformedPicture("must not be PNG: this raylane is built without libpng");
 }
 
 } // namespace raylane::scenes

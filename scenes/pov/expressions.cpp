@@ -21,10 +21,6 @@ Tuple combined(const Tuple& a, const Tuple& b, const Operation& operation) {
     return result;
 }
 
-double from_srgb(double value) {
-    return value <= 0.04045 ? value / 12.92 : core::power((value + 0.055) / 1.055, 2.4);
-}
-
 /// What "rgbt" and the like make of numbers: red, green, blue, filter, transmit.
 Tuple color_by(std::string_view word, const Tuple& given) {
     Tuple color{{}, 5};
@@ -33,7 +29,7 @@ Tuple color_by(std::string_view word, const Tuple& given) {
     const std::size_t count = std::min<std::size_t>(3, 3 + channels.size());
     for (std::size_t i = 0; i < count; ++i) {
         color.at[i] = given.size == 1 ? given.at[0] : given.at[i];
-        if (is_srgb) color.at[i] = from_srgb(color.at[i]);
+        if (is_srgb) color.at[i] = linear_of_srgb(color.at[i]);
     }
     const bool is_color = given.size == 5;
     std::size_t next = 3;
@@ -169,14 +165,6 @@ bool is_comparison(const Token& sign) {
            std::find(std::begin(signs), std::end(signs), sign.text) != std::end(signs);
 }
 
-/// True before a string, or the name of one.
-bool at_string(Tokens& tokens) {
-    const Token& token = tokens.peek();
-    if (begins_string(token)) return true;
-    const Value* value = tokens.value_of(token);
-    return value != nullptr && value->get_if<std::string>() != nullptr;
-}
-
 /// Compares two strings by their bytes.
 Tuple read_comparison_of_strings(Tokens& tokens) {
     const std::string first = read_string(tokens);
@@ -198,6 +186,17 @@ Tuple read_comparison(Tokens& tokens) {
 }
 
 } // namespace
+
+double linear_of_srgb(double value) {
+    return value <= 0.04045 ? value / 12.92 : core::power((value + 0.055) / 1.055, 2.4);
+}
+
+bool at_string(Tokens& tokens) {
+    const Token& token = tokens.peek();
+    if (begins_string(token)) return true;
+    const Value* value = tokens.value_of(token);
+    return value != nullptr && value->get_if<std::string>() != nullptr;
+}
 
 Tuple read_tuple(Tokens& tokens) {
     Tuple value = read_product(tokens);

@@ -13,6 +13,8 @@ Tuple read_tuple(Tokens& tokens);
 Tuple read_relation(Tokens& tokens);
 double read_number(Tokens& tokens);
 core::Vec3d read_vector(Tokens& tokens);
+/// The curve of IEC 61966-2-1.
+double linear_of_srgb(double value);
 /// Five components, behind "color" or without it.
 Tuple read_color(Tokens& tokens);
 /// True of a word that begins a colour.
@@ -21,6 +23,8 @@ bool begins_color(const Token& token);
 bool at_tuple(Tokens& tokens);
 /// True of a string, and of a function that makes one.
 bool begins_string(const Token& token);
+/// True before a string, or the name of one.
+bool at_string(Tokens& tokens);
 std::string read_string(Tokens& tokens);
 
 /// "[1][2]", so many at most.

@@ -2,6 +2,7 @@
 
 #include "scenes/pov/expressions.hpp"
 #include "scenes/pov/finishes.hpp"
+#include "scenes/pov/images.hpp"
 #include "scenes/pov/objects.hpp"
 
 #include <algorithm>
@@ -236,10 +237,12 @@ class PatternReader {
         pigment().motion = motion;
     }
 
-    /// Of patterns that are not drawn: the mean of black and white, unless a map follows.
+    /// Takes grey for a pattern that is not rendered, unless a map follows.
     void read_other(const Token& word) {
         Texture grey{{}, texture_.finish};
         grey.pigment.color = {{0.5, 0.5, 0.5, 0.0, 0.0}, 5};
+        if (word.is("image_map"))
+            grey.pigment.color = read_image_color(tokens_).value_or(grey.pigment.color);
         set_one(grey, word);
         if (const std::optional<MapOf> kind = map_of(tokens_.peek()); kind && word.is("average")) {
             tokens_.next();

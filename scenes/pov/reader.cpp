@@ -162,9 +162,7 @@ class Reader {
         picture.grid = 3;
         picture.max_depth = settings_.max_trace_level - 1;
         picture.min_weight = static_cast<float>(settings_.adc_bailout);
-        // Scenes of versions before 3.7 are of what a file holds, unless they say otherwise.
-        const bool is_old = tokens_.version.value_or(3.62) < 3.7;
-        const double gamma = settings_.assumed_gamma.value_or(is_old ? 0.0 : 1.0);
+        const double gamma = tokens_.gamma();
         constexpr double in_between = 1.6;
         picture.transfer =
             gamma > 0.0 && gamma < in_between ? core::Transfer::srgb : core::Transfer::linear;

@@ -313,7 +313,7 @@ void read_global_settings(Tokens& tokens, GlobalSettings& settings) {
     while (!tokens.accept("}")) {
         const Token word = tokens.next();
         if (word.is("assumed_gamma")) {
-            settings.assumed_gamma = tokens.accept("srgb") ? 0.0 : read_number(tokens);
+            tokens.assumed_gamma = tokens.accept("srgb") ? 0.0 : read_number(tokens);
         } else if (word.is("max_trace_level")) {
             settings.max_trace_level =
                 static_cast<int>(std::clamp(read_number(tokens), 1.0, 256.0));

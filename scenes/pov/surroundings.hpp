@@ -16,7 +16,6 @@ struct GlobalSettings {
     int max_trace_level = 5;
     double adc_bailout = 1.0 / 255.0;
     double ambient_light = 1.0;
-    std::optional<double> assumed_gamma{}; ///< 0: sRGB's curve
 };
 void read_global_settings(Tokens& tokens, GlobalSettings& settings);
 

@@ -490,19 +490,22 @@ bool Tokens::declare_standard(const Token& name) {
     return true;
 }
 
+std::optional<std::filesystem::path> Tokens::file_beside(const std::string& name,
+                                                         const Place& place) const {
+    for (const std::filesystem::path& folder : {place.source->folder, sources_.front().folder}) {
+        std::error_code none;
+        if (!folder.empty() && std::filesystem::is_regular_file(folder / name, none))
+            return folder / name;
+    }
+    return std::nullopt;
+}
+
 /// Beside the file that includes it, or of those that come with POV-Ray, or where Open Babel has
 /// its own.
 void Tokens::open(const std::string& name, const Place& place) {
     if (const auto known = included_.find(name); known != included_.end())
         return enter({Scanner(*known->second), FrameKind::file, place});
-    std::filesystem::path path;
-    for (const std::filesystem::path& folder : {place.source->folder, sources_.front().folder}) {
-        std::error_code none;
-        if (!folder.empty() && std::filesystem::is_regular_file(folder / name, none)) {
-            path = folder / name;
-            break;
-        }
-    }
+    std::filesystem::path path = file_beside(name, place).value_or("");
     if (path.empty())
         if (const StandardFile* file = standard_file(name)) return include_standard(*file);
     const std::filesystem::path installed = "/usr/share/povray/include";

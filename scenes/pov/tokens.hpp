@@ -50,9 +50,9 @@ class Tokens {
     /// The next token. A macro's name is not among them.
     Token next();
     const Token& peek();
-    /// The next token of an expression. Carries out directives first, within brackets all of them.
-    /// Outside, in what #declare or #version reads, an expression ends at a '#' whose directive may
-    /// depend on the value. A macro's name is as it is.
+    /// The next token of an expression, behind all directives before it. In a #declare or #version
+    /// and outside of brackets, a directive that may use the declared name ends the expression: its
+    /// '#' is the token. A macro's name is not expanded.
     const Token& ahead();
     bool at(std::string_view what) { return peek().is(what); }
     /// True, and past it, if it comes next.
@@ -102,12 +102,23 @@ class Tokens {
     /// From 0 to 1.
     double next_random(double stream, const Place& place);
 
-    int depth = 0;         ///< of what is read
-    int open_brackets = 0; ///< those that have been read, and not their ends
+    int depth = 0;         ///< statements, expressions and macros in each other
+    int open_brackets = 0; ///< brackets whose ends have not been read
     /// Version of the language by the last #version. Without any, POV-Ray 3.7 takes the scene for
     /// one of 3.62, and the word `version` for 3.7.
     std::optional<double> version;
+    std::optional<double> assumed_gamma; ///< by global_settings; 0: sRGB's curve
+    /// The gamma of the scene's colours. 0: they are the file's codes, which is the default of
+    /// versions before 3.7.
+    double gamma() const {
+        return assumed_gamma.value_or(version.value_or(3.62) < 3.7 ? 0.0 : 1.0);
+    }
+    /// Mean colours of pictures, by the file's name and whether its codes were decoded.
+    std::map<std::pair<std::string, bool>, std::optional<Tuple>> image_colors;
     Shared<Texture> default_texture = std::make_shared<const Texture>();
+    /// A file beside the one that names it, or beside the scene.
+    std::optional<std::filesystem::path> file_beside(const std::string& name,
+                                                     const Place& place) const;
     /// For the end of a message: the file of POV-Ray's own, if it is included, that declares the
     /// name, which is not read.
     std::string origin_of(const Token& name) const;

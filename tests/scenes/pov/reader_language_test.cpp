@@ -238,7 +238,7 @@ TEST_CASE("POV-Ray: a light on a surface shines from beside it") {
     CHECK(is_just_above(position("z", "sphere { 0, 1 }", above).z, 1));
     CHECK(is_just_below(position("-z", "sphere { 0, 1 }", above).z, -1)); // behind the sphere
     CHECK(is_just_below(position("<0, 5, 0>", "box { <-9, -5, -9>, <9, 5, 10> }", above).y, 5));
-    // Where the camera is, too.
+    // The camera is in the same place.
     CHECK(is_just_above(position("<0, 0, 9>", "box { -9, 9 }",
                                  "camera { location <0, 0, 9> look_at <0, 0, 20> right -x up y }\n")
                             .z,

@@ -3,6 +3,7 @@
 #include "tests/catch.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/pov/read.hpp"
+#include "tests/scenes/temporary_directory.hpp"
 
 #include <string>
 
@@ -21,6 +22,26 @@ Read with_pigment(const std::string& text, const std::string& before = "") {
 
 Read with_texture(const std::string& text, const std::string& before = "") {
     return read(before + "sphere { 0, 1 texture { " + text + " } }");
+}
+
+/// A PNG of one pixel, 128 64 255.
+constexpr unsigned char one_pixel[] = {
+    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48,
+    0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
+    0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00, 0x0C, 0x49, 0x44, 0x41, 0x54, 0x78,
+    0xDA, 0x63, 0x68, 0x70, 0xF8, 0x0F, 0x00, 0x03, 0x03, 0x01, 0xC0, 0xC0, 0x7A, 0x88,
+    0x48, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+/// A PNG of two pixels: red, and blue with alpha 0.
+constexpr unsigned char half_clear[] = {
+    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48,
+    0x44, 0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00,
+    0x00, 0xF4, 0x22, 0x7F, 0x8A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x44, 0x41, 0x54, 0x78,
+    0xDA, 0x63, 0xF8, 0xCF, 0xC0, 0x00, 0x46, 0x00, 0x0E, 0xFA, 0x02, 0xFE, 0x2A, 0x40,
+    0x5E, 0xB9, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+
+template <std::size_t size>
+std::string bytes_of(const unsigned char (&bytes)[size]) {
+    return {bytes, bytes + size};
 }
 
 const core::Color red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1), white(1, 1, 1),
@@ -105,7 +126,7 @@ TEST_CASE("POV-Ray: a pattern that is not drawn has the mean of its colours") {
     CHECK(color("bozo") == grey);
     CHECK(color("image_map { png \"none.png\" map_type 1 interpolate 2 once }") == grey);
     CHECK(color("wood color_map { [0 rgb 0] [1 rgb 1] }") == grey);
-    // By how much of the map each has.
+    // Weighted by the share of the map.
     CHECK(
         color("marble turbulence 1 color_map { [0 rgb 0] [0.75 rgb 0] [0.75 rgb 1] [1 rgb 1] }") ==
         core::Color(0.25F, 0.25F, 0.25F));
@@ -136,4 +157,36 @@ TEST_CASE("POV-Ray: words that change how a pattern lies are left out") {
     const Read on_surface = with_texture("uv_mapping pigment { checker rgb 0, rgb 1 }");
     CHECK(pattern_of(on_surface).kind == core::PatternKind::checker);
     CHECK(on_surface.remarks_on("patterns on a surface's own axes, drawn in space"));
+}
+
+TEST_CASE("POV-Ray: an image_map has the mean colour of its picture") {
+    const tests::TemporaryDirectory directory;
+    directory.write("one.png", bytes_of(one_pixel));
+    directory.write("half.png", bytes_of(half_clear));
+    directory.write("cut.png", bytes_of(one_pixel).substr(0, 60));
+    const auto of = [&](const std::string& version, const std::string& image) {
+        std::string remarks;
+        scenes::LoadOptions options;
+        options.on_remark = [&](const std::string& remark) { remarks += remark + "\n"; };
+        const std::string text = "#version " + version + ";\n" + tests::camera +
+                                 "sphere { 0, 1 pigment { image_map { " + image + " } } }";
+        core::Scene scene = scenes::load_scene(directory.write("a.pov", text), options);
+        CHECK(remarks.find("has the pattern \"image_map\", drawn as one colour") !=
+              std::string::npos);
+        return scene.material_of(0);
+    };
+    const std::string one = "png \"one.png\" map_type 1 interpolate 2";
+    // Versions before 3.7 take the file's codes.
+    CHECK(of("3.6", one).pattern.colors[0].x == Approx(128.0F / 255.0F));
+    for (const std::string version : {"3.7", "3.6; global_settings { assumed_gamma 1 }"}) {
+        const core::Color linear = of(version, one).pattern.colors[0];
+        CHECK(linear.x == Approx(0.21586F).epsilon(1e-4));
+        CHECK(linear.y == Approx(0.05127F).epsilon(1e-4));
+        CHECK(linear.z == 1.0F);
+    }
+    const core::Material half = of("3.7", "\"half.png\" once");
+    CHECK(half.pattern.colors[0] == red);
+    CHECK(half.opacity == 0.5F);
+    for (const char* other : {"png \"cut.png\"", "png \"none.png\"", "jpeg \"a.pov\""})
+        CHECK(of("3.7", other).pattern.colors[0] == grey);
 }
