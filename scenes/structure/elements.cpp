@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -71,6 +72,28 @@ constexpr std::array<ElementData, element_count> elements = {{
     {"Og", 0.00F, 0.00F, 294.214F, 0xeb0026},
 }};
 
+constexpr int heaviest = 99; // einsteinium: no sample has others
+
+/// In daltons, of which there are samples: D, T, lithium's, boron's, and carbon's.
+constexpr std::pair<double, Element> isotopes[] = {{2.014, 1},  {3.016, 1},  {6.015, 3}, {7.016, 3},
+                                                   {10.013, 5}, {11.009, 5}, {13.003, 6}};
+
+bool is_whole(double number) {
+    return std::abs(number - std::round(number)) <= 1e-9 * std::abs(number);
+}
+
+/// Returns the one element whose mass is rounded to that, or 0.
+Element element_of_whole_mass(double mass) {
+    Element found = 0;
+    for (int z = 1; z <= heaviest; ++z)
+        if (std::round(static_cast<double>(elements[static_cast<std::size_t>(z)].mass)) ==
+            std::round(mass)) {
+            if (found != 0) return 0;
+            found = static_cast<Element>(z);
+        }
+    return found;
+}
+
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
@@ -92,13 +115,40 @@ Element element_of(std::string_view symbol) {
 }
 
 Element element_of_mass(double mass) {
+    if (is_whole(mass)) return element_of_whole_mass(mass);
+    for (const auto& [of_isotope, element] : isotopes)
+        if (std::abs(of_isotope - mass) <= 0.003) return element;
     const auto off = [&](const ElementData& of) {
         return std::abs(static_cast<double>(of.mass) - mass);
     };
     const auto* const nearest = std::min_element(
-        elements.begin() + 1, elements.end(),
+        elements.begin() + 1, elements.begin() + heaviest + 1,
         [&](const ElementData& a, const ElementData& b) { return off(a) < off(b); });
-    return off(*nearest) < 0.5 ? static_cast<Element>(nearest - elements.begin()) : Element{0};
+    // Old tables differ by less than 0.1 %, and CH2 from nitrogen by more.
+    const bool is_near = off(*nearest) <= std::min(0.05, 0.001 * mass);
+    const bool is_rounded = (is_whole(10.0 * mass) && off(*nearest) <= 0.0501) ||
+                            (is_whole(100.0 * mass) && off(*nearest) <= 0.0051);
+    return is_near || is_rounded ? static_cast<Element>(nearest - elements.begin()) : Element{0};
+}
+
+std::vector<Element> elements_of_masses(const std::vector<double>& masses, MassUnits units) {
+    if (units == MassUnits::others) return {};
+    std::vector<Element> found;
+    bool has_decimals = false, has_usual = false, has_different = false;
+    bool has_one = false, has_hydrogen = false;
+    for (const double mass : masses) {
+        found.push_back(element_of_mass(mass));
+        if (found.back() == 0) return {};
+        has_decimals = has_decimals || !is_whole(mass);
+        has_usual = has_usual || mass == 12.0 || mass == 16.0;
+        has_different = has_different || mass != masses.front();
+        has_one = has_one || mass == 1.0;
+        has_hydrogen = has_hydrogen || (found.back() == 1 && mass > 1.0 && mass < 1.5);
+    }
+    if (units == MassUnits::daltons) return found;
+    if (has_one && has_hydrogen) return {}; // as electrons are of mass 1 beside nuclei
+    if (!has_decimals && !(has_usual && has_different)) return {};
+    return found;
 }
 
 } // namespace raylane::scenes

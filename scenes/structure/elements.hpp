@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -27,7 +28,17 @@ const ElementData& data_of(Element element);
 /// By symbol, whatever its case; 0 if there is none. "D" and "T" are hydrogen.
 Element element_of(std::string_view symbol);
 
-/// Of the element whose atoms weigh that, within half a dalton; 0 if there is none.
+/// Returns the element with that mass in daltons, or with a light isotope of that mass, or 0. The
+/// mass may be rounded: 55.8 and 56 are iron. United atoms are no elements: CH2, 14.027, is not
+/// nitrogen.
 Element element_of_mass(double mass);
+
+enum class MassUnits { unknown, daltons, others };
+
+/// Returns the elements of types of atoms by their masses. Empty if a mass is not an element's, or
+/// if the masses may be in other units. Masses with decimals that fit elements are in daltons, and
+/// whole numbers are if 12 or 16 is among them beside another one. In reduced units most masses are
+/// 1, or all the same.
+std::vector<Element> elements_of_masses(const std::vector<double>& masses, MassUnits units);
 
 } // namespace raylane::scenes

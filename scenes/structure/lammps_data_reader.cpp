@@ -234,16 +234,27 @@ class DataReader : public FrameReader {
         frame.has_all_bonds = true;
     }
 
-    /// By their masses, if all of them are some element's: in reduced units they are not.
+    /// Finds the elements of types by their masses.
     void name_kinds(Structure& frame) {
-        std::vector<Element> elements;
+        std::vector<double> masses;
         for (const AtomKind& kind : frame.of_kind) {
-            const auto mass = masses_.find(kind.label);
-            elements.push_back(mass == masses_.end() ? Element{0} : element_of_mass(mass->second));
+            const auto found = masses_.find(kind.label);
+            if (found == masses_.end()) return;
+            masses.push_back(found->second);
         }
-        if (std::find(elements.begin(), elements.end(), 0) != elements.end()) return;
+        const std::vector<Element> elements = elements_of_masses(masses, units_of(frame.title));
         for (std::size_t kind = 0; kind < elements.size(); ++kind)
             frame.of_kind[kind].element = elements[kind];
+    }
+
+    /// LAMMPS itself writes "units = real" at the end of the first line.
+    static MassUnits units_of(std::string_view title) {
+        constexpr std::string_view key = "units = ";
+        const std::size_t at = title.rfind(key);
+        if (at == std::string_view::npos) return MassUnits::unknown;
+        const std::string_view units = trimmed(title.substr(at + key.size()));
+        return units == "real" || units == "metal" || units == "electron" ? MassUnits::daltons
+                                                                          : MassUnits::others;
     }
 
     Lines lines_;

@@ -81,6 +81,49 @@ TEST_CASE("elements are told by symbols and masses") {
     }
 }
 
+TEST_CASE("masses are those of elements if they are rounded, of isotopes, or of old tables") {
+    const auto symbol = [](double mass) {
+        return std::string(data_of(element_of_mass(mass)).symbol);
+    };
+    for (const double mass : {1.00794, 1.008, 1.01, 1.0, 2.014})
+        CHECK(symbol(mass) == "H");
+    for (const double mass : {12.0, 12.01, 12.011, 12.0107, 13.003})
+        CHECK(symbol(mass) == "C");
+    CHECK(symbol(14.0) == "N");
+    CHECK(symbol(14.0067) == "N");
+    CHECK(symbol(28.06) == "Si");
+    CHECK(symbol(35.5) == "Cl");
+    CHECK(symbol(56.0) == "Fe");
+    CHECK(symbol(196.97) == "Au");
+    CHECK(symbol(207.2) == "Pb");
+    // CH to CH4, OH and H2O of united atoms, beads, whole numbers near two elements.
+    for (const double mass : {13.019, 14.027, 14.03, 15.035, 15.0, 16.043, 16.04, 17.007, 18.015,
+                              18.0, 72.0, 40.0, 59.0, 0.5, 1.5, 260.0})
+        CHECK(symbol(mass) == "X");
+}
+
+TEST_CASE("masses in reduced units are no elements") {
+    const auto symbols = [](const std::vector<double>& masses, MassUnits units) {
+        std::string text;
+        for (const Element element : elements_of_masses(masses, units))
+            text.append(data_of(element).symbol).append(" ");
+        return text;
+    };
+    using Masses = std::vector<double>;
+    for (const Masses& masses :
+         {Masses{1}, Masses{1, 1}, Masses{1, 2}, Masses{12, 12}, Masses{14, 14}, Masses{1, 4},
+          Masses{1, 27}, Masses{14.027, 15.035}, Masses{12.011, 14.027}, Masses{1.00794, 1}}) {
+        CAPTURE(masses);
+        CHECK(symbols(masses, MassUnits::unknown).empty());
+    }
+    CHECK(symbols({63.546, 63.546}, MassUnits::unknown) == "Cu Cu ");
+    CHECK(symbols({1, 16}, MassUnits::unknown) == "H O ");
+    CHECK(symbols({1, 12}, MassUnits::unknown) == "H C ");
+    CHECK(symbols({1, 15.9994}, MassUnits::unknown) == "H O ");
+    CHECK(symbols({1, 4}, MassUnits::daltons) == "H He ");
+    CHECK(symbols({15.9994}, MassUnits::others).empty());
+}
+
 TEST_CASE("bonds are those of all pairs that are near enough") {
     Random random(20261125);
     for (const double size : {3.0, 20.0, 4000.0}) {
