@@ -225,7 +225,10 @@ class Artist {
     void add_atoms() {
         builder_.reserve(count_ * images_.size());
         std::vector<char> has_ellipsoid;
-        if (drawing_.ellipsoids) has_ellipsoid = add_ellipsoids();
+        if (drawing_.ellipsoids)
+            has_ellipsoid = add_displacements();
+        else if (scale_.style == Style::spheres || scale_.style == Style::balls)
+            has_ellipsoid = add_shapes();
         for (AtomIndex atom = 0; atom < structure_.size(); ++atom) {
             if (!is_selected(atom) || (!has_ellipsoid.empty() && has_ellipsoid[atom] != 0))
                 continue;
@@ -237,7 +240,7 @@ class Artist {
         }
     }
 
-    std::vector<char> add_ellipsoids() {
+    std::vector<char> add_displacements() {
         if (structure_.anisotropies.empty())
             throw BadInput("--ellipsoids", "", file_ + " has no anisotropic displacements");
         std::vector<char> done(structure_.size());
@@ -245,16 +248,31 @@ class Artist {
             if (!is_selected(of.atom)) continue;
             const auto axes = axes_of(of);
             if (!axes) continue;
-            const MaterialIndex material = palette_.of(color_of_(of.atom));
-            for (const Vec3f& image : images_)
-                add(core::Ellipsoid{structure_.positions[of.atom] + image,
-                                    core::convert<float>((*axes)[0]),
-                                    core::convert<float>((*axes)[1]),
-                                    core::convert<float>((*axes)[2])},
-                    material, {of.atom, of.atom});
+            add_ellipsoid(of.atom,
+                          {core::convert<float>((*axes)[0]), core::convert<float>((*axes)[1]),
+                           core::convert<float>((*axes)[2])});
             done[of.atom] = 1;
         }
         return done;
+    }
+
+    /// Adds the atoms that are no balls, as large in proportion as balls are.
+    std::vector<char> add_shapes() {
+        std::vector<char> done(structure_.shapes.empty() ? 0 : structure_.size());
+        for (const auto& [atom, axes] : structure_.shapes) {
+            if (!is_selected(atom)) continue;
+            const float size = radius_of(atom) / full_radius(atom);
+            add_ellipsoid(atom, {size * axes[0], size * axes[1], size * axes[2]});
+            done[atom] = 1;
+        }
+        return done;
+    }
+
+    void add_ellipsoid(AtomIndex atom, const std::array<Vec3f, 3>& axes) {
+        const MaterialIndex material = palette_.of(color_of_(atom));
+        for (const Vec3f& image : images_)
+            add(core::Ellipsoid{structure_.positions[atom] + image, axes[0], axes[1], axes[2]},
+                material, {atom, atom});
     }
 
     void add_bonds() {

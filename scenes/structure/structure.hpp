@@ -40,6 +40,12 @@ struct Anisotropy {
     std::array<float, 6> u;
 };
 
+/// The shape of an atom that is no ball: its semi-axes.
+struct AtomShape {
+    AtomIndex atom;
+    std::array<core::Vec3f, 3> axes;
+};
+
 /// A number for each atom, as a file has it.
 struct AtomProperty {
     std::string name;
@@ -73,6 +79,7 @@ struct Structure {
 
     std::vector<AtomProperty> properties;
     std::vector<Anisotropy> anisotropies; ///< by ascending atom
+    std::vector<AtomShape> shapes;        ///< of some atoms
     std::vector<Bond> bonds;              ///< those that the file has
     bool has_all_bonds = false;           ///< true: there are no others
     Cell cell;

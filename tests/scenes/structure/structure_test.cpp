@@ -1,7 +1,9 @@
+#include "core/shapes/ellipsoid.hpp"
 #include "scenes/errors.hpp"
 #include "scenes/scene_file.hpp"
 #include "scenes/structure/bonds.hpp"
 #include "scenes/structure/selection.hpp"
+#include "scenes/structure/structure_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/random.hpp"
 #include "tests/scenes/message_of.hpp"
@@ -297,6 +299,31 @@ TEST_CASE("styles have the shapes that they are named after") {
     CHECK(counts(Style::automatic) == std::pair<std::size_t, std::size_t>(4, 5));
     CHECK(counts(Style::sticks) == std::pair<std::size_t, std::size_t>(4, 5)); // C-C of one colour
     CHECK(counts(Style::licorice) == std::pair<std::size_t, std::size_t>(4, 5));
+}
+
+TEST_CASE("atoms that are no balls are ellipsoids in the proportions of the style") {
+    using raylane::core::Ellipsoid, raylane::core::Sphere, raylane::core::Table;
+    Structure structure = of_atoms({{"Xx", {0, 0, 0}}, {"Xx", {9, 0, 0}}});
+    structure.radii = {4.0F, 1.0F};
+    structure.shapes = {{0, {Vec3f(2, 0, 0), Vec3f(0, 0, 4), Vec3f(0, -1, 0)}}};
+    const auto drawn = [&](Style style) {
+        Drawing drawing;
+        drawing.style = style;
+        return draw_structure(structure, drawing, "a");
+    };
+    for (const auto& [style, size] : {std::pair(Style::automatic, 1.0F), {Style::balls, 0.5F}}) {
+        const raylane::core::Scene scene = drawn(style);
+        const auto& ellipsoids = std::get<Table<Ellipsoid>>(scene.shapes());
+        REQUIRE(ellipsoids.size() == 1);
+        CHECK(std::get<Table<Sphere>>(scene.shapes()).size() == 1);
+        raylane::core::for_each_shape(ellipsoids, [&](const auto& shape, raylane::core::ShapeId) {
+            const auto bounds = raylane::core::bounds_of(shape);
+            CHECK(bounds.upper.x == Approx(2.0F * size));
+            CHECK(bounds.upper.y == Approx(1.0F * size));
+            CHECK(bounds.upper.z == Approx(4.0F * size));
+        });
+    }
+    CHECK(std::get<Table<Ellipsoid>>(drawn(Style::points).shapes()).size() == 0);
 }
 
 TEST_CASE("what cannot be drawn is said in a line") {
