@@ -21,7 +21,8 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
                        "has no number \"$" + printable(options.parameters.begin()->first) +
                            "\" that could be set: only JSON may");
     if (is_structure(format))
-        return read_structure(file, format, options.drawing, options.workers, options.legend);
+        return read_structure(file, format, {options.atom_style, options.on_remark},
+                              options.drawing, options.workers, options.legend);
     if (!options.option_for_atoms.empty())
         throw BadInput(options.option_for_atoms, "",
                        "goes with a file of atoms, and " + printable(file.name(), 4096) +

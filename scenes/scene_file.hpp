@@ -16,9 +16,10 @@ namespace raylane::scenes {
 struct LoadOptions {
     core::Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
     OnRead on_read = {};
-    OnRemark on_remark = {};  ///< of scenes of other programs
-    Drawing drawing = {};     ///< of files of atoms
-    Legend* legend = nullptr; ///< is left with what the shapes are, of a file of atoms
+    OnRemark on_remark = {};     ///< of files of other programs
+    std::string atom_style = {}; ///< of LAMMPS' data; empty: the file's
+    Drawing drawing = {};        ///< of files of atoms
+    Legend* legend = nullptr;    ///< is left with what the shapes are, of a file of atoms
     /// What a scene is refused with: an option that says how atoms are drawn; empty: none is given.
     std::string option_for_atoms = {};
     TachyonShading tachyon = {}; ///< in place of what a scene of Tachyon's says

@@ -1,39 +1,73 @@
 #include "scenes/errors.hpp"
 #include "scenes/structure/kind_table.hpp"
+#include "scenes/structure/lammps_atom_table.hpp"
 #include "scenes/structure/lines.hpp"
 #include "scenes/structure/readers.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace raylane::scenes {
 
 namespace {
 
-/// Where the columns of an atom style are, counted from 0; -1: it has none.
-struct AtomStyle {
-    std::string_view name;
-    int type, x, molecule, charge, diameter;
-};
-constexpr std::array<AtomStyle, 7> styles = {{
-    {"angle", 2, 3, 1, -1, -1},
-    {"atomic", 1, 2, -1, -1, -1},
-    {"bond", 2, 3, 1, -1, -1},
-    {"charge", 1, 3, -1, 2, -1},
-    {"full", 2, 4, 1, 3, -1},
-    {"molecular", 2, 3, 1, -1, -1},
-    {"sphere", 1, 4, -1, -1, 2},
-}};
+constexpr std::string_view sections[] = {"Angle Coeffs",
+                                         "Angle Type Labels",
+                                         "AngleAngle Coeffs",
+                                         "AngleAngleTorsion Coeffs",
+                                         "AngleTorsion Coeffs",
+                                         "Angles",
+                                         "Atom Type Labels",
+                                         "Atoms",
+                                         "Bodies",
+                                         "Bond Coeffs",
+                                         "Bond Type Labels",
+                                         "BondAngle Coeffs",
+                                         "BondBond Coeffs",
+                                         "BondBond13 Coeffs",
+                                         "Bonds",
+                                         "Dihedral Coeffs",
+                                         "Dihedral Type Labels",
+                                         "Dihedrals",
+                                         "Ellipsoids",
+                                         "EndBondTorsion Coeffs",
+                                         "Improper Coeffs",
+                                         "Improper Type Labels",
+                                         "Impropers",
+                                         "Lines",
+                                         "Masses",
+                                         "MiddleBondTorsion Coeffs",
+                                         "Pair Coeffs",
+                                         "PairIJ Coeffs",
+                                         "Triangles",
+                                         "Velocities"};
 
-constexpr std::array<std::string_view, 7> sections = {"Masses", "Atoms",     "Velocities", "Bonds",
-                                                      "Angles", "Dihedrals", "Impropers"};
+bool is_known_section(std::string_view name) {
+    return std::find(std::begin(sections), std::end(sections), name) != std::end(sections);
+}
+
+bool is_letter(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
 
 class DataReader : public FrameReader {
   public:
-    explicit DataReader(InputFile& file) : lines_(file) {}
+    DataReader(InputFile& file, const ReaderOptions& options)
+        : file_(file), lines_(file), options_(options) {
+        if (!options.atom_style.empty() && layouts_of(options.atom_style).empty())
+            throw BadInput("--atom-style", "",
+                           "must be an atom style of LAMMPS, such as atomic, charge, molecular, "
+                           "full, sphere, or hybrid with its sub-styles, got \"" +
+                               printable(options.atom_style) + "\"" +
+                               suggestion(options.atom_style, atom_style_names()));
+    }
 
     bool next(Structure& frame) override {
         if (was_read_) return false;
@@ -41,14 +75,18 @@ class DataReader : public FrameReader {
         frame = {};
         lines_.next(); // a remark, whatever it says
         frame.title = trimmed(lines_.text());
-        read_header(frame.cell);
+        read_header();
+        frame.cell = header_.cell;
         do
             read_section(frame);
         while (next_of_text());
-        if (frame.size() != counts_["atoms"])
-            lines_.fail("must have " + std::to_string(counts_["atoms"]) + " atoms, got " +
+        if (const std::size_t atoms = header_.count("atoms"); frame.size() != atoms)
+            lines_.fail("must have " + std::to_string(atoms) + " atoms, got " +
                         std::to_string(frame.size()));
         name_kinds(frame);
+        for (const char* particles : {"lines", "triangles", "bodies"})
+            if (const std::size_t count = header_.count(particles); count > 0)
+                tell(0, std::to_string(count) + " " + particles + " are drawn as balls");
         return true;
     }
 
@@ -57,22 +95,31 @@ class DataReader : public FrameReader {
         return trimmed(line.substr(0, line.find('#')));
     }
 
-    /// The next line that is not blank.
+    void tell(std::size_t line, const std::string& message) const {
+        if (options_.on_remark)
+            options_.on_remark(text_of({file_.name(), {.line = line}, {}, message}));
+    }
+
+    /// Goes on to the next line that is not blank.
     bool next_of_text() {
-        while (lines_.next())
+        is_after_blank_ = false;
+        while (lines_.next()) {
             if (!without_remark(lines_.text()).empty()) return true;
+            is_after_blank_ = true;
+        }
         return false;
     }
 
-    /// "10 atoms", "0 50 xlo xhi", "0 0 0 xy xz yz", up to the first section, whose line is there
-    /// then.
-    void read_header(Cell& cell) {
+    /// Reads "10 atoms", "0 50 xlo xhi", "0 0 0 xy xz yz", "1 0 0 avec", up to the line of the
+    /// first section.
+    void read_header() {
         double lower[3] = {-0.5, -0.5, -0.5}, upper[3] = {0.5, 0.5, 0.5}, lean[3] = {};
-        bool has_box = false;
+        Cell general{.edges = {core::Vec3d(1, 0, 0), core::Vec3d(0, 1, 0), core::Vec3d(0, 0, 1)}};
+        bool has_box = false, is_general = false;
         for (;;) {
             if (!next_of_text()) lines_.fail("must have a section Atoms, and the file ends");
             const std::string_view line = without_remark(lines_.text());
-            if (line[0] >= 'A' && line[0] <= 'Z') break;
+            if (is_letter(line[0])) break;
             const auto ends_with = [&](std::string_view words) { return line.ends_with(words); };
             Words words(lines_);
             if (ends_with("xhi") || ends_with("yhi") || ends_with("zhi")) {
@@ -83,23 +130,54 @@ class DataReader : public FrameReader {
             } else if (ends_with("xy xz yz")) {
                 for (double& by : lean)
                     by = words.number("a tilt");
+            } else if (ends_with("avec") || ends_with("bvec") || ends_with("cvec")) {
+                const auto edge = static_cast<std::size_t>(line[line.size() - 4] - 'a');
+                for (int axis = 0; axis < 3; ++axis)
+                    general.edges[edge][axis] = words.number("a component of an edge");
+                is_general = true;
+            } else if (ends_with("abc origin")) {
+                for (int axis = 0; axis < 3; ++axis)
+                    general.origin[axis] = words.number("a coordinate of the origin");
+                is_general = true;
             } else {
                 const long long count =
                     words.whole("a count", 0, static_cast<long long>(Structure::most_atoms));
-                remember_count(line, static_cast<std::size_t>(count));
+                header_.counts[std::string(trimmed(without_remark(words.rest())))] =
+                    static_cast<std::size_t>(count);
             }
         }
-        if (!has_box) return;
-        cell.origin = {lower[0], lower[1], lower[2]};
-        cell.edges = {core::Vec3d(upper[0] - lower[0], 0.0, 0.0),
-                      core::Vec3d(lean[0], upper[1] - lower[1], 0.0),
-                      core::Vec3d(lean[1], lean[2], upper[2] - lower[2])};
+        if (is_general) header_.cell = general;
+        if (is_general || !has_box) return;
+        header_.cell.origin = {lower[0], lower[1], lower[2]};
+        header_.cell.edges = {core::Vec3d(upper[0] - lower[0], 0.0, 0.0),
+                              core::Vec3d(lean[0], upper[1] - lower[1], 0.0),
+                              core::Vec3d(lean[1], lean[2], upper[2] - lower[2])};
     }
 
-    void remember_count(std::string_view line, std::size_t count) {
-        const std::size_t blank = line.find_first_of(" \t");
-        if (blank != std::string_view::npos)
-            counts_[std::string(trimmed(line.substr(blank)))] = count;
+    /// True if the line begins with a letter and has no number.
+    bool has_words_alone() const {
+        if (!is_letter(without_remark(lines_.text())[0])) return false;
+        Words words(lines_);
+        for (std::string_view word = words.next(); !word.empty() && word[0] != '#';
+             word = words.next())
+            if (number_in(word)) return false;
+        return true;
+    }
+
+    /// True at the line of a section. Other lines may begin with the label of a type, and then have
+    /// a number. Names of fixes stand for sections, too, behind a blank line.
+    bool at_section() const {
+        const std::string_view line = without_remark(lines_.text());
+        return is_letter(line[0]) &&
+               (is_known_section(line) || (is_after_blank_ && has_words_alone()));
+    }
+
+    /// Skips the names of columns that stand directly behind a section's name, where LAMMPS skips
+    /// any line.
+    void skip_column_names() {
+        if (!lines_.next()) return;
+        const std::string_view line = without_remark(lines_.text());
+        if (line.empty() || is_known_section(line) || !has_words_alone()) lines_.put_back();
     }
 
     void read_section(Structure& frame) {
@@ -107,24 +185,30 @@ class DataReader : public FrameReader {
         const std::size_t hash = lines_.text().find('#');
         const std::string remark(
             hash == std::string_view::npos ? "" : trimmed(lines_.text().substr(hash + 1)));
+        const auto line = static_cast<std::size_t>(lines_.number());
+        if (name[0] < 'A' || name[0] > 'Z')
+            lines_.fail("must be a section's name, such as Atoms, got \"" + printable(name) + "\"" +
+                        suggestion(name, {std::begin(sections), std::end(sections)}));
+        if (name == "Atoms" && frame.size() != 0) lines_.fail("must not be a second section Atoms");
+        skip_column_names();
         if (name == "Masses")
             read_masses();
+        else if (name == "Atom Type Labels")
+            read_type_labels();
         else if (name == "Atoms")
-            read_atoms(frame, remark);
+            read_atoms(frame, line, remark);
         else if (name == "Bonds")
             read_bonds(frame);
-        else if (name[0] >= 'A' && name[0] <= 'Z')
-            skip_section();
+        else if (name == "Ellipsoids")
+            read_ellipsoids(frame);
         else
-            lines_.fail("must be a section's name, such as Atoms, got \"" + printable(name) + "\"" +
-                        suggestion(name, {sections.begin(), sections.end()}));
+            skip_section();
     }
 
-    /// True while there are lines of a section: those of the next begin with a letter.
+    /// True while there are lines of a section.
     bool next_of_section() {
         if (!next_of_text()) return false;
-        const char first = without_remark(lines_.text())[0];
-        if (first >= 'A' && first <= 'Z') {
+        if (at_section()) {
             lines_.put_back();
             return false;
         }
@@ -137,81 +221,139 @@ class DataReader : public FrameReader {
     }
 
     void read_masses() {
+        header_.has_masses = true;
         while (next_of_section()) {
             Words words(lines_);
             const std::string type(words.get("a type"));
-            masses_[type] = words.number("a mass");
+            masses_.emplace_back(type, words.number("a mass"));
         }
     }
 
-    const AtomStyle& style_of(const std::string& remark, std::string_view line) {
-        for (const AtomStyle& style : styles)
-            if (style.name == remark) return style;
-        if (!remark.empty()) {
-            std::vector<std::string_view> names(styles.size());
-            std::transform(styles.begin(), styles.end(), names.begin(),
-                           [](const AtomStyle& style) { return style.name; });
-            lines_.fail(
-                "the atom style must be one of angle, atomic, bond, charge, full, molecular "
-                "and sphere, got \"" +
-                printable(remark) + "\"" + suggestion(remark, names));
-        }
-        int columns = 0;
-        while (!line.empty()) {
-            line = trimmed(line.substr(std::min(line.find_first_of(" \t"), line.size())));
-            ++columns;
-        }
-        // With or without the images that atoms are in.
-        const bool bonds = counts_["bonds"] > 0;
-        const std::string_view guessed = columns == 5 || columns == 8    ? "atomic"
-                                         : columns == 7 || columns == 10 ? "full"
-                                         : bonds                         ? "molecular"
-                                                                         : "charge";
-        return *std::find_if(styles.begin(), styles.end(),
-                             [&](const AtomStyle& style) { return style.name == guessed; });
-    }
-
-    void read_atoms(Structure& frame, const std::string& remark) {
-        if (frame.size() != 0) lines_.fail("must not be a second section Atoms");
-        KindTable kinds(frame.of_kind);
-        const AtomStyle* style = nullptr;
+    void read_type_labels() {
         while (next_of_section()) {
-            const std::string_view line = without_remark(lines_.text());
-            if (style == nullptr) {
-                style = &style_of(remark, line);
-                if (style->charge >= 0) frame.properties.push_back({"charge", {}});
-                if (style->molecule >= 0) frame.properties.push_back({"molecule", {}});
-            }
             Words words(lines_);
-            const long long id = words.whole("an atom's number", 1, std::int64_t{1} << 53);
-            std::string_view type;
-            core::Vec3f position;
-            float radius = 0.0F, charge = 0.0F, molecule = 0.0F;
-            for (int column = 1; column < style->x; ++column) {
-                if (column == style->type)
-                    type = words.get("a type");
-                else if (column == style->charge)
-                    charge = words.coordinate("a charge");
-                else if (column == style->molecule)
-                    molecule = words.coordinate("a molecule's number");
-                else if (column == style->diameter)
-                    radius = 0.5F * words.coordinate("a diameter");
-                else
-                    words.get("a value");
-            }
-            for (int axis = 0; axis < 3; ++axis)
-                position[axis] = words.coordinate("a coordinate");
-            const std::size_t kind =
-                kinds.index_of(type, [](std::string_view) { return Element{0}; });
-            if (kind == Structure::most_kinds) lines_.fail("must be of one of at most 65535 types");
-            if (style->diameter >= 0) frame.radii.push_back(radius);
-            atom_of_[id] = static_cast<AtomIndex>(frame.size());
-            frame.positions.push_back(position);
-            frame.kinds.push_back(static_cast<std::uint16_t>(kind));
-            std::size_t property = 0;
-            if (style->charge >= 0) frame.properties[property++].values.push_back(charge);
-            if (style->molecule >= 0) frame.properties[property++].values.push_back(molecule);
+            const std::string type(words.get("a type"));
+            labels_[type] = words.get("a label");
         }
+    }
+
+    /// The label of a type, whether a line has that or the number.
+    const std::string& label_of(const std::string& type) const {
+        const auto found = labels_.find(type);
+        return found == labels_.end() ? type : found->second;
+    }
+
+    void read_atoms(Structure& frame, std::size_t line, const std::string& remark) {
+        AtomTable table;
+        while (next_of_section()) {
+            table.add(lines_);
+            const long long id = table.ids().back();
+            if (id != 0 && !atom_of_.emplace(id, table.size() - 1).second)
+                lines_.fail("must be an atom with a new number, got " + std::to_string(id) +
+                            " again");
+        }
+        if (table.size() == 0) return;
+        const AtomLayout layout = layout_of(table, line, remark);
+        has_electrons_ = layout.index_of("espin") != 0;
+        fill(frame, table, layout);
+    }
+
+    AtomLayout layout_of(const AtomTable& table, std::size_t line,
+                         const std::string& remark) const {
+        const auto fail = [&](TextPosition place, const std::string& message) {
+            throw BadInput({{file_.name(),
+                             place.line == 0 ? TextPosition{.line = line} : place,
+                             {},
+                             message}});
+        };
+        const auto named = layouts_of(options_.atom_style.empty() ? remark : options_.atom_style);
+        if (const auto layout = probable_layout(named, table, header_)) {
+            if (layout->style == "hybrid")
+                tell(line, "the sub-styles of hybrid are not named: only positions and types are "
+                           "read");
+            return *layout;
+        }
+        const std::string must_name = "must name the atom style that it has, as in "
+                                      "\"Atoms # full\" or by --atom-style: ";
+        if (!named.empty()) {
+            const Misfit misfit = *misfit_of(table, named[0], header_);
+            fail(misfit.place, (misfit.place.line == 0 ? must_name : "") + misfit.message);
+        }
+        const std::vector<AtomLayout> fitting = layouts_that_fit(table, header_);
+        if (fitting.size() != 1) {
+            std::vector<std::string> styles;
+            for (const AtomLayout& layout : fitting)
+                styles.push_back(layout.style);
+            fail({},
+                 must_name + (fitting.empty() ? "no style without sub-styles fits its " +
+                                                    std::to_string(table.most_width()) + " columns"
+                                              : "it may be " + alternatives(styles)));
+        }
+        if (!remark.empty())
+            tell(line, "\"" + printable(remark) + "\" is no atom style: the atoms are read as " +
+                           fitting[0].style);
+        return fitting[0];
+    }
+
+    void fill(Structure& frame, AtomTable& table, const AtomLayout& layout) const {
+        const std::size_t x = layout.index_of("x");
+        frame.positions.reserve(table.size());
+        for (std::size_t atom = 0; atom < table.size(); ++atom)
+            frame.positions.emplace_back(table.column(x).values[atom],
+                                         table.column(x + 1).values[atom],
+                                         table.column(x + 2).values[atom]);
+        fill_kinds(frame, table, table.column(layout.index_of("type")));
+        for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+            const std::string_view column = layout.columns[i];
+            std::vector<float>& values = table.column(i + 1).values;
+            if (column == "diameter" || column == "cradius") {
+                const float half = column == "diameter" ? 0.5F : 1.0F;
+                for (float& value : values)
+                    value = std::isfinite(value) ? half * std::abs(value) : 0.0F;
+                frame.radii = std::move(values);
+            } else if (column != "type" && (i + 1 < x || i + 1 > x + 2) &&
+                       !column.ends_with("flag")) {
+                frame.properties.push_back({std::string(column), std::move(values)});
+            }
+        }
+    }
+
+    void fill_kinds(Structure& frame, const AtomTable& table,
+                    const AtomTable::Column& types) const {
+        KindTable kinds(frame.of_kind);
+        const auto kind_of = [&](const std::string& type) {
+            const std::size_t kind =
+                kinds.index_of(label_of(type), [](std::string_view) { return Element{0}; });
+            if (kind == Structure::most_kinds)
+                throw BadInput(file_.name(), "", "must have at most 65535 types of atoms");
+            return static_cast<std::uint16_t>(kind);
+        };
+        std::vector<std::optional<std::uint16_t>> of_text(table.texts().size());
+        std::unordered_map<long long, std::uint16_t> of_number;
+        frame.kinds.reserve(table.size());
+        for (std::size_t atom = 0; atom < table.size(); ++atom) {
+            if (const std::uint16_t label =
+                    types.labels.empty() ? std::uint16_t{0} : types.labels[atom];
+                label != 0) {
+                auto& kind = of_text[label - 1U];
+                if (!kind) kind = kind_of(table.texts()[label - 1U].label);
+                frame.kinds.push_back(*kind);
+                continue;
+            }
+            const auto number = static_cast<long long>(types.values[atom]);
+            auto found = of_number.find(number);
+            if (found == of_number.end())
+                found = of_number.emplace(number, kind_of(std::to_string(number))).first;
+            frame.kinds.push_back(found->second);
+        }
+    }
+
+    AtomIndex atom(Words& words) const {
+        const long long id = words.whole("an atom's number", 1, std::int64_t{1} << 53);
+        const auto found = atom_of_.find(id);
+        if (found == atom_of_.end())
+            words.fail("must be the number of an atom, and there is no " + std::to_string(id));
+        return found->second;
     }
 
     void read_bonds(Structure& frame) {
@@ -219,33 +361,69 @@ class DataReader : public FrameReader {
             Words words(lines_);
             words.get("a bond's number");
             words.get("a bond's type");
-            AtomIndex ends[2];
-            for (AtomIndex& end : ends) {
-                const long long id = words.whole("an atom's number", 1, std::int64_t{1} << 53);
-                const auto found = atom_of_.find(id);
-                if (found == atom_of_.end())
-                    words.fail("must be the number of an atom, and there is no " +
-                               std::to_string(id));
-                end = found->second;
-            }
-            if (ends[0] == ends[1]) words.fail("must be two atoms, got one twice");
-            frame.bonds.push_back({std::min(ends[0], ends[1]), std::max(ends[0], ends[1])});
+            const AtomIndex first = atom(words), second = atom(words);
+            if (first == second) words.fail("must be two atoms, got one twice");
+            frame.bonds.push_back({std::min(first, second), std::max(first, second)});
         }
         frame.has_all_bonds = true;
     }
 
+    /// Reads three diameters and a quaternion for each ellipsoid. Diameters of zero are a point's.
+    void read_ellipsoids(Structure& frame) {
+        frame.radii.resize(frame.size());
+        while (next_of_section()) {
+            Words words(lines_);
+            AtomShape shape{atom(words), {}};
+            double half[3], q[4];
+            for (double& axis : half) {
+                axis = 0.5 * words.number("a diameter");
+                if (!(axis >= 0.0)) words.fail("a diameter must not be negative");
+            }
+            double norm = 0.0;
+            for (double& part : q) {
+                part = words.number("a part of a quaternion");
+                norm += part * part;
+            }
+            norm = std::sqrt(norm);
+            if (!(norm > 0.0 && std::isfinite(norm)))
+                words.fail("must be a quaternion of a length above zero");
+            if (half[0] == 0.0 && half[1] == 0.0 && half[2] == 0.0) continue;
+            for (double& part : q)
+                part /= norm;
+            const auto [w, i, j, k] = q;
+            // The columns of the rotation.
+            const core::Vec3d axes[3] = {
+                {w * w + i * i - j * j - k * k, 2.0 * (i * j + w * k), 2.0 * (i * k - w * j)},
+                {2.0 * (i * j - w * k), w * w - i * i + j * j - k * k, 2.0 * (j * k + w * i)},
+                {2.0 * (i * k + w * j), 2.0 * (j * k - w * i), w * w - i * i - j * j + k * k}};
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                shape.axes[axis] = core::convert<float>(half[axis] * axes[axis]);
+            frame.radii[shape.atom] = static_cast<float>(std::max({half[0], half[1], half[2]}));
+            frame.shapes.push_back(shape);
+        }
+    }
+
     /// Finds the elements of types by their masses.
-    void name_kinds(Structure& frame) {
+    void name_kinds(Structure& frame) const {
+        std::map<std::string_view, double> mass_of;
+        for (const auto& [type, mass] : masses_)
+            mass_of[label_of(type)] = mass;
         std::vector<double> masses;
         for (const AtomKind& kind : frame.of_kind) {
-            const auto found = masses_.find(kind.label);
-            if (found == masses_.end()) return;
+            const auto found = mass_of.find(kind.label);
+            if (found == mass_of.end()) return;
+            if (is_electron(found->second)) continue;
             masses.push_back(found->second);
         }
         const std::vector<Element> elements = elements_of_masses(masses, units_of(frame.title));
-        for (std::size_t kind = 0; kind < elements.size(); ++kind)
-            frame.of_kind[kind].element = elements[kind];
+        auto element = elements.begin();
+        for (AtomKind& kind : frame.of_kind)
+            if (element != elements.end() && !is_electron(mass_of[kind.label]))
+                kind.element = *element++;
     }
+
+    /// Files for the electron force field give electrons a mass of 1, or the real one.
+    bool is_electron(double mass) const { return has_electrons_ && (mass == 1.0 || mass < 0.001); }
 
     /// LAMMPS itself writes "units = real" at the end of the first line.
     static MassUnits units_of(std::string_view title) {
@@ -257,17 +435,20 @@ class DataReader : public FrameReader {
                                                                           : MassUnits::others;
     }
 
+    InputFile& file_;
     Lines lines_;
-    std::map<std::string, std::size_t> counts_;
-    std::map<std::string, double> masses_; // by type
+    ReaderOptions options_;
+    LammpsHeader header_;
+    std::map<std::string, std::string> labels_; // by type
+    std::vector<std::pair<std::string, double>> masses_;
     std::unordered_map<long long, AtomIndex> atom_of_;
-    bool was_read_ = false;
+    bool was_read_ = false, is_after_blank_ = false, has_electrons_ = false;
 };
 
 } // namespace
 
-std::unique_ptr<FrameReader> open_lammps_data(InputFile& file) {
-    return std::make_unique<DataReader>(file);
+std::unique_ptr<FrameReader> open_lammps_data(InputFile& file, const ReaderOptions& options) {
+    return std::make_unique<DataReader>(file, options);
 }
 
 } // namespace raylane::scenes

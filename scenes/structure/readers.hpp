@@ -4,9 +4,16 @@
 #include "scenes/structure/structure.hpp"
 
 #include <memory>
+#include <string>
 #include <string_view>
 
 namespace raylane::scenes {
+
+/// Options of readers.
+struct ReaderOptions {
+    std::string atom_style; ///< of LAMMPS' data, as its command atom_style has it, or empty
+    OnRemark on_remark;
+};
 
 /// A file's frames, one after the other.
 class FrameReader {
@@ -28,9 +35,9 @@ std::unique_ptr<FrameReader> open_xyz(InputFile& file);
 std::unique_ptr<FrameReader> open_gro(InputFile& file);
 /// LAMMPS' dump of atoms: `ITEM: ATOMS` with x, y, z, scaled (xs) or unwrapped (xu, xsu).
 std::unique_ptr<FrameReader> open_lammps_dump(InputFile& file);
-/// What LAMMPS' read_data reads: of the atom styles angle, atomic, bond, charge, full, molecular,
-/// and sphere.
-std::unique_ptr<FrameReader> open_lammps_data(InputFile& file);
+/// Reads LAMMPS' data of any atom style. The options or a remark behind "Atoms" name the style.
+/// Without them it follows from the columns, and BadInput is thrown if several styles fit these.
+std::unique_ptr<FrameReader> open_lammps_data(InputFile& file, const ReaderOptions& options);
 /// PDB, of which each MODEL is a frame; and mmCIF or a small molecule's CIF. By gemmi; without it,
 /// BadInput says so.
 std::unique_ptr<FrameReader> open_pdb(InputFile& file);

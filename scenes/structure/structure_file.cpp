@@ -17,7 +17,11 @@ auto of_file(const std::string& file, const auto& make) {
 
 } // namespace
 
-std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format) {
+std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
+                                            const ReaderOptions& options) {
+    if (!options.atom_style.empty() && format != Format::lammps_data)
+        throw BadInput("--atom-style", "",
+                       "goes with LAMMPS' data, and " + printable(file.name(), 4096) + " is none");
     switch (format) {
     case Format::pdb:
         return open_pdb(file);
@@ -30,7 +34,7 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format) {
     case Format::lammps_dump:
         return open_lammps_dump(file);
     case Format::lammps_data:
-        return open_lammps_data(file);
+        return open_lammps_data(file, options);
     case Format::json:
     case Format::nff:
     case Format::pov:
@@ -52,14 +56,14 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
     });
 }
 
-core::Scene read_structure(InputFile& file, Format format, const Drawing& drawing,
-                           core::Workers* workers, Legend* legend) {
+core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
+                           const Drawing& drawing, core::Workers* workers, Legend* legend) {
     core::SceneBuilder builder;
     builder.workers = workers;
     return of_file(file.name(), [&] {
         {
             Structure structure;
-            if (!open_structure(file, format)->next(structure))
+            if (!open_structure(file, format, options)->next(structure))
                 throw BadInput(file.name(), "", "has no atoms");
             if (structure.size() == 0)
                 throw BadInput(file.name(), "",

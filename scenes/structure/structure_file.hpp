@@ -9,7 +9,8 @@
 namespace raylane::scenes {
 
 /// The reader of a file of atoms, which must outlive it. Throws BadInput for another format.
-std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format);
+std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
+                                            const ReaderOptions& options = {});
 
 /// The scene of a frame; `file` is what messages call it, and `scale` what draw() leaves there.
 core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
@@ -18,7 +19,8 @@ core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
 
 /// Reads the first frame of a file of atoms, and draws it; `legend`, if there is one, is left with
 /// what its shapes are. Throws BadInput, with the line, and SystemRefused.
-core::Scene read_structure(InputFile& file, Format format, const Drawing& drawing,
-                           core::Workers* workers = nullptr, Legend* legend = nullptr);
+core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& options,
+                           const Drawing& drawing, core::Workers* workers = nullptr,
+                           Legend* legend = nullptr);
 
 } // namespace raylane::scenes

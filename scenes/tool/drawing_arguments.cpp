@@ -52,6 +52,10 @@ void DrawingArguments::add_to(CLI::App& command) {
         "what overlaps are not seen (default: 1)",
         "A");
     add("--repeat", repeat, "Cells side by side, such as 2x2x1", "AxBxC");
+    add("--atom-style", atom_style,
+        "Atom style of LAMMPS' data, such as full or \"hybrid sphere dipole\" (default: the remark "
+        "behind Atoms, or the style that fits the columns)",
+        "STYLE");
     const auto flag = [&](const char* name, bool& value, const char* help) {
         add_flag(command, name, value, help);
         command.get_option(name)->group(atoms_group);
@@ -88,11 +92,9 @@ Drawing DrawingArguments::drawing() const {
 
 std::vector<std::pair<std::string, std::string>> DrawingArguments::given() const {
     std::vector<std::pair<std::string, std::string>> given;
-    const std::pair<const char*, const Argument&> values[] = {{"--style", style},
-                                                              {"--color", color},
-                                                              {"--select", select},
-                                                              {"--opacity", opacity},
-                                                              {"--repeat", repeat}};
+    const std::pair<const char*, const Argument&> values[] = {
+        {"--style", style},     {"--color", color},   {"--select", select},
+        {"--opacity", opacity}, {"--repeat", repeat}, {"--atom-style", atom_style}};
     for (const auto& [name, value] : values)
         if (value) given.emplace_back(name, *value);
     const std::pair<const char*, bool> flags[] = {{"--cell", cell}, {"--ellipsoids", ellipsoids}};

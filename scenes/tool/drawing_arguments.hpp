@@ -11,7 +11,7 @@ namespace raylane::scenes {
 
 /// How atoms are drawn, as the command line says it.
 struct DrawingArguments {
-    Argument style, color, select, opacity, repeat;
+    Argument style, color, select, opacity, repeat, atom_style;
     bool cell = false, ellipsoids = false;
 
     void add_to(CLI::App& command);

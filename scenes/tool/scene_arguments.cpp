@@ -12,6 +12,7 @@ void SceneArguments::add_to(CLI::App& command, bool sweeps) {
 LoadOptions SceneArguments::load_options(bool sweeps) const {
     LoadOptions options;
     options.drawing = drawing.drawing();
+    options.atom_style = drawing.atom_style.value_or("");
     options.option_for_atoms = drawing.first_given();
     options.parameters = parameters.values(sweeps).front();
     return options;

@@ -44,7 +44,7 @@ class Trajectory : public SceneSource {
             throw BadInput("--frames", "",
                            "goes with a file of atoms, and " + printable(file_.name(), 4096) +
                                " is a scene");
-        reader_ = open_structure(file_, format_);
+        reader_ = open_reader();
         if (!range_.counts_from_end()) return;
         long frames = 0;
         while (reader_->next(structure_))
@@ -80,7 +80,7 @@ class Trajectory : public SceneSource {
             throw BadInput(file_.name(), "",
                            "must be a file for frames that are counted from the end, or for a "
                            "camera from all of them");
-        reader_ = open_structure(file_, format_);
+        reader_ = open_reader();
         read_ = 0;
         at_.reset();
     }
@@ -94,6 +94,10 @@ class Trajectory : public SceneSource {
     void keep_scale() override { options_.drawing.scale = scale_; }
 
   private:
+    std::unique_ptr<FrameReader> open_reader() {
+        return open_structure(file_, format_, {options_.atom_style, options_.on_remark});
+    }
+
     std::size_t stop() const { return static_cast<std::size_t>(*range_.stop); }
 
     std::optional<std::size_t> end() const {

@@ -134,39 +134,6 @@ TEST_CASE("LAMMPS' dumps have columns in any order, and scaled coordinates") {
     CHECK(complaint(open_lammps_dump, "3\n").starts_with("a:1: must begin with \"ITEM: \""));
 }
 
-TEST_CASE("LAMMPS' data has sections, and bonds by numbers of atoms") {
-    const std::string text = "a remark\n\n3 atoms\n2 bonds\n2 atom types\n\n"
-                             "0 10 xlo xhi\n0 11 ylo yhi\n0 12 zlo zhi\n1 0 0 xy xz yz\n\n"
-                             "Masses\n\n1 15.9994 # O\n2 1.008\n\n"
-                             "Atoms # full\n\n10 1 1 -0.8 1 2 3 0 0 0\n30 1 2 0.4 4 5 6\n"
-                             "20 1 2 0.4 7 8 9\n\nVelocities\n\n10 0 0 0\n\n"
-                             "Bonds\n\n1 1 10 20\n2 1 30 10\n";
-    const std::vector<Structure> all = frames(open_lammps_data, text);
-    REQUIRE(all.size() == 1);
-    CHECK(elements_of(all[0]) == "O H H ");
-    CHECK(all[0].positions[1] == Vec3f(4, 5, 6));
-    CHECK(all[0].cell.edges[1] == Vec3d(1, 11, 0));
-    REQUIRE(all[0].bonds.size() == 2);
-    CHECK(all[0].bonds[0].b == 2);
-    CHECK(all[0].bonds[1].b == 1);
-    CHECK(all[0].properties[0].values == std::vector{-0.8F, 0.4F, 0.4F});
-    const auto with = [&](const std::string& what, const std::string& instead) {
-        std::string changed = text;
-        changed.replace(changed.find(what), what.size(), instead);
-        return changed;
-    };
-    CHECK(frames(open_lammps_data, with("Atoms # full", "Atoms"))[0].positions[1] ==
-          Vec3f(4, 5, 6));
-    // Masses of no element: reduced units.
-    CHECK(elements_of(frames(open_lammps_data, with("15.9994", "0.3"))[0]) == "X X X ");
-    CHECK(complaint(open_lammps_data, with("3 atoms", "4 atoms")) ==
-          "a:32: must have 4 atoms, got 3");
-    CHECK(complaint(open_lammps_data, with("# full", "# fill")).find("did you mean \"full\"?") !=
-          std::string::npos);
-    CHECK(complaint(open_lammps_data, with("1 1 10 20", "1 1 10 21")) ==
-          "a:29:8: must be the number of an atom, and there is no 21");
-}
-
 TEST_CASE("extended XYZ may have a cell in brackets, and properties that were not computed") {
     for (const std::string cell : {"\"5 0 0 0 6 0 0 0 7\"", "[[5,0,0],[0,6,0],[0,0,7]]",
                                    "[[5, 0, 0], [0, 6, 0], [0, 0, 7]]", "[5 0 0 0 6 0 0 0 7]"}) {
@@ -335,9 +302,6 @@ TEST_CASE("coordinates are the floats nearest to what the file says") {
 }
 
 TEST_CASE("what fuzzers found is bad input, or left out") {
-    CHECK(complaint(open_lammps_data, "x\n\n2 atoms\n\nAtoms # full\n\n1 1 1 0 1 2 3\n\n"
-                                      "Atoms # charge\n\n2 1 0 1 2 3\n") ==
-          "a:9: must not be a second section Atoms");
     if (!has_gemmi()) return;
     CHECK(frames(open_pdb,
                  "LINK         O   GLY A  49                NA    NA A6001     1555   1555  n\n" +
