@@ -8,6 +8,7 @@
 #include <atomic>
 #include <csignal>
 #include <fstream>
+#include <memory>
 #include <sys/resource.h>
 
 using namespace raylane;
@@ -242,11 +243,76 @@ TEST_CASE("what a full disk does not take is written when there is room again") 
     CHECK(notes.found() == 6);
 }
 
-TEST_CASE("another picture's journal gives way as soon as there is room for the new one") {
+TEST_CASE("Journals of other options, scenes and versions stay until the picture is complete") {
+    const Notes notes;
+    const TileRecords records = notes.drawing.records();
+    const scenes::JournalSubject subject = notes.drawing.subject();
+    const auto of = [&](const scenes::JournalSubject& of_it) {
+        return std::make_unique<Journal>(notes.drawing.path, of_it, records);
+    };
+    const auto keep_tile = [&](Journal& journal, std::size_t number) {
+        journal.note(number, notes.bytes(number));
+        REQUIRE(journal.keep());
+    };
+    keep_tile(*of(subject), 0);
+    const std::string first = tests::content_of(notes.path);
+    const scenes::JournalSubject others[] = {{subject.scene, "others"}, {"0", subject.options}};
+    const Journal::Found kinds[] = {Journal::Found::other_options, Journal::Found::other_scene};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto journal = of(others[i]);
+        CHECK(journal->found() == kinds[i]);
+        CHECK(journal->found_at() == notes.path);
+        CHECK(journal->path() != notes.path);
+        keep_tile(*journal, i + 1);
+    }
+    CHECK(tests::content_of(notes.path) == first);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto journal = of(others[i]);
+        CHECK(journal->found() == Journal::Found::same);
+        CHECK(journal->found_at() == journal->path());
+        CHECK(journal->has(i + 1));
+        CHECK(!journal->has(0));
+    }
+    const auto files = [&] {
+        return std::distance(std::filesystem::directory_iterator(notes.directory.path()), {});
+    };
+    CHECK(files() == 3);
+
+    // A complete picture leaves journals of other outputs, and files of other programs.
+    for (const char* name : {"pictures.part", "picture.0123456789abcdeX.part", "picture.png.part"})
+        notes.directory.write(name, first);
+    notes.directory.write("picture.0123456789abcdef.part", "mine");
+    notes.directory.write("picture", "drawn");
+    const auto goes_on = of(subject);
+    CHECK(goes_on->found() == Journal::Found::same);
+    CHECK(goes_on->has(0));
+    const auto in_use = of(others[0]);
+    goes_on->remove();
+    CHECK(!std::filesystem::exists(notes.path));
+    CHECK(std::filesystem::exists(in_use->path()));
+    CHECK(files() == 6);
+    in_use->remove();
+    CHECK(files() == 5);
+    CHECK(notes.found() == 0);
+}
+
+TEST_CASE("A picture without a journal yet removes those of other options when it is complete") {
     const Notes notes;
     notes.directory.write("picture.part", "raylane journal 0\nscene 0\noptions 0\n\nmuch");
+    notes.directory.write("picture", "drawn");
     Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
     CHECK(journal.found() == Journal::Found::other_options);
+    journal.note(0, notes.bytes(0));
+    journal.remove();
+    CHECK(!std::filesystem::exists(notes.path));
+    CHECK(!std::filesystem::exists(journal.path()));
+}
+
+TEST_CASE("A journal that was cut off gives way as soon as there is room for the new one") {
+    const Notes notes;
+    notes.directory.write("picture.part", "raylane jour");
+    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    CHECK(journal.found() == Journal::Found::cut_off);
     journal.note(0, notes.bytes(0));
     for (const std::uintmax_t bytes : {20, 300}) { // in the head, and in the tile
         const Fullness full(bytes);

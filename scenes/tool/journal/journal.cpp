@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <string_view>
@@ -124,13 +125,59 @@ bool is_whole(std::span<const char> record, std::size_t size, std::uint64_t seed
     return checksum == checksum_of(summed, seed);
 }
 
+constexpr std::string_view ending = ".part";
+constexpr std::size_t digits_of_seed = 16;
+
+std::filesystem::path shared_name(const std::filesystem::path& picture) {
+    return picture.string().append(ending);
+}
+
+/// The name of a journal whose output's shared name another subject has.
+std::filesystem::path own_name(const std::filesystem::path& picture, std::uint64_t seed) {
+    char digits[digits_of_seed + 1];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(seed));
+    return (picture.string() + '.' + digits).append(ending);
+}
+
+bool is_name_of_journal(std::string_view name, std::string_view picture) {
+    if (!name.starts_with(picture) || !name.ends_with(ending)) return false;
+    name.remove_prefix(picture.size());
+    if (name == ending) return true;
+    return name.size() == 1 + digits_of_seed + ending.size() && name.front() == '.' &&
+           name.substr(1, digits_of_seed).find_first_not_of("0123456789abcdef") == name.npos;
+}
+
+/// -1, and errno, if it cannot be opened.
+int open_journal(const std::filesystem::path& path) {
+    return ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+}
+
+/// The first bytes of a journal, which may be cut off in these. Nothing if the file is no journal
+/// of this user's: others may write anything.
+std::optional<std::string> head_in(int descriptor, std::size_t most) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode) ||
+        status.st_uid != ::geteuid())
+        return std::nullopt;
+    std::string head = bytes_at(descriptor, 0, most);
+    if (!head.starts_with(magic) && !magic.starts_with(head)) return std::nullopt;
+    return head;
+}
+
+/// False if the file has been removed, or another file has its name.
+bool is_at(const std::filesystem::path& path, int descriptor) {
+    struct stat own {
+    }, there{};
+    return ::fstat(descriptor, &own) == 0 && ::lstat(path.c_str(), &there) == 0 &&
+           own.st_dev == there.st_dev && own.st_ino == there.st_ino;
+}
+
 } // namespace
 
 Journal::Journal(const std::filesystem::path& picture, const JournalSubject& subject,
                  TileRecords records, std::function<void(const std::string&)> tell)
-    : picture_(picture), path_(picture.string() + ".part"), records_(records),
-      head_(head_of(subject)), seed_(checksum_of(head_, 0)), places_(records_.grid().count(), -1),
-      tell_(std::move(tell)) {
+    : picture_(picture), records_(records), head_(head_of(subject)), seed_(checksum_of(head_, 0)),
+      places_(records_.grid().count(), -1), tell_(std::move(tell)) {
     open();
     if (!is_ours_) next_try_ = start_ + begin_after;
 }
@@ -145,48 +192,57 @@ Journal::~Journal() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-/// Looks at what there is of a file, and takes it if it is ours.
+/// Takes the journal of this subject, under whichever name it is, or the name for a new one.
 void Journal::open() {
-    const int descriptor = ::open(path_.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    if (descriptor < 0) {
-        if (errno != ENOENT)
-            found_ = errno == ENAMETOOLONG ? Found::named_too_long : Found::none_of_ours;
-        return;
+    path_ = found_at_ = own_name(picture_, seed_);
+    const Found own = look_at(path_);
+    const auto is_others = [](Found found) {
+        return found == Found::other_scene || found == Found::other_options;
+    };
+    found_ = is_others(own) ? Found::none_of_ours : own;
+    if (own == Found::nothing || own == Found::named_too_long) {
+        const std::filesystem::path shared = shared_name(picture_);
+        const Found found = look_at(shared);
+        if (!is_others(found)) path_ = shared;
+        if (!is_others(found) || own == Found::nothing) {
+            found_ = found;
+            found_at_ = shared;
+        }
     }
-    struct stat status {};
-    const bool is_file = ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) &&
-                         status.st_uid == ::geteuid(); // others may write what they like
-    const std::string head = is_file ? bytes_at(descriptor, 0, head_.size()) : "";
-    const bool may_be_ours =
-        is_file && (head.starts_with(magic) || magic.starts_with(head)); // or cut off in it
-    if (!may_be_ours)
-        found_ = Found::none_of_ours;
-    else if (!take_lock(descriptor))
-        found_ = Found::in_use;
-    if (found_ != Found::nothing) {
-        ::close(descriptor);
-        return;
-    }
-    descriptor_ = descriptor;
-    is_ours_ = read(head);
+    if (found_ != Found::same) return;
+    read_records();
+    is_ours_ = true;
 }
 
-/// True if it is of this picture.
-bool Journal::read(const std::string& head) {
-    if (head == head_) {
-        found_ = Found::same;
-        read_records();
-        return true;
+/// Keeps the file open, and locked, if it is this subject's or cut off.
+Journal::Found Journal::look_at(const std::filesystem::path& path) {
+    const int descriptor = open_journal(path);
+    if (descriptor < 0)
+        return errno == ENOENT         ? Found::nothing
+               : errno == ENAMETOOLONG ? Found::named_too_long
+                                       : Found::none_of_ours;
+    const std::optional<std::string> head = head_in(descriptor, head_.size());
+    Found found = head ? kind_of(*head) : Found::none_of_ours;
+    if (found == Found::same || found == Found::cut_off) {
+        if (!take_lock(descriptor))
+            found = Found::in_use;
+        else if (!is_at(path, descriptor)) // its process has just removed it
+            found = Found::nothing;
     }
-    if (head_.starts_with(head)) {
-        found_ = Found::cut_off;
-        return false;
-    }
+    if (found == Found::same || found == Found::cut_off)
+        descriptor_ = descriptor;
+    else
+        ::close(descriptor);
+    return found;
+}
+
+Journal::Found Journal::kind_of(const std::string& head) const {
+    if (head == head_) return Found::same;
+    if (head_.starts_with(head)) return Found::cut_off;
     const std::size_t options = head_.find("options ");
     const bool is_of_version = head.starts_with(std::string(magic) + RAYLANE_VERSION "\n");
     const bool is_of_scene = head.compare(0, options, head_, 0, options) == 0;
-    found_ = is_of_version && !is_of_scene ? Found::other_scene : Found::other_options;
-    return false;
+    return is_of_version && !is_of_scene ? Found::other_scene : Found::other_options;
 }
 
 /// Where one is damaged, whatever byte of it that be, the next one that is whole is looked for.
@@ -280,8 +336,8 @@ void Journal::write_waiting() {
                         : std::chrono::steady_clock::now() + sync_every;
 }
 
-/// Makes the file, with what has been waiting, or empties it. False, and that is told, if it cannot
-/// be.
+/// Makes the file, with the waiting records, or empties one that was cut off. Returns false, and
+/// reports it, if the system refuses.
 bool Journal::begin() {
     if (descriptor_ < 0) {
         if (!make()) return false;
@@ -420,18 +476,10 @@ bool Journal::give_room(std::size_t bytes) {
     return true;
 }
 
-/// Somebody may have put another file in its place.
-bool Journal::is_still_there() const {
-    struct stat own {
-    }, there{};
-    return ::fstat(descriptor_, &own) == 0 && ::lstat(path_.c_str(), &there) == 0 &&
-           own.st_dev == there.st_dev && own.st_ino == there.st_ino;
-}
-
 void Journal::remove() {
     const std::lock_guard lock(mutex_);
     give_up(); // or what waits would begin one
-    if (!is_ours_ || !is_still_there()) return;
+    if (!is_ours_ && found_ == Found::nothing) return;
     std::error_code unknown;
     const std::filesystem::path target = std::filesystem::canonical(picture_, unknown);
     const int written = ::open(target.c_str(), O_RDONLY | O_CLOEXEC);
@@ -439,7 +487,24 @@ void Journal::remove() {
     if (written >= 0) ::close(written);
     if (!is_safe) return;
     sync_folder_of(target);
-    ::unlink(path_.c_str());
+    if (is_ours_ && is_at(path_, descriptor_)) ::unlink(path_.c_str());
+    remove_others();
+}
+
+void Journal::remove_others() const {
+    std::error_code end;
+    const std::filesystem::path folder = path_.parent_path();
+    std::filesystem::directory_iterator file(folder.empty() ? "." : folder, end);
+    for (; !end && file != std::filesystem::directory_iterator(); file.increment(end)) {
+        if (!is_name_of_journal(file->path().filename().string(), picture_.filename().string()))
+            continue;
+        const int descriptor = open_journal(file->path());
+        if (descriptor < 0) continue;
+        if (head_in(descriptor, magic.size()) && take_lock(descriptor) &&
+            is_at(file->path(), descriptor))
+            ::unlink(file->path().c_str());
+        ::close(descriptor);
+    }
 }
 
 std::string Journal::problem() {

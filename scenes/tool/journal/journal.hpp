@@ -28,8 +28,11 @@ struct JournalSubject {
 /// process can go on when this one ends before its time, however that be. Each tile is written as
 /// it comes, with a checksum, and at most the tiles under way are lost with the process; what is
 /// lost with the power is what the last `sync_every` wrote. There is no file as long as the picture
-/// takes less than `begin_after`; so long what is there of another picture stays, and so it does if
-/// this one is done sooner.
+/// takes less than `begin_after`.
+///
+/// Journals of one output and different subjects exist side by side. The first is "OUTPUT.part",
+/// the others are "OUTPUT.CHECKSUM.part", with 16 hexadecimal digits that follow from the subject.
+/// A complete picture removes all that no other process uses.
 ///
 /// To be used by one process at a time, which the file's lock sees to. Nothing that goes wrong with
 /// the file ends the drawing: problem() tells it. What could not be written is kept, as far as
@@ -43,16 +46,16 @@ class Journal {
     enum class Found : std::uint8_t {
         nothing,
         same,           ///< goes on with it
-        other_scene,    ///< stays until another journal takes its place; so do the next ones
-        other_options,  ///< or another version's
-        cut_off,        ///< in its first lines, likewise
+        other_scene,    ///< stays; this journal takes another name
+        other_options,  ///< or another version's, likewise
+        cut_off,        ///< in its first lines: empties it
         none_of_ours,   ///< leaves it alone, and keeps no journal
         in_use,         ///< likewise
         named_too_long, ///< likewise
     };
 
-    /// Of the picture that is to be in a file, beside that: its name with ".part" behind. `tell`
-    /// is given the first problem() as soon as there is one, by whichever thread has it.
+    /// `picture`: the output. `tell` receives the first problem() as soon as there is one, from
+    /// whichever thread has it.
     Journal(const std::filesystem::path& picture, const JournalSubject& subject,
             TileRecords records, std::function<void(const std::string&)> tell = {});
     ~Journal();
@@ -61,6 +64,8 @@ class Journal {
 
     const std::filesystem::path& path() const { return path_; }
     Found found() const { return found_; }
+    /// The file that found() is about.
+    const std::filesystem::path& found_at() const { return found_at_; }
     /// Pixels of the tiles that were found.
     std::int64_t found_pixels() const;
 
@@ -78,7 +83,8 @@ class Journal {
     /// The drawing is done, and there is no room on the disk for so many bytes of a picture: gives
     /// its own, if that is enough.
     bool give_room(std::size_t bytes);
-    /// The picture is there: removes the journal, once that is sure to survive it.
+    /// The picture is there: removes this journal and those of other subjects, once the picture is
+    /// sure to survive them.
     void remove();
     /// What the system said last, as long as something is not written that should be; or else
     /// empty. One line.
@@ -86,7 +92,8 @@ class Journal {
 
   private:
     void open();
-    bool read(const std::string& head);
+    Found look_at(const std::filesystem::path& path);
+    Found kind_of(const std::string& head) const;
     void read_records();
     void drop_oldest();
     void write_waiting();
@@ -94,7 +101,7 @@ class Journal {
     bool make();
     std::optional<std::int64_t> write_all(int descriptor) const;
     bool append(const std::string& bytes);
-    bool is_still_there() const;
+    void remove_others() const;
     void fail();
     void give_up();
     void keep_up();
@@ -103,7 +110,7 @@ class Journal {
                found_ == Found::named_too_long;
     }
 
-    std::filesystem::path picture_, path_;
+    std::filesystem::path picture_, path_, found_at_;
     TileRecords records_;
     std::string head_;
     std::uint64_t seed_; // of checksums: another journal's records are none of this one's

@@ -71,17 +71,18 @@ void ResumableRendering::say(const std::string& what) const {
 void ResumableRendering::say_found() const {
     const auto say_of_it = [&](const std::string& what) {
         if (verbosity_ != Verbosity::quiet)
-            say(printable(journal_->path().string(), 4096) + ": " + what);
+            say(printable(journal_->found_at().string(), 4096) + ": " + what);
     };
+    const std::string is_kept = ", and not gone on with; it stays until this picture is there";
     switch (journal_->found()) {
     case Journal::Found::nothing:
         return;
     case Journal::Found::same:
         return say_of_it("goes on at " + std::to_string(percent(journal_->found_pixels())) + " %");
     case Journal::Found::other_scene:
-        return say_of_it("is of another scene, and not gone on with");
+        return say_of_it("is of another scene" + is_kept);
     case Journal::Found::other_options:
-        return say_of_it("is of other options or another version, and not gone on with");
+        return say_of_it("is of other options or another version" + is_kept);
     case Journal::Found::cut_off:
         return say_of_it("has been cut off at its beginning, and is not gone on with");
     case Journal::Found::none_of_ours:

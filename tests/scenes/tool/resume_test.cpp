@@ -72,6 +72,9 @@ std::string whole(const Workshop& workshop, Drawing& drawn = many_tiles) {
     return picture;
 }
 
+constexpr const char* kept_until_complete =
+    ", and not gone on with; it stays until this picture is there\n";
+
 bool has_journal(const Workshop& workshop) {
     return std::filesystem::exists(workshop.output() / "picture.png.part");
 }
@@ -218,8 +221,8 @@ TEST_CASE(
         const std::string journal = content_of(workshop.output() / "picture.png.part");
         const Outcome outcome = workshop.run(drawing(options));
         CHECK(outcome.code == 0);
-        CHECK(outcome.err ==
-              "raylane: out/picture.png.part: is of " + what + ", and not gone on with\n");
+        CHECK(outcome.err == "raylane: out/picture.png.part: is of " + what + kept_until_complete);
+        CHECK(!has_journal(workshop));
         workshop.write("out/picture.png.part", journal);
     };
     told({"--max-depth", "1"}, "other options or another version");
@@ -352,6 +355,27 @@ TEST_CASE("a tile is kept while the next one takes long") {
     CHECK(again.wait_for_err("raylane: out/picture.png.part: goes on at 50 %\n"));
 }
 
+TEST_CASE("The same command with another option leaves the tiles of the first") {
+    const Workshop workshop(two_tiles);
+    const Options other = joined(second_takes_minutes, {"--max-depth", "11"});
+    const auto journals = [&] {
+        return std::distance(std::filesystem::directory_iterator(workshop.output()), {});
+    };
+    std::ptrdiff_t count = 0;
+    for (const Options& options : {second_takes_minutes, other}) {
+        Process process = workshop.start(options);
+        REQUIRE(comes_true([&] { return journals() > count; }));
+        count = journals();
+        process.send(SIGKILL);
+        CHECK(!process.wait().exited);
+    }
+    CHECK(count == 2);
+    for (const Options& options : {second_takes_minutes, other}) {
+        Process process = workshop.start(options);
+        CHECK(process.wait_for_err(": goes on at 50 %\n"));
+    }
+}
+
 TEST_CASE("an empty picture of a film is drawn, as power may have left it") {
     const Workshop workshop;
     const Options film = {"render", "scene.json", "-o", "out/f%d.png", "--turn", "90/3"};
@@ -410,7 +434,8 @@ TEST_CASE("settings of a scene that no option could tell are told apart") {
     static_cast<void>(interrupt(workshop));
     workshop.write("scene.json", with_outline("[1, 0.3, 0.1]"));
     CHECK(workshop.run(drawing()).err == "raylane: out/picture.png.part: is of other options or "
-                                         "another version, and not gone on with\n");
+                                         "another version" +
+                                             std::string(kept_until_complete));
     const std::string picture = picture_of(workshop);
     CHECK(workshop.run(drawing({"--no-resume"})).code == 0);
     CHECK(picture_of(workshop) == picture);
