@@ -32,32 +32,24 @@ struct VerifyArguments {
     VerbosityArguments verbosity;
 };
 
-/// How far components may be from those that a picture is to have. `is_exact`: no other precision
-/// has drawn it.
+/// Compares components of a picture with those that it is to have.
 class Tolerance {
   public:
-    Tolerance(const Image& image, bool is_exact)
-        : is_float_(image.linear_float), is_exact_(is_exact), bits_(image.bits) {}
+    explicit Tolerance(const Image& image) : is_float_(image.linear_float), bits_(image.bits) {}
 
-    /// The bits; of what is not exact, what rounds to them.
-    bool is_same(float there, float expected) const {
-        return there == expected || (!is_exact_ && is_within(0.5F, there, expected));
+    bool is_near(float there, float expected) const {
+        return std::abs(there - expected) <= 1.5F * step(expected);
     }
-    bool is_near(float there, float expected) const { return is_within(1.5F, there, expected); }
 
   private:
-    bool is_within(float steps, float there, float expected) const {
-        return std::abs(there - expected) <= steps * step(expected);
-    }
-    /// From one component that the file can have to the next; of what is not exact, a code of 8
-    /// bits, or twice a half's.
+    /// From one component that the file can have to the next.
     float step(float component) const {
-        if (!is_float_) return bits_ == 8 || !is_exact_ ? 1.0F / 255.0F : 1.0F / 65535.0F;
+        if (!is_float_) return bits_ == 8 ? 1.0F / 255.0F : 1.0F / 65535.0F;
         const float size = std::max(std::abs(component), 0x1p-14F);
-        return (!is_exact_ ? 0x1p-9F : bits_ == 16 ? 0x1p-10F : 0x1p-23F) * size;
+        return (bits_ == 16 ? 0x1p-10F : 0x1p-23F) * size;
     }
 
-    bool is_float_, is_exact_;
+    bool is_float_;
     int bits_;
 };
 
@@ -106,12 +98,11 @@ class Verifier {
               arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
           picture_(render_.picture),
           scene_(has_text(image_.texts, "Film") ? seen_scene_of_film() : seen_scene()) {
-        // The reference, which draws all but the whole, needs none of the vector engine's.
-        const Argument isa = render_.isa;
-        if (!arguments.whole) render_.isa.reset();
-        options_ = options_of(render_);
         for (const simd::Isa each : simd::all_isas)
-            if (isa && *isa == simd::name_of(each)) said_isa_ = each;
+            if (render_.isa && *render_.isa == simd::name_of(each)) said_isa_ = each;
+        // Another instruction set gives the same pixels, if not the same rays.
+        if (!arguments.whole && said_isa_ && !simd::is_available(*said_isa_)) render_.isa.reset();
+        options_ = options_of(render_);
         options_.precision = precision_argument(*render_.precision);
         picture_.apply_to(options_, settings_);
         options_.threads = threads_;
@@ -133,11 +124,14 @@ class Verifier {
                text_in(image_.name, image_.texts, "Options");
     }
 
-    /// Draws some pixels by the reference, and compares.
+    /// The reference's exact numbers are no measure for other precisions.
+    bool is_exact() const { return options_.precision == core::Precision::exact; }
+
+    /// Draws some pixels by the reference, or as they were drawn if that was not exact, and
+    /// compares.
     Verdict sample() {
         simd::RenderOptions options = options_;
-        options.engine = simd::Engine::reference;
-        options.precision = core::Precision::exact;
+        if (is_exact()) options.engine = simd::Engine::reference;
         return drawn_again(options, choose());
     }
 
@@ -179,7 +173,7 @@ class Verifier {
   private:
     Verdict drawn_again(simd::RenderOptions options, const std::vector<std::size_t>& pixels) const {
         options.layers = false;
-        options.tile = 8; // the fewest others
+        if (is_exact()) options.tile = 8; // the fewest others
         const simd::TileGrid tiles = simd::grid_of(settings_, options);
         std::unordered_set<std::size_t> wanted;
         for (const std::size_t pixel : pixels) {
@@ -206,12 +200,12 @@ class Verifier {
     Verdict compared(const core::Film& film, const std::vector<std::size_t>& pixels) const {
         Verdict verdict;
         const Image expected = as_written(film);
-        const Tolerance tolerance(image_, options_.precision == core::Precision::exact);
+        const Tolerance tolerance(image_);
         const bool has_lost_alpha = expected.alpha.size() > 0 && image_.alpha.size() == 0;
         for (const std::size_t pixel : pixels) {
             bool is_same = !has_lost_alpha, is_near = !has_lost_alpha;
             const auto compare = [&](float there, float right) {
-                is_same = is_same && tolerance.is_same(there, right);
+                is_same = is_same && there == right;
                 is_near = is_near && tolerance.is_near(there, right);
             };
             for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
@@ -328,14 +322,16 @@ int verify(const VerifyArguments& arguments) {
                                                          : "others than the picture names");
     std::fflush(stdout); // what follows may take as long as the picture
     const Verdict verdict = verifier.sample();
-    std::printf("pixels     %zu drawn again by the reference: %zu the same, %zu within a step, %zu "
-                "others\n",
-                verdict.all(), verdict.same, verdict.within_a_step, verdict.others.size());
+    std::printf("pixels     %zu drawn again by %s: %zu the same, %zu within a step, %zu others\n",
+                verdict.all(),
+                verifier.is_exact() ? "the reference" : "the picture's own precision", verdict.same,
+                verdict.within_a_step, verdict.others.size());
     bool are_only_ties = true;
     if (!verdict.others.empty()) {
         std::printf("first      at pixel %s\n", verifier.place_of(verdict.others.front()).c_str());
         std::fflush(stdout);
-        const std::size_t ties = verifier.as_they_were(verdict.others).same;
+        const std::size_t ties =
+            verifier.is_exact() ? verifier.as_they_were(verdict.others).same : 0;
         are_only_ties = ties == verdict.others.size() && !verdict.has_many(ties);
         if (ties > 0)
             std::printf(
@@ -365,11 +361,12 @@ int verify(const VerifyArguments& arguments) {
 } // namespace
 
 Command add_verify_command(CLI::App& app) {
-    CLI::App& command =
-        add_command(app, "verify",
-                    "Draw random pixels of a picture again, by the scalar reference with exact "
-                    "numbers, and say whether they are what it shows; exit code 1 if not",
-                    "raylane verify birthday.png scenes/birthday.json");
+    CLI::App& command = add_command(
+        app, "verify",
+        "Draw random pixels of a picture again, by the scalar reference with exact "
+        "numbers or, if it was not drawn with these, by its own precision, and compare; "
+        "exit code 1 if they differ",
+        "raylane verify birthday.png scenes/birthday.json");
     auto arguments = std::make_shared<VerifyArguments>();
     add_positional(command, "PICTURE", arguments->picture,
                    "A PNG or EXR that raylane has drawn, which says with which options");
