@@ -45,6 +45,7 @@ void read_exr(ByteSource&, Image&) {
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfVersion.h>
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -291,7 +292,34 @@ class ChannelReader {
     Imf::FrameBuffer buffer_;
 };
 
+/// Texts have the names that add_attributes() writes.
+bool is_text(const Imf::Attribute& attribute, std::string_view name) {
+    return dynamic_cast<const Imf::StringAttribute*>(&attribute) != nullptr &&
+           std::all_of(name.begin(), name.end(), [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+/// Throws MalformedPicture, without a text, for a file that exr_of() cannot have written.
+void require_own_header(const Imf::InputFile& file) {
+    constexpr std::string_view written[] = {
+        "channels",         "compression",        "dataWindow",        "displayWindow", "lineOrder",
+        "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth", "xDensity"};
+    constexpr std::string_view written_channels[] = {
+        "R", "G", "B", "A", "Z", "N.X", "N.Y", "N.Z", "id.shape", "id.material", "samples"};
+    const auto has = [](const auto& names, std::string_view name) {
+        return std::find(std::begin(names), std::end(names), name) != std::end(names);
+    };
+    const Imf::Header& header = file.header();
+    bool is_own = !Imf::isMultiPart(file.version()) && header.pixelAspectRatio() == 1.0F;
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
+        is_own = is_own && (has(written, attribute.name()) ||
+                            is_text(attribute.attribute(), attribute.name()));
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        is_own = is_own && has(written_channels, channel.name());
+    if (!is_own) throw MalformedPicture("");
+}
+
 ExrPicture read_own(Imf::InputFile& file) {
+    require_own_header(file);
     const Imath::Box2i shown = file.header().displayWindow();
     if (file.header().dataWindow() != shown || shown.min != Imath::V2i(0, 0) || !file.isComplete())
         throw damaged("EXR");

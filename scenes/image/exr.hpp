@@ -31,7 +31,8 @@ struct ExrPicture {
     std::vector<std::pair<std::string, std::string>> texts;
 };
 
-/// Throws BadInput for a file that is none of ours, and SystemRefused.
+/// Throws BadInput for a file that has more or less than exr_of writes, and SystemRefused: other
+/// attributes, channels and parts may change how a viewer shows it.
 ExrPicture read_own_exr(const std::filesystem::path& path);
 ExrPicture read_own_exr(InputFile& file);
 

@@ -167,4 +167,23 @@ void read_png(ByteSource& source, Image& image) {
     image.texts = reading.texts();
 }
 
+std::string foreign_chunk(std::string_view bytes) {
+    constexpr std::string_view written[] = {"IHDR", "pHYs", "tEXt", "iTXt", "IDAT", "IEND"};
+    constexpr std::size_t signature = 8, length_and_type = 8, checksum = 4;
+    for (std::size_t at = signature; at + length_and_type <= bytes.size();) {
+        std::size_t length = 0;
+        for (std::size_t byte = at; byte < at + 4; ++byte)
+            length = length << 8 | static_cast<unsigned char>(bytes[byte]);
+        const std::string_view type = bytes.substr(at + 4, 4);
+        const std::string_view data = bytes.substr(at + length_and_type, length);
+        const bool is_stretched =
+            type == "pHYs" && (data.size() < 8 || data.substr(0, 4) != data.substr(4, 4));
+        if (is_stretched ||
+            std::find(std::begin(written), std::end(written), type) == std::end(written))
+            return std::string(type);
+        at += length_and_type + length + checksum;
+    }
+    return {};
+}
+
 } // namespace raylane::scenes

@@ -14,7 +14,8 @@ bool take_options(const std::string& text, const std::function<void(CLI::App& co
     add(command);
     try {
         command.parse(text);
-    } catch (const CLI::RequiredError&) { // is said elsewhere
+    } catch (const CLI::RequiredError&) { // comes before unknown options
+        return command.remaining().empty();
     } catch (const CLI::ParseError&) {
         return false;
     }

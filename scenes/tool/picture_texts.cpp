@@ -28,7 +28,8 @@ RenderArguments arguments_of(const std::string& picture, const PictureTexts& tex
                              const std::string& scene) {
     RenderArguments arguments;
     if (!take_options(text_in(picture, texts, "Comment"),
-                      [&](CLI::App& command) { arguments.add_to(command); }))
+                      [&](CLI::App& command) { arguments.add_to(command); }) ||
+        arguments.scene)
         throw BadInput(picture, "", "has a Comment that is no list of render's options");
     arguments.scene = scene;
     return arguments;

@@ -1,5 +1,6 @@
 #include "scenes/errors.hpp"
 #include "scenes/image/exr.hpp"
+#include "scenes/image/png_reader.hpp"
 #include "scenes/image/reader.hpp"
 #include "scenes/number.hpp"
 #include "scenes/tool/arguments.hpp"
@@ -66,10 +67,21 @@ bool has_same_bits(const core::Layers& a, const core::Layers& b) {
 }
 
 /// Read, and refused, before the scene.
-Image whole_picture(InputFile file) {
+Image whole_picture(const std::string& name, const std::string& bytes) {
+    InputFile file(name, bytes);
     Image image = read_image(file);
     if (has_text(image.texts, "Part"))
         throw BadInput(image.name, "", "is a part of a picture, to be merged first");
+    if (!has_text(image.texts, "Comment")) return image; // which is refused as any without
+    if (image.linear_float) {
+        InputFile again(name, bytes);
+        static_cast<void>(read_own_exr(again));
+    } else if (const std::string chunk = foreign_chunk(bytes); !chunk.empty()) {
+        throw BadInput(image.name, "",
+                       "must have only chunks that raylane writes, for others may change how the "
+                       "picture is seen, got " +
+                           printable(chunk));
+    }
     return image;
 }
 
@@ -93,7 +105,7 @@ class Verifier {
                                : std::random_device()()),
           threads_(threads_argument(arguments.threads)),
           name_(file_argument("PICTURE", *arguments.picture)), bytes_(InputFile(name_).read_all()),
-          image_(whole_picture(picture_file())),
+          image_(whole_picture(shown_name(), bytes_)),
           render_(
               arguments_of(image_.name, image_.texts, file_argument("SCENE", *arguments.scene))),
           picture_(render_.picture),
@@ -154,7 +166,7 @@ class Verifier {
     Whole again() {
         std::optional<core::Layers> layers;
         if (image_.linear_float) {
-            InputFile file = picture_file();
+            InputFile file(image_.name, bytes_);
             layers = read_own_exr(file).layers;
         }
         simd::RenderOptions options = options_;
@@ -222,9 +234,7 @@ class Verifier {
         return verdict;
     }
 
-    InputFile picture_file() const {
-        return {name_ == "-" ? "standard input" : name_, std::string_view(bytes_)};
-    }
+    std::string shown_name() const { return name_ == "-" ? "standard input" : name_; }
 
     core::Scene seen_scene() {
         const LoadOptions load_options = render_.scene_arguments.load_options(true);

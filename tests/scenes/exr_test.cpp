@@ -34,6 +34,7 @@ TEST_CASE("what cannot write OpenEXR says so") {
 #ifdef RAYLANE_WITH_OPENEXR
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
@@ -127,6 +128,53 @@ TEST_CASE("an EXR has layers and what it is told") {
     CHECK(shape[0] == 4294967295U);
     CHECK(material == layers.material);
     CHECK(samples == layers.samples);
+}
+
+TEST_CASE("An EXR with attributes or channels that raylane does not write is not its own") {
+    const TemporaryDirectory directory;
+    const auto own = directory.path() / "own.exr", path = directory.path() / "a.exr";
+    const core::Layers layers(3, 2);
+    scenes::PictureOptions options;
+    options.dpi = 300.0F;
+    options.texts = {{"Software", "raylane"}, {"Comment", "--spp 16"}};
+    scenes::OutputFile(own, scenes::exr_of).commit(little_film(), options, &layers);
+    const auto complaint = [&](const auto& change) {
+        Imf::InputFile from(own.c_str());
+        Imf::Header header = from.header();
+        change(header);
+        {
+            Imf::OutputFile to(path.c_str(), header);
+            to.copyPixels(from);
+        }
+        return tests::message_of<scenes::BadInput>([&] { scenes::read_own_exr(path); });
+    };
+    using Header = Imf::Header;
+    const auto insert = [](const char* name, const auto& attribute) {
+        return [=](Header& header) { header.insert(name, attribute); };
+    };
+    const std::string refused = path.string() + ": must be an EXR that raylane has drawn";
+    CHECK(complaint([](const Header&) {}) == "no error");
+    CHECK(complaint(insert("author", Imf::StringAttribute("me"))) == "no error");
+    CHECK(complaint(insert("colorInteropID", Imf::StringAttribute("lin_ap0"))) == refused);
+    CHECK(complaint(insert("any", Imf::FloatAttribute(1.0F))) == refused);
+    CHECK(complaint([](Header& header) { Imf::addChromaticities(header, {}); }) == refused);
+    CHECK(complaint([](Header& header) { Imf::addWhiteLuminance(header, 80.0F); }) == refused);
+    CHECK(complaint([](Header& header) { header.pixelAspectRatio() = 2.0F; }) == refused);
+    CHECK(complaint([](Header& header) { header.displayWindow().max.x = 1; }) == refused);
+    // Another channel, which a copy of pixels cannot have.
+    Header header(3, 2);
+    for (const char* name : {"R", "G", "B", "left.R"})
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    std::vector<float> values(6);
+    Imf::FrameBuffer buffer;
+    for (const char* name : {"R", "G", "B", "left.R"})
+        buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), 4, 12));
+    {
+        Imf::OutputFile to(path.c_str(), header);
+        to.setFrameBuffer(buffer);
+        to.writePixels(2);
+    }
+    CHECK(tests::message_of<scenes::BadInput>([&] { scenes::read_own_exr(path); }) == refused);
 }
 
 TEST_CASE(

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <bit>
+#include <zlib.h>
 
 using namespace raylane;
 using namespace raylane::tests;
@@ -268,6 +269,67 @@ TEST_CASE("A picture of any precision is held to its own precision") {
     CHECK(turned.out.find("first      at pixel 3, 4\n") != std::string::npos);
 }
 
+namespace {
+
+std::string big_endian(std::uint32_t number) {
+    std::string text;
+    for (int shift = 24; shift >= 0; shift -= 8)
+        text += static_cast<char>(number >> shift);
+    return text;
+}
+
+std::string chunk(const std::string& type, const std::string& content) {
+    const std::string text = type + content;
+    const auto checksum =
+        ::crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size()));
+    return big_endian(static_cast<std::uint32_t>(content.size())) + text +
+           big_endian(static_cast<std::uint32_t>(checksum));
+}
+
+} // namespace
+
+TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
+    const Workshop workshop;
+    REQUIRE(workshop.render("a.png", {"--dpi", "300"}).code == 0);
+    const std::string picture = content_of(workshop.path() / "a.png");
+    const auto with = [&](const std::string& chunks, std::size_t place) {
+        std::string changed = picture;
+        workshop.write("b.png", changed.insert(place, chunks));
+        return verify(workshop, "b.png", {"--pixels", "2"});
+    };
+    const std::size_t header = 8 + 12 + 13, end = picture.size() - 12;
+    REQUIRE(picture.substr(header + 4, 4) == "pHYs");
+    const auto refused = [&](const std::string& type, const std::string& chunks,
+                             std::size_t place) {
+        CAPTURE(type);
+        const Outcome outcome = with(chunks, place);
+        CHECK(outcome.code == 2);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err == "raylane: b.png: must have only chunks that raylane writes, for "
+                             "others may change how the picture is seen, got " +
+                                 type + "\n");
+    };
+    const std::string zero(1, '\0');
+    CHECK(with("", header).code == 0);
+    CHECK(with(chunk("tEXt", "Author" + zero + "me"), header).code == 0);
+    refused("gAMA", chunk("gAMA", big_endian(500'000)), header);
+    std::string chromaticities;
+    for (const std::uint32_t number : {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000})
+        chromaticities += big_endian(number);
+    refused("cHRM", chunk("cHRM", chromaticities), header);
+    refused("sRGB", chunk("sRGB", zero), header);
+    refused("tRNS", chunk("tRNS", std::string(6, '\0')), header);
+    refused("bKGD", chunk("bKGD", std::string(6, '\0')), header);
+    refused("eXIf", chunk("eXIf", std::string("MM\0*\0\0\0\10\0\0\0\0\0\0", 14)), header);
+    refused("acTL", chunk("acTL", big_endian(1) + big_endian(0)), header);
+    refused("fcTL", chunk("fcTL", std::string(26, '\0')) + chunk("fdAT", "0123"), end);
+    // Pixels that are no squares.
+    std::string wide = picture;
+    wide.replace(header, 12 + 9, chunk("pHYs", big_endian(2) + big_endian(1) + "\1"));
+    workshop.write("b.png", wide);
+    CHECK(verify(workshop, "b.png").err.ends_with(", got pHYs\n"));
+}
+
 TEST_CASE("the whole of a picture is looked at, whichever pixels are chosen") {
     const Workshop workshop;
     REQUIRE(workshop.render("a.png").code == 0);
@@ -489,6 +551,11 @@ TEST_CASE("pictures that say nothing of themselves are refused in one line") {
     };
     with_comment("made by hand");
     refused("b.png", "b.png: has a Comment that is no list of render's options");
+    for (const char* comment : {"--bogus", "--spp 4 --bogus", "--spp 4 --bogus=3", "--spp 4 -z",
+                                "--spp 4 other.json", "--bogus 3", "--spp 4 --spp 4"}) {
+        with_comment(comment);
+        refused("b.png", "b.png: has a Comment that is no list of render's options");
+    }
     with_comment("--help");
     refused("b.png", "b.png: has a Comment that is no list of render's options");
     with_comment("--size 5000x5000");
