@@ -172,9 +172,11 @@ int merge(const MergeArguments& arguments) {
     PictureArguments how;
     how.bits = arguments.bits;
     how.dpi = arguments.dpi;
-    const PictureChoice choice(how);
+    PictureChoice choice(how);
     OutputFile output(name, exr_of);
     choice.require_fit(output.format());
+    if (output.format() == PictureFormat::exr && choice.bits == 0)
+        choice.bits = 32; // as parts have
     Merger merger(output.format());
     for (const std::string& part : arguments.parts)
         merger.add(file_argument("PARTS", part));
@@ -202,7 +204,7 @@ Command add_merge_command(CLI::App& app) {
         ->required();
     add_option(command, "--bits", arguments->bits,
                "Of a component: 8 or 16 in PNG (default: 8), 16 (halves) or 32 (floats) in EXR "
-               "(default: 16)",
+               "(default: 32, as the parts have)",
                "N");
     add_option(command, "--dpi", arguments->dpi,
                "Pixels per inch that PNG or EXR tells who prints it", "N");

@@ -1,4 +1,5 @@
 #include "scenes/image/exr.hpp"
+#include "scenes/image/reader.hpp"
 #include "scenes/image/writer.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/tool/workshop.hpp"
@@ -32,6 +33,11 @@ std::string content(const Workshop& workshop, const std::string& name) {
     return content_of(workshop.path() / name);
 }
 
+/// Parts are EXR of floats, and so are EXR that merge makes of them.
+Options floats_in(const std::string& output) {
+    return output.ends_with(".exr") ? Options{"--bits", "32"} : Options{};
+}
+
 void draw_parts(const Workshop& workshop, int count, const Options& options = {}) {
     for (int number = 1; number <= count; ++number)
         REQUIRE(workshop.run(part(number, count, options)).code == 0);
@@ -53,7 +59,7 @@ TEST_CASE("parts of a picture, put together, are the same file as the whole") {
         draw_parts(workshop, 3, options);
         const bool layers = options.back() == "--layers";
         const std::string ending = layers ? ".exr" : ".png";
-        REQUIRE(workshop.render("whole" + ending, options).code == 0);
+        REQUIRE(workshop.render("whole" + ending, joined(options, floats_in(ending))).code == 0);
         const Outcome outcome = workshop.run(merged({2, 3, 1}, "merged" + ending));
         CHECK(outcome.err.empty());
         CHECK(outcome.code == 0);
@@ -65,6 +71,21 @@ TEST_CASE("parts of a picture, put together, are the same file as the whole") {
     REQUIRE(workshop.render("whole.png").code == 0);
     CHECK(workshop.run(merged({1, 2, 3, 4, 5}, "merged.png")).code == 0);
     CHECK(content_of(workshop.path() / "merged.png") == content_of(workshop.path() / "whole.png"));
+}
+
+TEST_CASE("Merged EXR have the floats of their parts, or halves on request") {
+    if (!scenes::has_exr()) return;
+    const Workshop workshop;
+    draw_parts(workshop, 2, {"--bits", "32"});
+    for (const auto& [bits, expected] :
+         {std::pair{Options{}, 32}, {{"--bits", "32"}, 32}, {{"--bits", "16"}, 16}}) {
+        CAPTURE(bits);
+        REQUIRE(workshop.run(joined(merged({1, 2}, "merged.exr"), bits)).code == 0);
+        CHECK(scenes::read_image(workshop.path() / "merged.exr").bits == expected);
+        const Options same = {"--bits", std::to_string(expected)};
+        REQUIRE(workshop.render("whole.exr", same).code == 0);
+        CHECK((content(workshop, "merged.exr") == content(workshop, "whole.exr")));
+    }
 }
 
 TEST_CASE("parts that make no whole are refused in one line") {
@@ -202,7 +223,7 @@ TEST_CASE("one frame of several is drawn in parts as any other scene is") {
         CHECK(contents[0] != contents[1]);
         CHECK(contents[1] != contents[2]);
         for (const std::string name : {"whole.exr", "whole.png"}) {
-            ran(frame(options, {"-o", name}));
+            ran(frame(options, joined({"-o", name}, floats_in(name))));
             ran(merged({3, 1, 2}, "merged-" + name));
             CHECK(content(workshop, "merged-" + name) == content(workshop, name));
             const Outcome verified =
@@ -258,7 +279,7 @@ TEST_CASE("parts with an alpha or layers become no picture without them") {
     draw_parts(workshop, 2);
     for (const std::string output : {"b.pfm", "b.png", "b.exr"}) {
         becomes(output);
-        REQUIRE(workshop.render("whole-" + output).code == 0);
+        REQUIRE(workshop.render("whole-" + output, floats_in(output)).code == 0);
         CHECK(content(workshop, output) == content(workshop, "whole-" + output));
     }
 }

@@ -117,7 +117,7 @@ done
 # Both have a hand in it: they have the one scene.
 shares "memfd:raylane scene" film.xyz --frames 1
 if [ -e one.exr ]; then
-    "$raylane" render film.xyz -q --frames 1 -o one.exr --size 150x90
+    "$raylane" render film.xyz -q --frames 1 -o one.exr --bits 32 --size 150x90
     for part in 1 2; do
         job 2 render film.xyz --frames 1 -o part-$part.exr --part $part/2 --size 150x90 2>err ||
             fail "a part of a frame"
