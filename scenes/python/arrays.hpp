@@ -22,8 +22,25 @@ namespace raylane::python {
 
 namespace py = pybind11;
 
-/// Whatever NumPy makes an array of. Throws InvalidValue where it will not.
-inline py::array any_array(const py::handle& values, const char* field) {
+/// Throws InvalidValue for an array with masked values (numpy.ma), or a list that contains one.
+/// NumPy's C interface gives these as if they were values.
+inline void refuse_masked(const py::handle& values, const std::string& field) {
+    const auto refuse = [&](const py::handle& array) {
+        if (!py::hasattr(array, "_mask")) return;
+        const py::object is_masked = py::module_::import("numpy").attr("ma").attr("is_masked");
+        if (is_masked(array).cast<bool>())
+            throw InvalidValue(field, "must have no masked values: leave them out, or fill them by "
+                                      "numpy.ma.filled()");
+    };
+    if (!py::isinstance<py::list>(values) && !py::isinstance<py::tuple>(values))
+        return refuse(values);
+    for (const py::handle& each : values)
+        if (py::isinstance<py::array>(each)) refuse(each);
+}
+
+/// An array of whatever NumPy makes one of, masked values included. Throws InvalidValue where it
+/// will not.
+inline py::array converted(const py::handle& values, const char* field) {
     if (py::isinstance<py::array>(values)) return py::reinterpret_borrow<py::array>(values);
     try {
         return py::array(py::module_::import("numpy").attr("asarray")(values));
@@ -33,11 +50,17 @@ inline py::array any_array(const py::handle& values, const char* field) {
     }
 }
 
+/// The same without masked values, for which it throws InvalidValue.
+inline py::array any_array(const py::handle& values, const char* field) {
+    refuse_masked(values, field);
+    return converted(values, field);
+}
+
 /// True for arrays and scalars of float32, in either order of bytes, and for what is not there.
 inline bool is_float(const py::object& values) {
     if (values.is_none()) return true;
     if (!py::hasattr(values, "dtype")) return false;
-    const py::dtype type = any_array(values, "").dtype();
+    const py::dtype type = converted(values, "").dtype();
     return type.kind() == 'f' && type.itemsize() == sizeof(float);
 }
 /// The same for what is no array, too: a number is taken for one of the others' type.

@@ -167,6 +167,7 @@ class RayColumns {
 template <class Value>
 std::span<Value> out(const py::object& array, std::size_t count, const char* field) {
     if (array.is_none()) return {};
+    refuse_masked(array, field);
     using Array = py::array_t<Value, py::array::c_style>;
     if (!py::isinstance<Array>(array))
         throw InvalidValue(field,

@@ -129,6 +129,7 @@ void take(const py::handle& from, const std::string& field, bool& to) {
 }
 template <class Number>
 std::array<Number, 3> three(const py::handle& from, const std::string& field) {
+    refuse_masked(from, field);
     try {
         return py::cast<std::array<Number, 3>>(py::tuple(py::reinterpret_borrow<py::object>(from)));
     } catch (const std::exception&) {

@@ -210,6 +210,49 @@ def test_what_is_not_valid_says_where():
     assert (again.field, again.expectation) == ("a", "must be")
 
 
+def test_masked_values_are_refused():
+    """They are no values, and NumPy's C interface hands them over as if they were."""
+    from numpy import ma
+
+    def masked(shape, dtype=np.float64):
+        array = ma.ones(shape, dtype)
+        array[(0,) * len(array.shape)] = ma.masked
+        return array
+
+    def refused(field, call, *arguments, **named):
+        with pytest.raises(InvalidValue, match=f"^{field}: must have no masked values"):
+            call(*arguments, **named)
+
+    builder = raylane.SceneBuilder()
+    red = builder.add_material()
+    for dtype in (np.float32, np.float64, np.int32):
+        refused("centers", builder.add_spheres, masked((2, 3), dtype), 1, material=red)
+        refused("radii", builder.add_spheres, np.ones((2, 3)), masked(2, dtype), material=red)
+    refused("material", builder.add_spheres, np.ones((2, 3)), 1, material=masked(2, np.uint32))
+    refused("centers", builder.add_spheres, [masked(3), masked(3)], 1, material=red)
+    refused("radii", builder.add_spheres, np.ones((2, 3)), [1, ma.masked], material=red)
+    refused("background", setattr, builder, "background", masked(3))
+    refused("point", raylane.Solid.half_space, masked(3), (0, 1, 0), material=red)
+    assert builder.shape_count == 0
+    # With nothing masked, they are arrays like any other, as netCDF4 gives them.
+    builder.add_spheres(ma.array(np.arange(6.0).reshape(2, 3), mask=False), ma.ones(2), material=red)
+    assert builder.shape_count == 2
+    builder.add_light(position=(0, 0, 9))
+    scene = builder.build()
+    refused("shapes", scene.material_of, masked(2, np.uint32))
+    tracer = raylane.Tracer(scene)
+    ones = np.ones((2, 3))
+    refused("origins", tracer.intersect, masked((2, 3)), ones)
+    refused("directions", tracer.occluded, ones, masked((2, 3)))
+    refused("t_max", tracer.crossings, ones, ones, t_max=masked(2))
+    refused("points", tracer.contains, masked((2, 3)))
+    refused("positions", raylane.from_atoms, ["C", "O"], masked((2, 3)))
+    refused("cell", raylane.from_atoms, ["C"], np.ones((1, 3)), cell=masked((3, 3)))
+    image = raylane.render(scene, width=2, height=2)
+    image.rgb = masked((2, 2, 3), np.float32)
+    refused("rgb", image.save, "never.pfm")
+
+
 def test_what_is_set_and_not_valid_says_where_and_the_builder_keeps_what_it_has():
     builder = SceneBuilder()
     material = builder.add_material()

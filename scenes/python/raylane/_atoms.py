@@ -19,6 +19,10 @@ _MOST = 1e30  # of a coordinate, as of all coordinates of a scene
 
 def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[np.float64]:
     """An array of coordinates, of a shape."""
+    if np.ma.is_masked(values):
+        raise InvalidValue(
+            field, "must have no masked values: leave them out, or fill them by numpy.ma.filled()"
+        )
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):
