@@ -104,6 +104,12 @@ MaterialIndex SceneBuilder::add_material(const Material& material) {
     return static_cast<MaterialIndex>(scene_.materials_.size() - 1);
 }
 
+void SceneBuilder::name_material(MaterialIndex material, std::string_view name) {
+    require_material(material);
+    if (material >= scene_.material_names_.size()) scene_.material_names_.resize(material + 1U);
+    if (scene_.material_names_[material].empty()) scene_.material_names_[material] = name;
+}
+
 void SceneBuilder::add_light(const Light& light) {
     validate(light);
     scene_.lights_.push_back(light);
@@ -111,11 +117,15 @@ void SceneBuilder::add_light(const Light& light) {
 
 void SceneBuilder::renumber_materials(std::span<const MaterialIndex> new_index) {
     std::vector<Material> renumbered;
+    std::vector<std::string> names;
     for (std::size_t i = 0; i < new_index.size(); ++i) {
         renumbered.resize(std::max<std::size_t>(renumbered.size(), new_index[i] + std::size_t{1}));
         renumbered[new_index[i]] = scene_.materials_[i];
+        names.resize(renumbered.size());
+        names[new_index[i]] = scene_.material_name(static_cast<MaterialIndex>(i));
     }
     scene_.materials_ = std::move(renumbered);
+    scene_.material_names_ = std::move(names);
     MaterialIndices material_of;
     material_of.reserve(shape_count());
     for (std::size_t id = 0; id < shape_count(); ++id)

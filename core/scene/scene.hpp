@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace raylane::core {
@@ -45,6 +46,11 @@ class Scene {
     const std::vector<Material>& materials() const { return materials_; }
     const Material& material_of(ShapeId id) const { return materials_[material_of_[id]]; }
     MaterialIndex material_index_of(ShapeId id) const { return material_of_[id]; }
+    /// Returns the name that a material has in its file; empty if it has none. Several materials
+    /// may have one name. No picture depends on names.
+    std::string_view material_name(MaterialIndex material) const {
+        return material < material_names_.size() ? std::string_view(material_names_[material]) : "";
+    }
     /// Of all shapes.
     const MaterialIndices& material_indices() const { return material_of_; }
     /// Those that are made of others, whose parts are among the shapes.
@@ -97,6 +103,7 @@ class Scene {
     Hierarchy hierarchy_;
     Solids solids_;
     std::vector<Material> materials_;
+    std::vector<std::string> material_names_; // of the first materials
     TransmissiveShapes transmissive_;
     std::vector<Light> lights_;
     Fog fog_;
@@ -129,6 +136,8 @@ class SceneBuilder {
 
     /// The index by which shapes refer to it.
     MaterialIndex add_material(const Material& material);
+    /// Names a material, unless it has a name.
+    void name_material(MaterialIndex material, std::string_view name);
     void add_light(const Light& light);
     /// Gives material i the index new_index[i], for all of them: 0, 1, 2, ... without a gap. Of
     /// several that become one, the last counts. For readers that meet a material's name before the

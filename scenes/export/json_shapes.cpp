@@ -121,11 +121,10 @@ std::size_t levels_of(const core::Solid& solid) {
     return levels + 2;
 }
 
-void write_solid(TextFile& file, const core::Solid& solid) {
+void write_solid(TextFile& file, const core::Solid& solid, const MaterialNames& names) {
     static constexpr std::string_view types[] = {"", "union", "intersection", "difference", "clip"};
     JsonObject object(file);
-    if (solid.material != core::no_material)
-        object.text("material", std::to_string(solid.material));
+    if (solid.material != core::no_material) object.key("material") << names[solid.material];
     if (solid.made == core::Made::of_shape) {
         std::visit(
             [&]<class Shape>(const Shape& shape) {
@@ -140,14 +139,15 @@ void write_solid(TextFile& file, const core::Solid& solid) {
     const char* separator = "";
     for (const core::Solid& part : solid.parts) {
         file << std::exchange(separator, ",\n");
-        write_solid(file, part);
+        write_solid(file, part, names);
     }
     file << "]";
 }
 
 } // namespace
 
-void write_objects(JsonObject& root, TextFile& file, const core::Scene& scene) {
+void write_objects(JsonObject& root, TextFile& file, const core::Scene& scene,
+                   const MaterialNames& names) {
     root.key("objects") << "[";
     const char* separator = "\n";
     for_each_by_id(
@@ -157,7 +157,7 @@ void write_objects(JsonObject& root, TextFile& file, const core::Scene& scene) {
             JsonObject object(file);
             object.text("type", core::type_name_of(core::kind_of<Shape>));
             write_shape(object, shape);
-            object.text("material", std::to_string(scene.material_index_of(id)));
+            object.key("material") << names[scene.material_index_of(id)];
         },
         [&](const core::Solid& solid, core::ShapeId) {
             if (const std::size_t levels = levels_of(solid); levels > most_levels)
@@ -166,19 +166,21 @@ void write_objects(JsonObject& root, TextFile& file, const core::Scene& scene) {
                             " levels of objects and lists, for none is read, got " +
                             std::to_string(levels));
             file << std::exchange(separator, ",\n");
-            write_solid(file, solid);
+            write_solid(file, solid, names);
         });
     file << "\n]";
 }
 
-void write_solids(JsonObject& root, TextFile& file, const core::Scene& scene) {
+void write_solids(JsonObject& root, TextFile& file, const core::Scene& scene,
+                  const MaterialNames& names) {
     root.key("objects") << "[";
     const char* separator = "\n";
     for (core::ShapeId id = 0; scene.solids().any() && id < scene.shape_count(); ++id) {
         if (!scene.solids().has(id) || scene.solids().solid_of(id) != id) continue;
         file << std::exchange(separator, ",\n");
-        write_solid(
-            file, core::description_of(scene, scene.solids().root_of(scene.solids().part_of(id))));
+        write_solid(file,
+                    core::description_of(scene, scene.solids().root_of(scene.solids().part_of(id))),
+                    names);
     }
     file << "\n]";
 }

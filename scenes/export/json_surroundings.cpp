@@ -1,7 +1,11 @@
 #include "scenes/export/json_surroundings.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -225,11 +229,47 @@ void write_lights(JsonObject& root, TextFile& file, const core::Scene& scene,
     file << "]";
 }
 
-void write_materials(JsonObject& root, TextFile& file, const core::Scene& scene) {
+MaterialNames MaterialNames::own(const core::Scene& scene) {
+    MaterialNames names;
+    names.names_.resize(scene.materials().size());
+    std::set<std::string> taken;
+    std::map<std::string, std::size_t> last; // number of a name that several materials have
+    const auto take = [&](std::size_t index, const std::string& wanted) {
+        std::string name = wanted;
+        while (!taken.insert(name).second)
+            name = wanted + '-' + std::to_string(++last.try_emplace(wanted, 1).first->second);
+        names.names_[index] = '"' + name + '"';
+    };
+    const auto name_of = [&](std::size_t index) {
+        return scene.material_name(static_cast<core::MaterialIndex>(index));
+    };
+    for (std::size_t i = 0; i < names.names_.size(); ++i) {
+        if (name_of(i).empty()) continue;
+        const std::string quoted =
+            nlohmann::json(name_of(i))
+                .dump(-1, ' ', false,
+                      nlohmann::json::error_handler_t::replace); // bytes that are not UTF-8
+        take(i, quoted.substr(1, quoted.size() - 2));
+    }
+    for (std::size_t i = 0; i < names.names_.size(); ++i)
+        if (name_of(i).empty()) take(i, std::to_string(i));
+    return names;
+}
+
+MaterialNames MaterialNames::numbers(const core::Scene& scene) {
+    MaterialNames names;
+    for (std::size_t i = 0; i < scene.materials().size(); ++i)
+        names.names_.push_back('"' + std::to_string(i) + '"');
+    return names;
+}
+
+void write_materials(JsonObject& root, TextFile& file, const core::Scene& scene,
+                     const MaterialNames& names) {
     root.key("materials") << "{";
     const char* separator = "\n";
     for (std::size_t i = 0; i < scene.materials().size(); ++i) {
-        file << std::exchange(separator, ",\n") << "\"" << std::to_string(i) << "\": ";
+        file << std::exchange(separator, ",\n") << names[static_cast<core::MaterialIndex>(i)]
+             << ": ";
         write_material(file, scene.materials()[i]);
     }
     file << "}";

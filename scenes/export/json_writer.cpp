@@ -8,11 +8,11 @@ namespace raylane::scenes {
 namespace {
 
 void write_all_but_objects(JsonObject& root, TextFile& file, const core::Scene& scene,
-                           const core::Staging& staging) {
+                           const core::Staging& staging, const MaterialNames& names) {
     write_settings(root, file, scene.settings());
     write_surroundings(root, file, scene, staging);
     write_lights(root, file, scene, staging);
-    write_materials(root, file, scene);
+    write_materials(root, file, scene, names);
 }
 
 } // namespace
@@ -23,14 +23,15 @@ void write_json(TextFile& file, const core::Scene& scene, Differences& differenc
     if (!scene.polygons().empty()) differences.insert(lost_polygons);
     JsonObject root(file, ",\n");
     file << "\n";
-    write_all_but_objects(root, file, scene, staging);
-    write_objects(root, file, scene);
+    const MaterialNames names = MaterialNames::own(scene);
+    write_all_but_objects(root, file, scene, staging, names);
+    write_objects(root, file, scene, names);
 }
 
 void write_json_without_objects(TextFile& file, const core::Scene& scene) {
     JsonObject root(file, ",\n");
     file << "\n";
-    write_all_but_objects(root, file, scene, {});
+    write_all_but_objects(root, file, scene, {}, MaterialNames::own(scene));
     root.key("objects") << "[]";
 }
 
@@ -42,10 +43,11 @@ void write_json_settings(TextFile& file, const core::Settings& settings) {
 void write_json_without_shapes(TextFile& file, const core::Scene& scene) {
     JsonObject root(file, ",\n");
     file << "\n";
+    const MaterialNames names = MaterialNames::numbers(scene);
     write_surroundings(root, file, scene, {});
     write_lights(root, file, scene, {});
-    write_materials(root, file, scene);
-    write_solids(root, file, scene);
+    write_materials(root, file, scene, names);
+    write_solids(root, file, scene, names);
 }
 
 } // namespace raylane::scenes

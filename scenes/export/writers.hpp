@@ -19,7 +19,8 @@ inline constexpr const char* lost_polygons = "which triangles make a polygon";
 void write_json(TextFile& file, const core::Scene& scene, Differences& differences);
 /// Settings alone, in one line.
 void write_json_settings(TextFile& file, const core::Settings& settings);
-/// All but its settings and the shapes that are no solids; the view as it is.
+/// All but its settings, the names of materials, and the shapes that are no solids; the view as it
+/// is.
 void write_json_without_shapes(TextFile& file, const core::Scene& scene);
 /// All but the objects; the view as it is.
 void write_json_without_objects(TextFile& file, const core::Scene& scene);

@@ -261,6 +261,8 @@ void SceneReader::take_material(std::string_view name, const JsonValue& value) {
         entry->second = add({}); // or each object of it would be a mistake, too
         throw;
     }
+    // A writer calls a material without a name by its number.
+    if (name != std::to_string(named_.size())) builder_.name_material(entry->second, name);
     named_.push_back(entry->second);
 }
 

@@ -87,6 +87,7 @@ void set_by_albedo(Finish& finish, const Albedo& is) {
 Pigment read_pigment(Tokens& tokens, Pigment given, std::string_view end) {
     Texture texture{std::move(given), {}};
     Pigment& pigment = texture.pigment;
+    pigment.name = {};
     while (!tokens.accept(end)) {
         const Token word = tokens.peek();
         if (const auto known = tokens.accept_value<Pigment>()) {
@@ -176,6 +177,7 @@ Shared<Texture> read_texture(Tokens& tokens) {
 
 Shared<Texture> read_texture(Tokens& tokens, std::string_view end) {
     auto texture = std::make_shared<Texture>(*tokens.default_texture);
+    texture->name = texture->pigment.name = {};
     while (!tokens.accept(end)) {
         if (const auto known = tokens.accept_value<Texture>()) {
             *texture = *known;

@@ -208,6 +208,12 @@ core::MaterialIndex Materials::index_of(const Look& look, const Place& place,
             fail(place, "has a material that cannot be: " + std::string(invalid.what()));
         }
     }
+    if (look.texture != nullptr) {
+        const Texture& texture = *look.texture;
+        constexpr std::size_t longest = 256; // of POV-Ray's, 40; a loop makes many copies
+        const std::string_view name = texture.name.empty() ? texture.pigment.name : texture.name;
+        if (!name.empty()) builder_.name_material(found->second, name.substr(0, longest));
+    }
     if (plane == nullptr) {
         last_ = look;
         last_index_ = found->second;

@@ -67,7 +67,10 @@ class Modifiers {
     }
 
     Texture own_texture() const {
-        return object_.texture != nullptr ? *object_.texture : *tokens_.default_texture;
+        if (object_.texture != nullptr) return *object_.texture;
+        Texture texture = *tokens_.default_texture;
+        texture.name = texture.pigment.name = {};
+        return texture;
     }
     void set(Texture texture) {
         object_.texture = std::make_shared<const Texture>(std::move(texture));

@@ -235,6 +235,33 @@ void Tokens::enter(Frame frame) {
     frames_.push_back(std::move(frame));
 }
 
+namespace {
+
+/// Textures, pigments and materials take the name that they are declared by.
+Value named(Value value, std::string_view name) {
+    const auto texture_named = [&](const Texture& texture) {
+        auto copy = std::make_shared<Texture>(texture);
+        copy->name = name;
+        return copy;
+    };
+    if (const auto* pigment = value.get_if<Shared<Pigment>>()) {
+        auto copy = std::make_shared<Pigment>(**pigment);
+        copy->name = name;
+        return {Shared<Pigment>(std::move(copy))};
+    }
+    if (const auto* texture = value.get_if<Shared<Texture>>())
+        return {Shared<Texture>(texture_named(**texture))};
+    if (const auto* material = value.get_if<Shared<Material>>();
+        material != nullptr && (*material)->texture != nullptr) {
+        auto copy = std::make_shared<Material>(**material);
+        copy->texture = texture_named(*copy->texture);
+        return {Shared<Material>(std::move(copy))};
+    }
+    return value;
+}
+
+} // namespace
+
 void Tokens::directive(const Place& hash) {
     const Token word = raw_word("a directive");
     const std::string_view name = word.text;
@@ -332,7 +359,7 @@ void Tokens::declaration(const Token& word) {
         assign(**array, indices, std::move(value), name);
     } else {
         expect("=");
-        Value value = copied(read_value(*this), name.place);
+        Value value = named(copied(read_value(*this), name.place), name.text);
         declare(name.text, std::move(value), is_local);
     }
     if (ahead().is(";")) peeked_.reset();

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -52,6 +53,7 @@ struct Pigment {
     core::Vec3d direction{0.0};      ///< gradient
     bool in_steps = false;           ///< gradient: half of it each colour
     Shared<Motion> motion{};
+    std::string_view name{}; ///< it is declared by, or the pigment that it began as
 };
 
 /// As in POV-Ray: what nobody has said is 0.1 of ambient light and 0.6 of diffuse light.
@@ -65,8 +67,9 @@ struct Finish {
 };
 
 struct Texture {
-    Pigment pigment;
-    Finish finish;
+    Pigment pigment{};
+    Finish finish{};
+    std::string_view name{}; ///< likewise
 };
 
 /// A map of colours, of pigments or of textures, as far as a pattern of them is drawn.

@@ -91,7 +91,8 @@ TachyonTexture TachyonObjects::texture() {
 void TachyonObjects::read_texture_definition() {
     const std::string name(words_.take());
     // Of several textures of one name, Tachyon takes the first.
-    textures_.emplace(name, read_texture(words_));
+    const auto place = textures_.emplace(name, read_texture(words_)).first;
+    place->second.name = &place->first;
 }
 
 void TachyonObjects::read_texture_alias() {

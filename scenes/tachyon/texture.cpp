@@ -79,6 +79,7 @@ core::MaterialIndex TachyonMaterials::index_of(const TachyonTexture& texture) {
     auto place = indices_.find(texture);
     if (place == indices_.end())
         place = indices_.emplace(texture, builder_.add_material(material_of(texture))).first;
+    if (texture.name != nullptr) builder_.name_material(place->second, *texture.name);
     last_ = &*place;
     return last_->second;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <map>
+#include <string>
 
 namespace raylane::scenes {
 
@@ -18,6 +19,8 @@ struct TachyonTexture {
     float highlight = 0.0F; ///< PHONG
     float exponent = 1.0F;  ///< PHONG_SIZE
     bool is_metal = false;  ///< its highlights are of its colour
+    /// The name that it is defined by, which does not tell it from others; null if it has none.
+    const std::string* name = nullptr;
 
     bool operator==(const TachyonTexture& other) const { return key() == other.key(); }
     bool operator<(const TachyonTexture& other) const { return key() < other.key(); }

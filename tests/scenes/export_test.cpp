@@ -5,6 +5,8 @@
 #include "tests/scenes/exports.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -199,6 +201,70 @@ TEST_CASE("NFF takes the shapes that it has, and tells what it leaves out") {
     CHECK(complaint(path, load_scene(shipped("quadric"))) ==
           path.string() + ": has no word for a quadric: .pov and .json have");
     CHECK(load_scene(path).shape_count() == 12); // which has stayed
+}
+
+TEST_CASE("Materials keep their names from JSON to JSON") {
+    const std::string text = R"({"camera": "auto", "lights": [],
+        "materials": {"clay": {"color": [1, 0, 0]}, "1": {}, "\"caf\u00e9\" \\": {}, "0": {}},
+        "definitions": {"ball": {"type": "sphere", "center": [0, 0, 0], "radius": 1},
+                        "red": {"type": "group", "material": "clay",
+                                "objects": [{"type": "instance", "of": "ball"}]}},
+        "objects": [{"type": "instance", "of": "red"},
+                    {"type": "instance", "of": "ball", "material": "\"caf\u00e9\" \\"},
+                    {"type": "sphere", "material": {}, "center": [2, 0, 0], "radius": 1},
+                    {"type": "sphere", "material": "late", "center": [4, 0, 0], "radius": 1},
+                    {"type": "difference", "material": "clay", "objects": [
+                      {"type": "sphere", "center": [6, 0, 0], "radius": 1},
+                      {"type": "sphere", "material": "0", "center": [6, 0, 1], "radius": 1}]}]})";
+    std::string late = text; // a name before its material
+    const std::string materials = late.substr(
+        late.find("\"materials\""), late.find("\"definitions\"") - late.find("\"materials\""));
+    late.erase(late.find(materials), materials.size());
+    late.insert(late.rfind('}'),
+                ", " + materials.substr(0, materials.rfind('}')) + ", \"late\": {}}");
+    const auto names = [](const core::Scene& scene) {
+        std::vector<std::string> found;
+        for (core::ShapeId id = 0; id < scene.shape_count(); ++id)
+            found.emplace_back(scene.material_name(scene.material_index_of(id)));
+        return found;
+    };
+    const std::vector<std::string> expected = {"clay", "\"caf\xC3\xA9\" \\", "", "late", "clay",
+                                               "0"};
+    const tests::TemporaryDirectory directory;
+    core::Scene scene = tests::scene_of(late);
+    REQUIRE(names(scene) == expected);
+    for (int i = 0; i < 2; ++i) {
+        scenes::export_scene(directory.path() / "a.json", scene);
+        scene = scenes::load_scene(directory.path() / "a.json");
+        CHECK(names(scene) == expected);
+        CHECK(scene.materials().size() == 6);
+    }
+    const nlohmann::json written =
+        nlohmann::json::parse(tests::content_of(directory.path() / "a.json"));
+    CHECK(written["objects"][0]["material"] == "clay");
+    CHECK(written["objects"][2]["material"] == "5");
+}
+
+TEST_CASE("Materials with equal names, and without names, differ in JSON") {
+    core::SceneBuilder builder;
+    builder.staging.framing.emplace();
+    builder.wants_light = false;
+    for (const char* name : {"", "red", "red", "0", "red-2", "\xFF", "\xFE"}) {
+        const core::MaterialIndex material = builder.add_material({});
+        builder.name_material(material, name);
+        if (*name != '\0') builder.name_material(material, "second");
+        builder.add(core::Sphere{{static_cast<float>(3 * material), 0, 0}, 1}, material);
+    }
+    const tests::TemporaryDirectory directory;
+    scenes::export_scene(directory.path() / "a.json", std::move(builder).build());
+    const nlohmann::json written =
+        nlohmann::json::parse(tests::content_of(directory.path() / "a.json"));
+    std::vector<std::string> names;
+    for (const nlohmann::json& object : written["objects"])
+        names.push_back(object["material"]);
+    CHECK(names ==
+          std::vector<std::string>{"0-2", "red", "red-2", "0", "red-2-2", "\uFFFD", "\uFFFD-2"});
+    CHECK(written["materials"].size() == names.size());
 }
 
 TEST_CASE("POV-Ray is told every shape and material") {

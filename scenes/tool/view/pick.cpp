@@ -1,6 +1,7 @@
 #include "scenes/tool/view/pick.hpp"
 
 #include "core/scene/camera_rays.hpp"
+#include "scenes/errors.hpp"
 #include "scenes/number.hpp"
 #include "simd/stream_tracer.hpp"
 
@@ -20,6 +21,14 @@ std::string kind_of_shape(const core::Scene& scene, core::ShapeId wanted) {
         });
     });
     return kind;
+}
+
+/// "3", or "3 (glass)".
+std::string material_text(const core::Scene& scene, core::ShapeId shape) {
+    const core::MaterialIndex material = scene.material_index_of(shape);
+    const std::string_view name = scene.material_name(material);
+    const std::string number = std::to_string(material);
+    return name.empty() ? number : number + " (" + printable(name) + ")";
 }
 
 std::string place_text(const core::Vec3d& place) {
@@ -57,9 +66,8 @@ std::string what_is_at(const core::Scene& scene, const core::Settings& settings,
     std::string atoms = legend.of(shape);
     if (!atoms.empty()) atoms += ": ";
     return atoms + kind_of_shape(scene, shape) + " " + std::to_string(shape) + " of material " +
-           std::to_string(scene.material_index_of(shape)) + ", at " +
-           place_text(ray.origin + t * ray.direction) + ", " + distance +
-           " away (the double nearest to the true one)";
+           material_text(scene, shape) + ", at " + place_text(ray.origin + t * ray.direction) +
+           ", " + distance + " away (the double nearest to the true one)";
 }
 
 std::string camera_text(const core::Camera& camera) {

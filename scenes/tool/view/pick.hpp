@@ -8,7 +8,8 @@
 namespace raylane::scenes {
 
 /// What a camera sees through the middle of a pixel of a picture of the settings' size, in one
-/// line: which atom by the legend, which shape, where, how far away, as real arithmetic says.
+/// line: which atom by the legend, which shape, its material's number and name, where, how far
+/// away, as real arithmetic says.
 std::string what_is_at(const core::Scene& scene, const core::Settings& settings, int x, int y,
                        const Legend& legend = {});
 

@@ -215,6 +215,41 @@ TEST_CASE("textures are found where they are given, and inherited where not") {
     CHECK(material_of(floor).pattern.colors[0] == core::Color(0, 0, 0)); // the cells below 0
 }
 
+TEST_CASE("Materials have the names that textures, pigments and materials are declared by") {
+    const auto names = [](const std::string& text) {
+        const Read scene = read(text);
+        std::vector<std::string> found;
+        for (core::ShapeId id = 0; id < scene.scene.shape_count(); ++id)
+            found.emplace_back(scene.scene.material_name(scene.scene.material_index_of(id)));
+        return found;
+    };
+    const std::string declared = R"(
+        #declare Clay = pigment { rgb <1, 0, 0> }
+        #local Gold = texture { pigment { rgb <0, 1, 0> } finish { specular 0.5 } }
+        #declare Copy = Gold
+        #declare Glass = material { texture { pigment { rgbt <0, 0, 1, 0.5> } } interior { ior 1.5 } }
+        )";
+    const std::string begin = declared + "sphere { 0, 1 ", end = " }";
+    using Names = std::vector<std::string>;
+    CHECK(names(begin + "pigment { Clay }" + end) == Names{"Clay"});
+    CHECK(names(begin + "texture { pigment { Clay } finish { ambient 0.5 } }" + end) ==
+          Names{"Clay"});
+    CHECK(names(begin + "texture { Gold }" + end) == Names{"Gold"});
+    CHECK(names(begin + "texture { Gold finish { ambient 0.5 } scale 2 }" + end) == Names{"Gold"});
+    CHECK(names(begin + "texture { Copy }" + end) == Names{"Copy"});
+    CHECK(names(begin + "material { Glass }" + end) == Names{"Glass"});
+    CHECK(names(begin + "pigment { rgb 1 }" + end) == Names{""});
+    CHECK(names(begin + end) == Names{""});
+    // An object has the name of the default only if it has its pigment.
+    CHECK(names(declared + "#default { pigment { Clay } } sphere { 0, 1 pigment { rgb 1 } } "
+                           "sphere { x, 1 }") == Names{"", "Clay"});
+    CHECK(names(declared + "#default { texture { Gold } } sphere { 0, 1 pigment { rgb 1 } }") ==
+          Names{""});
+    // Several materials have one name if a loop declares it again.
+    CHECK(names("#declare I = 1; #while (I < 3) #declare T = texture { pigment { rgb I/4 } } "
+                "sphere { x*I, 1 texture { T } } #declare I = I + 1; #end") == Names{"T", "T"});
+}
+
 TEST_CASE("solids are made of others as there") {
     const Read solid =
         read("difference { box { -1, 1 } sphere { 0, 1.25 } cylinder { -2*z, 2*z, 0.5 } "

@@ -90,6 +90,8 @@ TEST_CASE("a Tachyon texture is a material, once") {
                                        "RAD 1 r " +
                                        ball);
     REQUIRE(scene.materials().size() == 2);
+    CHECK(scene.material_name(0) == "red");
+    CHECK(scene.material_name(1).empty());
     const core::Material& material = scene.material_of(0);
     CHECK(material.pattern.colors[0] == Color(1, 0, 0));
     CHECK(material.ambient == 0.1F);
