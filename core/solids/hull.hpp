@@ -4,6 +4,7 @@
 #include "core/solids/solids.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 /// Bounds that solids are found in.
@@ -27,17 +28,21 @@ inline bool is_empty(const Bounds& bounds) {
              bounds.lower.z <= bounds.upper.z);
 }
 
+/// How often a box is halved along each axis.
+inline constexpr std::size_t most_halvings = 3;
+
 /// Bounds of all points in a box where something may be; where that is, is found out by halves.
+/// Calls may_be(place of a cell, halvings that are left), of a cell after the one that it is in.
 template <class MayBe>
 class Hull {
   public:
-    Hull(const Bounds& box, const MayBe& may_be) : may_be_(may_be) { add(box, 3); }
+    Hull(const Bounds& box, const MayBe& may_be) : may_be_(may_be) { add(box, most_halvings); }
     const Bounds& bounds() const { return hull_; }
 
   private:
-    void add(const Bounds& cell, int halvings) {
+    void add(const Bounds& cell, std::size_t halvings) {
         if (!is_empty(hull_) && hull_.contains(cell.lower) && hull_.contains(cell.upper)) return;
-        if (!may_be_(somewhere_in(cell))) return;
+        if (!may_be_(somewhere_in(cell), halvings)) return;
         if (halvings == 0) {
             hull_.include(cell);
             return;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 /// Where a solid and its parts may be, and where it matters.
@@ -42,6 +41,18 @@ Somewhere somewhere_in(const Bounds& bounds) {
         point[axis] = {0.5 * upper + 0.5 * lower, error * (1.0 + 0x1p-50)};
     }
     return point;
+}
+
+/// Wherever it has a surface.
+Bounds SolidCollector::bounds_of_shape(Index part) const {
+    return std::visit(
+        []<class Shape>(const Shape& shape) {
+            if constexpr (kind_of<Shape> == Kind::plane || kind_of<Shape> == Kind::quadric)
+                return everywhere();
+            else
+                return core::bounds_of(shape);
+        },
+        shapes_[part]);
 }
 
 /// Of what is inside of a part, or of what is not.
@@ -121,55 +132,6 @@ bool SolidCollector::has_bounds(Index solid) const {
             return false;
     }
     return true;
-}
-
-Value SolidCollector::value_in(Index index, const Somewhere& point) const {
-    const Node& node = solids_.nodes_[index];
-    if (node.op == Solids::Op::part) {
-        const Value inside =
-            std::visit([&](const auto& shape) { return inside_of(shape, point); }, shapes_[index]);
-        return node.reversed ? !inside : inside;
-    }
-    if (node.many) return Value::unknown;
-    const Value decides = node.op == Solids::Op::all ? Value::no : Value::yes;
-    Value value = !decides;
-    solids_.each_child(index, [&](Index child) {
-        const Value of_child = value_in(child, point);
-        if (of_child != !decides) value = of_child;
-        return of_child != decides;
-    });
-    return value;
-}
-
-/// Whether it matters there if one is inside or outside of a part; of many, others are not looked
-/// at.
-Value SolidCollector::matters_in(Index part, const Somewhere& point) const {
-    Value matters = Value::yes;
-    for (Index index = part; solids_.nodes_[index].parent != Solids::none;
-         index = solids_.nodes_[index].parent) {
-        const Index parent = solids_.nodes_[index].parent;
-        if (solids_.nodes_[parent].many) continue;
-        const Value decides = solids_.nodes_[parent].op == Solids::Op::all ? Value::no : Value::yes;
-        solids_.each_child(parent, [&](Index child) {
-            if (child == index) return true;
-            const Value other = value_in(child, point);
-            if (other == decides)
-                matters = Value::no;
-            else if (other == Value::unknown && matters == Value::yes)
-                matters = other;
-            return matters != Value::no;
-        });
-        if (matters == Value::no) break;
-    }
-    return matters;
-}
-
-void SolidCollector::find_bounds(Index solid) {
-    Bounds bounds = hulls_[solid].inside;
-    if (is_finite(bounds) && !solids_.nodes_[solid].many)
-        bounds = hull_in(
-            bounds, [&](const Somewhere& point) { return value_in(solid, point) != Value::no; });
-    solids_.bounds_[solid] = bounds;
 }
 
 } // namespace raylane::core

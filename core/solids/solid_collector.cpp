@@ -3,6 +3,7 @@
 #include "core/shapes/shapes.hpp"
 #include "core/solids/half_spaces.hpp"
 #include "core/solids/hull.hpp"
+#include "core/solids/narrowing.hpp"
 #include "core/solids/transform.hpp"
 
 #include <algorithm>
@@ -34,14 +35,42 @@ SolidCollector::Index SolidCollector::begin(Solids::Op op, Index parent) {
     return index;
 }
 
+/// Of a whole solid, and of its parts.
+void SolidCollector::find_bounds(Index solid, SolidNarrowing& narrowing) {
+    std::vector<Node>& nodes = solids_.nodes_;
+    Bounds& whole = solids_.bounds_[solid];
+    whole = hulls_[solid].inside;
+    if (is_finite(whole) && !nodes[solid].many) narrowing.narrow_whole(solid);
+    const Bounds of_solid = whole;
+    // What has no bounds is in no hierarchy.
+    if (!is_finite(of_solid))
+        for (Index index = solid; index < nodes[solid].end; ++index)
+            if (nodes[index].many && !nodes[index].counts)
+                solids_.each_child(index, [&](Index child) {
+                    return nodes[index].many = is_finite(common(hulls_[child].inside, of_solid));
+                });
+    std::vector<Index> finite;
+    for (Index part = solid; part < nodes[solid].end; ++part) {
+        if (nodes[part].op != Solids::Op::part || !nodes[part].traced) continue;
+        Bounds& bounds = solids_.bounds_[part];
+        bounds = common(of_solid, allowed(part));
+        if (!nodes[part].reversed || !narrowing.needs_inside(part))
+            bounds = common(bounds, bounds_of_shape(part));
+        nodes[part].traced = !is_empty(bounds);
+        if (nodes[part].traced && is_finite(bounds)) finite.push_back(part);
+    }
+    narrowing.narrow_parts(solid, std::move(finite));
+}
+
 /// Puts a part into the list of its kind, or of one that is the same half-space and can have
 /// bounds.
-void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) {
+void SolidCollector::put(Index part, ShapeLists& lists) {
     Node& node = solids_.nodes_[part];
+    Bounds& bounds = solids_.bounds_[part];
     const auto in_list = [&]<class Shape>(const Shape& shape) {
         std::get<ShapeList<InFloat<Shape>>>(lists).add(shape, node.shape);
     };
-    const auto with_bounds = [&](const QuadricOf<double>& surface, const Bounds& bounds) {
+    const auto with_bounds = [&](const QuadricOf<double>& surface) {
         const QuadricOf<double> quadric = within(surface, bounds);
         shapes_[part] = quadric;
         node.kind = Kind::quadric;
@@ -49,46 +78,13 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
     };
     std::visit(
         [&]<class Shape>(const Shape& shape) {
-            // Its surface; and the inside, too, where it is found to be around points by that.
-            bool with_inside = is_solid<Shape> && !node.reversed;
-            for (Index above = node.parent; above != Solids::none;
-                 above = solids_.nodes_[above].parent)
-                with_inside = with_inside || solids_.nodes_[above].many;
-
-            Bounds& bounds = solids_.bounds_[part];
-            bounds = common(of_solid, allowed(part));
             // All crossings of those that count are to be found, wherever they are.
-            const bool is_counted =
-                node.parent != Solids::none && solids_.nodes_[node.parent].counts;
-            if constexpr (is_bounded<InFloat<Shape>> && kind_of<Shape> != Kind::quadric) {
-                const Bounds of_shape = core::bounds_of(shape);
-                if (!with_inside || !node.reversed) bounds = common(bounds, of_shape);
-                node.fills = is_solid<Shape> && !node.reversed &&
-                             matters_in(part, somewhere_in(of_shape)) == Value::yes;
-            }
-            if (is_empty(bounds)) {
-                node.traced = false;
-                return;
-            }
-            if (is_finite(bounds)) {
-                const Value matters = matters_in(part, somewhere_in(bounds));
-                if (matters == Value::unknown)
-                    bounds = hull_in(bounds, [&](const Somewhere& point) {
-                        const Value inside = value_in(part, point);
-                        return (inside == Value::unknown ||
-                                (with_inside && inside == Value::yes)) &&
-                               matters_in(part, point) != Value::no;
-                    });
-                if (matters == Value::no || is_empty(bounds)) {
-                    node.traced = false;
-                    return;
-                }
-                if constexpr (is_solid<Shape>)
-                    if (is_counted) bounds = core::bounds_of(shape);
-            }
+            if constexpr (is_solid<Shape>)
+                if (node.parent != Solids::none && solids_.nodes_[node.parent].counts)
+                    bounds = core::bounds_of(shape);
             if constexpr (kind_of<Shape> == Kind::quadric) {
                 assert(is_finite(bounds)); // as add() has seen to
-                with_bounds(shape, bounds);
+                with_bounds(shape);
             } else if constexpr (kind_of<Shape> == Kind::plane) {
                 node.flat = true;
                 if (is_finite(bounds)) {
@@ -97,7 +93,7 @@ void SolidCollector::put(Index part, const Bounds& of_solid, ShapeLists& lists) 
                     half_space.x = shape.normal.x;
                     half_space.y = shape.normal.y;
                     half_space.z = shape.normal.z;
-                    with_bounds(half_space, bounds);
+                    with_bounds(half_space);
                 } else {
                     in_list(shape);
                 }
@@ -186,18 +182,12 @@ void SolidCollector::list(ShapeLists& lists) {
                 return part.reversed || part.kind == Kind::plane || part.kind == Kind::quadric;
             });
     }
+    SolidNarrowing narrowing(nodes, shapes_, solids_.bounds_);
     for (Index solid = 0; solid < nodes.size(); solid = nodes[solid].end) {
-        find_bounds(solid);
+        find_bounds(solid, narrowing);
         const Bounds whole = solids_.bounds_[solid];
-        // What has no bounds is in no hierarchy.
-        if (!is_finite(whole))
-            for (Index index = solid; index < nodes[solid].end; ++index)
-                if (nodes[index].many && !nodes[index].counts)
-                    solids_.each_child(index, [&](Index child) {
-                        return nodes[index].many = is_finite(common(hulls_[child].inside, whole));
-                    });
         for (Index part = solid; part < nodes[solid].end; ++part)
-            if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, whole, lists);
+            if (nodes[part].op == Solids::Op::part && nodes[part].traced) put(part, lists);
         note_counted(solid);
         nodes[solid].open = std::any_of(
             nodes.begin() + solid, nodes.begin() + nodes[solid].end, [](const Node& node) {

@@ -9,6 +9,8 @@
 
 namespace raylane::core {
 
+class SolidNarrowing;
+
 /// Collects solids while a scene is built.
 class SolidCollector {
   public:
@@ -41,16 +43,15 @@ class SolidCollector {
                   Index parent, const AddPart& add_part);
     Index begin(Solids::Op op, Index parent);
     static PartShape as_half_space(const PartShape& shape);
-    void find_bounds(Index solid);
     void note_counted(Index solid);
+    Bounds bounds_of_shape(Index part) const;
     Bounds bounds_of_part(Index index, bool outside) const;
     Bounds bounds_between_parts(Index index) const;
     void find_hulls(Index first);
     Bounds allowed(Index part) const;
     bool has_bounds(Index solid) const;
-    Value value_in(Index index, const Somewhere& point) const;
-    Value matters_in(Index part, const Somewhere& point) const;
-    void put(Index part, const Bounds& of_solid, ShapeLists& lists);
+    void find_bounds(Index solid, SolidNarrowing& narrowing);
+    void put(Index part, ShapeLists& lists);
     bool is_covered(Index index) const;
     void cover(Index index, const Bounds& bounds);
 

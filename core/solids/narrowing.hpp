@@ -1,0 +1,74 @@
+#pragma once
+
+#include "core/solids/hull.hpp"
+#include "core/solids/solids.hpp"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace raylane::core {
+
+/// Narrows the bounds of a solid and of its parts to where they matter.
+///
+/// Parts are halved by place into groups. A group hands down the solid's expression without the
+/// parts that are decided in the group's bounds, so n parts take n log n steps. Where parts stay
+/// undecided together, a group keeps so many for each of its own parts, and looks at them so often:
+/// then bounds are wider than they could be.
+class SolidNarrowing {
+  public:
+    using Index = Solids::Index;
+
+    /// Of all solids: the bounds of those to be narrowed, and those of their parts, are given.
+    SolidNarrowing(std::vector<Solids::Node>& nodes, const std::vector<PartShape>& shapes,
+                   std::vector<Bounds>& bounds)
+        : nodes_(nodes), shapes_(shapes), bounds_(bounds) {}
+
+    /// Narrows the bounds of a whole solid, which are finite.
+    void narrow_whole(Index solid);
+    /// Narrows the bounds of parts of a solid, which are finite. A part that matters nowhere is no
+    /// longer traced; one whose inside is all in the solid fills.
+    void narrow_parts(Index solid, std::vector<Index> parts);
+
+    /// True if rays have to find a part's inside, and not only its surface.
+    bool needs_inside(Index part) const;
+
+  private:
+    /// A node of an expression that is undecided in a box.
+    struct Term {
+        Index node;
+        std::size_t end;     ///< behind its last descendant; the first follows it
+        bool is_cut = false; ///< there are undecided ones in it that have no terms
+    };
+    /// A solid in a box.
+    struct Expression {
+        Value value = Value::unknown; ///< yes or no: there are no terms
+        std::vector<Term> terms;
+    };
+
+    Expression expression_of(Index solid) const;
+    Value value_of(Index part, const Somewhere& point) const;
+    void reduce(const Expression& from, const Somewhere& box, Expression& to);
+    Value reduce_term(const std::vector<Term>& from, std::size_t at, const Somewhere& box,
+                      std::vector<Term>& to);
+    Value matters(Index part, const Expression& expression) const;
+    void narrow_group(std::size_t first, std::size_t last, const Expression& expression);
+    void narrow_part(Index part, const Expression& expression);
+    /// True for a part of the group whose expression is reduced.
+    bool is_of_group(Index node) const {
+        const std::size_t number = number_[node - solid_];
+        return first_ <= number && number < last_;
+    }
+
+    std::vector<Solids::Node>& nodes_;
+    const std::vector<PartShape>& shapes_;
+    std::vector<Bounds>& bounds_;
+    Index solid_ = 0;
+    std::vector<Index> parts_;         // by place
+    std::vector<std::size_t> number_;  // in parts_, by node of the solid
+    std::size_t first_ = 0, last_ = 0; // of the group
+    std::size_t most_terms_ = 0, steps_ = 0;
+    std::array<Expression, most_halvings + 2> reduced_; // by the halvings of a hull that are left
+};
+
+} // namespace raylane::core
