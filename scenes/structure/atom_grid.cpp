@@ -2,55 +2,76 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace raylane::scenes {
 
-AtomGrid::AtomGrid(const std::vector<core::Vec3f>& positions, std::vector<AtomIndex> atoms,
-                   float size)
-    : size_(std::max(static_cast<double>(size), 1e-6)) {
-    double length[3];
-    for (int axis = 0; axis < 3; ++axis) {
-        float least = std::numeric_limits<float>::max(), most = -least;
-        for (const AtomIndex atom : atoms) {
-            least = std::min(least, positions[atom][axis]);
-            most = std::max(most, positions[atom][axis]);
-        }
-        lower_[axis] = static_cast<double>(least);
-        length[axis] = atoms.empty() ? 0.0 : static_cast<double>(most) - lower_[axis];
-    }
-    const double most_cells = std::max(64.0, static_cast<double>(atoms.size()));
-    const auto cells = [&] {
-        double all = 1.0;
-        for (const double along : length)
-            all *= std::floor(along / size_) + 1.0;
-        return all;
+/// Cells are a little wider, so that rounding takes no atoms further apart.
+AtomGrid::AtomGrid(const std::vector<core::Vec3f>& positions, const std::vector<AtomIndex>& atoms,
+                   float width)
+    : width_(std::max(static_cast<double>(width) * (1.0 + 0x1p-20), 1e-6)) {
+    struct Placed {
+        Place place;
+        AtomIndex atom;
+        auto operator<=>(const Placed&) const = default;
     };
-    while (!(cells() <= most_cells))
-        size_ *= 1.25;
-    for (int axis = 0; axis < 3; ++axis)
-        count_[axis] = static_cast<long>(length[axis] / size_) + 1;
-
-    // Sorted by counting.
-    std::vector<std::uint32_t> cell(atoms.size());
-    first_.assign(number(0, 0, count_[2]) + 1, 0);
-    for (std::size_t i = 0; i < atoms.size(); ++i)
-        ++first_[(cell[i] = static_cast<std::uint32_t>(cell_of(positions[atoms[i]]))) + 1];
-    for (std::size_t i = 1; i < first_.size(); ++i)
-        first_[i] += first_[i - 1];
-    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    atoms_.resize(atoms.size());
-    for (std::size_t i = 0; i < atoms.size(); ++i)
-        atoms_[next[cell[i]]++] = atoms[i];
+    std::vector<Placed> placed;
+    placed.reserve(atoms.size());
+    for (const AtomIndex atom : atoms)
+        placed.push_back({place_of(positions[atom]), atom});
+    std::sort(placed.begin(), placed.end());
+    atoms_.reserve(atoms.size());
+    for (const Placed& next : placed) {
+        if (cells_.empty() || cells_.back().place != next.place)
+            cells_.push_back({next.place, atoms_.size()});
+        atoms_.push_back(next.atom);
+    }
+    cells_.push_back({{}, atoms_.size()});
 }
 
-std::size_t AtomGrid::cell_of(const core::Vec3f& at) const {
-    long place[3];
-    for (int axis = 0; axis < 3; ++axis)
-        place[axis] =
-            std::min(static_cast<long>((static_cast<double>(at[axis]) - lower_[axis]) / size_),
-                     count_[axis] - 1);
-    return number(place[0], place[1], place[2]);
+AtomGrid::Place AtomGrid::place_of(const core::Vec3f& point) const {
+    const auto along = [&](float coordinate) {
+        return std::floor(static_cast<double>(coordinate) / width_);
+    };
+    return {along(point.z), along(point.y), along(point.x)};
+}
+
+/// The first cell of three in a row: one of nine rows around a place.
+AtomGrid::Place AtomGrid::first_of_row(const Place& place, std::size_t row) {
+    return {place.z + static_cast<double>(row / 3) - 1.0,
+            place.y + static_cast<double>(row % 3) - 1.0, place.x - 1.0};
+}
+
+AtomGrid::Near AtomGrid::near(const Place& place, std::array<std::size_t, 9>& begin) const {
+    Near near;
+    for (std::size_t row = 0; row < begin.size(); ++row) {
+        const Place first = first_of_row(place, row);
+        // Far out, one more is the same number.
+        if (row % 3 != 0 && first_of_row(place, row - 1).y == first.y) continue;
+        if (row >= 3 && first_of_row(place, row - 3).z == first.z) continue;
+        std::size_t& cell = begin[row];
+        const std::size_t end_of_all = cells_.size() - 1;
+        while (cell < end_of_all && cells_[cell].place < first)
+            ++cell;
+        std::size_t end = cell;
+        const Place last{first.z, first.y, place.x + 1.0};
+        while (end < end_of_all && cells_[end].place <= last)
+            ++end;
+        near.rows_[near.count_++] =
+            std::span(atoms_).subspan(cells_[cell].first, cells_[end].first - cells_[cell].first);
+    }
+    return near;
+}
+
+AtomGrid::Near AtomGrid::near(const core::Vec3f& point) const {
+    std::array<std::size_t, 9> begin{};
+    const Place place = place_of(point);
+    const auto is_before = [](const Cell& cell, const Place& other) { return cell.place < other; };
+    for (std::size_t row = 0; row < begin.size(); ++row)
+        begin[row] =
+            static_cast<std::size_t>(std::lower_bound(cells_.begin(), cells_.end() - 1,
+                                                      first_of_row(place, row), is_before) -
+                                     cells_.begin());
+    return near(place, begin);
 }
 
 } // namespace raylane::scenes

@@ -3,12 +3,16 @@
 #include "scenes/structure/atom_grid.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace raylane::scenes {
 
 namespace {
 
 constexpr float tolerance = 0.4F, least_distance = 0.4F;
+/// Uranium in U(C5H5)4 has 20 bonds by these distances. Of diamond, the widest cells around an atom
+/// hold 700 atoms.
+constexpr std::size_t most_near = 4096;
 
 /// Those that form no molecules with each other: alkali and alkaline earth metals, transition and
 /// rare earth metals, and what follows them but for metalloids.
@@ -23,7 +27,7 @@ bool is_before(const Bond& x, const Bond& y) {
 
 } // namespace
 
-std::vector<Bond> find_bonds(const Structure& structure) {
+std::vector<Bond> find_bonds(const Structure& structure, std::size_t* crowded_atoms) {
     std::vector<Bond> bonds = structure.bonds;
     std::vector<AtomIndex> atoms;
     float longest = 0.0F;
@@ -34,17 +38,40 @@ std::vector<Bond> find_bonds(const Structure& structure) {
             longest = std::max(longest, radius);
             atoms.push_back(atom);
         }
-    const AtomGrid grid(structure.positions, std::move(atoms), 2 * longest + tolerance);
-    grid.for_each_pair([&](AtomIndex a, AtomIndex b) {
-        const core::Vec3f apart = structure.positions[a] - structure.positions[b];
-        const float squared = core::dot(apart, apart);
-        const Element of_a = structure.element(a), of_b = structure.element(b);
-        const float most =
-            data_of(of_a).covalent_radius + data_of(of_b).covalent_radius + tolerance;
-        if (squared > most * most || squared < least_distance * least_distance) return;
-        if (is_metal(of_a) && is_metal(of_b)) return;
-        bonds.push_back({std::min(a, b), std::max(a, b), 1});
+    std::vector<char> is_crowded(structure.size());
+    const AtomGrid grid(structure.positions, atoms, 2 * longest + tolerance);
+    grid.for_each([&](AtomIndex a, const AtomGrid::Near& others) {
+        const Element of_a = structure.element(a);
+        const std::size_t before = bonds.size();
+        std::size_t looked_at = 0, neighbours = 0;
+        const bool has_room = others.each([&](AtomIndex b) {
+            if (b == a) return true;
+            if (++looked_at > most_near) return false;
+            const core::Vec3f apart = structure.positions[a] - structure.positions[b];
+            const float squared = core::dot(apart, apart);
+            const Element of_b = structure.element(b);
+            const float most =
+                data_of(of_a).covalent_radius + data_of(of_b).covalent_radius + tolerance;
+            if (squared > most * most) return true;
+            const bool is_too_near = squared < least_distance * least_distance;
+            if (!is_too_near && is_metal(of_a) && is_metal(of_b)) return true;
+            if (++neighbours > most_bonds) return false;
+            if (!is_too_near && a < b) bonds.push_back({a, b, 1});
+            return true;
+        });
+        if (has_room) return;
+        bonds.resize(before);
+        is_crowded[a] = 1;
     });
+    const auto found = bonds.begin() + static_cast<std::ptrdiff_t>(structure.bonds.size());
+    bonds.erase(std::remove_if(found, bonds.end(),
+                               [&](const Bond& bond) {
+                                   return is_crowded[bond.a] != 0 || is_crowded[bond.b] != 0;
+                               }),
+                bonds.end());
+    if (crowded_atoms != nullptr)
+        *crowded_atoms =
+            static_cast<std::size_t>(std::count(is_crowded.begin(), is_crowded.end(), 1));
     std::sort(bonds.begin(), bonds.end(), is_before);
     bonds.erase(std::unique(bonds.begin(), bonds.end(),
                             [](const Bond& x, const Bond& y) { return x.a == y.a && x.b == y.b; }),

@@ -30,9 +30,11 @@ constexpr float cell_stick = 0.06F;
 class Artist {
   public:
     Artist(const Structure& structure, const Drawing& drawing, const std::string& file,
-           core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape)
+           core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape,
+           const OnRemark& on_remark)
         : structure_(structure), drawing_(drawing), file_(file), builder_(builder),
-          palette_(builder, drawing.opacity), atoms_of_shape_(atoms_of_shape) {}
+          palette_(builder, drawing.opacity), atoms_of_shape_(atoms_of_shape),
+          on_remark_(on_remark) {}
 
     DrawingScale draw() {
         if (structure_.size() == 0) throw BadInput(file_, "", "has no atoms");
@@ -285,7 +287,12 @@ class Artist {
 
     /// Of the structure, or of its images side by side; `all` has the same atoms again and again.
     void add_bonds_of(const Structure& all) {
-        const std::vector<Bond> bonds = find_bonds(all);
+        std::size_t crowded = 0;
+        const std::vector<Bond> bonds = find_bonds(all, &crowded);
+        if (crowded != 0 && on_remark_)
+            on_remark_(printable(file_, 4096) + ": " + std::to_string(crowded) +
+                       " atoms lie on top of others, more than " + std::to_string(most_bonds) +
+                       " within a bond's length: they are drawn without bonds");
         if (scale_.style != Style::licorice) find_neighbours(all, bonds);
         for (const Bond& bond : bonds) {
             if (!is_selected(original(bond.a)) || !is_selected(original(bond.b))) continue;
@@ -412,6 +419,7 @@ class Artist {
     core::SceneBuilder& builder_;
     Palette palette_;
     std::vector<AtomPair>* atoms_of_shape_;
+    const OnRemark& on_remark_;
     core::Solid see_through_{.made = core::Made::by_union};
     std::vector<char> selected_; // empty: all
     std::size_t count_ = 0;
@@ -425,8 +433,9 @@ class Artist {
 } // namespace
 
 DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
-                  core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape) {
-    return Artist(structure, drawing, file, builder, atoms_of_shape).draw();
+                  core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape,
+                  const OnRemark& on_remark) {
+    return Artist(structure, drawing, file, builder, atoms_of_shape, on_remark).draw();
 }
 
 } // namespace raylane::scenes

@@ -45,14 +45,16 @@ Selected atoms_within(const Structure& structure, const Selected& of, float reac
     std::vector<AtomIndex> atoms;
     for (AtomIndex i = 0; i < of.size(); ++i)
         if (of[i] != 0) atoms.push_back(i);
-    const AtomGrid grid(structure.positions, std::move(atoms), reach);
+    const AtomGrid grid(structure.positions, atoms, reach);
     Selected result = of;
-    for (AtomIndex i = 0; i < of.size(); ++i)
-        if (result[i] == 0)
-            grid.for_each_near(structure.positions[i], [&](AtomIndex other) {
-                const core::Vec3f apart = structure.positions[i] - structure.positions[other];
-                if (core::dot(apart, apart) <= reach * reach) result[i] = 1;
-            });
+    for (AtomIndex i = 0; i < of.size(); ++i) {
+        if (result[i] != 0) continue;
+        const bool is_apart = grid.near(structure.positions[i]).each([&](AtomIndex other) {
+            const core::Vec3f apart = structure.positions[i] - structure.positions[other];
+            return !(core::dot(apart, apart) <= reach * reach);
+        });
+        result[i] = is_apart ? 0 : 1;
+    }
     return result;
 }
 

@@ -46,11 +46,12 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
 }
 
 core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
-                           const std::string& file, core::Workers* workers, DrawingScale* scale) {
+                           const std::string& file, core::Workers* workers, DrawingScale* scale,
+                           const OnRemark& on_remark) {
     core::SceneBuilder builder;
     builder.workers = workers;
     return of_file(file, [&] {
-        const DrawingScale drawn = draw(structure, drawing, file, builder);
+        const DrawingScale drawn = draw(structure, drawing, file, builder, nullptr, on_remark);
         if (scale != nullptr) *scale = drawn;
         return std::move(builder).build();
     });
@@ -70,7 +71,8 @@ core::Scene read_structure(InputFile& file, Format format, const ReaderOptions& 
                                "has no atoms in its first frame; if there are others, \"--frames "
                                "1\" draws the next");
             std::vector<AtomPair> atoms;
-            draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms);
+            draw(structure, drawing, file.name(), builder, legend == nullptr ? nullptr : &atoms,
+                 options.on_remark);
             if (legend != nullptr) *legend = {std::move(structure), std::move(atoms)};
         } // before the hierarchy takes room
         return std::move(builder).build();

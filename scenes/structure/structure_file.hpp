@@ -15,7 +15,7 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
 /// The scene of a frame; `file` is what messages call it, and `scale` what draw() leaves there.
 core::Scene draw_structure(const Structure& structure, const Drawing& drawing,
                            const std::string& file, core::Workers* workers = nullptr,
-                           DrawingScale* scale = nullptr);
+                           DrawingScale* scale = nullptr, const OnRemark& on_remark = {});
 
 /// Reads the first frame of a file of atoms, and draws it; `legend`, if there is one, is left with
 /// what its shapes are. Throws BadInput, with the line, and SystemRefused.

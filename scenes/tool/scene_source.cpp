@@ -65,7 +65,12 @@ class Trajectory : public SceneSource {
     core::Scene scene() override {
         DrawingScale scale;
         core::Scene scene =
-            draw_structure(structure_, options_.drawing, file_.name(), options_.workers, &scale);
+            draw_structure(structure_, options_.drawing, file_.name(), options_.workers, &scale,
+                           [this](const std::string& remark) {
+                               // Once for all frames.
+                               if (!std::exchange(has_remarked_, true) && options_.on_remark)
+                                   options_.on_remark(remark);
+                           });
         if (scale_) {
             scale_->least = std::min(scale_->least, scale.least);
             scale_->most = std::max(scale_->most, scale.most);
@@ -116,6 +121,7 @@ class Trajectory : public SceneSource {
     std::size_t read_ = 0; // frames
     std::optional<std::size_t> at_;
     std::optional<DrawingScale> scale_;
+    bool has_remarked_ = false;
 };
 
 } // namespace

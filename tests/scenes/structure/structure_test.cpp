@@ -128,7 +128,7 @@ TEST_CASE("masses in reduced units are no elements") {
 
 TEST_CASE("bonds are those of all pairs that are near enough") {
     Random random(20261125);
-    for (const double size : {3.0, 20.0, 4000.0}) {
+    for (const double size : {10.0, 20.0, 4000.0}) {
         std::vector<std::pair<const char*, Vec3f>> atoms;
         const char* const symbols[] = {"C", "H", "O", "Fe", "Cu", "Xx"};
         for (int i = 0; i < 400; ++i)
@@ -381,4 +381,50 @@ TEST_CASE("files that gzip has compressed read as what they were") {
     std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1000);
     CHECK(raylane::tests::message_of<BadInput>([&] { load_scene(path); }) ==
           path.string() + ": must be whole: what is compressed ends too early");
+}
+
+TEST_CASE("Atoms on top of each other are drawn without bonds, and quickly") {
+    Structure structure = of_atoms({{"C", {0, 0, 0}}, {"O", {1.2F, 0, 0}}});
+    constexpr int crowd = 300'000;
+    for (int i = 0; i < crowd; ++i) {
+        structure.positions.emplace_back(20.0F + 1e-7F * static_cast<float>(i % 997), 0.0F, 0.0F);
+        structure.kinds.push_back(structure.kinds[0]);
+    }
+    std::size_t crowded = 0;
+    const std::vector<Bond> bonds = find_bonds(structure, &crowded);
+    CHECK(crowded == crowd);
+    REQUIRE(bonds.size() == 1);
+    CHECK(bonds[0].b == 1);
+    std::vector<std::string> remarks;
+    Drawing drawing;
+    drawing.style = Style::balls;
+    const raylane::core::Scene scene =
+        draw_structure(structure, drawing, "a.xyz", nullptr, nullptr,
+                       [&](const std::string& remark) { remarks.push_back(remark); });
+    CHECK(scene.shape_count() >= crowd + 2);
+    CHECK(remarks == std::vector<std::string>{
+                         "a.xyz: 300000 atoms lie on top of others, more than 24 within a "
+                         "bond's length: they are drawn without bonds"});
+}
+
+TEST_CASE("An atom with 24 neighbours has bonds, and an atom far away costs no more") {
+    std::vector<std::pair<const char*, Vec3f>> atoms = {{"U", {0, 0, 0}}};
+    for (int i = 0; i < 24; ++i) {
+        const float z = 1.0F - (2.0F * static_cast<float>(i) + 1.0F) / 24.0F;
+        const float r = std::sqrt(1.0F - z * z), turn = 2.4F * static_cast<float>(i);
+        atoms.emplace_back("C", 2.6F * Vec3f(r * std::cos(turn), r * std::sin(turn), z));
+    }
+    // A lattice of helium is far too wide for bonds.
+    for (int i = 0; i < 64'000; ++i)
+        atoms.emplace_back("He", 3.0F * Vec3f(static_cast<float>(i % 40 + 9),
+                                              static_cast<float>(i / 40 % 40),
+                                              static_cast<float>(i / 1600)));
+    atoms.emplace_back("He", Vec3f(1e9F, 0, 0));
+    const auto bonds_of_uranium = [&] {
+        const std::vector<Bond> bonds = find_bonds(of_atoms(atoms));
+        return std::count_if(bonds.begin(), bonds.end(), [](const Bond& b) { return b.a == 0; });
+    };
+    CHECK(bonds_of_uranium() == 24);
+    atoms[25] = {"C", {0, 0, 2.6F}};
+    CHECK(bonds_of_uranium() == 0);
 }
