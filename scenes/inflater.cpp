@@ -11,7 +11,9 @@ namespace raylane::scenes {
 
 namespace {
 constexpr std::size_t packed_size = 64 << 10;
-}
+/// What files of atoms and scenes are compressed to is mostly a third to a twentieth of them.
+constexpr std::uint64_t most_for_each = 200, most_besides = 64 << 20;
+} // namespace
 
 struct Inflater::State {
     State(std::string name_of_file, std::string begin, Source more)
@@ -67,6 +69,10 @@ std::size_t Inflater::read(std::span<char> buffer) {
                                (stream.msg != nullptr ? stream.msg : "it is damaged"));
         }
     }
+    if (stream.total_out > most_besides &&
+        (stream.total_out - most_besides) / most_for_each > stream.total_in)
+        throw BadInput(state_->name, "",
+                       "must not be more than 200 times as large as it is compressed");
     return room - stream.avail_out;
 }
 

@@ -18,20 +18,13 @@ bool contains(const std::vector<std::filesystem::path>& files, const std::filesy
 
 void Inclusion::include(const JsonValue& value, const std::function<void(InputFile&)>& read) {
     const std::filesystem::path path = files_.back().parent_path() / value.string();
-    std::error_code unknown;
-    if (value.string().empty() || !std::filesystem::is_regular_file(path, unknown))
-        value.fail("must be the name of a file, got " + value.quoted() + ", and there is no file " +
-                   printable(path.string(), 4096));
     if (contains(files_, path))
         value.fail("must not include what it is included by, got " + value.quoted());
     if (contains(read_, path)) return;
-    if (depth() == deepest)
-        value.fail("must not be included more than " + std::to_string(deepest) + " deep");
-    InputFile file(path);
-    file.take_as_text();
+    const auto file = checked(value, [&] { return opener_.open(path, value.string(), depth()); });
     files_.push_back(path);
     try {
-        read(file);
+        read(*file);
     } catch (...) {
         files_.pop_back();
         throw;

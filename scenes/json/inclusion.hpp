@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/input_file.hpp"
+#include "scenes/included_files.hpp"
 #include "scenes/json/value.hpp"
 
 #include <filesystem>
@@ -13,8 +13,6 @@ namespace raylane::scenes {
 /// The files that are being read, each included by the one before it.
 class Inclusion {
   public:
-    static constexpr std::size_t deepest = 16;
-
     explicit Inclusion(const std::filesystem::path& first) : files_{first} {}
 
     /// How many have been included that are still being read.
@@ -26,6 +24,7 @@ class Inclusion {
     void include(const JsonValue& value, const std::function<void(InputFile&)>& read);
 
   private:
+    IncludedFiles opener_;
     std::vector<std::filesystem::path> files_;
     std::vector<std::filesystem::path> read_; // and done with
 };

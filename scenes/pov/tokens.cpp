@@ -542,9 +542,17 @@ void Tokens::open(const std::string& name, const Place& place) {
     if (path.empty())
         fail(place, "must be a file beside this one, or one of POV-Ray's, got \"" +
                         printable(name) + "\"");
-    InputFile file(path);
-    file.take_as_text();
-    sources_.push_back({path.string(), file.read_all(), path.parent_path()});
+    const auto files = std::count_if(frames_.begin(), frames_.end(), [](const Frame& frame) {
+        return frame.kind == FrameKind::file;
+    });
+    try {
+        sources_.push_back(
+            {path.string(),
+             opener_.open(path, name, static_cast<std::size_t>(files) - 1)->read_all(),
+             path.parent_path()});
+    } catch (const core::InvalidValue& invalid) {
+        fail(place, invalid.expectation);
+    }
     included_.emplace(name, &sources_.back());
     enter({Scanner(sources_.back()), FrameKind::file, place});
 }

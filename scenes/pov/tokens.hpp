@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/input_file.hpp"
+#include "scenes/included_files.hpp"
 #include "scenes/pov/includes.hpp"
 #include "scenes/pov/value.hpp"
 
@@ -199,6 +199,7 @@ class Tokens {
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::map<std::string, const Source*> included_;
+    IncludedFiles opener_;
     std::vector<std::uint32_t> random_; ///< where each stream is
     /// A name that one of POV-Ray's own files declares. It is declared where it is used first.
     struct StandardName {

@@ -11,9 +11,6 @@ namespace raylane::scenes {
 
 namespace {
 
-constexpr std::size_t most_files_in_each_other = 16;
-constexpr int most_included = 1000; // by each other, too
-
 char capital(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
@@ -120,17 +117,9 @@ core::Vec3f TachyonWords::named_vector(std::string_view keyword) {
 }
 
 void TachyonWords::include(const std::string& name) {
-    if (sources_.size() == most_files_in_each_other)
-        refuse("", "must not be deeper than 16 files in each other", quoted_word(name));
-    if (name.empty() || name == "-") refuse("", "must name a file", quoted_word(name));
     const std::filesystem::path beside =
         std::filesystem::path(sources_.back().file->name()).parent_path() / name;
-    if (std::error_code none; std::filesystem::is_other(beside, none))
-        refuse("", "must name a file", quoted_word(name)); // a pipe or a device may never end
-    if (++included_ > most_included)
-        refuse("", "must be one of 1,000 files at most", quoted_word(name));
-    auto file = std::make_unique<InputFile>(beside);
-    file->take_as_text();
+    std::unique_ptr<InputFile> file = included_.open(beside, name, sources_.size() - 1);
     auto scanner = std::make_unique<NffScanner>(*file);
     const InputFile* const opened = file.get();
     sources_.push_back({std::move(file), opened, std::move(scanner)});

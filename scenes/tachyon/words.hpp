@@ -2,6 +2,7 @@
 
 #include "core/numbers/vector.hpp"
 #include "core/shapes/invalid_value.hpp"
+#include "scenes/included_files.hpp"
 #include "scenes/nff/scanner.hpp"
 
 #include <cstdint>
@@ -82,7 +83,7 @@ class TachyonWords {
     }
 
     std::vector<Source> sources_; // the one that is read is the last
-    int included_ = 0;            // files so far
+    IncludedFiles included_;
     const OnRemark& on_remark_;
     std::set<std::string> remarks_;
     std::string_view word_;

@@ -4,8 +4,16 @@
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <sys/stat.h>
+#include <vector>
+#include <zlib.h>
+
 using namespace raylane::scenes;
 using raylane::tests::TemporaryFile;
+namespace tests = raylane::tests;
 
 namespace {
 
@@ -113,4 +121,56 @@ TEST_CASE("a file that changes while it is read is no shorter scene") {
                              std::to_string(text.size()) + " bytes, and now has " +
                              std::to_string(text.size() + (longer ? 10 : -100'000)));
     }
+}
+
+TEST_CASE("Scenes of each format include regular files, and not too many") {
+    struct Including {
+        const char *name, *start, *before, *behind, *end;
+    };
+    const Including formats[] = {
+        {"a.json", R"({"camera": "auto", "objects": [], "include": ["x")", ", \"", "\"", "]}"},
+        {"a.pov", "", "#include \"", "\"\n", ""},
+        {"a.dat", "BEGIN_SCENE\nRESOLUTION 4 4\n", "INCLUDE ", "\n", "END_SCENE"},
+    };
+    for (const auto& [name, start, before, behind, end] : formats) {
+        CAPTURE(name);
+        const tests::TemporaryDirectory directory;
+        directory.write("x", std::string(name) == "a.json" ? "{}" : "");
+        const auto complaint = [&](const std::vector<std::string>& files) {
+            std::string text = start;
+            for (const std::string& file : files)
+                text += before + file + behind;
+            const auto path = directory.write(name, text + end);
+            return tests::message_of<BadInput>([&] { load_scene(path); });
+        };
+        // Nobody writes into it.
+        REQUIRE(::mkfifo((directory.path() / "pipe").c_str(), 0600) == 0);
+        CHECK(complaint({"pipe"}).find("must be") != std::string::npos);
+        CHECK(complaint({"pipe"}).find("\"pipe\"") != std::string::npos);
+        directory.write("large", "");
+        std::filesystem::resize_file(directory.path() / "large", (std::uint64_t{1} << 30) + 1);
+        CHECK(complaint({"large"}).find("must be a file of at most 1 GiB") != std::string::npos);
+        std::vector<std::string> many;
+        for (int i = 0; i <= 1000; ++i) {
+            many.push_back("x" + std::to_string(i));
+            directory.write(many.back(), std::string(name) == "a.json" ? "{}" : "");
+        }
+        CHECK(complaint(many).find("must be one of at most 1000 included files") !=
+              std::string::npos);
+    }
+}
+
+TEST_CASE("What a small file decompresses to has a limit") {
+    const tests::TemporaryDirectory directory;
+    const auto path = directory.path() / "a.xyz.gz";
+    gzFile file = ::gzopen(path.c_str(), "wb9");
+    REQUIRE(file != nullptr);
+    for (int megabyte = 0; megabyte < 200; ++megabyte)
+        for (int i = 0; i < 1024; ++i)
+            ::gzwrite(file, std::string(1023, ' ').append("\n").c_str(), 1024);
+    REQUIRE(::gzclose(file) == Z_OK);
+    REQUIRE(std::filesystem::file_size(path) < (1 << 20));
+    InputFile compressed(path);
+    CHECK(tests::message_of<BadInput>([&] { compressed.read_all(); }) ==
+          path.string() + ": must not be more than 200 times as large as it is compressed");
 }

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <string>
-#include <sys/stat.h>
 #include <vector>
 
 using namespace raylane;
@@ -313,8 +312,7 @@ TEST_CASE("a Tachyon scene includes files that are beside it") {
           "balls.dat:3: SPHERE: center: must be a finite number, got \"x\"");
     directory.write("balls.dat", "INCLUDE balls.dat");
     CHECK(tests::message_in<BadInput>(directory.path(), [&] { load_scene(path); }) ==
-          "balls.dat:1: INCLUDE: must not be deeper than 16 files in each other, got "
-          "\"balls.dat\"");
+          "balls.dat:1: INCLUDE: must not be included more than 16 deep");
     directory.write("balls.dat", ball);
     CHECK(load_scene(path).shape_count() == 1);
     // Ten files of ten each, and so on: 1,000 are enough.
@@ -332,12 +330,7 @@ TEST_CASE("a Tachyon scene includes files that are beside it") {
     }
     CHECK(tests::message_in<BadInput>(directory.path(), [&] {
               load_scene(path);
-          }).ends_with(": INCLUDE: must be one of 1,000 files at most, got \"deep.dat\""));
-    // Nobody writes into it.
-    std::filesystem::remove(directory.path() / "balls.dat");
-    REQUIRE(::mkfifo((directory.path() / "balls.dat").c_str(), 0600) == 0);
-    CHECK(tests::message_in<BadInput>(directory.path(), [&] { load_scene(path); }) ==
-          "a.dat:3: INCLUDE: must name a file, got \"balls.dat\"");
+          }).ends_with(": INCLUDE: must be one of at most 1000 included files"));
 }
 
 TEST_CASE("each mistake in a Tachyon scene has its line of error") {
@@ -348,7 +341,8 @@ TEST_CASE("each mistake in a Tachyon scene has its line of error") {
         {"Sphere center 1e40 0 0",
          "a.dat:3: Sphere: center: must be a number from -1e30 to 1e30, got \"1e40\""},
         {"BALL", "a.dat:3: must be an object or another statement of Tachyon's, got \"BALL\""},
-        {ball + "INCLUDE -", "a.dat:4: INCLUDE: must name a file, got \"-\""},
+        {ball + "INCLUDE -",
+         "a.dat:4: INCLUDE: must be the name of a file, got \"-\", and there is no file -"},
         {"PLANE CENTER 0 0 0 NORMAL 0 0 0" + plain,
          "a.dat:3: PLANE: normal: must not be the zero vector, got [0, 0, 0]"},
         {"TEXDEF t AMBIENT -1 DIFFUSE 0 SPECULAR 0 OPACITY 1\nSPHERE CENTER 0 0 0 RAD 1 t",

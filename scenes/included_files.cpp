@@ -1,0 +1,29 @@
+#include "scenes/included_files.hpp"
+
+#include "core/shapes/invalid_value.hpp"
+#include "scenes/errors.hpp"
+
+#include <string>
+#include <system_error>
+
+namespace raylane::scenes {
+
+std::unique_ptr<InputFile> IncludedFiles::open(const std::filesystem::path& path,
+                                               std::string_view name, std::size_t depth) {
+    const auto require = [](bool is_good, const std::string& must) {
+        if (!is_good) throw core::InvalidValue("", must);
+    };
+    std::error_code unknown;
+    require(!name.empty() && std::filesystem::is_regular_file(path, unknown),
+            "must be the name of a file, got \"" + printable(name) + "\", and there is no file " +
+                printable(path.string(), 4096));
+    require(depth < deepest, "must not be included more than " + std::to_string(deepest) + " deep");
+    require(opened_++ < most, "must be one of at most " + std::to_string(most) + " included files");
+    auto file = std::make_unique<InputFile>(path);
+    require(std::filesystem::file_size(path, unknown) <= most_bytes || unknown,
+            "must be a file of at most 1 GiB, got " + printable(path.string(), 4096));
+    file->take_as_text();
+    return file;
+}
+
+} // namespace raylane::scenes
