@@ -59,14 +59,16 @@ Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point) {
         return sum % 2 == 0 ? first : second;
     }
     case PatternKind::stripes: {
-        const Vec3<Real> direction = convert<Real>(pattern.direction);
-        const Real distance = dot(point, direction) / length(direction);
+        const Vec3d direction = normalized(convert<double>(pattern.direction));
+        const auto distance = static_cast<Real>(dot(convert<double>(point), direction));
         return detail::parity(distance / Real(pattern.size)) == 0 ? first : second;
     }
     case PatternKind::gradient: {
-        const Vec3<Real> run = convert<Real>(pattern.to) - convert<Real>(pattern.from);
-        const Vec3<Real> offset = point - convert<Real>(pattern.from);
-        const Real s = std::clamp(dot(offset, run) / squared_length(run), Real(0), Real(1));
+        // In double, where no square of a coordinate is infinite.
+        const Vec3d run = convert<double>(pattern.to) - convert<double>(pattern.from);
+        const Vec3d offset = convert<double>(point) - convert<double>(pattern.from);
+        const auto s =
+            static_cast<Real>(std::clamp(dot(offset, run) / squared_length(run), 0.0, 1.0));
         return mul_add(s, Vec3<Real>(second - first), first);
     }
     case PatternKind::back_plane:

@@ -8,6 +8,13 @@ using namespace checks;
 
 namespace {
 
+/// Of a colour, also a light's, and of a material's ambient, diffuse and specular. A pixel is a sum
+/// of products of three of them: it stays finite, as a float has room for 10^8 such products.
+void require_brightness(const Field& field, float value) {
+    require(value >= 0.0F, field, "must not be negative", value);
+    require(value <= 1e10F, field, "must be at most 1e10", value);
+}
+
 void validate(const Pattern& pattern) {
     require_enumerator("kind", pattern.kind, PatternKind::back_plane);
     validate_color("colors/0", pattern.colors[0]);
@@ -26,7 +33,7 @@ void validate(const Pattern& pattern) {
 
 void validate_color(const char* field, const Color& color) {
     for (int channel = 0; channel < 3; ++channel)
-        require_not_negative(Field(field).at(channel), color[channel]);
+        require_brightness(Field(field).at(channel), color[channel]);
 }
 
 void validate(const Material& material) {
@@ -35,9 +42,9 @@ void validate(const Material& material) {
     } catch (const InvalidValue& invalid) {
         throw InvalidValue("pattern/" + invalid.field, invalid.expectation);
     }
-    require_not_negative("ambient", material.ambient);
-    require_not_negative("diffuse", material.diffuse);
-    require_not_negative("specular", material.specular);
+    require_brightness("ambient", material.ambient);
+    require_brightness("diffuse", material.diffuse);
+    require_brightness("specular", material.specular);
     require_not_negative("exponent", material.exponent);
     require_enumerator("reflection", material.reflection, Reflection::dielectric);
     require_fraction("reflectivity", material.reflectivity);
@@ -46,7 +53,8 @@ void validate(const Material& material) {
     require_positive("index", material.index);
     if (material.glass.any() && !is_index(index_at(material.glass, line_d)))
         throw InvalidValue("glass", "must have an index of refraction for 587.56 nm");
-    validate_color("absorption", material.absorption);
+    for (int channel = 0; channel < 3; ++channel)
+        require_not_negative(Field("absorption").at(channel), material.absorption[channel]);
     require_enumerator("visible", material.visible, Visible::inside);
 }
 

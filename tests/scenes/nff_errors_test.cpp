@@ -81,8 +81,7 @@ TEST_CASE("each mistake in an NFF file has its line of error") {
         {v + "f 1 -1 1 1 0 1 0 1\n", "line 9: f: color/1: must not be negative, got -1"},
         {v + "f 1 1 1 1 0 1 0\ns 0 0 0 1\n",
          "line 10: f of line 9: index of refraction: must be a finite number, got \"s\""},
-        {v + "f 1 1 1 2e30 0 1 0 1\n",
-         "line 9: f: ambient: must be a number from -1e30 to 1e30, got 2e+30"},
+        {v + "f 1 1 1 2e30 0 1 0 1\n", "line 9: f: ambient: must be at most 1e10, got 2e+30"},
         // Spheres
         {v + "s 0 0 0 0\n", "line 9: s: radius: must be positive, got 0"},
         {v + "s 0 0 0 nan\n", "line 9: s: radius: must be a finite number, got \"nan\""},

@@ -92,3 +92,48 @@ TEST_CASE("no precision draws a picture that depends on who draws it, nor one fa
     }
     CHECK(scenes >= 14);
 }
+
+TEST_CASE("Every pixel is finite, however large the numbers of a scene are") {
+    const std::string scenes[] = {
+        R"("camera": {"from": [0, 0, 0], "at": [0, 0, 1]}, "lights": [], "materials": {"m": {
+            "pattern": {"type": "gradient", "colors": ["#000000", "#ffffff"], "from": [0, 0, 0],
+            "to": [1, 1e30, 0]}}}, "objects": [
+            {"type": "sphere", "center": [0, 0, 0], "radius": 1e15, "material": "m"}])",
+        R"("camera": {"from": [0, 0, 0], "at": [1, 0, 0]}, "lights": [], "materials": {"m": {
+            "pattern": {"type": "gradient", "colors": ["#000000", "#ffffff"],
+            "from": [0, 0, 1e30], "to": [0, 0, 0]}}}, "objects": [{"type": "cylinder",
+            "base": [0, 1, 0], "axis": [0, 1, 0], "radius": 1e30, "material": "m"}])",
+        R"("camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "lights": [{"type": "directional",
+            "direction": [0, 0, -1], "color": [1e10, 1e10, 1e10]}, {"type": "sky",
+            "color": [1e10, 0, 1e10]}], "background": [1e10, 1e10, 1e10], "materials": {"m": {
+            "color": [1e10, 1e10, 1e10], "ambient": 1e10, "diffuse": 1e10, "specular": 1e10,
+            "reflectivity": 1}}, "objects": [
+            {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"},
+            {"type": "plane", "point": [0, -1, 0], "normal": [0, 1, 0], "material": "m"}])",
+        R"("camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "lights": [], "materials": {"m": {
+            "pattern": {"type": "stripes", "colors": ["#000000", "#ffffff"],
+            "direction": [1e30, 1e30, 0], "width": 1}}}, "objects": [
+            {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}])",
+    };
+    for (const std::string& text : scenes) {
+        const core::Scene scene = scenes::parse_scene(
+            "a.json", "{\"image\": {\"width\": 8, \"height\": 8}, " + text + "}");
+        for (const simd::Engine engine : {simd::Engine::vector, simd::Engine::reference})
+            for (const core::Precision precision :
+                 {core::Precision::exact, core::Precision::robust, core::Precision::fast,
+                  core::Precision::plain_double}) {
+                simd::RenderOptions options;
+                options.engine = engine;
+                options.precision = precision;
+                const core::Film film = simd::render(scene, scene.settings(), options).film;
+                CAPTURE(text, std::string(core::name_of(precision)),
+                        engine == simd::Engine::reference);
+                for (const core::Color& pixel : film.pixels())
+                    for (int channel = 0; channel < 3; ++channel)
+                        REQUIRE(std::isfinite(pixel[channel]));
+            }
+    }
+    CHECK_THROWS_WITH(scenes::parse_scene("a.json", R"({"camera": "auto", "lights": [],
+        "background": [0, 0, 1.1e10], "objects": []})"),
+                      Catch::Contains("/background/2: must be at most 1e10"));
+}
