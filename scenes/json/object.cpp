@@ -407,14 +407,12 @@ bool is_quadric(const Solid& solid) {
 
 std::vector<Solid> Describer::instance_of(const JsonValue& object, Use use) {
     const JsonValue name = object.at("of");
-    const auto found = context.definitions.find(name.string());
-    if (found == context.definitions.end())
-        name.fail_expecting("the name of a definition that comes before");
-    parts_ += found->second.parts;
+    const Definition& definition = context.definitions.named_by(name);
+    parts_ += definition.parts;
     if (parts_ > most_parts)
         name.fail("must not lead to more than " + std::to_string(most_parts) +
                   " shapes in one object");
-    std::vector<Solid> solids = found->second.solids;
+    std::vector<Solid> solids = definition.solids;
     for (Solid& solid : solids)
         if (use == Use::part && is_quadric(solid)) solid = in_box(solid, Made::by_intersection);
     return solids;
@@ -456,6 +454,17 @@ std::vector<Solid> Describer::described(const JsonValue& object, Use use) {
 }
 
 } // namespace
+
+const Definition& Definitions::named_by(const JsonValue& value) {
+    const std::string_view name = value.string();
+    const auto found = all_.find(name);
+    if (found == all_.end()) {
+        if (may_lack_some || !unknown_.emplace(name).second) throw consequence();
+        value.fail_expecting("the name of a definition that comes before");
+    }
+    if (!found->second) throw consequence();
+    return *found->second;
+}
 
 void add_object(const JsonValue& object, core::SceneBuilder& builder,
                 const ObjectContext& context) {

@@ -5,7 +5,11 @@
 
 #include <functional>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace raylane::scenes {
@@ -19,12 +23,30 @@ struct Definition {
     std::vector<core::Solid> solids;
     std::size_t parts; ///< shapes that these are made of
 };
-using Definitions = std::map<std::string, Definition, std::less<>>;
+
+/// Definitions by name.
+class Definitions {
+  public:
+    bool may_lack_some = false; ///< a file that may have them could not be read
+
+    bool contains(std::string_view name) const { return all_.contains(name); }
+    /// Adds a definition, or nothing for one with a mistake.
+    void add(std::string_view name, std::optional<Definition> definition) {
+        all_.emplace(name, std::move(definition));
+    }
+    /// The definition that a value names. Throws BadInput if there is none: with a line only where
+    /// no other error is the cause, and the first time for each name.
+    const Definition& named_by(const JsonValue& value);
+
+  private:
+    std::map<std::string, std::optional<Definition>, std::less<>> all_;
+    std::set<std::string, std::less<>> unknown_;
+};
 
 /// What objects refer to.
 struct ObjectContext {
     const MaterialOf& material_of;
-    const Definitions& definitions;
+    Definitions& definitions;
 };
 
 /// Adds what the schema calls an object: a shape, a solid, or all shapes of a group, an instance or

@@ -17,6 +17,10 @@ bool is_negated(std::string_view reference) {
     return reference.starts_with('-');
 }
 
+std::string_view name_in(std::string_view reference) {
+    return reference.substr(is_negated(reference) ? 2 : 1);
+}
+
 } // namespace
 
 bool is_reference(std::string_view text) {
@@ -41,10 +45,19 @@ void Parameters::add_default(std::string_view name, double value) {
     parameters_.try_emplace(std::string(name), Parameter{.value = value});
 }
 
+void Parameters::add_wrong(std::string_view name) {
+    parameters_.try_emplace(std::string(name), Parameter{.value = 0.0, .wrong = true});
+}
+
+bool Parameters::is_wrong(std::string_view reference) const {
+    const auto found = parameters_.find(name_in(reference));
+    return found != parameters_.end() && found->second.wrong;
+}
+
 std::optional<Parameters::Number> Parameters::find(std::string_view reference) {
     const bool negated = is_negated(reference);
-    const auto found = parameters_.find(reference.substr(negated ? 2 : 1));
-    if (found == parameters_.end()) return std::nullopt;
+    const auto found = parameters_.find(name_in(reference));
+    if (found == parameters_.end() || found->second.wrong) return std::nullopt;
     found->second.used = true;
     const double value = negated ? -found->second.value : found->second.value;
     return Number{text_of(value), value};

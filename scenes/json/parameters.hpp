@@ -31,6 +31,10 @@ class Parameters {
 
     /// Adds one that a file has, unless that is given.
     void add_default(std::string_view name, double value);
+    /// Notes one that has a mistake, unless it is given.
+    void add_wrong(std::string_view name);
+    /// True of a reference to a parameter that has a mistake.
+    bool is_wrong(std::string_view reference) const;
     /// What is_reference() stands for, which then counts as used; nothing if it has no value.
     std::optional<Number> find(std::string_view reference);
     /// Of all that have a value.
@@ -41,7 +45,7 @@ class Parameters {
   private:
     struct Parameter {
         double value;
-        bool given = false, used = false;
+        bool given = false, used = false, wrong = false;
     };
     std::map<std::string, Parameter, std::less<>> parameters_;
 };

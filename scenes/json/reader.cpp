@@ -88,6 +88,7 @@ class SceneReader {
     };
     /// Throws BadInput for what is wrong with the item, and is good for others after that.
     void take(const RootKey& key, std::string_view name, const JsonDocument& item);
+    void take_parameter(std::string_view name, const JsonValue& value);
     void include(const JsonValue& value);
     void take_settings(const JsonValue& value, void (*read)(const JsonValue&, core::Settings&));
     void take_outline(const JsonValue& value);
@@ -124,6 +125,7 @@ class SceneReader {
     ObjectPlaces objects_;
     bool has_lights_ = false, has_objects_ = false;
     bool may_include_ = true;
+    bool lacks_camera_ = false;   // it has a mistake, and may have brought light along
     bool lacks_included_ = false; // what was to be included may have had what others lack
     MaterialOf material_of_ = [this](const JsonValue& value) { return material_of(value); };
 };
@@ -149,7 +151,7 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
     if (key.name == "$schema")
         static_cast<void>(value.string());
     else if (key.name == "parameters")
-        read_parameter(name, value, parameters_);
+        take_parameter(name, value);
     else if (key.name == "include")
         include(value);
     else if (key.name == "image")
@@ -178,6 +180,15 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
         take_object(value);
 }
 
+void SceneReader::take_parameter(std::string_view name, const JsonValue& value) {
+    try {
+        read_parameter(name, value, parameters_);
+    } catch (const BadInput&) {
+        parameters_.add_wrong(name);
+        throw;
+    }
+}
+
 void SceneReader::include(const JsonValue& value) {
     if (!may_include_) value.fail("must not be included by what has been built");
     try {
@@ -189,7 +200,7 @@ void SceneReader::include(const JsonValue& value) {
             objects_.leave(builder_.shape_count());
         });
     } catch (const BadInput&) {
-        lacks_included_ = true;
+        lacks_included_ = definitions_.may_lack_some = true;
         throw;
     }
 }
@@ -210,9 +221,11 @@ void SceneReader::take_outline(const JsonValue& value) {
 }
 
 void SceneReader::take_camera(const JsonValue& value) {
+    lacks_camera_ = true;
     const core::Camera camera = read_camera(value, builder_.staging);
     checked(value, [&] { core::validate(camera); });
     builder_.camera = camera;
+    lacks_camera_ = false;
 }
 
 void SceneReader::take_background(const JsonValue& value) {
@@ -268,7 +281,12 @@ void SceneReader::take_material(std::string_view name, const JsonValue& value) {
 
 void SceneReader::take_definition(std::string_view name, const JsonValue& value) {
     if (definitions_.contains(name)) refuse_again(value);
-    definitions_.emplace(name, described_object(value, {material_of_, definitions_}));
+    try {
+        definitions_.add(name, described_object(value, {material_of_, definitions_}));
+    } catch (const BadInput&) {
+        definitions_.add(name, std::nullopt);
+        throw;
+    }
 }
 
 void SceneReader::take_object(const JsonValue& value) {
@@ -345,7 +363,8 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
     builder_.wants_light = has_lights_ || !outline.has("lights");
     if (!has_lights_ && builder_.wants_light && builder_.staging.framing)
         builder_.staging.lights = true;
-    if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.staging.lights)
+    if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.staging.lights &&
+        !lacks_camera_)
         errors.add({file_, outline.of("lights"), "/lights",
                     "must have at least one light where there are objects, or be [] where none is "
                     "meant to be, got none"});

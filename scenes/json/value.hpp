@@ -28,6 +28,11 @@ struct JsonPositions {
 
 class JsonValue;
 
+/// Of what refers to something that is wrong itself and has been reported: an error without a line.
+inline BadInput consequence() {
+    return BadInput(std::vector<InputError>());
+}
+
 /// Thrown for a parameter without a value where one may come further on, in place of `error`.
 struct LateParameter {
     BadInput error;

@@ -155,3 +155,31 @@ TEST_CASE("objects may come before the materials") {
             CHECK(scene->materials()[static_cast<std::size_t>(i)].ambient == ambient[i]);
     }
 }
+
+TEST_CASE("What is wrong is reported where it is, and not where it is used") {
+    const std::string use = R"({"type": "instance", "of": "d"})";
+    const std::string solid = R"({"type": "union", "material": "clay", "objects": [)";
+    const std::string defined = R"("definitions": {"d": )";
+    const auto complaint = [](const std::string& definitions, const std::string& objects) {
+        return complaint_about_text(R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+            "lights": [], "materials": {"clay": {}}, )" +
+                                    definitions + R"(, "objects": [)" + objects + "]}");
+    };
+    CHECK(complaint(defined + sphere("-1") + "}",
+                    use + ", " + use + ", " + solid + use + ", " + use + "]}") ==
+          "/definitions/d/radius: must be positive, got -1");
+    CHECK(complaint(defined + sphere("-1") + R"(, "e": )" + use + "}",
+                    R"({"type": "instance", "of": "e"})") ==
+          "/definitions/d/radius: must be positive, got -1");
+    CHECK(complaint(R"("definitions": {})", use + ", " + use) ==
+          "/objects/0/of: must be the name of a definition that comes before, got \"d\"");
+    CHECK(complaint(R"("parameters": {"r": "x"})", sphere("\"$r\"") + ", " + sphere("\"-$r\"")) ==
+          "/parameters/r: must be a number, got \"x\"");
+    CHECK(
+        complaint(R"("parameters": {"r": "x"})", sphere("\"$r\"") + ", " + sphere("-1")) ==
+        "/parameters/r: must be a number, got \"x\"\n/objects/1/radius: must be positive, got -1");
+    CHECK(complaint_about_text(R"({"camera": {"type": "auto", "zoom": -1},
+        "materials": {"clay": {}}, "objects": [)" +
+                               sphere("1") + "]}") ==
+          "/camera/zoom: must be from 0.01 to 1000, got -1");
+}
