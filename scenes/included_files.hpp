@@ -17,8 +17,8 @@ class IncludedFiles {
     static constexpr std::size_t deepest = 16, most = 1000;
     static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30; ///< of each
 
-    /// Opens a file as text. `name`: as the scene has it; `depth`: of the file that includes it,
-    /// from 0. Throws core::InvalidValue, which says what the name must be.
+    /// Opens a file as text. `name`: the scene's word for it. `depth`: of the including file, from
+    /// 0. Throws core::InvalidValue with the rule that the name breaks.
     std::unique_ptr<InputFile> open(const std::filesystem::path& path, std::string_view name,
                                     std::size_t depth);
 

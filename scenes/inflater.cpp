@@ -11,7 +11,7 @@ namespace raylane::scenes {
 
 namespace {
 constexpr std::size_t packed_size = 64 << 10;
-/// What files of atoms and scenes are compressed to is mostly a third to a twentieth of them.
+/// Files of atoms and scenes mostly compress to a third to a twentieth of their size.
 constexpr std::uint64_t most_for_each = 200, most_besides = 64 << 20;
 } // namespace
 

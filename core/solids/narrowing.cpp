@@ -50,7 +50,7 @@ bool SolidNarrowing::needs_inside(Index part) const {
     return needs;
 }
 
-/// Leaves out what is decided in a box.
+/// Copies an expression without the parts that are decided in a box.
 void SolidNarrowing::reduce(const Expression& from, const Somewhere& box, Expression& to) {
     to.terms.clear();
     to.value = from.value;
@@ -99,7 +99,7 @@ Value SolidNarrowing::reduce_term(const std::vector<Term>& from, std::size_t at,
     return Value::unknown;
 }
 
-/// Whether it matters in an expression's box if one is inside or outside of a part.
+/// Tells if a point's side of a part matters for the solid in an expression's box.
 Value SolidNarrowing::matters(Index part, const Expression& expression) const {
     Value matters = Value::yes;
     bool is_there = false;
@@ -163,7 +163,7 @@ void SolidNarrowing::narrow_group(std::size_t first, std::size_t last,
     narrow_group(middle, last, reduced);
 }
 
-/// By an expression that is reduced to the part's bounds.
+/// Narrows a part's bounds. `expression` is reduced to these bounds.
 void SolidNarrowing::narrow_part(Index part, const Expression& expression) {
     Solids::Node& node = nodes_[part];
     Bounds& bounds = bounds_[part];

@@ -11,15 +11,15 @@ namespace raylane::core {
 
 /// Narrows the bounds of a solid and of its parts to where they matter.
 ///
-/// Parts are halved by place into groups. A group hands down the solid's expression without the
-/// parts that are decided in the group's bounds, so n parts take n log n steps. Where parts stay
-/// undecided together, a group keeps so many for each of its own parts, and looks at them so often:
-/// then bounds are wider than they could be.
+/// Halves the parts by place into groups. Each group passes on the solid's expression without the
+/// parts that are decided in the group's bounds, so that n parts take n log n steps. The terms of a
+/// group's expression and the steps for each part are limited. Bounds are wider than they could be
+/// where many parts stay undecided together.
 class SolidNarrowing {
   public:
     using Index = Solids::Index;
 
-    /// Of all solids: the bounds of those to be narrowed, and those of their parts, are given.
+    /// Takes the nodes, shapes and bounds of all solids. The caller has set the bounds to narrow.
     SolidNarrowing(std::vector<Solids::Node>& nodes, const std::vector<PartShape>& shapes,
                    std::vector<Bounds>& bounds)
         : nodes_(nodes), shapes_(shapes), bounds_(bounds) {}
@@ -38,11 +38,11 @@ class SolidNarrowing {
     struct Term {
         Index node;
         std::size_t end;     ///< behind its last descendant; the first follows it
-        bool is_cut = false; ///< there are undecided ones in it that have no terms
+        bool is_cut = false; ///< undecided children without terms exist
     };
     /// A solid in a box.
     struct Expression {
-        Value value = Value::unknown; ///< yes or no: there are no terms
+        Value value = Value::unknown; ///< yes or no: `terms` is empty
         std::vector<Term> terms;
     };
 

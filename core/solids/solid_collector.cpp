@@ -35,14 +35,14 @@ SolidCollector::Index SolidCollector::begin(Solids::Op op, Index parent) {
     return index;
 }
 
-/// Of a whole solid, and of its parts.
+/// Finds the bounds of a whole solid and of its parts.
 void SolidCollector::find_bounds(Index solid, SolidNarrowing& narrowing) {
     std::vector<Node>& nodes = solids_.nodes_;
     Bounds& whole = solids_.bounds_[solid];
     whole = hulls_[solid].inside;
     if (is_finite(whole) && !nodes[solid].many) narrowing.narrow_whole(solid);
     const Bounds of_solid = whole;
-    // What has no bounds is in no hierarchy.
+    // Unbounded parts are in no hierarchy.
     if (!is_finite(of_solid))
         for (Index index = solid; index < nodes[solid].end; ++index)
             if (nodes[index].many && !nodes[index].counts)

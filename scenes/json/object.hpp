@@ -34,8 +34,8 @@ class Definitions {
     void add(std::string_view name, std::optional<Definition> definition) {
         all_.emplace(name, std::move(definition));
     }
-    /// The definition that a value names. Throws BadInput if there is none: with a line only where
-    /// no other error is the cause, and the first time for each name.
+    /// Returns the definition that a value names. Throws BadInput for an unknown name: with a line
+    /// only the first time for each name, and only if no other error is the cause.
     const Definition& named_by(const JsonValue& value);
 
   private:

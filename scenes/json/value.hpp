@@ -28,7 +28,7 @@ struct JsonPositions {
 
 class JsonValue;
 
-/// Of what refers to something that is wrong itself and has been reported: an error without a line.
+/// Returns an error without a line, for a reference to a value whose own error has been reported.
 inline BadInput consequence() {
     return BadInput(std::vector<InputError>());
 }

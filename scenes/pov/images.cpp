@@ -14,7 +14,7 @@ namespace {
 /// More pixels than that cost too much for one colour.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
 
-/// By the first bytes of a PNG file; 0 for another.
+/// Returns the pixels of a PNG by its first bytes, or 0 for another format.
 std::uint64_t pixels_of_png(std::string_view head) {
     if (!head.starts_with("\x89PNG\r\n\x1A\n") || head.size() < 24) return 0;
     const auto number = [&](std::size_t at) {
@@ -26,7 +26,7 @@ std::uint64_t pixels_of_png(std::string_view head) {
     return number(16) * number(20);
 }
 
-/// Weighted by alpha; `transmit` is what alpha leaves on the mean.
+/// Returns the mean, weighted by alpha. `transmit` is 1 minus the mean alpha.
 Tuple mean_of(const Image& image, bool is_linear) {
     const auto decoded = [&](float code) {
         if (!is_linear) return static_cast<double>(code);

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// Shapes and macros of POV-Ray's own files, in its language. They are written for raylane, by the
-/// descriptions in POV-Ray's manual. Each declaration begins at the beginning of a line.
+/// Shapes and macros with the names and the meaning of those in POV-Ray's own files, in POV-Ray's
+/// language. Each declaration begins at the beginning of a line.
 namespace raylane::scenes::pov {
 
 inline constexpr std::string_view shapes_old = R"(

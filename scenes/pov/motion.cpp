@@ -76,8 +76,8 @@ Motion matrix(Tokens& tokens) {
     }
 }
 
-/// By what becomes of the axes. If these stay at right angles and of one length, rounding does not
-/// change that: what is round stays so.
+/// Returns the inverse of the map of the axes to x, y and z. If these are at right angles and of
+/// one length, so are the inverse's, exactly: balls stay balls.
 Motion inverse_of_linear(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Place& place) {
     constexpr double tolerance = 1e-12;
     const double square = core::dot(x, x);

@@ -93,7 +93,7 @@ Value read_value(Tokens& tokens) {
         tokens.next();
         return copy;
     }
-    if (word.kind == TokenKind::word) return {read_object(tokens)}; // which says what is not read
+    if (word.kind == TokenKind::word) return {read_object(tokens)}; // fails
     fail(word.place, "must be a value that is read, got " + word.quoted());
 }
 

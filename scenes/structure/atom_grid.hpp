@@ -14,7 +14,7 @@ namespace raylane::scenes {
 /// are.
 class AtomGrid {
   public:
-    /// Of some atoms, in cells of a width.
+    /// Sorts atoms into cells of a width.
     AtomGrid(const std::vector<core::Vec3f>& positions, const std::vector<AtomIndex>& atoms,
              float width);
 

@@ -114,7 +114,7 @@ TEST_CASE("A part's bounds have all of its surface that is the solid's") {
     CHECK(seen > 1000);
 }
 
-TEST_CASE("Each facet of hundreds has bounds of its own") {
+TEST_CASE("Hundreds of facets have different bounds") {
     constexpr int count = 300;
     Solid solid{Made::by_intersection};
     for (int i = 0; i < count; ++i) { // on a spiral of Fibonacci's

@@ -156,7 +156,7 @@ TEST_CASE("objects may come before the materials") {
     }
 }
 
-TEST_CASE("What is wrong is reported where it is, and not where it is used") {
+TEST_CASE("A mistake is reported where it is, and not where it is used") {
     const std::string use = R"({"type": "instance", "of": "d"})";
     const std::string solid = R"({"type": "union", "material": "clay", "objects": [)";
     const std::string defined = R"("definitions": {"d": )";

@@ -160,7 +160,7 @@ TEST_CASE("Scenes of each format include regular files, and not too many") {
     }
 }
 
-TEST_CASE("What a small file decompresses to has a limit") {
+TEST_CASE("The size that a small file decompresses to has a limit") {
     const tests::TemporaryDirectory directory;
     const auto path = directory.path() / "a.xyz.gz";
     gzFile file = ::gzopen(path.c_str(), "wb9");
