@@ -6,7 +6,7 @@
 /// language. Each declaration begins at the beginning of a line.
 namespace raylane::scenes::pov {
 
-inline constexpr std::string_view shapes_old = R"(
+inline constexpr std::string_view shapes_old_inc = R"(
 #declare Sphere = sphere { 0, 1 }
 #declare Ellipsoid = sphere { 0, 1 }
 #declare UnitBox = box { -1, 1 }
@@ -33,7 +33,7 @@ inline constexpr std::string_view shapes_old = R"(
 #declare Plane_XY = plane { z, 0 }
 )";
 
-inline constexpr std::string_view shapes = R"(
+inline constexpr std::string_view shapes_inc = R"(
 #macro Spheroid(Center_, Radius_) sphere { 0, 1 scale Radius_ translate Center_ } #end
 #macro Wedge(Degrees_)
   #local Turn_ = mod(Degrees_, 360);
@@ -112,7 +112,7 @@ inline constexpr std::string_view shapes = R"(
 )";
 
 /// Polyhedra by the angles of their faces.
-inline constexpr std::string_view shapes2 = R"(
+inline constexpr std::string_view shapes2_inc = R"(
 #macro Faces_(Count_, Tilt_, Turn_)
   #local I_ = 0;
   #while (I_ < Count_)
@@ -165,7 +165,7 @@ inline constexpr std::string_view shapes2 = R"(
 }
 )";
 
-inline constexpr std::string_view transforms = R"(
+inline constexpr std::string_view transforms_inc = R"(
 #macro Matrix_Trans(A_, B_, C_, D_)
   transform { matrix <A_.x, A_.y, A_.z, B_.x, B_.y, B_.z, C_.x, C_.y, C_.z, D_.x, D_.y, D_.z> }
 #end
@@ -196,7 +196,7 @@ inline constexpr std::string_view transforms = R"(
 #end
 )";
 
-inline constexpr std::string_view mathematics = R"(
+inline constexpr std::string_view math_inc = R"(
 #macro sind(A_) (sin(radians(A_))) #end
 #macro cosd(A_) (cos(radians(A_))) #end
 #macro tand(A_) (tan(radians(A_))) #end
@@ -266,12 +266,12 @@ inline constexpr std::string_view mathematics = R"(
 )";
 
 /// Without fading.
-inline constexpr std::string_view glass = R"(
+inline constexpr std::string_view glass_inc = R"(
 #macro I_Glass_Exp(Distance_) ior 1.5 #end
 #macro I_Glass_Sqr(Distance_) ior 1.5 #end
 )";
 
-inline constexpr std::string_view random_numbers = R"(
+inline constexpr std::string_view rand_inc = R"(
 #macro Prob(P_, Stream_) (rand(Stream_) < P_) #end
 #macro SRand(Stream_) (rand(Stream_) * 2 - 1) #end
 #macro RRand(Min_, Max_, Stream_) (rand(Stream_) * (Max_ - Min_) + Min_) #end

@@ -68,13 +68,13 @@ std::vector<StandardFile> all_files() {
             file(names.file).declarations.insert_or_assign(taken(left, " "), "");
     for (const Table& table : tables)
         declare_table(table.rows, table.value, file(table.file));
-    declare_text(shapes_old, file("shapes_old.inc"));
-    declare_text(shapes, file("shapes.inc"));
-    declare_text(shapes2, file("shapes2.inc"));
-    declare_text(transforms, file("transforms.inc"));
-    declare_text(mathematics, file("math.inc"));
-    declare_text(glass, file("glass.inc"));
-    declare_text(random_numbers, file("rand.inc"));
+    declare_text(shapes_old_inc, file("shapes_old.inc"));
+    declare_text(shapes_inc, file("shapes.inc"));
+    declare_text(shapes2_inc, file("shapes2.inc"));
+    declare_text(transforms_inc, file("transforms.inc"));
+    declare_text(math_inc, file("math.inc"));
+    declare_text(glass_inc, file("glass.inc"));
+    declare_text(rand_inc, file("rand.inc"));
     return files;
 }
 

@@ -23,7 +23,7 @@ using core::Vec3f;
 
 constexpr std::size_t most_for_balls = 500;
 constexpr float part_of_radius = 0.25F; // of van der Waals', balls with sticks
-constexpr float stick_with_balls = 0.12F, stick = 0.16F, licorice_stick = 0.3F, point = 0.2F;
+constexpr float stick_with_balls = 0.12F, stick = 0.16F, licorice_stick = 0.3F, dot_size = 0.2F;
 constexpr double apart = 0.13; // the sticks of a double bond from its line
 constexpr float cell_stick = 0.06F;
 
@@ -203,7 +203,7 @@ class Artist {
         case Style::licorice:
             return licorice_stick;
         case Style::points:
-            return std::min(point, 0.5F * full_radius(atom));
+            return std::min(dot_size, 0.5F * full_radius(atom));
         }
         return 0.0F;
     }

@@ -9,10 +9,6 @@ namespace raylane::scenes {
 
 namespace {
 
-bool is_letter(char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-
 bool is_small_letter(char c) {
     return c >= 'a' && c <= 'z';
 }
@@ -46,11 +42,11 @@ Element element_of_two(std::string_view letters) {
 
 Element element_of_label(std::string_view label) {
     constexpr Element einsteinium = 99;
-    constexpr std::string_view no_atoms[] = {"bq", "du", "tv", "unk", "vac"};
+    constexpr std::string_view dummies[] = {"bq", "du", "tv", "unk", "vac"};
     const std::string_view letters = first_letters(from_letter(label));
     if (letters.empty()) return 0;
     const std::string in_small = in_lower_case(letters);
-    if (is_one_of(no_atoms, in_small)) return 0;
+    if (is_one_of(dummies, in_small)) return 0;
     if (in_small == "wat") return element_of("O");
     if (in_small == "t" && label.size() > 1) return 0;
     const Element element = element_of_two(letters);

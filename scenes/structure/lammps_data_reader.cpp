@@ -53,10 +53,6 @@ bool is_known_section(std::string_view name) {
     return std::find(std::begin(sections), std::end(sections), name) != std::end(sections);
 }
 
-bool is_letter(char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-}
-
 class DataReader : public FrameReader {
   public:
     DataReader(InputFile& file, const ReaderOptions& options)
@@ -415,10 +411,10 @@ class DataReader : public FrameReader {
             if (is_electron(found->second)) continue;
             masses.push_back(found->second);
         }
-        const std::vector<Element> elements = elements_of_masses(masses, units_of(frame.title));
-        auto element = elements.begin();
+        const std::vector<Element> of_types = elements_of_masses(masses, units_of(frame.title));
+        auto element = of_types.begin();
         for (AtomKind& kind : frame.of_kind)
-            if (element != elements.end() && !is_electron(mass_of[kind.label]))
+            if (element != of_types.end() && !is_electron(mass_of[kind.label]))
                 kind.element = *element++;
     }
 

@@ -10,6 +10,10 @@
 
 namespace raylane::scenes {
 
+inline bool is_letter(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
 /// Text with the letters A to Z in lower case.
 std::string in_lower_case(std::string_view text);
 
