@@ -19,7 +19,7 @@ _MOST = 1e30  # of a coordinate, as of all coordinates of a scene
 
 def _numbers(values: ArrayLike, shape: Tuple[int, ...], field: str) -> NDArray[np.float64]:
     """An array of coordinates, of a shape."""
-    if np.ma.is_masked(values):
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         raise InvalidValue(
             field, "must have no masked values: leave them out, or fill them by numpy.ma.filled()"
         )

@@ -170,8 +170,8 @@ TEST_CASE("POV-Ray: declared values that are not rendered refuse no scene") {
         "} } } }");
     CHECK(color_of(values) == core::Color(1, 0, 0));
     CHECK(color_of(values, 1) == core::Color(0, 1, 0));
-    CHECK(complaint("#declare F = function { x } sphere { 0, F(1, 2, 3) }") ==
-          "a.pov:1:41: must be the name of a number, vector or colour, got \"F\"");
+    CHECK(complaint("#declare F = function { pigment { rgb x } } sphere { 0, F(1, 2, 3) }") ==
+          "a.pov:1:57: must be the name of a number, vector or colour, got \"F\"");
     const Read sky =
         read("#declare S = sky_sphere { pigment { rgb y } pigment { rgbt <1, 0, 0, 0.75> } }\n"
              "#declare F = fog { distance 4 rgb 1 } sky_sphere { S } fog { F }");
