@@ -161,8 +161,7 @@ double comparison(std::string_view sign, double a, double b) {
 
 bool is_comparison(const Token& sign) {
     static constexpr std::string_view signs[] = {"<", "<=", ">", ">=", "=", "!="};
-    return sign.kind == TokenKind::symbol &&
-           std::find(std::begin(signs), std::end(signs), sign.text) != std::end(signs);
+    return sign.is_one_of(signs);
 }
 
 /// Compares two strings by their bytes.

@@ -80,31 +80,22 @@ constexpr std::string_view other_patterns[] = {
     "spherical", "spiral1",   "spiral2",       "spotted", "tiling",   "waves",
     "wood",      "wrinkles",  "material_map"};
 
+using ListEntries = std::vector<std::pair<double, core::Vec3d>>;
 /// Patterns of a list: how much of each entry there is, about, and its colour by default.
 struct ListPattern {
     std::string_view name;
-    std::vector<std::pair<double, core::Vec3d>> entries;
+    ListEntries entries;
 };
+const ListEntries six_colors = {{1.0 / 6, {0, 0, 1}}, {1.0 / 6, {0, 1, 0}}, {1.0 / 6, {1, 0, 0}},
+                                {1.0 / 6, {1, 0, 1}}, {1.0 / 6, {0, 1, 1}}, {1.0 / 6, {1, 1, 0}}};
 const ListPattern list_patterns[] = {
     {"checker", {{0.5, {0, 0, 1}}, {0.5, {0, 1, 0}}}},
     {"brick", {{0.25, {0.5, 0.5, 0.5}}, {0.75, {0.6, 0.15, 0.15}}}},
     {"object", {{0.5, {0, 0, 1}}, {0.5, {0, 1, 0}}}},
     {"hexagon", {{1.0 / 3, {0, 0, 1}}, {1.0 / 3, {0, 1, 0}}, {1.0 / 3, {1, 0, 0}}}},
     {"square", {{0.25, {0, 0, 1}}, {0.25, {0, 1, 0}}, {0.25, {1, 0, 0}}, {0.25, {1, 0, 1}}}},
-    {"triangular",
-     {{1.0 / 6, {0, 0, 1}},
-      {1.0 / 6, {0, 1, 0}},
-      {1.0 / 6, {1, 0, 0}},
-      {1.0 / 6, {1, 0, 1}},
-      {1.0 / 6, {0, 1, 1}},
-      {1.0 / 6, {1, 1, 0}}}},
-    {"cubic",
-     {{1.0 / 6, {0, 0, 1}},
-      {1.0 / 6, {0, 1, 0}},
-      {1.0 / 6, {1, 0, 0}},
-      {1.0 / 6, {1, 0, 1}},
-      {1.0 / 6, {0, 1, 1}},
-      {1.0 / 6, {1, 1, 0}}}},
+    {"triangular", six_colors},
+    {"cubic", six_colors},
 };
 
 /// Words behind a pattern, each with a number or a vector or nothing, that change how it lies.
@@ -116,12 +107,6 @@ constexpr std::string_view changes[] = {
     "mortar",     "agate_turb", "noise_generator", "quick_color",   "quick_colour", "uv_mapping",
     "use_index",  "use_color",  "use_colour",      "no_bump_scale", "coords",       "interior",
     "exterior",   "size"};
-
-template <std::size_t count>
-bool is_one_of(const std::string_view (&words)[count], const Token& token) {
-    return token.kind == TokenKind::word &&
-           std::find(std::begin(words), std::end(words), token.text) != std::end(words);
-}
 
 class PatternReader {
   public:
@@ -141,10 +126,10 @@ class PatternReader {
             read_list(*list, word);
         } else if (tokens_.accept("gradient")) {
             begin_gradient();
-        } else if (is_one_of(other_patterns, word)) {
+        } else if (word.is_one_of(other_patterns)) {
             tokens_.next();
             read_other(word);
-        } else if (is_one_of(changes, word) || word.is("warp")) {
+        } else if (word.is_one_of(changes) || word.is("warp")) {
             tokens_.next();
             read_change(word);
         } else {
@@ -282,10 +267,6 @@ class PatternReader {
     Tokens& tokens_;
     Texture& texture_;
 };
-
-} // namespace
-
-namespace {
 
 /// Shares of 1 that entries have of a pattern whose values are even from 0 to 1.
 void weigh_by_place(std::vector<Weighted>& entries) {

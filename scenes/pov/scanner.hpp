@@ -2,6 +2,7 @@
 
 #include "scenes/errors.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -38,6 +39,10 @@ struct Token {
 
     bool is(std::string_view what) const {
         return text == what && (kind == TokenKind::word || kind == TokenKind::symbol);
+    }
+    template <std::size_t count>
+    bool is_one_of(const std::string_view (&all)[count]) const {
+        return std::any_of(all, all + count, [&](std::string_view what) { return is(what); });
     }
     /// For messages.
     std::string quoted() const;

@@ -126,9 +126,7 @@ std::string read_one(Tokens& tokens, const Token& token) {
 } // namespace
 
 bool begins_string(const Token& token) {
-    return token.kind == TokenKind::string ||
-           (token.kind == TokenKind::word && std::find(std::begin(functions), std::end(functions),
-                                                       token.text) != std::end(functions));
+    return token.kind == TokenKind::string || token.is_one_of(functions);
 }
 
 std::string read_string(Tokens& tokens) {

@@ -82,7 +82,7 @@ Value read_value(Tokens& tokens) {
     static constexpr std::string_view not_drawn[] = {"density",   "density_map", "media",
                                                      "normal",    "normal_map",  "rainbow",
                                                      "slope_map", "spline"};
-    if (std::find(std::begin(not_drawn), std::end(not_drawn), word.text) != std::end(not_drawn)) {
+    if (word.is_one_of(not_drawn)) {
         tokens.next();
         tokens.skip_braces();
         return {NotDrawn{}};
