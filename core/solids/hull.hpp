@@ -28,6 +28,10 @@ inline bool is_empty(const Bounds& bounds) {
              bounds.lower.z <= bounds.upper.z);
 }
 
+inline bool contains(const Bounds& outer, const Bounds& inner) {
+    return outer.contains(inner.lower) && outer.contains(inner.upper);
+}
+
 /// How often a box is halved along each axis.
 inline constexpr std::size_t most_halvings = 3;
 
@@ -41,7 +45,7 @@ class Hull {
 
   private:
     void add(const Bounds& cell, std::size_t halvings) {
-        if (!is_empty(hull_) && hull_.contains(cell.lower) && hull_.contains(cell.upper)) return;
+        if (!is_empty(hull_) && contains(hull_, cell)) return;
         if (!may_be_(somewhere_in(cell), halvings)) return;
         if (halvings == 0) {
             hull_.include(cell);

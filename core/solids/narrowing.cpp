@@ -20,10 +20,6 @@ std::size_t most_steps(std::size_t parts) {
     return std::min<std::size_t>(std::size_t{1} << 13, (std::size_t{1} << 23) / parts);
 }
 
-bool contains(const Bounds& outer, const Bounds& inner) {
-    return outer.contains(inner.lower) && outer.contains(inner.upper);
-}
-
 } // namespace
 
 SolidNarrowing::Expression SolidNarrowing::expression_of(Index solid) const {
