@@ -165,8 +165,6 @@ class SceneBuilder {
     void reserve(std::size_t count);
 
     std::size_t shape_count() const { return scene_.material_of_.size(); }
-    /// The polygons of more than one triangle, ascending.
-    std::span<const IdRange> polygons() const { return scene_.polygons_; }
 
     /// Checks what concerns the scene as a whole, builds the hierarchy, and hands the scene over.
     /// Fields are those above, and "lights", "lights/0/position", ... Shapes are named by number
