@@ -8,8 +8,9 @@ using namespace checks;
 
 namespace {
 
-/// Of a colour, also a light's, and of a material's ambient, diffuse and specular. A pixel is a sum
-/// of products of three of them: it stays finite, as a float has room for 10^8 such products.
+/// Checks a channel of a colour, also a light's, or a material's ambient, diffuse or specular. A
+/// pixel is a sum of products of three of them. It stays finite: a float has room for 10^8 such
+/// products.
 void require_brightness(const Field& field, float value) {
     require(value >= 0.0F, field, "must not be negative", value);
     require(value <= 1e10F, field, "must be at most 1e10", value);

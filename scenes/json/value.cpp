@@ -167,10 +167,10 @@ auto JsonValue::with_number(const Use& use) const {
 Parameters::Number JsonValue::referred() const {
     if (!is_number()) fail_expecting("a number");
     const std::string_view text = document_->get(node().text);
-    if (document_->parameters_ != nullptr)
+    if (document_->parameters_ != nullptr) {
         if (auto number = document_->parameters_->find(text)) return *std::move(number);
-    if (document_->parameters_ != nullptr && document_->parameters_->is_wrong(text))
-        throw consequence();
+        if (document_->parameters_->is_wrong(text)) throw consequence();
+    }
     const std::string_view name = text.substr(text.find('$') + 1);
     if (!is_parameter_name(name))
         fail_expecting("a number, or $ and a name of letters, digits and underscores");
