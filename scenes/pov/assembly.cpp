@@ -72,7 +72,7 @@ const core::Bounds farthest{core::Vec3f(-far_away), core::Vec3f(far_away)};
 
 /// A quadric as a part of others, in a box that only says where it is.
 Solid as_far_as_seen(Solid quadric) {
-    constexpr double size = 2.0 * double{far_away};
+    constexpr double size = 2.0 * static_cast<double>(far_away);
     Solid box;
     box.shape = core::BoxOf<double>{
         Vec3d(-0.5 * size), {size, 0.0, 0.0}, {0.0, size, 0.0}, {0.0, 0.0, size}};
