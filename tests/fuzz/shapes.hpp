@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/scene/validate.hpp"
+#include "core/shapes/shapes.hpp"
 #include "tests/any_shape.hpp"
 #include "tests/fuzz/bytes.hpp"
 
