@@ -139,7 +139,6 @@ void Tokens::end(const Place& place) {
     const Condition ended = frame.conditions.back();
     frame.conditions.pop_back();
     if (!ended.again) return;
-    count_steps(1, place);
     const Scanner behind = frame.scanner;
     frame.scanner = *ended.again;
     if (ended.kind == Condition::Kind::while_loop) {

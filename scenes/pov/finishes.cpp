@@ -176,6 +176,7 @@ Shared<Texture> read_texture(Tokens& tokens) {
 }
 
 Shared<Texture> read_texture(Tokens& tokens, std::string_view end) {
+    tokens.budget.count_words(Budget::words_of_item, tokens.peek().place);
     auto texture = std::make_shared<Texture>(*tokens.default_texture);
     texture->name = texture->pigment.name = {};
     while (!tokens.accept(end)) {

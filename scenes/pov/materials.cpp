@@ -202,6 +202,7 @@ core::MaterialIndex Materials::index_of(const Look& look, const Place& place,
     const core::Material material = material_of(look, place, plane);
     const auto [found, is_new] = known_.try_emplace(key_of(material), core::no_material);
     if (is_new) {
+        tokens_.budget.keep(sizeof(material) + 2 * sizeof(decltype(known_)::value_type), place);
         try {
             found->second = builder_.add_material(material);
         } catch (const core::InvalidValue& invalid) {

@@ -41,7 +41,7 @@ void read_mesh_triangle(Tokens& tokens, Mesh& mesh, bool is_smooth) {
     else
         triangle.shape = flat;
     mesh.triangles.push_back(triangle);
-    if (mesh.triangles.size() > most_shapes) fail(place, "must have fewer triangles");
+    tokens.budget.keep(sizeof(triangle), place);
 }
 
 /// "3, " of what follows.
@@ -181,6 +181,7 @@ class Mesh2Reader {
                 smooth_or_flat({flat.a, flat.b, flat.c, normal(0), normal(1), normal(2)});
         }
         mesh_.triangles.push_back(triangle);
+        tokens_.budget.keep(sizeof(triangle), face.place);
     }
 
     Tokens& tokens_;

@@ -315,6 +315,9 @@ Shared<Object> read_object(Tokens& tokens) {
         object.place = word.place;
     }
     read_modifiers(tokens, object);
+    const std::size_t others = object.parts.size() + object.clips.size();
+    object.room =
+        tokens.budget.reserve(sizeof(Object) + others * sizeof(Shared<Object>), object.place);
     return std::make_shared<const Object>(std::move(object));
 }
 

@@ -114,10 +114,7 @@ class Reader {
 
     /// Objects wait for the camera, which decides on which side things are.
     void add(Shared<Object> object) {
-        added_ += object->count;
-        if (added_ > most_shapes)
-            fail(object->place,
-                 "must be one of at most " + std::to_string(most_shapes) + " shapes");
+        tokens_.budget.count_words(Budget::words_of_item * object->count, object->place);
         added_lights_ += object->lights;
         if (added_lights_ > most_lights)
             fail(object->place,
@@ -183,7 +180,7 @@ class Reader {
     Tuple background_{{}, 5};
     Place camera_place_{};
     double aspect_ = 1.0;
-    std::size_t added_ = 0, added_lights_ = 0;
+    std::size_t added_lights_ = 0;
     bool has_background_ = false, has_camera_ = false, mirrored_ = false;
 };
 

@@ -132,7 +132,7 @@ bool begins_string(const Token& token) {
 std::string read_string(Tokens& tokens) {
     const Token token = tokens.next();
     std::string text = read_one(tokens, token);
-    tokens.count_string(text.size(), token.place);
+    tokens.budget.keep(text.size(), token.place);
     return text;
 }
 

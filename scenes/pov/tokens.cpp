@@ -9,8 +9,15 @@
 
 namespace raylane::scenes::pov {
 
+namespace {
+
+constexpr std::size_t words_of_call = 16; ///< of a macro, without its body
+
+} // namespace
+
 Tokens::Tokens(Source source, const OnRemark& on_remark) : on_remark_(on_remark) {
     sources_.push_back(std::move(source));
+    budget.add_file(sources_.front().text.size());
     frames_.push_back({Scanner(sources_.front()), FrameKind::file});
 }
 
@@ -37,7 +44,7 @@ void Tokens::remark(const Place& place, const std::string& what) {
 Token Tokens::raw() {
     for (;;) {
         const Token token = frames_.back().scanner.next();
-        if (++tokens_ > most_tokens) fail(token.place, "must expand to at most 1e9 words");
+        budget.count_words(1, token.place);
         if (token.is("}") && frames_.back().kind == FrameKind::function) {
             frames_.pop_back();
             return {TokenKind::symbol, ")", 0.0, token.place};
@@ -209,24 +216,6 @@ Token Tokens::raw_word(const char* what) {
     return token;
 }
 
-void Tokens::count_steps(std::size_t steps, const Place& place) {
-    if ((steps_ += steps) > most_steps)
-        fail(place,
-             "must not take more than 20 million steps: turns of loops, and five for a macro");
-}
-
-std::shared_ptr<void> Tokens::reserve(std::size_t bytes, const Place& place) {
-    if (*array_bytes_ + bytes > most_bytes)
-        fail(place, "must not have arrays of more than 256 MB in all");
-    *array_bytes_ += bytes;
-    return {nullptr, [all = array_bytes_, bytes](std::nullptr_t) { *all -= bytes; }};
-}
-
-void Tokens::count_string(std::size_t bytes, const Place& place) {
-    if ((string_bytes_ += bytes) > most_bytes)
-        fail(place, "must not make strings of more than 256 MB in all");
-}
-
 void Tokens::enter(Frame frame) {
     if (frames_.size() >= static_cast<std::size_t>(deepest))
         fail(frame.place, "must not be of files and macros that are in each other more than " +
@@ -381,16 +370,16 @@ void Tokens::assign(Array& array, std::span<const std::size_t> indices, Value va
         assign(**inner, indices.subspan(own), std::move(value), name);
         value = element;
     }
-    set_element(array, index, std::move(value), name.place);
+    set_element(budget, array, index, std::move(value), name.place);
 }
 
 /// An array has names of its own, and no other is in it that may change.
 Value Tokens::copied(Value value, const Place& place) {
     const auto* array = value.get_if<std::shared_ptr<Array>>();
     if (array == nullptr) return value;
-    tokens_ += (*array)->values.size();
-    if (tokens_ > most_tokens) fail(place, "must copy fewer elements of arrays, at most 1e9");
-    std::shared_ptr<void> room = reserve((*array)->values.size() * sizeof(Value), place);
+    const std::size_t count = (*array)->values.size();
+    budget.count_words(count, place);
+    std::shared_ptr<void> room = budget.reserve(count * sizeof(Value), place);
     auto copy = std::make_shared<Array>(**array);
     copy->room = std::move(room);
     return {std::move(copy)};
@@ -439,7 +428,7 @@ Value Tokens::read_function_value() {
 }
 
 void Tokens::call(const Shared<Macro> macro, const Place& place) {
-    count_steps(5, place);
+    budget.count_words(words_of_call, place);
     const Level level(depth, place);
     expect("(");
     Frame frame{macro->body, macro->is_function ? FrameKind::function : FrameKind::macro, place};
@@ -482,7 +471,7 @@ void Tokens::read_argument(Frame& frame, std::string_view parameter) {
 void Tokens::include() {
     const Token token = peek();
     const std::string name = read_string(*this);
-    count_steps(5, token.place);
+    budget.count_words(words_of_call, token.place);
     open(name, token.place);
 }
 
@@ -554,6 +543,7 @@ void Tokens::open(const std::string& name, const Place& place) {
         fail(place, invalid.expectation);
     }
     included_.emplace(name, &sources_.back());
+    budget.add_file(sources_.back().text.size());
     enter({Scanner(sources_.back()), FrameKind::file, place});
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/included_files.hpp"
+#include "scenes/pov/budget.hpp"
 #include "scenes/pov/includes.hpp"
 #include "scenes/pov/value.hpp"
 
@@ -17,11 +18,8 @@ namespace raylane::scenes::pov {
 
 /// Limits that no scene that is meant comes near to.
 inline constexpr int deepest = 128; ///< statements, expressions, macros in each other
-inline constexpr std::size_t most_shapes = std::size_t{1} << 24;
+inline constexpr std::size_t most_shapes = std::size_t{1} << 23; ///< of an object
 inline constexpr std::size_t most_lights = std::size_t{1} << 16;
-inline constexpr std::size_t most_steps = 20'000'000;           ///< turns of loops; a macro is five
-inline constexpr std::size_t most_bytes = std::size_t{1} << 28; ///< of arrays, and of strings
-inline constexpr std::size_t most_tokens = 1'000'000'000;       ///< of all that is expanded
 inline constexpr std::size_t most_elements = std::size_t{1} << 20;
 inline constexpr std::size_t longest_string = std::size_t{1} << 16;
 
@@ -83,11 +81,6 @@ class Tokens {
     void declare(std::string_view name, Value value, bool is_local);
     /// A value to keep under another name: an array is one of its own, so that none is in itself.
     Value copied(Value value, const Place& place);
-    /// Fails where all arrays would have more than `most_bytes`.
-    /// The bytes are given back with the pointer.
-    std::shared_ptr<void> reserve(std::size_t bytes, const Place& place);
-    /// Fails where all strings that were ever made have more than `most_bytes`.
-    void count_string(std::size_t bytes, const Place& place);
     /// "function(A, B) { EXPRESSION }", past the word: a macro; one of a pigment or the like is not
     /// drawn.
     Value read_function_value();
@@ -102,6 +95,7 @@ class Tokens {
     /// From 0 to 1.
     double next_random(double stream, const Place& place);
 
+    Budget budget;
     int depth = 0;         ///< statements, expressions and macros in each other
     int open_brackets = 0; ///< brackets whose ends have not been read
     /// Version of the language by the last #version. Without any, POV-Ray 3.7 takes the scene for
@@ -187,7 +181,6 @@ class Tokens {
     bool condition();
     /// One or two numbers.
     std::array<double, 2> read_in_parentheses();
-    void count_steps(std::size_t steps, const Place& place);
     void enter(Frame frame);
 
     std::deque<Source> sources_; ///< tokens and names refer to their texts
@@ -208,13 +201,12 @@ class Tokens {
     std::unordered_map<std::string_view, StandardName> standard_names_;
     std::set<std::string_view> standard_files_; ///< that are included
     std::optional<Place> standard_use_;         ///< of the standard name that is being declared
-    std::size_t steps_ = 0, tokens_ = 0, frames_entered_ = 0, string_bytes_ = 0;
-    std::shared_ptr<std::size_t> array_bytes_ = std::make_shared<std::size_t>(0);
+    std::size_t frames_entered_ = 0;
 };
 
 /// What may stand behind "#declare NAME =", or as an argument of a macro.
 Value read_value(Tokens& tokens);
 /// Puts into an array what has been copied.
-void set_element(Array& array, std::size_t index, Value value, const Place& place);
+void set_element(Budget& budget, Array& array, std::size_t index, Value value, const Place& place);
 
 } // namespace raylane::scenes::pov

@@ -135,11 +135,12 @@ struct Object {
     Shared<Interior> interior{};
     Shared<Motion> motion{};
     bool inverse = false;
-    bool is_hidden = false; ///< that is left out
-    std::size_t count = 1;  ///< of shapes in it, its clips with them
-    std::size_t lights = 0; ///< in it
-    std::size_t pieces = 1; ///< that it is in a scene, each with all of its clips
-    int depth = 1;          ///< of objects in it
+    bool is_hidden = false;       ///< that is left out
+    std::size_t count = 1;        ///< of shapes in it, its clips with them
+    std::size_t lights = 0;       ///< in it
+    std::size_t pieces = 1;       ///< that it is in a scene, each with all of its clips
+    int depth = 1;                ///< of objects in it
+    std::shared_ptr<void> room{}; ///< in the budget, given back with the object
 };
 
 struct Camera {
@@ -164,7 +165,7 @@ struct Array {
     std::vector<std::size_t> sizes;
     std::vector<Value> values;
     int depth = 1;                ///< of arrays in it
-    std::shared_ptr<void> room{}; ///< in Tokens::reserve's bytes, given back with the array
+    std::shared_ptr<void> room{}; ///< in the budget, given back with the array
 };
 struct Macro {
     std::string_view name;

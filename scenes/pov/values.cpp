@@ -25,7 +25,8 @@ void read_elements(Tokens& tokens, Array& array, std::size_t dimension, std::siz
         if (dimension + 1 < sizes.size())
             read_elements(tokens, array, dimension + 1, at);
         else
-            set_element(array, at++, tokens.copied(read_value(tokens), place), place);
+            set_element(tokens.budget, array, at++, tokens.copied(read_value(tokens), place),
+                        place);
         tokens.accept(",");
     }
     tokens.expect("}");
@@ -39,7 +40,7 @@ Value read_array(Tokens& tokens, const Place& place) {
         if ((count *= size) > most_elements) break;
     if (count == 0 || count > most_elements || array->sizes.size() > 4)
         fail(place, "must be an array of 1 to " + std::to_string(most_elements) + " elements");
-    array->room = tokens.reserve(count * sizeof(Value), place);
+    array->room = tokens.budget.reserve(count * sizeof(Value), place);
     array->values.resize(count);
     std::size_t at = 0;
     if (tokens.ahead().is("{")) read_elements(tokens, *array, 0, at);
@@ -48,7 +49,10 @@ Value read_array(Tokens& tokens, const Place& place) {
 
 } // namespace
 
-void set_element(Array& array, std::size_t index, Value value, const Place& place) {
+void set_element(Budget& budget, Array& array, std::size_t index, Value value, const Place& place) {
+    constexpr std::size_t large = 512; // bytes, such as of a texture or an object
+    if (value.get_if<Tuple>() == nullptr && value.get_if<std::string>() == nullptr)
+        budget.keep(large, place);
     if (const auto* inner = value.get_if<std::shared_ptr<Array>>()) {
         array.depth = std::max(array.depth, (*inner)->depth + 1);
         if (array.depth > deepest)
