@@ -225,11 +225,17 @@ void add_operation(const gemmi::Op& op, gemmi::UnitCell& cell) {
             gemmi::Transform{gemmi::rot_as_mat33(op), gemmi::tran_as_vec3(op)});
 }
 
+constexpr int most_operations = 192; ///< F m -3 m has as many
+
 /// What the file says itself, or else its space group's.
 void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure) {
     for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
         gemmi::cif::Column operations = block.find_values(tag);
         if (!operations) continue;
+        if (operations.length() > most_operations)
+            throw std::runtime_error("it has " + std::to_string(operations.length()) +
+                                     " operations of symmetry, and no space group has more than " +
+                                     std::to_string(most_operations) + " in its cell");
         structure.cell.images.clear();
         for (const std::string& text : operations)
             add_operation(gemmi::parse_triplet(with_fractions(gemmi::cif::as_string(text))),

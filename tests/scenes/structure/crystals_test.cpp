@@ -146,6 +146,11 @@ TEST_CASE("a crystal's own operations of symmetry count, or those of its space g
         error("_symmetry_space_group_name_H-M 'P foo'\n") ==
         "a: its space group \"P foo\" is none that is known, and it has no operations of symmetry");
     CHECK(error("loop_\n_space_group_symop_operation_xyz\nx,y,z\n-x,-y,-q\n").starts_with("a: "));
+    std::string many = "loop_\n_symmetry_equiv_pos_as_xyz\n";
+    for (int i = 0; i < 193; ++i)
+        many += "'x+" + std::to_string(i % 24) + "/24,y+" + std::to_string(i / 24) + "/24,z'\n";
+    CHECK(complaint(open_cif, cube + many + sites("C1 C 0.1 0.2 0.3\n")) ==
+          "a: it has 193 operations of symmetry, and no space group has more than 192 in its cell");
 }
 
 TEST_CASE("molecules of a crystal stay together, with their middles in the cell") {
