@@ -108,13 +108,24 @@ class FlakeBuilder {
 
 } // namespace
 
-void add(core::SceneBuilder& builder, const Sphereflake& flake, core::MaterialIndex material) {
+std::size_t count_of(const Sphereflake& flake) {
     require_count("depth", flake.depth, 0, Sphereflake::most_depth);
-    if (flake.up == Vec3f(0.0F))
-        throw InvalidValue("up", "must not be the zero vector, got [0, 0, 0]");
     std::size_t count = 0;
     for (int level = 0; level <= flake.depth; ++level)
         count = 9 * count + 1;
+    return count;
+}
+
+std::size_t count_of(const Lattice& lattice) {
+    require_count("n", lattice.n, 1, Lattice::most_nodes);
+    const auto n = static_cast<std::size_t>(lattice.n);
+    return n * n * n + 3 * n * n * (n - 1);
+}
+
+void add(core::SceneBuilder& builder, const Sphereflake& flake, core::MaterialIndex material) {
+    const std::size_t count = count_of(flake);
+    if (flake.up == Vec3f(0.0F))
+        throw InvalidValue("up", "must not be the zero vector, got [0, 0, 0]");
     reserve(builder, count);
     FlakeBuilder(builder, flake, material)
         .grow(core::convert<double>(flake.center), static_cast<double>(flake.radius),
@@ -124,7 +135,7 @@ void add(core::SceneBuilder& builder, const Sphereflake& flake, core::MaterialIn
 void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialIndex material,
          core::MaterialIndex strut_material) {
     const int n = lattice.n;
-    require_count("n", n, 1, Lattice::most_nodes);
+    const std::size_t count = count_of(lattice);
     require_positive("spacing", lattice.spacing);
     require_positive("sphere_radius", lattice.sphere_radius);
     require_positive("strut_radius", lattice.strut_radius);
@@ -143,8 +154,7 @@ void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialInde
                 for (int x = 0; x < end.x; ++x)
                     visit(node(x, y, z));
     };
-    const auto count = static_cast<std::size_t>(n);
-    reserve(builder, count * count * count + 3 * count * count * (count - 1));
+    reserve(builder, count);
     for_each_node(Vec3i(n), [&](const Vec3f& center) {
         builder.add(core::Sphere{center, lattice.sphere_radius}, material);
     });

@@ -30,6 +30,10 @@ struct Lattice {
     static constexpr int most_nodes = 256;
 };
 
+/// The number of shapes. Throws core::InvalidValue for a depth or a number of nodes out of range.
+std::size_t count_of(const Sphereflake& flake);
+std::size_t count_of(const Lattice& lattice);
+
 /// n^3 spheres on a cubic grid, then 3 n^2 (n - 1) struts.
 void add(core::SceneBuilder& builder, const Lattice& lattice, core::MaterialIndex material,
          core::MaterialIndex strut_material);

@@ -29,14 +29,16 @@ enum class Use {
     part,   ///< a solid
 };
 
-/// Of what an object is by way of instances.
+/// Shapes that an object is made of by instances, and likewise all definitions, which are kept.
 constexpr std::size_t most_parts = std::size_t{1} << 20;
 constexpr int most_depth = 256;
 
 /// Describes objects within one object of the file.
 class Describer {
   public:
-    explicit Describer(const ObjectContext& given) : context(given) {}
+    explicit Describer(const ObjectContext& given) : context(given), parts_(own_parts_) {}
+    /// For a definition: adds its instances' shapes to those of earlier definitions.
+    Describer(const ObjectContext& given, std::size_t& parts) : context(given), parts_(parts) {}
 
     std::vector<Solid> described(const JsonValue& object, Use use);
 
@@ -45,7 +47,8 @@ class Describer {
   private:
     std::vector<Solid> instance_of(const JsonValue& object, Use use);
 
-    std::size_t parts_ = 0; // of instances
+    std::size_t own_parts_ = 0;
+    std::size_t& parts_; // of instances
 };
 
 /// Reads one object, and adds it or describes it.
@@ -132,7 +135,10 @@ class ObjectReader {
                           .depth = integer("depth")};
         if (const auto up = object_.find("up")) flake.up = up->vector();
         const core::MaterialIndex own = material();
-        checked(object_, [&] { scenes::add(*builder_, flake, own); });
+        checked(object_, [&] {
+            context_.definitions.count(count_of(flake), object_);
+            scenes::add(*builder_, flake, own);
+        });
     }
 
     void lattice();
@@ -353,7 +359,10 @@ void ObjectReader::lattice() {
     const auto struts = object_.find("strut_material");
     const core::MaterialIndex own = material();
     const core::MaterialIndex strut_material = struts ? context_.material_of(*struts) : own;
-    checked(object_, [&] { scenes::add(*builder_, lattice, own, strut_material); });
+    checked(object_, [&] {
+        context_.definitions.count(count_of(lattice), object_);
+        scenes::add(*builder_, lattice, own, strut_material);
+    });
 }
 
 using Read = void (*)(ObjectReader&);
@@ -411,7 +420,8 @@ std::vector<Solid> Describer::instance_of(const JsonValue& object, Use use) {
     parts_ += definition.parts;
     if (parts_ > most_parts)
         name.fail("must not lead to more than " + std::to_string(most_parts) +
-                  " shapes in one object");
+                  " shapes in one object, or in all definitions");
+    context.definitions.count(definition.parts, name);
     std::vector<Solid> solids = definition.solids;
     for (Solid& solid : solids)
         if (use == Use::part && is_quadric(solid)) solid = in_box(solid, Made::by_intersection);
@@ -466,6 +476,13 @@ const Definition& Definitions::named_by(const JsonValue& value) {
     return *found->second;
 }
 
+void Definitions::count(std::size_t shapes, const JsonValue& value) {
+    asked_for_ += shapes;
+    if (asked_for_ > most_asked_for)
+        value.fail("must not lead to more than " + std::to_string(most_asked_for) +
+                   " shapes of instances, lattices and sphereflakes in one scene");
+}
+
 void add_object(const JsonValue& object, core::SceneBuilder& builder,
                 const ObjectContext& context) {
     ObjectReader reader(object, builder, context);
@@ -476,7 +493,8 @@ void add_object(const JsonValue& object, core::SceneBuilder& builder,
 }
 
 Definition described_object(const JsonValue& object, const ObjectContext& context) {
-    Definition definition{Describer(context).described(object, Use::member), 0};
+    Describer describer(context, context.definitions.kept_parts);
+    Definition definition{describer.described(object, Use::member), 0};
     for (const Solid& solid : definition.solids) {
         definition.parts += core::count_parts(solid);
         if (core::depth_of(solid) > most_depth)

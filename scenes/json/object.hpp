@@ -38,7 +38,16 @@ class Definitions {
     /// only the first time for each name, and only if no other error is the cause.
     const Definition& named_by(const JsonValue& value);
 
+    /// Counts shapes that a few words ask for: of instances, lattices and sphereflakes. Throws
+    /// BadInput at the value where all of them are more than `most_asked_for`.
+    void count(std::size_t shapes, const JsonValue& value);
+
+    static constexpr std::size_t most_asked_for = std::size_t{1} << 26;
+
+    std::size_t kept_parts = 0; ///< shapes of instances in all definitions
+
   private:
+    std::size_t asked_for_ = 0;
     std::map<std::string, std::optional<Definition>, std::less<>> all_;
     std::set<std::string, std::less<>> unknown_;
 };

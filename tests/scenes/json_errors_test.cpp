@@ -1,6 +1,8 @@
 #include "core/kinds.hpp"
+#include "scenes/json/object.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/json_scenes.hpp"
+#include "tests/scenes/message_of.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -136,10 +138,22 @@ TEST_CASE("complaints about solids name the shape, and there is an end to instan
                 std::to_string(i - 1) + "\"}]}";
     check({
         {with(twice + "}"),
-         "/definitions/21/objects/1/of: must not lead to more than 1048576 shapes in one object"},
+         "/definitions/20/objects/0/of: must not lead to more than 1048576 shapes in one object, "
+         "or in all definitions"},
         {with(deep + "}"),
          "/definitions/256: must not be of solids that are nested more than 256 deep"},
     });
+}
+
+TEST_CASE("shapes of instances and generators have a limit for the whole scene") {
+    scenes::JsonDocument document;
+    document.begin("scene.json", "/objects/7");
+    document.add(scenes::JsonType::number, {}, "", "8", 8.0);
+    scenes::Definitions definitions;
+    definitions.count(scenes::Definitions::most_asked_for, document.root());
+    CHECK(message_of<scenes::BadInput>([&] { definitions.count(1, document.root()); })
+              .ends_with("/objects/7: must not lead to more than 67108864 shapes of instances, "
+                         "lattices and sphereflakes in one scene"));
 }
 
 TEST_CASE("complaints about types") {
