@@ -1,5 +1,7 @@
+#include "scenes/errors.hpp"
 #include "scenes/generators.hpp"
 #include "scenes/json/reader.hpp"
+#include "scenes/scene_file.hpp"
 #include "simd/scene_data.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/temporary_directory.hpp"
@@ -216,4 +218,123 @@ TEST_CASE("of four million spheres that are packed each takes 20 bytes, with all
     // Of each table, what its last huge page has more than it holds is chance: 2 MiB at most.
     check_packed_memory([&](core::SceneBuilder& builder) { add_uniform(builder, 4'000'000); });
     check_packed_memory([&](core::SceneBuilder& builder) { add_atoms(builder, 160); });
+}
+
+namespace {
+
+std::string repeated(int times, const std::string& text) {
+    std::string all;
+    for (int i = 0; i < times; ++i)
+        all += text;
+    return all;
+}
+
+/// A line of the table in SECURITY.md, and a file to try it with.
+struct Budget {
+    std::string name, text; ///< of a file
+    double bytes_for_each;
+    double megabytes = 16; ///< besides
+};
+
+void check_budget(const Budget& file) {
+    const std::size_t before = live;
+    peak = before;
+    std::string refused;
+    try {
+        scenes::LoadOptions options;
+        options.on_remark = [](const std::string&) {};
+        scenes::parse_scene(file.name, file.text, options);
+    } catch (const scenes::BadInput& bad) {
+        refused = std::string(bad.what()).substr(0, 200);
+    }
+    const auto bytes = static_cast<double>(peak - before);
+    const auto size = static_cast<double>(file.text.size());
+    CAPTURE(file.name, file.text.substr(0, 200), size, bytes, bytes / size, refused);
+    CHECK(bytes <= file.bytes_for_each * size + file.megabytes * (1 << 20));
+}
+
+} // namespace
+
+TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
+    constexpr int many = 30'000;
+    const std::string json = R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "lights": [],
+        "materials": {"m": {}}, "objects": [)";
+    const std::string sphere =
+        R"({"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"},)";
+    const std::string camera = "camera { location 1 look_at 0 }\n";
+    const std::string cell =
+        "data_a\n_cell_length_a 9\n_cell_length_b 9\n_cell_length_c 9\n_cell_angle_alpha 90\n"
+        "_cell_angle_beta 90\n_cell_angle_gamma 90\n_symmetry_space_group_name_H-M 'F m -3 m'\n"
+        "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n";
+    std::string sites, named, atoms;
+    for (int i = 0; i < many / 10; ++i)
+        sites += "C ." + std::to_string(i + 1000) + " ." + std::to_string(2 * i + 1000) + " ." +
+                 std::to_string(3 * i + 1000) + "\n";
+    for (int i = 0; i < many; ++i)
+        named += "#declare A" + std::to_string(i) + " = 1;";
+    for (int i = 1; i <= many; ++i)
+        atoms += std::to_string(i) + " 1 1 1 1\n";
+    const std::string box = "ITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n";
+    const std::string count = std::to_string(many);
+    for (const Budget& file : {
+             Budget{"a.json",
+                    json + repeated(many, sphere) + sphere.substr(0, sphere.size() - 1) + "]}", 64},
+             Budget{"a.json",
+                    json + R"({"type": "union", "material": "m", "objects": [)" +
+                        repeated(many, sphere) + sphere.substr(0, sphere.size() - 1) + "]}]}",
+                    64},
+             Budget{"a.json", repeated(many, "["), 64},
+             Budget{"a.json", R"({"camera": {"from": [)" + repeated(many, "1,"), 64},
+             Budget{"a.nff",
+                    "v\nfrom 0 0 9\nat 0 0 0\nup 0 1 0\nangle 40\nhither 1\nresolution 9 9\nl 9 9 "
+                    "9\nf 1 1 1 1 0 0 0 0\n" +
+                        repeated(many, "s 0 0 0 1\n"),
+                    64},
+             Budget{"a.pov", camera + repeated(many, "sphere{0,1}"), 64},
+             Budget{"a.pov", camera + "union{" + repeated(many, "sphere{0,1}") + "}", 64},
+             Budget{"a.pov", camera + "mesh{" + repeated(many, "triangle{0,x,y}") + "}", 64},
+             Budget{"a.pov", camera + named, 64},
+             Budget{"a.pov", camera + "#while(1)sphere{0,1}#end", 64, 640},
+             Budget{"a.pov", "union{#while(1)sphere{0,1}#end}", 64, 640},
+             Budget{"a.pov",
+                    "#declare A=array[1000000];#for(I,0,999999)#declare A[I]=array[9];#end", 64,
+                    640},
+             Budget{"a.pov", "#for(I,0,1e7)sphere{0,1 pigment{rgb I}}#end", 64, 640},
+             Budget{"a.dat",
+                    "BEGIN_SCENE\n" +
+                        repeated(many, "SPHERE CENTER 0 0 0 RAD 1 TEXTURE AMBIENT 0 DIFFUSE 1 "
+                                       "SPECULAR 0 OPACITY 1 COLOR 1 1 1 TEXFUNC 0\n") +
+                        "END_SCENE",
+                    64},
+             Budget{"a.pdb",
+                    repeated(many, "ATOM      1  C   ALA A   1       0.000   0.000   0.000\n"), 64},
+             Budget{"a.cif", cell + sites, 2048},
+             Budget{"a.xyz", count + "\n\n" + repeated(many, "C 0 0 0\n"), 64},
+             Budget{"a.xyz", "2000000000\n\nC 0 0 0\n", 64},
+             Budget{"a.gro",
+                    "a\n" + count + "\n" +
+                        repeated(many, "    1AAA      C    1   0.000   0.000   0.000\n") +
+                        "9 9 9\n",
+                    64},
+             Budget{"a.gro", "a\n2000000000\n", 64},
+             Budget{"a.lammpstrj",
+                    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n" + count + "\n" + box +
+                        "ITEM: ATOMS type x y z\n" + repeated(many, "1 1 1 1\n"),
+                    64},
+             Budget{"a.lammpstrj",
+                    "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2000000000\n" + box +
+                        "ITEM: ATOMS type x y z\n1 1 1 1\n",
+                    64},
+             Budget{"a.lmp",
+                    "a\n\n" + count +
+                        " atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms # "
+                        "atomic\n\n" +
+                        atoms,
+                    64},
+             Budget{"a.lmp",
+                    "a\n\n2000000000 atoms\n2000000000 bonds\n1 atom types\n0 9 xlo xhi\n0 9 ylo "
+                    "yhi\n0 9 zlo zhi\n\nAtoms # atomic\n\n1 1 1 1 1\n",
+                    64},
+         })
+        check_budget(file);
 }
