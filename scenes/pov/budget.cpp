@@ -1,7 +1,5 @@
 #include "scenes/pov/budget.hpp"
 
-#include "scenes/errors.hpp"
-
 namespace raylane::scenes::pov {
 
 void Budget::count_words(std::size_t words, const Place& place) {

@@ -176,8 +176,8 @@ Shared<Texture> read_texture(Tokens& tokens) {
 }
 
 Shared<Texture> read_texture(Tokens& tokens, std::string_view end) {
-    tokens.budget.count_words(Budget::words_of_item, tokens.peek().place);
     auto texture = std::make_shared<Texture>(*tokens.default_texture);
+    tokens.budget.count_words(Budget::words_of_item, tokens.peek().place);
     texture->name = texture->pigment.name = {};
     while (!tokens.accept(end)) {
         if (const auto known = tokens.accept_value<Texture>()) {

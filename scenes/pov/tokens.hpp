@@ -18,7 +18,7 @@ namespace raylane::scenes::pov {
 
 /// Limits that no scene that is meant comes near to.
 inline constexpr int deepest = 128; ///< statements, expressions, macros in each other
-inline constexpr std::size_t most_shapes = std::size_t{1} << 23; ///< of an object
+inline constexpr std::size_t most_shapes = std::size_t{1} << 24; ///< of an object
 inline constexpr std::size_t most_lights = std::size_t{1} << 16;
 inline constexpr std::size_t most_elements = std::size_t{1} << 20;
 inline constexpr std::size_t longest_string = std::size_t{1} << 16;

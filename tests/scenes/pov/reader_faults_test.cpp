@@ -32,11 +32,11 @@ TEST_CASE("POV-Ray: clips are counted, and how deep they are in each other") {
           std::string::npos);
     CHECK(many("200000", "sphere { 0, 1 clipped_by { S } }").find(deep) != std::string::npos);
     CHECK(many("26", "sphere { 0, 1 clipped_by { S } clipped_by { S } }")
-              .find("must not be of more than 8388608 shapes") != std::string::npos);
+              .find("must not be of more than 16777216 shapes") != std::string::npos);
     CHECK(complaint("#declare P = union { sphere { 0, 1 } sphere { x, 1 } }\n"
                     "#for (I, 1, 14) #declare P = union { object { P } object { P } } #end\n"
                     "object { P clipped_by { P } }")
-              .find("must not be of more than 8388608 shapes") != std::string::npos);
+              .find("must not be of more than 16777216 shapes") != std::string::npos);
 }
 
 TEST_CASE("POV-Ray: str makes of a number what POV-Ray does") {
