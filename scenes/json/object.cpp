@@ -36,19 +36,19 @@ constexpr int most_depth = 256;
 /// Describes objects within one object of the file.
 class Describer {
   public:
-    explicit Describer(const ObjectContext& given) : context(given), parts_(own_parts_) {}
-    /// For a definition: adds its instances' shapes to those of earlier definitions.
-    Describer(const ObjectContext& given, std::size_t& parts) : context(given), parts_(parts) {}
+    /// `parts`: shapes of instances that count besides.
+    explicit Describer(const ObjectContext& given, std::size_t parts = 0)
+        : context(given), parts_(parts) {}
 
     std::vector<Solid> described(const JsonValue& object, Use use);
+    std::size_t parts() const { return parts_; }
 
     const ObjectContext& context;
 
   private:
     std::vector<Solid> instance_of(const JsonValue& object, Use use);
 
-    std::size_t own_parts_ = 0;
-    std::size_t& parts_; // of instances
+    std::size_t parts_; // of instances
 };
 
 /// Reads one object, and adds it or describes it.
@@ -495,6 +495,7 @@ void add_object(const JsonValue& object, core::SceneBuilder& builder,
 Definition described_object(const JsonValue& object, const ObjectContext& context) {
     Describer describer(context, context.definitions.kept_parts);
     Definition definition{describer.described(object, Use::member), 0};
+    context.definitions.kept_parts = describer.parts();
     for (const Solid& solid : definition.solids) {
         definition.parts += core::count_parts(solid);
         if (core::depth_of(solid) > most_depth)
