@@ -96,17 +96,17 @@ TEST_CASE("a quadric between planes has bounds that hold it") {
         {"hyperboloid", {quadric(1.0, -4.0, 1.0, 0.0, -1.0), above, below}, 1.0, 4.0, 0.0},
         {"paraboloid", {quadric(1.0, 0.0, 1.0, -0.5, 0.0), above, below}, 0.0, 0.0, 1.0}};
     Random random(2);
-    for (const Body& body : bodies)
+    for (const Body& sample : bodies)
         for (int round = 0; round < 100; ++round) {
-            CAPTURE(body.name, round);
+            CAPTURE(sample.name, round);
             const Transform transform = round == 0 ? Transform() : any_transform(random);
-            const Bounds bounds = bounds_of_common(moved(body.shapes, transform));
+            const Bounds bounds = bounds_of_common(moved(sample.shapes, transform));
             REQUIRE(is_finite(bounds));
             for (int i = 0; i < 50; ++i) {
                 const double height = random.uniform(-0.999, 0.999);
                 const double turn = random.uniform(0.0, 6.28);
-                if (squared_radius(body, height) < 0.0) continue;
-                const double radius = 0.999 * std::sqrt(squared_radius(body, height));
+                if (squared_radius(sample, height) < 0.0) continue;
+                const double radius = 0.999 * std::sqrt(squared_radius(sample, height));
                 CHECK(bounds.contains(
                     image(transform, {radius * std::cos(turn), height, radius * std::sin(turn)})));
             }
