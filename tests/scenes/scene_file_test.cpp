@@ -132,15 +132,16 @@ TEST_CASE("Scenes of each format include regular files, and not too many") {
         {"a.pov", "", "#include \"", "\"\n", ""},
         {"a.dat", "BEGIN_SCENE\nRESOLUTION 4 4\n", "INCLUDE ", "\n", "END_SCENE"},
     };
-    for (const auto& [name, start, before, behind, end] : formats) {
+    for (const Including& format : formats) {
+        const char* const name = format.name;
         CAPTURE(name);
         const tests::TemporaryDirectory directory;
         directory.write("x", std::string(name) == "a.json" ? "{}" : "");
         const auto complaint = [&](const std::vector<std::string>& files) {
-            std::string text = start;
+            std::string text = format.start;
             for (const std::string& file : files)
-                text += before + file + behind;
-            const auto path = directory.write(name, text + end);
+                text += format.before + file + format.behind;
+            const auto path = directory.write(name, text + format.end);
             return tests::message_of<BadInput>([&] { load_scene(path); });
         };
         // Nobody writes into it.

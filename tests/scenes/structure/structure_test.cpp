@@ -311,8 +311,9 @@ TEST_CASE("atoms that are no balls are ellipsoids in the proportions of the styl
         drawing.style = style;
         return draw_structure(structure, drawing, "a");
     };
-    for (const auto& [style, size] : {std::pair(Style::automatic, 1.0F), {Style::balls, 0.5F}}) {
-        const raylane::core::Scene scene = drawn(style);
+    for (const auto& drawing : {std::pair(Style::automatic, 1.0F), {Style::balls, 0.5F}}) {
+        const float size = drawing.second;
+        const raylane::core::Scene scene = drawn(drawing.first);
         const auto& ellipsoids = std::get<Table<Ellipsoid>>(scene.shapes());
         REQUIRE(ellipsoids.size() == 1);
         CHECK(std::get<Table<Sphere>>(scene.shapes()).size() == 1);
