@@ -116,7 +116,8 @@ TEST_CASE("Ambient, diffuse and specular light add up as the shading equation sa
 }
 
 TEST_CASE("Reflected light is added in full, and a color may exceed 1") {
-    const Surface surface{Vector(1.0), double{0.1F}, double{0.8F}, 0.0, 32.0};
+    const Surface surface{Vector(1.0), static_cast<double>(0.1F), static_cast<double>(0.8F), 0.0,
+                          32.0};
     const Vector up(0.0, 1.0, 0.0), to_viewer(0.0, 0.6, 0.8);
     const auto scene = [&](const std::string& how) {
         return camera("[0, 3, 4]", "[0, 0, 0]") + ", " + back +
