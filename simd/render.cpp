@@ -62,15 +62,24 @@ void note_samples(const Tracer& tracer, const core::Region& tile, const core::Re
                                   static_cast<unsigned>(x - tile.x0)));
 }
 
+/// Of each of the pictures that a picture is the sum of; none if it has no quality.
+using Surveys = std::vector<core::Survey>;
+
+core::Survey* survey_of(Surveys& surveys, std::size_t picture) {
+    return surveys.empty() ? nullptr : &surveys[picture];
+}
+
 /// `scene`: null if nothing is made of first hits.
 template <class Tracer>
-Rendering render_by(const std::function<Tracer()>& make_tracer, const core::Settings& settings,
-                    const RenderOptions& options, const SceneData* scene) {
+Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
+                    const core::Settings& settings, const RenderOptions& options,
+                    const SceneData* scene, std::size_t pictures = 1) {
     const TileGrid grid = grid_of(settings, options);
     const core::Region part = grid.part(), crop = options.crop.value_or(part);
     Rendering rendering{core::Film(part, settings.alpha), {}, {}};
     if (options.layers) rendering.layers = {crop.x1 - crop.x0, crop.y1 - crop.y0};
-    PerThread<Tracer> tracers(make_tracer);
+    Surveys surveys(settings.quality != 0.0F ? pictures : 0, core::Survey(settings));
+    PerThread<Tracer> tracers([&] { return make_tracer(surveys); });
     PerThread<FirstHitPasses> passes(
         [&] { return FirstHitPasses(*scene, settings, kernels_of(options.isa)); });
     const auto is_abandoned = [&] {
@@ -114,6 +123,16 @@ Rendering render_by(const std::function<Tracer()>& make_tracer, const core::Sett
                 options.after_tile({region, rendering.film, rendering.layers, of_tile});
             });
     };
+    if (!surveys.empty() && !is_stopped())
+        for (const auto pass : {core::Survey::Pass::look, core::Survey::Pass::sample}) {
+            on_threads(options.threads, [&] {
+                parallel_for(surveys.front().batches(pass), [&](std::size_t batch) {
+                    if (!is_stopped()) tracers.local().survey(pass, batch);
+                });
+            });
+            for (core::Survey& survey : surveys)
+                survey.end(pass);
+        }
     for_each_tile(grid, options.threads, draw, options.tiles);
     rendering.complete = complete;
     tracers.for_each([&](const Tracer& tracer) { rendering.counters += tracer.counters(); });
@@ -130,6 +149,11 @@ class SpectralTracer {
                    const core::Settings& settings)
         : tracers_(std::move(tracers)), shares_(shares),
           film_(settings.width, settings.height, settings.alpha) {}
+
+    void survey(core::Survey::Pass pass, std::size_t batch) {
+        for (Tracer& tracer : tracers_)
+            tracer.survey(pass, batch);
+    }
 
     void render(const core::Region& region, core::Film& film) {
         for (std::size_t i = 0; i < tracers_.size(); ++i) {
@@ -187,17 +211,20 @@ Rendering render_reference(const core::Scene& scene, const core::Settings& setti
     if (!scene.wavelengths().empty()) {
         const Spectrum spectrum(scene);
         return render_by<SpectralTracer<Tracer>>(
-            [&] {
+            [&](Surveys& surveys) {
                 std::vector<Tracer> tracers;
                 for (const core::Scene& of_one : spectrum.scenes)
                     tracers.emplace_back(of_one, settings, core::Search::hierarchy,
-                                         options.precision);
+                                         options.precision, survey_of(surveys, tracers.size()));
                 return SpectralTracer<Tracer>(std::move(tracers), spectrum.shares, settings);
             },
-            settings, options, seen);
+            settings, options, seen, spectrum.scenes.size());
     }
     return render_by<Tracer>(
-        [&] { return Tracer(scene, settings, core::Search::hierarchy, options.precision); },
+        [&](Surveys& surveys) {
+            return Tracer(scene, settings, core::Search::hierarchy, options.precision,
+                          survey_of(surveys, 0));
+        },
         settings, options, seen);
 }
 
@@ -209,6 +236,7 @@ const std::atomic<bool>* abandon_of(const RenderOptions& options) {
 struct MovableWavefront {
     std::unique_ptr<Wavefront> wavefront;
 
+    void survey(core::Survey::Pass pass, std::size_t batch) { wavefront->survey(pass, batch); }
     void render(const core::Region& region, core::Film& film) { wavefront->render(region, film); }
     EngineCounters counters() const { return wavefront->counters(); }
     int samples_of(std::size_t pixel) const { return wavefront->samples_of(pixel); }
@@ -220,15 +248,17 @@ Rendering render_spectrum(const core::Scene& scene, const core::Settings& settin
     const std::vector<SceneData> data(spectrum.scenes.begin(), spectrum.scenes.end());
     using Tracer = SpectralTracer<MovableWavefront>;
     return render_by<Tracer>(
-        [&] {
+        [&](Surveys& surveys) {
             std::vector<MovableWavefront> tracers;
             tracers.reserve(data.size());
             for (const SceneData& of_one : data)
-                tracers.push_back(
-                    {std::make_unique<Wavefront>(of_one, settings, tracing, abandon_of(options))});
+                tracers.push_back({std::make_unique<Wavefront>(of_one, settings, tracing,
+                                                               survey_of(surveys, tracers.size()),
+                                                               abandon_of(options))});
             return Tracer(std::move(tracers), spectrum.shares, settings);
         },
-        settings, options, FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr);
+        settings, options, FirstHitPasses::are_wanted(settings, options) ? &data.front() : nullptr,
+        data.size());
 }
 
 void require_part(const core::Settings& settings, const std::optional<core::Region>& crop) {
@@ -267,8 +297,10 @@ TileGrid grid_of(const core::Settings& settings, const RenderOptions& options) {
 Rendering render_vector(const SceneData& scene, const core::Settings& settings,
                         const RenderOptions& options, const Tracing& tracing) {
     return render_by<Wavefront>(
-        [&] { return Wavefront(scene, settings, tracing, abandon_of(options)); }, settings, options,
-        FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
+        [&](Surveys& surveys) {
+            return Wavefront(scene, settings, tracing, survey_of(surveys, 0), abandon_of(options));
+        },
+        settings, options, FirstHitPasses::are_wanted(settings, options) ? &scene : nullptr);
 }
 
 Rendering render(const core::Scene& scene, const core::Settings& settings,

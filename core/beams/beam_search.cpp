@@ -69,12 +69,11 @@ const BlockBounds& BeamSearch::bounds_of(const Child& block) {
     return held.bounds;
 }
 
-bool BeamSearch::collect(const Beam& beam, double t_most, std::vector<BeamCandidate>& candidates) {
+bool BeamSearch::collect(const Beam& beam, std::vector<BeamCandidate>& candidates) {
     candidates = unbounded_;
     const BigArray<WideNode>& nodes = scene_.hierarchy().nodes;
     if (nodes.empty()) return true;
     const BeamSlabs slabs(beam);
-    const auto last = std::nextafter(static_cast<float>(t_most), far);
     float near[block_size];
     pending_.assign(1, Child::node(0));
     while (!pending_.empty()) {
@@ -84,14 +83,14 @@ bool BeamSearch::collect(const Beam& beam, double t_most, std::vector<BeamCandid
             const WideNode& node = nodes[child.index()];
             slabs.near(node, near);
             for (int entry = 0; entry < block_size; ++entry)
-                if (near[entry] < last && !node.children[entry].empty())
+                if (near[entry] < far && !node.children[entry].empty())
                     pending_.push_back(node.children[entry]);
             continue;
         }
         const BlockBounds& bounds = bounds_of(child);
         slabs.near(bounds, near);
         for (int lane = 0; lane < block_size; ++lane)
-            if (near[lane] < last) add(child, lane, bounds, near[lane], candidates);
+            if (near[lane] < far) add(child, lane, bounds, near[lane], candidates);
         if (candidates.size() > most_candidates) return false;
     }
     return true;
@@ -122,17 +121,17 @@ namespace {
 
 /// crossings(), all of it in one function.
 template <class Shape>
-[[gnu::flatten]] Crossings<Affine> cross(const Shape& shape, const Beam& beam, const Start& start,
-                                         Judge<Affine>& judge) {
-    return crossings(shape, beam, start, judge);
+[[gnu::flatten]] Crossings<Affine> meetings(const Shape& shape, const Beam& beam,
+                                            Judge<Affine>& judge) {
+    return crossings(shape, beam, Start{}, judge);
 }
 
 /// A crossing that is not behind the first of any ray that meets the shape. Where nothing is known,
 /// it may be infinitely far in front.
 template <class Shape>
-Crossing<Affine> first_possible(const Shape& shape, const Beam& beam, const Start& start) {
+Crossing<Affine> first_possible(const Shape& shape, const Beam& beam) {
     Judge<Affine> judge = Judge<Affine>::that_lets_none_miss();
-    const Crossings<Affine> all = cross(shape, beam, start, judge);
+    const Crossings<Affine> all = meetings(shape, beam, judge);
     if (judge.doubt() || all.begin() == all.end())
         return {Affine(0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()), body};
     return *all.begin();
@@ -142,23 +141,18 @@ Crossing<Affine> first_possible(const Shape& shape, const Beam& beam, const Star
 
 /// Where a beam meets a shape first, on the side that can be seen.
 BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& beam,
-                                 const BeamCone& cone, const Departure& from) const {
-    const bool is_left = candidate.id == from.id;
-    if (!is_left && from.id != no_shape && from.coplanar.contains(candidate.id))
-        return {Met::missed};
-    if (candidate.kind == Kind::sphere && !is_left) {
+                                 const BeamCone& cone) const {
+    if (candidate.kind == Kind::sphere) {
         const auto sphere = std::get<Table<Sphere>>(scene_.shapes()).get(candidate.place);
         if (cone.misses(sphere.center, sphere.radius)) return {Met::missed};
     }
-    const Start start = is_left ? from.start : Start{};
     const Material& material = scene_.material_of(candidate.id);
     return with_table(scene_.shapes(), candidate.kind, [&](const auto& table) -> Met {
         Judge<Affine> judge;
-        const Crossings<Affine> all = cross(table.get(candidate.place), beam, start, judge);
-        if (judge.doubt())
-            return {Met::partly, first_possible(table.get(candidate.place), beam, start)};
+        const Crossings<Affine> all = meetings(table.get(candidate.place), beam, judge);
+        if (judge.doubt()) return {Met::partly, first_possible(table.get(candidate.place), beam)};
         for (const Crossing<Affine>& crossing : all) {
-            if (!is_left && crossing.t.upper() < 0.0) continue;
+            if (crossing.t.upper() < 0.0) continue;
             if (!(crossing.t.lower() > 0.0)) return {Met::partly, crossing};
             if (Judge<Affine>::is_doubtful(crossing)) return {Met::partly, crossing};
             // Whether a part is the surface of its solid is not known.
@@ -169,8 +163,7 @@ BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& bea
     });
 }
 
-BeamHit BeamSearch::first(const Beam& beam, const Departure& from,
-                          std::vector<BeamCandidate>& candidates) {
+BeamHit BeamSearch::first(const Beam& beam, std::vector<BeamCandidate>& candidates) {
     const BeamCone cone(beam);
     std::sort(candidates.begin(), candidates.end(),
               [](const BeamCandidate& a, const BeamCandidate& b) {
@@ -183,7 +176,7 @@ BeamHit BeamSearch::first(const Beam& beam, const Departure& from,
     for (const BeamCandidate& candidate : candidates) {
         if (best.is_covered() && static_cast<double>(candidate.near) > best.crossing.t.upper())
             break;
-        const Met met = meet(candidate, beam, cone, from);
+        const Met met = meet(candidate, beam, cone);
         if (met.what == Met::missed) continue;
         const Affine& t = met.crossing.t;
         if (met.what == Met::whole && (!best.is_covered() || (t - best.crossing.t).upper() < 0.0))
@@ -200,24 +193,6 @@ BeamHit BeamSearch::first(const Beam& beam, const Departure& from,
     candidates.resize(kept);
     if (kept > (best.is_covered() ? 1U : 0U)) best.what = BeamHit::doubt;
     return best;
-}
-
-BeamSearch::Light BeamSearch::arrives(const Beam& beam, const Departure& from, double t_most,
-                                      std::vector<BeamCandidate>& candidates) {
-    const BeamCone cone(beam);
-    Light light = Light::arrives;
-    std::size_t kept = 0;
-    for (const BeamCandidate& candidate : candidates) {
-        const Met met = meet(candidate, beam, cone, from);
-        if (met.what == Met::missed || (met.what == Met::whole && met.crossing.t.lower() >= t_most))
-            continue;
-        const bool blocks = met.what == Met::whole && met.crossing.t.upper() < t_most;
-        if (blocks && !scene_.material_of(candidate.id).lets_light_pass()) return Light::blocked;
-        candidates[kept++] = candidate;
-        light = Light::doubt;
-    }
-    candidates.resize(kept);
-    return light;
 }
 
 } // namespace raylane::core

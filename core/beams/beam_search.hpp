@@ -17,13 +17,6 @@ struct BeamCandidate {
     float near; ///< lower bound on t
 };
 
-/// The surface that a beam starts on, all of it on one side.
-struct Departure {
-    ShapeId id = no_shape;
-    IdRange coplanar{no_shape, no_shape};
-    Start start{};
-};
-
 struct BeamHit {
     enum What : std::uint8_t {
         nothing, ///< no ray meets anything
@@ -44,21 +37,15 @@ class BeamSearch {
     /// Most candidates that are looked at; where a beam may meet more, all is in doubt.
     static constexpr std::size_t most_candidates = 4096;
 
-    /// Fills in all shapes whose bounds a beam may meet at t <= t_most; false if they are too many.
-    bool collect(const Beam& beam, double t_most, std::vector<BeamCandidate>& candidates);
+    /// Fills in all shapes whose bounds a beam may meet; false if they are too many.
+    bool collect(const Beam& beam, std::vector<BeamCandidate>& candidates);
 
     /// Of the candidates of a beam those of a part of it.
     static void narrow(const Beam& part, std::vector<BeamCandidate>& candidates);
 
     /// The first surface of all that may be met. Keeps of the candidates those that a part of the
     /// beam may meet first.
-    BeamHit first(const Beam& beam, const Departure& from, std::vector<BeamCandidate>& candidates);
-
-    enum class Light : std::uint8_t { arrives, blocked, doubt };
-
-    /// If anything is in the way of a beam's rays, from t = 0 to t_most.
-    Light arrives(const Beam& beam, const Departure& from, double t_most,
-                  std::vector<BeamCandidate>& candidates);
+    BeamHit first(const Beam& beam, std::vector<BeamCandidate>& candidates);
 
   private:
     struct Met {
@@ -66,8 +53,7 @@ class BeamSearch {
         Crossing<Affine> crossing{}; ///< if partly: not behind any
     };
 
-    Met meet(const BeamCandidate& candidate, const Beam& beam, const BeamCone& cone,
-             const Departure& from) const;
+    Met meet(const BeamCandidate& candidate, const Beam& beam, const BeamCone& cone) const;
 
     /// Of a block's shapes; until the next call.
     const BlockBounds& bounds_of(const Child& block);

@@ -1,42 +1,60 @@
 #include "core/beams/pixel_samples.hpp"
 
-#include "core/numbers/elementary.hpp"
-
 #include <cmath>
 
 namespace raylane::core {
 
 namespace {
 
-/// How much more a linear component differs as the film shows it: the slope of IEC 61966-2-1.
-double slope_shown(double linear) {
-    constexpr double steepest = 12.92, end_of_line = 0.0031308;
-    return linear <= end_of_line ? steepest : 1.055 / 2.4 * core::pow(linear, 1.0 / 2.4 - 1.0);
+/// How much more a small step of a linear component is as the film shows it, squared: of the square
+/// root, which is near to the curve of IEC 61966-2-1, and no steeper than that.
+double squared_slope(double linear, Transfer transfer) {
+    constexpr double steepest = 12.92;
+    if (transfer == Transfer::linear) return 1.0;
+    return std::min(steepest * steepest, 0.25 / std::max(linear, 1e-4));
 }
-constexpr double least_slope = 1.055 / 2.4;
 
 } // namespace
 
-/// The mean of n points of a (0, 2)-sequence is off by some n^(-3/4) of the deviation where an edge
-/// goes through, as each of their cells is a small pixel; by some n^(-5/8) if the edge depends on
-/// two such points at a time.
-bool PixelSamples::is_within(double tolerance, Transfer transfer, bool is_blurred) const {
+SamplePoint place_in_pixel(int x, int y, int number) {
+    if (number == middle_sample) return {0.5F, 0.5F};
+    return sequence_point(sequence_key(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                                       SequenceUse::in_pixel),
+                          static_cast<std::uint32_t>(number));
+}
+
+Shown::Shown(const Sample& sample) {
+    for (int channel = 0; channel < 3; ++channel)
+        channels[static_cast<std::size_t>(channel)] =
+            std::sqrt(std::clamp(static_cast<float>(sample.color[channel]), 0.0F, 1.0F));
+    channels[3] = static_cast<float>(sample.transmittance);
+}
+
+double variance_around(std::span<const Shown> middles) {
+    std::array<float, 4> sum{}, squares{};
+    const Shown& first = middles.front();
+    for (const Shown& middle : middles)
+        for (std::size_t channel = 0; channel < 4; ++channel) {
+            const float off = middle.channels[channel] - first.channels[channel];
+            sum[channel] += off;
+            squares[channel] += off * off;
+        }
+    const auto n = static_cast<float>(middles.size());
+    float all = 0.0F;
+    for (std::size_t channel = 0; channel < 4; ++channel)
+        all += std::max(0.0F, squares[channel] / n - sum[channel] / n * (sum[channel] / n));
+    return static_cast<double>(all) / 3.0;
+}
+
+double PixelSamples::squares_shown(Transfer transfer) const {
     const double n = count_;
-    const double root = std::sqrt(n);
-    const double accuracy = 1.0 / std::sqrt(n * (is_blurred ? std::sqrt(root) : root));
+    double squares = 0.0;
     for (std::size_t channel = 0; channel < channels; ++channel) {
         const double mean = seen_sum_[channel] / n;
-        const double variance = std::max(0.0, seen_squares_[channel] / n - mean * mean);
-        const double off = std::sqrt(variance * n / (n - 1.0)) * accuracy;
-        if (transfer == Transfer::linear) {
-            if (off > tolerance) return false;
-            continue;
-        }
-        if (off * least_slope > tolerance) return false;
-        if (off * slope_shown(0.0) <= tolerance) continue;
-        if (off * slope_shown(mean) > tolerance) return false;
+        squares += std::max(0.0, seen_squares_[channel] - n * mean * mean) *
+                   (channel == of_background ? 1.0 : squared_slope(mean, transfer));
     }
-    return true;
+    return squares / 3.0;
 }
 
 } // namespace raylane::core

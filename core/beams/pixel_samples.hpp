@@ -1,11 +1,12 @@
 #pragma once
 
+#include "core/numbers/sample_sequence.hpp"
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/shape.hpp"
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <span>
 
 namespace raylane::core {
 
@@ -18,11 +19,30 @@ struct Sample {
     double transmittance = 0.0;
 };
 
+/// The sample of a pixel that is at its middle; the others are points of a sequence, from 0 on.
+inline constexpr int middle_sample = -1;
+
+/// Where in pixel (x, y) its sample `number` is, from its upper left corner, but for the filter.
+SamplePoint place_in_pixel(int x, int y, int number);
+
+/// What a sample shows about as the film does: a component's square root, 1 at most, and the share
+/// of the background as if that were white.
+struct Shown {
+    std::array<float, 4> channels{};
+
+    Shown() = default;
+    explicit Shown(const Sample& sample);
+};
+
+/// Variance of what the middles of a pixel and of its neighbours show, up to nine of them.
+double variance_around(std::span<const Shown> middles);
+
 /// The samples of one pixel so far.
 class PixelSamples {
   public:
     int count() const { return count_; }
-    Color mean() const { return convert<float>(Vec3d(sum_ / static_cast<double>(count_))); }
+    Vec3d exact_mean() const { return sum_ / static_cast<double>(count_); }
+    Color mean() const { return convert<float>(exact_mean()); }
     float alpha() const {
         return static_cast<float>(1.0 - seen_sum_[of_background] / static_cast<double>(count_));
     }
@@ -38,9 +58,6 @@ class PixelSamples {
             seen_sum_[channel] += seen;
             seen_squares_[channel] += seen * seen;
         }
-        farthest_ =
-            std::max(farthest_,
-                     sample.shape == no_shape ? std::numeric_limits<double>::infinity() : sample.t);
         if (!has_seen(sample.shape) && shapes_count_ < most_shapes)
             shapes_[shapes_count_++] = sample.shape;
     }
@@ -51,15 +68,9 @@ class PixelSamples {
                shapes_.begin() + shapes_count_;
     }
 
-    /// Shapes that have been hit, and one more if a sample hit none; `most_shapes` at most.
-    int different_shapes() const { return shapes_count_; }
-
-    /// The largest t at which a sample hits; infinite if one hits nothing.
-    double farthest() const { return farthest_; }
-
-    /// True if the mean is probably off by no more than that, as the film shows it: 1 is white.
-    /// `is_blurred`: what is seen depends on the place on a lens, too.
-    bool is_within(double tolerance, Transfer transfer, bool is_blurred) const;
+    /// Of all samples, as the film shows them: the sum of squares about the mean, of the mean
+    /// channel.
+    double squares_shown(Transfer transfer) const;
 
     static constexpr int most_shapes = 8;
 
@@ -68,8 +79,7 @@ class PixelSamples {
     static constexpr std::size_t of_background = 3, channels = 4;
 
     int count_ = 0;
-    int shapes_count_ = 0;
-    double farthest_ = 0.0;
+    std::size_t shapes_count_ = 0;
     std::array<ShapeId, most_shapes> shapes_{};
     Vec3d sum_{0.0};
     // Of colours as the film has them, 1 at most, and of the background.

@@ -24,14 +24,35 @@ Real largest(const Vec3<Real>& v) {
 
 template <class Real>
 ReferenceTracer<Real>::ReferenceTracer(const Scene& scene, const Settings& settings, Search search,
-                                       Precision precision)
+                                       Precision precision, Survey* survey)
     : scene_(scene), settings_(settings), camera_rays_(scene.camera(), settings),
-      searcher_(scene, search, precision) {
+      searcher_(scene, search, precision), survey_(survey) {
     crossings_.reserve(64);
     pending_.reserve(64);
     for (const Light& light : scene.lights())
         if (is_soft(light.kind)) soft_lights_.push_back(prepared(light));
-    if (settings.quality != 0.0F) to_quality_.emplace(scene, settings);
+    if (survey != nullptr) to_quality_.emplace(scene, settings, *survey);
+}
+
+template <class Real>
+Sample ReferenceTracer<Real>::taken(const SampleName& name) {
+    sample_ = name;
+    const SamplePoint place = place_in_pixel(name.x, name.y, name.number);
+    const Vector color =
+        trace(camera_rays_.ray(name, camera_rays_.filtered({Real(place.x), Real(place.y)})));
+    return {convert<double>(color), first_hit_.shape, static_cast<double>(first_hit_.t),
+            static_cast<double>(transmittance_)};
+}
+
+template <class Real>
+void ReferenceTracer<Real>::survey(Survey::Pass pass, std::size_t batch) {
+    Survey::Samples samples(*survey_, pass, batch);
+    do {
+        for (std::size_t pixel = 0; pixel < samples.pixels(); ++pixel)
+            for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
+                samples.add(pixel,
+                            taken({samples.x(pixel), samples.y(pixel), samples.next(pixel)}));
+    } while (samples.end_round());
 }
 
 template <class Real>
@@ -55,15 +76,8 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
     samples.begin(region);
     do {
         for_each_pixel([&](int x, int y, std::size_t pixel) {
-            for (int wanted = samples.wanted(pixel); wanted > 0; --wanted) {
-                sample_ = {x, y, samples.taken(pixel)};
-                const SamplePoint place = samples.place(x, y, sample_.number);
-                const Vector color = trace(camera_rays_.ray(
-                    sample_, camera_rays_.filtered({Real(place.x), Real(place.y)})));
-                samples.add(pixel, {convert<double>(color), first_hit_.shape,
-                                    static_cast<double>(first_hit_.t),
-                                    static_cast<double>(transmittance_)});
-            }
+            for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
+                samples.add(pixel, taken({x, y, samples.next(pixel)}));
         });
     } while (samples.end_round());
     for_each_pixel([&](int x, int y, std::size_t pixel) {

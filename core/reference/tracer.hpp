@@ -20,9 +20,13 @@ template <class Real>
 class ReferenceTracer {
   public:
     ReferenceTracer(const Scene& scene, const Settings& settings, Search search = Search::hierarchy,
-                    Precision precision = precision_of<Real>);
+                    Precision precision = precision_of<Real>, Survey* survey = nullptr);
 
-    /// With a quality, the region consists of whole squares (RegionSamples::square_size).
+    /// Samples a batch of its survey.
+    void survey(Survey::Pass pass, std::size_t batch);
+
+    /// With a quality, there is a survey, which is finished, and the region consists of whole
+    /// squares (RegionSamples::square_size).
     void render(const Region& region, Film& film);
 
     /// Samples that a pixel of the last region had; pixels are numbered row by row.
@@ -122,6 +126,7 @@ class ReferenceTracer {
                  const Vector& direction);
     bool find_crossings(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real distance);
 
+    Sample taken(const SampleName& name);
     bool is_worth(const Vector& throughput) const;
     bool is_visible(const Hit<Real>& hit) const;
     Indices indices_at(const Hit<Real>& hit, Media media, Media behind);
@@ -145,8 +150,9 @@ class ReferenceTracer {
     Vector start_{};                   // of the last ray from the camera
     std::optional<Media> start_media_; // around it
 
-    std::optional<RegionSamples> to_quality_; // if the picture has one
-    Hit<Real> first_hit_;                     // of the last ray from the camera
+    Survey* survey_ = nullptr; // if the picture has a quality
+    std::optional<RegionSamples> to_quality_;
+    Hit<Real> first_hit_; // of the last ray from the camera
     Real transmittance_ = 0;
 };
 

@@ -39,15 +39,10 @@ constexpr auto pixel_order = [] {
     return order;
 }();
 
-core::Settings without_quality(core::Settings settings) {
-    settings.quality = 0.0F;
-    return settings;
-}
-
 } // namespace
 
 Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing,
-                     const std::atomic<bool>* abandon)
+                     core::Survey* survey, const std::atomic<bool>* abandon)
     : scene_(scene), settings_(settings), tracing_(tracing), abandon_(abandon),
       camera_rays_(scene.scene().camera(), settings), camera_(view_of(camera_rays_)),
       camera_coherence_(camera_rays_.has_lens() ? neighbours : coherence_of(camera_)),
@@ -56,9 +51,9 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
                                [](const core::Material& m) { return m.is_see_through(); })),
       shade_(tracing.kernels
                  ->shade[with_media_ ? 1 : 0][scene.fog().kind != core::FogKind::none ? 1 : 0]),
-      reference_(scene.scene(), without_quality(settings), core::Search::hierarchy,
-                 tracing.precision),
-      finder_(scene, tracing), shadows_(scene, tracing, reference_), sorted_(scene) {
+      reference_(scene.scene(), settings, core::Search::hierarchy, tracing.precision),
+      finder_(scene, tracing), shadows_(scene, tracing, reference_), survey_(survey),
+      sorted_(scene) {
     arena_ = arena_for([this](Arena& arena) { take_from(arena); });
     samples_.reserve(chunk_samples);
     names_.resize(chunk_samples);
@@ -75,7 +70,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
         transmittances_.reserve(settings.alpha ? most_pixels : 0);
         return;
     }
-    to_quality_.emplace(scene.scene(), settings);
+    to_quality_.emplace(scene.scene(), settings, *survey);
     first_shape_.resize(chunk_samples);
     first_t_.resize(chunk_samples);
 }
@@ -165,20 +160,38 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
         }
 }
 
-/// Round after round, the samples that each pixel still wants.
-void Wavefront::render_to_quality(const core::Region& region, core::Film& film) {
-    core::RegionSamples& pixels = *to_quality_;
-    const auto add = [&](const Samples& some, std::size_t i) {
+/// Gives samples to what has asked for them.
+template <class Pixels>
+auto Wavefront::adder_to(Pixels& pixels) {
+    return [this, &pixels](const Samples& some, std::size_t i) {
         for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
             pixels.add(some.pixel, {{radiance_[0][i], radiance_[1][i], radiance_[2][i]},
                                     first_shape_[i],
                                     first_t_[i],
                                     settings_.alpha ? transmittance_[i] : 0.0});
     };
+}
+
+void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
+    core::Survey::Samples pixels(*survey_, pass, batch);
+    const auto add = adder_to(pixels);
+    do {
+        for (std::size_t pixel = 0; pixel < pixels.pixels(); ++pixel)
+            take(
+                {pixels.x(pixel), pixels.y(pixel), pixel, pixels.next(pixel), pixels.wanted(pixel)},
+                add);
+        flush(add);
+    } while (!is_abandoned() && pixels.end_round());
+}
+
+/// Round after round, the samples that each pixel still wants.
+void Wavefront::render_to_quality(const core::Region& region, core::Film& film) {
+    core::RegionSamples& pixels = *to_quality_;
+    const auto add = adder_to(pixels);
     pixels.begin(region);
     do {
         for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
-            take({x, y, pixel, pixels.taken(pixel), pixels.wanted(pixel)}, add);
+            take({x, y, pixel, pixels.next(pixel), pixels.wanted(pixel)}, add);
         });
         flush(add);
         if (is_abandoned()) return;
@@ -235,7 +248,7 @@ void Wavefront::flush(const Add& add) {
 
 core::CameraRays<double>::InPixel Wavefront::in_pixel(const Samples& some, int number) const {
     if (to_quality_) {
-        const core::SamplePoint place = to_quality_->place(some.x, some.y, number);
+        const core::SamplePoint place = core::place_in_pixel(some.x, some.y, number);
         return camera_rays_.filtered({static_cast<double>(place.x), static_cast<double>(place.y)});
     }
     return camera_rays_.regular() ? cells_[static_cast<std::size_t>(number)]

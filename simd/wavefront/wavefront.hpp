@@ -21,11 +21,16 @@ namespace raylane::simd {
 /// order that knows of no other sample, and samples are added in theirs.
 class Wavefront {
   public:
-    /// `abandon`: once it is true, the region under way is left as it is.
+    /// `survey`: asked if the picture has a quality, and then not null. `abandon`: once it is true,
+    /// the region under way is left as it is.
     Wavefront(const SceneData& scene, const core::Settings& settings, const Tracing& tracing,
-              const std::atomic<bool>* abandon = nullptr);
+              core::Survey* survey = nullptr, const std::atomic<bool>* abandon = nullptr);
 
-    /// With a quality, the region consists of whole squares (core::RegionSamples::square_size).
+    /// Samples a batch of its survey.
+    void survey(core::Survey::Pass pass, std::size_t batch);
+
+    /// With a quality, the survey is finished, and the region consists of whole squares
+    /// (core::RegionSamples::square_size).
     void render(const core::Region& region, core::Film& film);
 
     /// Samples that a pixel of the last region had; pixels are numbered row by row.
@@ -66,6 +71,8 @@ class Wavefront {
     void render_to_quality(const core::Region& region, core::Film& film);
     template <class Visit>
     void for_each_pixel(const core::Region& region, const Visit& visit);
+    template <class Pixels>
+    auto adder_to(Pixels& pixels);
     template <class Add>
     void take(Samples samples, const Add& add);
     template <class Add>
@@ -133,6 +140,7 @@ class Wavefront {
     std::vector<double> transmittances_;  // the same
 
     // If the picture has a quality.
+    core::Survey* survey_;
     std::optional<core::RegionSamples> to_quality_;
     std::vector<core::ShapeId> first_shape_; // by sample: that the camera's ray hits
     std::vector<double> first_t_;

@@ -196,14 +196,24 @@ TEST_CASE("a region that is abandoned is left as it is") {
     for (const float quality : {0.0F, 30.0F}) {
         Settings settings = scene.settings();
         settings.quality = quality;
-        std::atomic<bool> abandon = true;
-        simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())}, &abandon);
+        std::atomic<bool> abandon = false;
+        core::Survey survey(settings);
+        simd::Wavefront wavefront(data, settings, {&simd::kernels_of(simd::best_isa())}, &survey,
+                                  &abandon);
+        for (const auto pass : {core::Survey::Pass::look, core::Survey::Pass::sample}) {
+            if (quality == 0.0F) break;
+            for (std::size_t batch = 0; batch < survey.batches(pass); ++batch)
+                wavefront.survey(pass, batch);
+            survey.end(pass);
+        }
+        abandon = true;
+        const std::uint64_t surveyed = wavefront.counters().rays();
         const core::Region whole{0, 0, settings.width, settings.height};
         Film film(settings.width, settings.height);
         const Film untouched = film;
         wavefront.render(whole, film);
         CHECK(film.pixels() == untouched.pixels());
-        CHECK(wavefront.counters().rays() == 0);
+        CHECK(wavefront.counters().rays() == surveyed);
 
         abandon = false;
         wavefront.render(whole, film);
