@@ -277,7 +277,7 @@ Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& su
                                   static_cast<double>(surface.normal.y),
                                   static_cast<double>(surface.normal.z)};
     const auto lights = static_cast<std::uint32_t>(soft_lights_.size());
-    const auto count = static_cast<std::uint32_t>(settings_.light_samples);
+    const auto count = static_cast<std::uint32_t>(settings_.light_rays());
     Vector color(0);
     for (std::uint32_t number = 0; number < lights; ++number) {
         const SoftLight& light = soft_lights_[number];

@@ -82,8 +82,8 @@ struct Settings {
     /// for, pixel by pixel, in place of `grid`; 0: each pixel has the samples of `grid`.
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
-    /// Rays to each light with a size, from each point that a sample sees.
-    int light_samples = 8;
+    /// Rays to each light with a size, from each point that a sample sees; 0: light_rays() says.
+    int light_samples = 0;
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
     /// The film has an alpha: where the camera sees the background, past everything or straight
     /// through see-through surfaces, it is left out, with the fog before it. Mirrors and glass show
@@ -102,6 +102,13 @@ struct Settings {
     static constexpr int depth_limit = 1000;
     static constexpr int see_through_limit = 1'000'000;
     static constexpr int max_light_samples = 4096;
+
+    /// Rays to each light with a size: one for each of a pixel's samples, which are spread over the
+    /// light together, but four if it has a single sample.
+    int light_rays() const {
+        if (light_samples != 0) return light_samples;
+        return quality == 0.0F && grid == 1 ? 4 : 1;
+    }
 };
 
 } // namespace raylane::core

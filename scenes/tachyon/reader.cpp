@@ -144,9 +144,9 @@ void Reader::add_lights() {
     if (quality != Quality::full || !shading_.sky) return;
     core::Light sky{.kind = core::LightKind::sky, .color = *shading_.sky, .ground = *shading_.sky};
     builder_.add_light(sky);
-    builder_.settings.light_samples =
-        std::clamp(shading_.sky_samples.value_or(builder_.settings.light_samples), 1,
-                   core::Settings::max_light_samples);
+    if (shading_.sky_samples)
+        builder_.settings.light_samples =
+            std::clamp(*shading_.sky_samples, 1, core::Settings::max_light_samples);
 }
 
 core::Scene Reader::build() {

@@ -75,7 +75,8 @@ std::string text_of(const core::Settings& settings, const core::Settings& own, b
     text += settings.quality != 0.0F ? "--quality " + to_text(settings.quality)
                                      : "--spp " + std::to_string(settings.grid * settings.grid);
     text += " --filter " + std::string(filters[static_cast<int>(settings.filter)]);
-    text += " --light-samples " + std::to_string(settings.light_samples);
+    if (settings.light_samples != 0)
+        text += " --light-samples " + std::to_string(settings.light_samples);
     text += " --max-depth " + std::to_string(settings.max_depth);
     if (std::min(settings.max_see_through, own.max_see_through) < core::Settings::see_through_limit)
         text += " --max-see-through " + std::to_string(settings.max_see_through);

@@ -57,7 +57,7 @@ void RenderArguments::add_to(CLI::App& command) {
         "box|gaussian|blackman-harris");
     add("--light-samples", light_samples,
         "Rays to each light with a size, from each point that a sample sees (default: as the scene "
-        "says)",
+        "says, or four if pixels have one sample, else one)",
         "N");
     add("--max-depth", max_depth,
         "Reflections and refractions one after the other (default: as the scene says)", "N");

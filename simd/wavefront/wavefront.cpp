@@ -491,7 +491,7 @@ void Wavefront::add_lights() {
 /// As core::ReferenceTracer::lit_softly has it: sample after sample of each light.
 void Wavefront::add_soft_lights(int depth) {
     const std::vector<core::SoftLight>& lights = scene_.soft_lights();
-    const auto samples = static_cast<std::uint32_t>(settings_.light_samples);
+    const auto samples = static_cast<std::uint32_t>(settings_.light_rays());
     const std::size_t count = sorted_.hit_count();
     for (std::uint32_t number = 0; number < lights.size(); ++number) {
         const core::SoftLight& light = lights[number];

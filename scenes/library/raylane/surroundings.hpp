@@ -103,8 +103,9 @@ struct Settings {
     /// each pixel gets the samples that it needs, and `grid` and `samples` do not count.
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
-    /// Rays to each light with a size, from each point that a sample sees, 1 to 4096.
-    int light_samples = 8;
+    /// Rays to each light with a size, from each point that a sample sees, 1 to 4096; 0: four if
+    /// pixels have one sample, else one for each sample.
+    int light_samples = 0;
     Transfer transfer = Transfer::srgb; ///< for write_image
     /// The picture has an alpha: where the camera sees the background, past everything or straight
     /// through surfaces of opacities below 1, it is left out, with the fog before it. Mirrors and

@@ -151,7 +151,8 @@ class Settings(Fields):
     quality: float = 0.0
     """0, or decibels (PSNR) against a converged picture, 10 to 80: each pixel gets the samples that it needs."""
     filter: Literal["box", "gaussian", "blackman_harris"] = "box"
-    light_samples: int = 8
+    light_samples: int = 0
+    """Rays to each light with a size, from each point that a sample sees; 0: four if pixels have one sample, else one for each sample."""
     transfer: Literal["srgb", "linear"] = "srgb"
     alpha: bool = False
     """The background is left out: the picture has an alpha."""
