@@ -63,7 +63,7 @@ std::vector<Model> models_of(const gemmi::Structure& structure) {
     std::vector<Model> models;
     for (const gemmi::Model& of : structure.models) {
         Model model;
-        model.title = structure.get_info("_struct.title");
+        if (models.empty()) model.title = structure.get_info("_struct.title");
         take_cell(structure.cell, model);
         bool any = false;
         for (const gemmi::Chain& chain : of.chains) {

@@ -34,7 +34,7 @@ struct Chain {
 };
 
 struct Model {
-    std::string title;
+    std::string title; ///< empty: that of the model before, but of crystals
     bool has_cell = false;
     double edges[3][3] = {};
     /// Of a small molecule's crystal, one residue without a name, which is all that is in the cell.

@@ -37,36 +37,46 @@ namespace {
         {{.file = name, .position = position, .place = {}, .message = printable(text, 200)}});
 }
 
-using Directed = std::map<std::pair<int, int>, int>; ///< CONECT's, from one serial to another
-using Orders = std::map<std::pair<int, int>, int>;   ///< of bonds, by serial numbers, ascending
+using Directed = std::vector<std::pair<int, int>>; ///< CONECT's, from one serial to another
+using Orders = std::map<std::pair<int, int>, int>; ///< of bonds, by serial numbers, ascending
 
 /// Each bond is there from both of its ends, a double one twice from each.
-Orders orders_of(const Directed& directed) {
+Orders orders_of(Directed directed) {
     Orders orders;
-    for (const auto& [serials, times] : directed) {
-        int& order = orders[std::minmax(serials.first, serials.second)];
-        order = std::max(order, times);
+    std::sort(directed.begin(), directed.end());
+    for (auto first = directed.begin(); first != directed.end();) {
+        const auto end = std::upper_bound(first, directed.end(), *first);
+        int& order = orders[std::minmax(first->first, first->second)];
+        order = std::max(order, static_cast<int>(end - first));
+        first = end;
     }
     return orders;
 }
 
 struct ModelAndBonds {
     gemmi_files::Model model;
-    Directed bonds; ///< beside those of all models
+    Directed bonds;        ///< beside those of its entry and of all models
+    std::size_t entry = 0; ///< index
+};
+
+/// Bonds of several models.
+struct SharedBonds {
+    Directed of_all;
+    std::vector<Directed> of_entry; ///< of the parts that END separates
 };
 
 /// Models, one after the other.
 class ModelReader : public FrameReader {
   public:
-    ModelReader(std::string file, std::vector<ModelAndBonds> models, Directed bonds_of_all)
-        : file_(std::move(file)), models_(std::move(models)),
-          bonds_of_all_(std::move(bonds_of_all)), orders_of_all_(orders_of(bonds_of_all_)) {}
+    ModelReader(std::string file, std::vector<ModelAndBonds> models, SharedBonds shared)
+        : file_(std::move(file)), models_(std::move(models)), shared_(std::move(shared)) {}
 
     bool next(Structure& frame) override {
         if (number_ == models_.size()) return false;
-        const auto& [model, bonds] = models_[number_++];
+        const auto& [model, own_bonds, entry] = models_[number_++];
         frame = {};
-        frame.title = model.title;
+        if (!model.title.empty() || model.is_small) title_ = model.title;
+        frame.title = title_;
         if (model.has_cell)
             for (std::size_t k = 0; k < 3; ++k)
                 frame.cell.edges[k] = {model.edges[k][0], model.edges[k][1], model.edges[k][2]};
@@ -86,14 +96,11 @@ class ModelReader : public FrameReader {
             }
         }
         if (model.is_small) frame.properties.erase(frame.properties.begin());
-        Orders own;
-        if (!bonds.empty()) {
-            Directed both = bonds_of_all_;
-            for (const auto& [serials, times] : bonds)
-                both[serials] += times;
-            own = orders_of(both);
-        }
-        for (const auto& [serials, order] : bonds.empty() ? orders_of_all_ : own) {
+        Directed bonds = shared_.of_all;
+        const Directed& of_entry = shared_.of_entry.at(entry);
+        bonds.insert(bonds.end(), of_entry.begin(), of_entry.end());
+        bonds.insert(bonds.end(), own_bonds.begin(), own_bonds.end());
+        for (const auto& [serials, order] : orders_of(std::move(bonds))) {
             const auto a = atom_of.find(serials.first), b = atom_of.find(serials.second);
             if (a == atom_of.end() || b == atom_of.end()) continue;
             frame.bonds.push_back({std::min(a->second, b->second), std::max(a->second, b->second),
@@ -147,8 +154,8 @@ class ModelReader : public FrameReader {
 
     std::string file_;
     std::vector<ModelAndBonds> models_;
-    Directed bonds_of_all_;
-    Orders orders_of_all_;
+    SharedBonds shared_;
+    std::string title_; // of the last model that has one
     std::size_t number_ = 0;
 };
 
@@ -193,10 +200,12 @@ struct ModelText {
     std::size_t lines_of_head = 0;
     std::uint64_t first_line = 0; ///< of the file, behind the head
     Directed bonds;
+    std::size_t entry = 0;
 };
 
 /// Takes a PDB file apart into models. gemmi wants their numbers to be unique, and leaves CONECT
-/// out, which is of the model that it stands in, or of all.
+/// out. That is of the model that it stands in. Elsewhere it is of the models that END separates
+/// from others, as where files have been joined, and of all models if END leaves it none.
 class PdbModels {
   public:
     /// `text` has to stay as long as this does.
@@ -204,10 +213,11 @@ class PdbModels {
         InputFile again(file.name(), text);
         for (Lines lines(again); lines.next();)
             take(lines);
+        end_entry();
     }
 
     const std::vector<ModelText>& models() const { return models_; }
-    const Directed& bonds_of_all() const { return of_all_; }
+    const SharedBonds& shared_bonds() const { return shared_; }
 
   private:
     void take(const Lines& lines) {
@@ -215,22 +225,25 @@ class PdbModels {
         if (line.starts_with("MODEL")) {
             is_open_ = false; // its first atom opens it
             in_model_ = true;
-        } else if (line.starts_with("END")) {
+        } else if (const std::string_view word = Words(lines).next();
+                   word == "END" || word == "ENDMDL") { // not ENDROOT of PDBQT
             is_open_ = in_model_ = false;
+            if (word == "END") end_entry();
         } else if (is_atom(line)) {
             if (!is_open_) open(lines.number());
             append_atom(lines);
             return;
         } else if (line.starts_with("CONECT")) {
-            take_bonds(line, in_model_ && is_open_ ? models_.back().bonds : of_all_);
+            take_bonds(line,
+                       in_model_ && is_open_ ? models_.back().bonds : shared_.of_entry.back());
         } else if (line.starts_with("HEADER") || line.starts_with("TITLE") ||
                    line.starts_with("CRYST1")) {
             if (is_open_)
                 append(models_.back().text, line);
             else if (line.starts_with("CRYST1"))
-                append(cell_ = std::string(), line);
-            else if (title_.size() + line.size() < longest_title)
-                append(title_, line);
+                append(cell_ = std::string(), line.substr(0, longest_record));
+            else
+                add_to_title(line);
             return;
         } else if (is_open_ && (line.starts_with("ANISOU") || line.starts_with("TER"))) {
             append(models_.back().text, line);
@@ -240,9 +253,33 @@ class PdbModels {
         if (is_open_) append(models_.back().text, {});
     }
 
+    void end_entry() {
+        const bool has_models =
+            !models_.empty() && models_.back().entry + 1 == shared_.of_entry.size();
+        if (!has_models) {
+            Directed& bonds = shared_.of_entry.back();
+            shared_.of_all.insert(shared_.of_all.end(), bonds.begin(), bonds.end());
+            bonds.clear();
+            return;
+        }
+        shared_.of_entry.emplace_back();
+        is_title_of_last_entry_ = true;
+    }
+
+    void add_to_title(std::string_view line) {
+        if (is_title_of_last_entry_) title_.clear();
+        is_title_of_last_entry_ = false;
+        if (title_.size() + line.size() >= longest_title) return;
+        append(title_, line);
+        is_title_new_ = true;
+    }
+
     void open(std::uint64_t line) {
         ModelText& model = models_.emplace_back();
-        model.text = title_ + cell_;
+        if (is_title_new_) model.text = title_; // which the next ones share
+        is_title_new_ = false;
+        model.text += cell_;
+        model.entry = shared_.of_entry.size() - 1;
         model.lines_of_head =
             static_cast<std::size_t>(std::count(model.text.begin(), model.text.end(), '\n'));
         model.first_line = line;
@@ -285,20 +322,22 @@ class PdbModels {
         };
         const int from = serial(7);
         for (std::size_t column = 12; column < 32; column += 5)
-            if (const int to = serial(column); to != 0 && to != from) ++bonds[{from, to}];
+            if (const int to = serial(column); to != 0 && to != from) bonds.emplace_back(from, to);
     }
 
-    /// Each model has it: without a limit, many models of a long title would take its square.
-    static constexpr std::size_t longest_title = 4096;
+    /// Without limits, titles and cells that many models have would take the square of the file.
+    static constexpr std::size_t longest_title = 4096, longest_record = 80;
 
     const InputFile& file_;
     std::string_view text_;
     std::optional<bool> names_are_shifted_; ///< once an element has been looked for
     bool is_open_ = false;                  ///< atoms go on with the last model
     bool in_model_ = false;                 ///< between MODEL and ENDMDL
+    bool is_title_new_ = false;             ///< no model has it yet
+    bool is_title_of_last_entry_ = false;
     std::string title_, cell_;
     std::vector<ModelText> models_;
-    Directed of_all_;
+    SharedBonds shared_{.of_all = {}, .of_entry = {{}}};
 };
 
 /// gemmi's message with the line of the file, not of the model's text.
@@ -320,14 +359,14 @@ std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
     for (const ModelText& of : texts.models()) {
         try {
             for (gemmi_files::Model& model : gemmi_files::read_pdb(of.text, file.name()))
-                models.push_back({std::move(model), of.bonds});
+                models.push_back({std::move(model), of.bonds, of.entry});
         } catch (const gemmi_files::Refused& refused) {
             fail(file.name(), with_line_of(of, file.name(), refused.what()));
         }
     }
     if (models.empty())
         throw BadInput(file.name(), "", "must have ATOM or HETATM records, got none");
-    return std::make_unique<ModelReader>(file.name(), std::move(models), texts.bonds_of_all());
+    return std::make_unique<ModelReader>(file.name(), std::move(models), texts.shared_bonds());
 }
 
 std::unique_ptr<FrameReader> open_cif(InputFile& file) {
@@ -335,10 +374,11 @@ std::unique_ptr<FrameReader> open_cif(InputFile& file) {
     try {
         std::vector<ModelAndBonds> models;
         for (gemmi_files::Model& model : gemmi_files::read_cif(text, file.name()))
-            models.push_back({std::move(model), {}});
+            models.push_back({std::move(model), {}, 0});
         if (models.empty())
             throw BadInput(file.name(), "", "must have a table _atom_site, got none");
-        return std::make_unique<ModelReader>(file.name(), std::move(models), Directed());
+        return std::make_unique<ModelReader>(file.name(), std::move(models),
+                                             SharedBonds{.of_all = {}, .of_entry = {{}}});
     } catch (const gemmi_files::Refused& refused) {
         fail(file.name(), refused.what());
     }

@@ -276,6 +276,7 @@ TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
         atoms += std::to_string(i) + " 1 1 1 1\n";
     const std::string box = "ITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n";
     const std::string count = std::to_string(many);
+    const std::string title = repeated(50, "TITLE     " + std::string(70, 'A') + "\n");
     for (const Budget& file : {
              Budget{"a.json",
                     json + repeated(many, sphere) + sphere.substr(0, sphere.size() - 1) + "]}", 64},
@@ -308,6 +309,16 @@ TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
                     64},
              Budget{"a.pdb",
                     repeated(many, "ATOM      1  C   ALA A   1       0.000   0.000   0.000\n"), 64},
+             Budget{"a.pdb",
+                    title +
+                        repeated(many,
+                                 "END\nATOM      1  C   A   A   1       0.000   0.000   0.000\n"),
+                    64},
+             Budget{"a.pdb",
+                    title +
+                        repeated(many,
+                                 "MODEL\nATOM      1  C   A   A   1       0.000   0.000   0.000\n"),
+                    64},
              Budget{"a.cif", cell + sites, 2048},
              Budget{"a.xyz", count + "\n\n" + repeated(many, "C 0 0 0\n"), 64},
              Budget{"a.xyz", "2000000000\n\nC 0 0 0\n", 64},

@@ -235,6 +235,48 @@ TEST_CASE("models of a PDB file may have one number, and bonds of their own") {
     CHECK(all[2].bonds.empty());
 }
 
+TEST_CASE("bonds are those of the models that END separates from others") {
+    if (!has_gemmi()) return;
+    const auto atoms = [](double x) {
+        return pdb_atom("HETATM", 1, " C1", "LIG", 'A', 1, x, 2, 3, "C") +
+               pdb_atom("HETATM", 2, " C2", "LIG", 'A', 1, x + 1, 2, 3, "C");
+    };
+    const std::string bond = "CONECT    1    2\nCONECT    2    1\n", end = "END   \n";
+    const auto orders = [](const std::string& text) {
+        std::string all;
+        for (const Structure& frame : frames(open_pdb, text)) {
+            REQUIRE(frame.bonds.size() < 2);
+            all += frame.bonds.empty() ? "-" : std::to_string(frame.bonds[0].order);
+        }
+        return all;
+    };
+    CHECK(orders(atoms(1) + bond + end + atoms(2) + bond + end + atoms(3) + end) == "11-");
+    CHECK(orders(atoms(1) + bond + end + atoms(2) + bond) == "11");
+    CHECK(orders(atoms(1) + end + atoms(2) + end + bond + end) == "11");
+    const std::string models = "MODEL\n" + atoms(1) + "ENDMDL\nMODEL\n" + atoms(2) + "ENDMDL\n";
+    CHECK(orders(models + bond + end + models + end) == "11--");
+}
+
+TEST_CASE("an entry behind END keeps the title before unless it has one") {
+    if (!has_gemmi()) return;
+    const std::string atom = pdb_atom("ATOM", 1, " N", "ALA", 'A', 5, 1, 2, 3, "N") + "END\n";
+    std::string titles;
+    for (const Structure& frame :
+         frames(open_pdb, "TITLE     ONE\n" + atom + atom + "TITLE     TWO\n" + atom))
+        titles += frame.title + " ";
+    CHECK(titles == "ONE ONE TWO ");
+}
+
+TEST_CASE("ENDROOT of PDBQT ends no model") {
+    if (!has_gemmi()) return;
+    const std::string atom = pdb_atom("HETATM", 1, " C1", "LIG", 'A', 1, 1, 2, 3, "C");
+    const std::vector<Structure> all =
+        frames(open_pdb, "ROOT\n" + atom + "ENDROOT\nBRANCH   1   2\n" + atom +
+                             "ENDBRANCH   1   2\nTORSDOF 1\n");
+    REQUIRE(all.size() == 1);
+    CHECK(all[0].size() == 2);
+}
+
 TEST_CASE("a long title is not that of each of many models") {
     if (!has_gemmi()) return;
     std::string text;
