@@ -1,15 +1,18 @@
 #include "scenes/structure/gemmi_files.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <gemmi/cif.hpp>
-#include <gemmi/mmcif.hpp>
 #include <gemmi/pdb.hpp>
 #include <gemmi/smcif.hpp>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace raylane::scenes::gemmi_files {
@@ -320,44 +323,129 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
     return structure;
 }
 
-/// Adds a column to a table, of `value` or of the numbers of rows if that is empty.
-void add_column(gemmi::cif::Loop& loop, const std::string& tag, const std::string& value) {
-    std::vector<std::string> values;
-    const std::size_t width = loop.width(), rows = loop.length();
-    values.reserve(rows * (width + 1));
-    for (std::size_t row = 0; row < rows; ++row) {
-        for (std::size_t column = 0; column < width; ++column)
-            values.push_back(std::move(loop.values[row * width + column]));
-        values.push_back(value.empty() ? std::to_string(row + 1) : value);
+using Tensors = std::map<std::string, std::array<float, 6>, std::less<>>;
+
+/// Displacements of a macromolecule's atoms, by their `id`.
+Tensors tensors_of(gemmi::cif::Block& block) {
+    Tensors tensors;
+    for (auto row : block.find("_atom_site_anisotrop.", {"id", "U[1][1]", "U[2][2]", "U[3][3]",
+                                                         "U[1][2]", "U[1][3]", "U[2][3]"})) {
+        std::array<float, 6>& u = tensors[row.str(0)];
+        for (std::size_t k = 0; k < u.size(); ++k)
+            u[k] = static_cast<float>(gemmi::cif::as_number(row[k + 1], 0.0));
     }
-    loop.tags.push_back(tag);
-    loop.values = std::move(values);
+    return tensors;
 }
 
-/// Coordinates have to be numbers. Columns that gemmi asks for and that nothing drawn depends on
-/// are added where they are missing, or have another's place.
-void check_macromolecule(gemmi::cif::Document& document) {
-    for (gemmi::cif::Block& block : document.blocks) {
-        gemmi::cif::Loop* const loop = block.find_loop("_atom_site.Cartn_x").get_loop();
-        if (loop == nullptr) continue;
-        if (loop->find_tag("_atom_site.auth_seq_id") < 0)
-            if (const int label = loop->find_tag("_atom_site.label_seq_id"); label >= 0)
-                loop->tags[static_cast<std::size_t>(label)] = "_atom_site.auth_seq_id";
-        const std::pair<const char*, const char*> columns[] = {{"id", ""},
-                                                               {"type_symbol", "X"},
-                                                               {"label_alt_id", "."},
-                                                               {"label_asym_id", "A"},
-                                                               {"occupancy", "1"},
-                                                               {"B_iso_or_equiv", "0"},
-                                                               {"auth_seq_id", "1"}};
-        for (const auto& [column, value] : columns)
-            if (const std::string tag = "_atom_site." + std::string(column);
-                loop->find_tag(tag) < 0)
-                add_column(*loop, tag, value);
-        for (auto row : block.find("_atom_site.", {"id", "Cartn_x", "Cartn_y", "Cartn_z"}))
-            for (std::size_t axis = 1; axis < 4; ++axis)
-                require_coordinate(row[axis], "atom " + row[0]);
+void take_cell(gemmi::cif::Block& block, Model& model) {
+    std::vector<double> parts;
+    for (const char* tag :
+         {"length_a", "length_b", "length_c", "angle_alpha", "angle_beta", "angle_gamma"}) {
+        const std::string* value = block.find_value("_cell." + std::string(tag));
+        parts.push_back(value == nullptr ? std::nan("") : gemmi::cif::as_number(*value));
+        if (!std::isfinite(parts.back())) return;
     }
+    gemmi::UnitCell cell;
+    cell.set(parts[0], parts[1], parts[2], parts[3], parts[4], parts[5]);
+    take_cell(cell, model);
+}
+
+int whole_number_in(const std::string& text) {
+    int number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+/// The models of a macromolecule's table of atoms, which needs no column but the coordinates.
+/// gemmi's own function wants others, and takes a time quadratic in the residues of a chain.
+std::vector<Model> models_of(gemmi::cif::Block& block) {
+    enum : std::size_t {
+        x,
+        y,
+        z,
+        id,
+        group,
+        symbol,
+        atom,
+        atom_by_author,
+        conformer,
+        residue,
+        residue_by_author,
+        chain,
+        chain_by_author,
+        number,
+        number_by_author,
+        insertion,
+        occupancy,
+        b_factor,
+        model
+    };
+    gemmi::cif::Table table = block.find(
+        "_atom_site.",
+        {"Cartn_x", "Cartn_y", "Cartn_z", "?id", "?group_PDB", "?type_symbol", "?label_atom_id",
+         "?auth_atom_id", "?label_alt_id", "?label_comp_id", "?auth_comp_id", "?label_asym_id",
+         "?auth_asym_id", "?label_seq_id", "?auth_seq_id", "?pdbx_PDB_ins_code", "?occupancy",
+         "?B_iso_or_equiv", "?pdbx_PDB_model_num"});
+    const Tensors tensors = tensors_of(block);
+    std::vector<Model> models;
+    std::map<std::string, std::size_t> index_of_model;
+    std::map<std::tuple<int, char, std::string>, std::size_t> index_of_residue; // of the last chain
+    std::size_t last_model = 0, rows = 0;
+    for (auto row : table) {
+        ++rows;
+        const auto text = [&](std::size_t column) {
+            return row.has(column) ? row.str(static_cast<int>(column)) : std::string();
+        };
+        const auto first_of = [&](std::size_t column, std::size_t other) {
+            return row.has2(column) ? text(column) : text(other);
+        };
+        const std::string number_of_row = row.has2(id) ? text(id) : std::to_string(rows);
+        for (const std::size_t axis : {x, y, z})
+            require_coordinate(row[axis], "atom " + number_of_row);
+
+        const auto [in, is_new] = index_of_model.try_emplace(text(model), models.size());
+        if (is_new) take_cell(block, models.emplace_back());
+        std::vector<Chain>& chains = models[in->second].chains;
+        std::string name = first_of(chain_by_author, chain);
+        if (name.empty()) name = "A";
+        if (in->second != last_model || chains.empty() || chains.back().name != name) {
+            chains.push_back({name, {}});
+            index_of_residue.clear();
+        }
+        last_model = in->second;
+
+        const std::string place = first_of(number_by_author, number), letter = text(insertion);
+        Residue in_residue;
+        in_residue.name = first_of(residue_by_author, residue);
+        in_residue.number = whole_number_in(place);
+        if (!letter.empty()) in_residue.insertion = letter[0];
+        const std::string of_group = text(group);
+        in_residue.is_hetero = !of_group.empty() && (of_group[0] == 'H' || of_group[0] == 'h');
+        std::vector<Residue>& residues = chains.back().residues;
+        const auto [at, is_first] = index_of_residue.try_emplace(
+            {in_residue.number, in_residue.insertion, in_residue.name}, residues.size());
+        if (is_first) residues.push_back(std::move(in_residue));
+
+        Atom& added = residues[at->second].atoms.emplace_back();
+        for (const std::size_t axis : {x, y, z})
+            added.at[axis] = gemmi::cif::as_number(row[axis]);
+        added.element = number_of(gemmi::Element(text(symbol)));
+        added.name = first_of(atom_by_author, atom);
+        if (added.name.empty()) added.name = text(symbol);
+        const auto value = [&](std::size_t column, double otherwise) {
+            return static_cast<float>(
+                row.has(column) ? gemmi::cif::as_number(row[column], otherwise) : otherwise);
+        };
+        added.b_factor = value(b_factor, 0.0);
+        added.occupancy = value(occupancy, 1.0);
+        if (const std::string of = text(conformer); !of.empty()) added.conformer = of[0];
+        const auto tensor = tensors.find(number_of_row);
+        added.has_u = tensor != tensors.end() && tensor->second != std::array<float, 6>{};
+        if (added.has_u) std::copy(tensor->second.begin(), tensor->second.end(), added.u);
+    }
+    if (const std::string* title = block.find_value("_struct.title"); title && !models.empty())
+        models[0].title = gemmi::cif::as_string(*title); // the others share it
+    return models;
 }
 
 /// A file of macromolecules has their coordinates, not parts of a cell.
@@ -382,13 +470,14 @@ std::vector<Model> read_cif(std::string_view text, const std::string& name) {
     try {
         gemmi::cif::Document document =
             gemmi::cif::read_memory(text.data(), text.size(), name.c_str());
-        if (!is_small(document)) {
-            check_macromolecule(document);
-            // NOLINTNEXTLINE(performance-move-const-arg): gemmi 0.7 takes nothing else.
-            return models_of(gemmi::make_structure(std::move(document)));
-        }
         std::vector<Model> models;
+        const bool has_small = is_small(document);
         for (gemmi::cif::Block& block : document.blocks) {
+            if (!has_small) {
+                std::vector<Model> of_block = models_of(block);
+                std::move(of_block.begin(), of_block.end(), std::back_inserter(models));
+                continue;
+            }
             const gemmi::SmallStructure structure = crystal_of(block);
             if (!structure.sites.empty()) models.push_back(model_of(structure));
         }

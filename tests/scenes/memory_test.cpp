@@ -266,7 +266,9 @@ TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
         "data_a\n_cell_length_a 9\n_cell_length_b 9\n_cell_length_c 9\n_cell_angle_alpha 90\n"
         "_cell_angle_beta 90\n_cell_angle_gamma 90\n_symmetry_space_group_name_H-M 'F m -3 m'\n"
         "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n_atom_site_fract_z\n";
-    std::string sites, named, atoms;
+    const std::string places = "data_a\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
+                               "_atom_site.Cartn_z\n";
+    std::string sites, named, atoms, residues;
     for (int i = 0; i < many / 10; ++i)
         sites += "C ." + std::to_string(i + 1000) + " ." + std::to_string(2 * i + 1000) + " ." +
                  std::to_string(3 * i + 1000) + "\n";
@@ -274,6 +276,8 @@ TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
         named += "#declare A" + std::to_string(i) + " = 1;";
     for (int i = 1; i <= many; ++i)
         atoms += std::to_string(i) + " 1 1 1 1\n";
+    for (int i = 1; i <= 10 * many; ++i)
+        residues += "0 0 0 " + std::to_string(i) + "\n";
     const std::string box = "ITEM: BOX BOUNDS pp pp pp\n0 9\n0 9\n0 9\n";
     const std::string count = std::to_string(many);
     const std::string title = repeated(50, "TITLE     " + std::string(70, 'A') + "\n");
@@ -320,6 +324,8 @@ TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
                                  "MODEL\nATOM      1  C   A   A   1       0.000   0.000   0.000\n"),
                     64},
              Budget{"a.cif", cell + sites, 2048},
+             Budget{"a.cif", places + repeated(10 * many, "0 0 0\n"), 64},
+             Budget{"a.cif", places + "_atom_site.auth_seq_id\n" + residues, 64},
              Budget{"a.xyz", count + "\n\n" + repeated(many, "C 0 0 0\n"), 64},
              Budget{"a.xyz", "2000000000\n\nC 0 0 0\n", 64},
              Budget{"a.gro",

@@ -305,27 +305,66 @@ TEST_CASE("elements that a PDB file does not say follow from its columns or its 
                    atom(" NA ", "HEM")) == "Ca C Fe N ");
 }
 
-TEST_CASE("a table of a macromolecule's atoms needs coordinates and names alone") {
+TEST_CASE("a table of a macromolecule's atoms needs coordinates alone") {
     if (!has_gemmi()) return;
     const std::vector<std::pair<std::string, std::string>> columns = {
         {"id", "1"},           {"type_symbol", "C"},     {"label_atom_id", "CA"},
         {"label_alt_id", "."}, {"label_comp_id", "ALA"}, {"label_asym_id", "A"},
         {"Cartn_x", "1"},      {"Cartn_y", "2"},         {"Cartn_z", "3"},
         {"occupancy", "1"},    {"B_iso_or_equiv", "9"},  {"auth_seq_id", "5"}};
-    for (const char* missing : {"", "id", "type_symbol", "label_alt_id", "label_asym_id",
-                                "occupancy", "B_iso_or_equiv", "auth_seq_id"}) {
+    for (const char* missing :
+         {"", "id", "type_symbol", "label_atom_id", "label_alt_id", "label_comp_id",
+          "label_asym_id", "occupancy", "B_iso_or_equiv", "auth_seq_id"}) {
         CAPTURE(missing);
-        std::string text = "data_a\nloop_\n", row;
+        std::string table = "data_a\nloop_\n", row, single = "data_a\n";
         for (const auto& [name, value] : columns)
             if (name != missing) {
-                text += "_atom_site." + name + "\n";
+                table += "_atom_site." + name + "\n";
                 row += value + " ";
+                single.append("_atom_site.").append(name).append(" ").append(value).append("\n");
             }
-        const Structure frame = frames(open_cif, text + row + "\n").at(0);
-        CHECK(elements_of(frame) == "C ");
-        CHECK(frame.positions.at(0) == Vec3f(1, 2, 3));
+        for (const std::string& text : {table + row + "\n", single}) {
+            const Structure frame = frames(open_cif, text).at(0);
+            CHECK(elements_of(frame) == "C ");
+            CHECK(frame.positions.at(0) == Vec3f(1, 2, 3));
+        }
     }
+    const std::string places = "data_a\nloop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n"
+                               "_atom_site.Cartn_y\n_atom_site.Cartn_z\n";
+    CHECK(elements_of(frames(open_cif, places + "N 0 0 0\nFE 5 0 0\n").at(0)) == "N Fe ");
     CHECK(complaint(open_cif, "data_I\n_a 1\ndata_I\n_a 1\n") == "a: duplicate block name: I");
+}
+
+TEST_CASE("a residue of mmCIF goes on where its number comes again in the chain") {
+    if (!has_gemmi()) return;
+    const std::string columns =
+        "data_a\n_struct.title 'a b'\n_cell.length_a 9\n_cell.length_b 8\n_cell.length_c 7\n"
+        "_cell.angle_alpha 90\n_cell.angle_beta 90\n_cell.angle_gamma 90\nloop_\n"
+        "_atom_site_anisotrop.id\n_atom_site_anisotrop.U[1][1]\n_atom_site_anisotrop.U[2][2]\n"
+        "_atom_site_anisotrop.U[3][3]\n_atom_site_anisotrop.U[1][2]\n"
+        "_atom_site_anisotrop.U[1][3]\n_atom_site_anisotrop.U[2][3]\n2 .1 .2 .3 .4 .5 .6\nloop_\n"
+        "_atom_site.id\n_atom_site.group_PDB\n_atom_site.label_atom_id\n_atom_site.label_alt_id\n"
+        "_atom_site.auth_comp_id\n_atom_site.label_asym_id\n_atom_site.auth_asym_id\n"
+        "_atom_site.auth_seq_id\n_atom_site.pdbx_PDB_ins_code\n_atom_site.Cartn_x\n"
+        "_atom_site.Cartn_y\n_atom_site.Cartn_z\n_atom_site.B_iso_or_equiv\n"
+        "_atom_site.pdbx_PDB_model_num\n";
+    const std::vector<Structure> all =
+        frames(open_cif,
+               columns + "1 ATOM N A GLY X ? 5 ? 1 0 0 7 1\n2 ATOM N . SER X . 5 B 2 0 0 7 1\n"
+                         "3 ATOM CA B GLY X ? 5 ? 3 0 0 7 1\n4 HETATM O . HOH Y B 5 ? 4 0 0 7 1\n"
+                         "5 ATOM C A GLY X ? 5 ? 5 0 0 7 1\n6 ATOM N . GLY X ? 5 ? 6 0 0 7 2\n");
+    REQUIRE(all.size() == 2);
+    CHECK(all[0].names == std::vector<std::string>{"N", "N", "O", "C"});
+    CHECK(all[0].chains == std::vector<std::string>{"X", "B", "X"});
+    REQUIRE(all[0].of_residue.size() == 4);
+    CHECK(all[0].of_residue[1].insertion == 'B');
+    CHECK(all[0].of_residue[2].is_hetero);
+    CHECK(all[0].cell.edges[1].y == Approx(8));
+    REQUIRE(all[0].anisotropies.size() == 1);
+    CHECK(all[0].anisotropies[0].atom == 1);
+    CHECK(all[0].anisotropies[0].u[5] == 0.6F);
+    CHECK(all[0].properties.at(0).values.at(0) == 7.0F);
+    CHECK(all[1].title == "a b");
 }
 
 TEST_CASE("coordinates are the floats nearest to what the file says") {
