@@ -10,6 +10,7 @@
 #include <gemmi/smcif.hpp>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -106,10 +107,16 @@ Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& ce
     return atom;
 }
 
+/// The longest bond of two atoms, in angstrom, with the tolerance of bonds that are drawn.
+double longest_bond(const gemmi::SmallStructure::Site& a, const gemmi::SmallStructure::Site& b) {
+    constexpr double tolerance = 0.4;
+    return static_cast<double>(a.element.covalent_r()) +
+           static_cast<double>(b.element.covalent_r()) + tolerance;
+}
+
 /// Which of the sites belong together, as atoms of a molecule that are bonded: for each the first.
 std::vector<std::size_t> molecules_of(const Sites& sites, const gemmi::UnitCell& cell) {
     constexpr std::size_t most = 4000; // of more, each is by itself
-    constexpr double tolerance = 0.4;  // angstrom, as bonds have it
     std::vector<std::size_t> first(sites.size());
     std::iota(first.begin(), first.end(), std::size_t{0});
     if (sites.size() > most) return first;
@@ -123,8 +130,7 @@ std::vector<std::size_t> molecules_of(const Sites& sites, const gemmi::UnitCell&
     };
     for (std::size_t i = 0; i < sites.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
-            const double reach = static_cast<double>(sites[i].element.covalent_r()) +
-                                 static_cast<double>(sites[j].element.covalent_r()) + tolerance;
+            const double reach = longest_bond(sites[i], sites[j]);
             if (places[i].dist_sq(places[j]) >= reach * reach) continue;
             const std::size_t a = root(i), b = root(j);
             first[std::max(a, b)] = std::min(a, b);
@@ -132,6 +138,52 @@ std::vector<std::size_t> molecules_of(const Sites& sites, const gemmi::UnitCell&
     for (std::size_t i = 0; i < sites.size(); ++i)
         first[i] = root(i);
     return first;
+}
+
+/// Operations by index that are left out for some sites.
+using LeftOut = std::vector<char>;
+
+/// Returns for each site the operations whose images are left out, or null for none. Atoms of a
+/// negative disorder group have no bonds to their images (SHELXL's PART): images of a molecule's
+/// part that would be bonded exclude each other, and the first is taken. `place` (site, operation)
+/// returns fractional coordinates.
+template <class Place>
+std::vector<std::shared_ptr<const LeftOut>>
+images_left_out(const gemmi::SmallStructure& structure, const std::vector<std::size_t>& molecule,
+                std::size_t operations, const Place& place) {
+    std::size_t most_comparisons = 30'000'000; // crystals take far less
+    const Sites& sites = structure.sites;
+    std::map<std::pair<std::size_t, int>, std::vector<std::size_t>> parts;
+    for (std::size_t i = 0; i < sites.size(); ++i)
+        if (sites[i].disorder_group < 0) parts[{molecule[i], sites[i].disorder_group}].push_back(i);
+    std::vector<std::shared_ptr<const LeftOut>> result(sites.size());
+    for (const auto& [key, part] : parts) {
+        const auto left_out = std::make_shared<LeftOut>(operations);
+        std::vector<std::pair<std::size_t, gemmi::Fractional>> taken;
+        for (std::size_t operation = 0; operation < operations; ++operation) {
+            const std::size_t before = taken.size();
+            bool is_free = true;
+            for (const std::size_t i : part) {
+                const gemmi::Fractional at = place(i, operation);
+                const auto is_apart = [&](const auto& other) {
+                    if (most_comparisons == 0) return true;
+                    --most_comparisons;
+                    const double reach = longest_bond(sites[i], sites[other.first]);
+                    return structure.cell.distance_sq(at, other.second) >= reach * reach;
+                };
+                const auto end = taken.begin() + static_cast<std::ptrdiff_t>(before);
+                is_free =
+                    is_free && (most_comparisons == 0 || std::all_of(taken.begin(), end, is_apart));
+                taken.emplace_back(i, at);
+            }
+            if (is_free) continue;
+            (*left_out)[operation] = 1;
+            taken.resize(before, {0, gemmi::Fractional()});
+        }
+        for (const std::size_t i : part)
+            result[i] = left_out;
+    }
+    return result;
 }
 
 /// All atoms of a cell: of images that are as near as atoms never are, the first. Molecules stay
@@ -154,22 +206,26 @@ Model model_of(const gemmi::SmallStructure& structure) {
     }
     std::vector<gemmi::FTransform> operations = {gemmi::FTransform(gemmi::Transform())};
     operations.insert(operations.end(), cell.images.begin(), cell.images.end());
+    const auto place = [&](std::size_t i, std::size_t operation) {
+        const gemmi::Vec3 of_molecule = middle[molecule[i]] / size[molecule[i]];
+        const gemmi::Fractional moved = operations[operation].apply(gemmi::Fractional(of_molecule));
+        const gemmi::Fractional cells(std::floor(moved.x + at_edge), std::floor(moved.y + at_edge),
+                                      std::floor(moved.z + at_edge));
+        return gemmi::Fractional(operations[operation].apply(sites[i].fract) - cells);
+    };
+    const auto left_out = images_left_out(structure, molecule, operations.size(), place);
     Residue all;
     for (std::size_t i = 0; i < sites.size(); ++i) {
-        const gemmi::Vec3 of_molecule = middle[molecule[i]] / size[molecule[i]];
         std::vector<gemmi::Fractional> places;
-        for (const gemmi::FTransform& operation : operations) {
-            const gemmi::Fractional moved = operation.apply(gemmi::Fractional(of_molecule));
-            const gemmi::Fractional cells(std::floor(moved.x + at_edge),
-                                          std::floor(moved.y + at_edge),
-                                          std::floor(moved.z + at_edge));
-            const gemmi::Fractional at(operation.apply(sites[i].fract) - cells);
+        for (std::size_t operation = 0; operation < operations.size(); ++operation) {
+            if (left_out[i] && (*left_out[i])[operation] != 0) continue;
+            const gemmi::Fractional at = place(i, operation);
             const auto is_here = [&](const gemmi::Fractional& other) {
                 return cell.distance_sq(at, other) < one_place;
             };
             if (std::any_of(places.begin(), places.end(), is_here)) continue;
             places.push_back(at);
-            all.atoms.push_back(image_of(sites[i], cell, at, operation.mat));
+            all.atoms.push_back(image_of(sites[i], cell, at, operations[operation].mat));
         }
     }
     model.chains.push_back({"", {std::move(all)}});

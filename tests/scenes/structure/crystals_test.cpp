@@ -84,6 +84,24 @@ TEST_CASE("groups of a disorder exclude each other") {
     CHECK(elements_of(frames(open_cif, text).at(0)) == "C C O ");
 }
 
+TEST_CASE("images of a negative disorder group exclude each other where they meet") {
+    if (!has_gemmi()) return;
+    const auto elements = [](const std::string& group, const std::string& sites) {
+        return elements_of(frames(open_cif, cube + "_symmetry_space_group_name_H-M '" + group +
+                                                "'\nloop_\n_atom_site_label\n_atom_site_fract_x\n"
+                                                "_atom_site_fract_y\n_atom_site_fract_z\n"
+                                                "_atom_site_disorder_group\n" +
+                                                sites)
+                               .at(0));
+    };
+    const std::string across_middle = "C1 .53 .5 .5 -1\nC2 .55 .64 .5 -1\nO1 .45 .63 .58 -1\n";
+    CHECK(elements("P -1", across_middle) == "C C O ");
+    CHECK(elements("I -1", across_middle) == "C C C C O O ");              // one on each centre
+    CHECK(elements("P -1", "C1 .03 0 0 -1\nO1 .03 .12 0 -1\n") == "C O "); // at the cell's corner
+    CHECK(elements("P -1", "Fe .5 .5 .5 .\nO1 .6 .65 .5 -1\nO2 .6 .6 .6 -1\n") == "Fe O O O O ");
+    CHECK(elements("P -1", "C1 .2 .3 .1 -1\n") == "C C ");
+}
+
 TEST_CASE("a crystal's displacements are along the axes that its positions have") {
     if (!has_gemmi()) return;
     // The same in all directions, 0.05 angstrom^2, in a cell that leans: U13 is its cosine's part.
