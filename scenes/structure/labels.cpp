@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -63,19 +64,33 @@ bool is_polymer_residue(std::string_view residue) {
     return is_one_of(known, residue);
 }
 
+Element element_of_ion(std::string_view name, std::string_view residue) {
+    // CHARMM36, toppar_water_ions.str.
+    constexpr std::pair<std::string_view, std::string_view> of_charmm[] = {
+        {"BAR", "Ba"}, {"CAD", "Cd"}, {"CAL", "Ca"}, {"CES", "Cs"}, {"CLA", "Cl"},
+        {"LIT", "Li"}, {"POT", "K"},  {"RUB", "Rb"}, {"SOD", "Na"}};
+    const std::string_view letters = first_letters(from_letter(name));
+    const std::string_view of_residue = first_letters(residue);
+    const bool is_named_alike =
+        in_lower_case(letters) == in_lower_case(of_residue) &&
+        residue.find_first_not_of("0123456789+-", of_residue.size()) == std::string_view::npos;
+    if (!is_named_alike && residue != "ION") return 0;
+    for (const auto& [label, symbol] : of_charmm)
+        if (letters == label) return element_of(symbol);
+    return element_of(letters);
+}
+
 Element element_of_atom(std::string_view name, std::string_view residue) {
     constexpr std::string_view of_two[] = {"br", "cl", "cr", "cu", "fe", "ni",
                                            "pt", "se", "si", "sn", "ti"};
     name = from_letter(name);
     const std::string_view letters = first_letters(name);
     if (letters.empty()) return 0;
+    if (const Element of_ion = element_of_ion(name, residue)) return of_ion;
     const Element of_both = element_of_two(letters);
     if (of_both != 0) {
         const std::string in_small = in_lower_case(letters);
-        const bool is_ion =
-            in_small == in_lower_case(first_letters(residue)) &&
-            residue.find_first_not_of("0123456789+-", letters.size()) == std::string_view::npos;
-        if (is_ion || is_small_letter(letters[1])) return of_both;
+        if (is_small_letter(letters[1])) return of_both;
         if (!is_polymer_residue(residue) && is_one_of(of_two, in_small.substr(0, 2)))
             return of_both;
     }

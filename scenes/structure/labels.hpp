@@ -16,9 +16,13 @@ namespace raylane::scenes {
 /// - No sample has elements beyond einsteinium: NH4 is nitrogen, not nihonium.
 Element element_of_label(std::string_view label);
 
+/// Returns the element of an ion, or 0 for other atoms. An ion is named like its residue ("CA" in
+/// "CA2+"), or its residue is "ION" (GROMOS). CHARMM's ions have names of three letters ("SOD").
+Element element_of_ion(std::string_view name, std::string_view residue);
+
 /// Reads the name of an atom in a residue, as GRO, PDB and mmCIF have them: the symbol and then the
 /// place in the residue ("CA", "1HB", "OXT"; PDB format 3.3, Appendix 3). Rules:
-/// - An atom that is named like its residue is an ion ("CA" in "CA2+").
+/// - Ions are as element_of_ion() has them.
 /// - In amino acids and nucleotides the first letter is the symbol.
 /// - Elsewhere, BR, CL, CR, CU, FE, NI, PT, SE, SI, SN and TI are symbols of two letters. Of other
 ///   names the first letter is the symbol, or if it is none both letters are ("ZN").

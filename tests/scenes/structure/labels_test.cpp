@@ -54,6 +54,33 @@ TEST_CASE("an atom that is named like its residue is an ion") {
     CHECK(symbol_of(element_of_atom("CD", "CDL")) == "C");
 }
 
+TEST_CASE("ions of CHARMM have names of three letters") {
+    for (const auto& [name, symbol] :
+         std::vector<std::pair<std::string, std::string>>{{"BAR", "Ba"},
+                                                          {"CAD", "Cd"},
+                                                          {"CAL", "Ca"},
+                                                          {"CES", "Cs"},
+                                                          {"CLA", "Cl"},
+                                                          {"LIT", "Li"},
+                                                          {"POT", "K"},
+                                                          {"RUB", "Rb"},
+                                                          {"SOD", "Na"}}) {
+        CAPTURE(name);
+        CHECK(symbol_of(element_of_atom(name, name)) == symbol);
+        CHECK(symbol_of(element_of_ion(name, "ION")) == symbol);
+    }
+    CHECK(symbol_of(element_of_atom("SOD", "LIG")) == "S");
+    CHECK(element_of_ion("SOD", "LIG") == 0);
+}
+
+TEST_CASE("atoms of a residue ION are ions") {
+    CHECK(symbol_of(element_of_atom("NA", "ION")) == "Na");
+    CHECK(symbol_of(element_of_atom("CL", "ION")) == "Cl");
+    CHECK(symbol_of(element_of_atom("K", "ION")) == "K");
+    CHECK(symbol_of(element_of_atom("NA+", "ION")) == "Na");
+    CHECK(symbol_of(element_of_atom("NA", "LIG")) == "N");
+}
+
 TEST_CASE("in amino acids and nucleotides the first letter is the symbol") {
     for (const auto& [name, symbol] :
          std::vector<std::pair<std::string, std::string>>{{"CA", "C"},
