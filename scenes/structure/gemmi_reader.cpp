@@ -168,24 +168,59 @@ std::string_view field(std::string_view line, std::size_t column, std::size_t wi
     return line.size() < column ? std::string_view() : trimmed(line.substr(column - 1, width));
 }
 
-/// True where names begin in column 13 throughout, which only symbols of two letters and names of
-/// four are to do: AMBER, CHARMM and older tools write so.
-bool is_shifted(const InputFile& file, std::string_view text) {
-    bool any = false;
-    InputFile again(file.name(), text);
-    for (Lines lines(again); lines.next();) {
-        const std::string_view line = lines.text();
-        if (!is_atom(line) || line.size() < 16 || !is_polymer_residue(field(line, 18, 3))) continue;
-        if (line[12] == ' ') return false;
-        any = any || field(line, 13, 4).size() < 4;
+/// Residues whose names of atoms begin in column 13 throughout, where only symbols of two letters
+/// and names of four should: AMBER, CHARMM and older tools write so.
+class ShiftedResidues {
+  public:
+    ShiftedResidues(const InputFile& file, std::string_view text) {
+        InputFile again(file.name(), text);
+        for (Lines lines(again); lines.next();) {
+            const std::string_view line = lines.text();
+            if (!is_atom(line) || line.size() < 16) continue;
+            const std::string_view name = field(line, 13, 4), residue = residue_of(line);
+            auto found = columns_.find(residue);
+            if (found == columns_.end()) found = columns_.emplace(residue, Columns()).first;
+            if (line[12] == ' ')
+                found->second.has_14 = true;
+            else if (name.size() < 4 && (residue == polymers || is_one_letter(name)))
+                found->second.has_early_13 = true;
+        }
     }
-    return any;
-}
 
-/// The element of an atom of a PDB file that does not say it: by columns, and where these are of no
-/// use, by the name and its residue.
+    /// Those of which the names do not tell are as the polymers are.
+    bool has(std::string_view line) const {
+        const auto of = columns_.find(residue_of(line)), of_polymers = columns_.find(polymers);
+        if (of != columns_.end() && of->second.has_14) return false;
+        return (of != columns_.end() && of->second.has_early_13) ||
+               (of_polymers != columns_.end() && of_polymers->second.is_shifted());
+    }
+
+  private:
+    struct Columns {
+        bool has_14 = false, has_early_13 = false; ///< that names begin in
+        bool is_shifted() const { return has_early_13 && !has_14; }
+    };
+
+    static constexpr std::string_view polymers = "polymers";
+    /// The name of its residue, or `polymers`.
+    static std::string_view residue_of(std::string_view line) {
+        const std::string_view residue = field(line, 18, 3);
+        return is_polymer_residue(residue) ? polymers : residue;
+    }
+    /// True for a symbol of one letter: "C", "O1", "N1A".
+    static bool is_one_letter(std::string_view name) {
+        return is_letter(name[0]) && (name.size() == 1 || !is_letter(name[1])) &&
+               element_of(name.substr(0, 1)) != 0;
+    }
+
+    std::map<std::string, Columns, std::less<>> columns_;
+};
+
+/// The element of an atom of a PDB file that does not say it: an ion's, by columns, and where these
+/// are of no use, by the name and its residue.
 Element element_of_record(std::string_view line, bool is_shifted) {
     const std::string_view name = field(line, 13, 4), residue = field(line, 18, 3);
+    if (const Element element = element_of_ion(name, residue)) return element;
     const bool begins_early = line.size() > 13 && line[12] != ' ' && name.size() < 4;
     if (begins_early && !is_shifted && !is_polymer_residue(residue))
         if (const Element element = element_of(field(line, 13, 2))) return element;
@@ -304,8 +339,8 @@ class PdbModels {
         line = line.substr(0, charge);
         std::string with_element;
         if (element_of(field(line, symbol + 1, 2)) == 0) {
-            if (!names_are_shifted_) names_are_shifted_ = is_shifted(file_, text_);
-            const Element element = element_of_record(line, *names_are_shifted_);
+            if (!shifted_) shifted_.emplace(file_, text_);
+            const Element element = element_of_record(line, shifted_->has(line));
             const std::string_view said = element != 0 ? data_of(element).symbol : "X";
             with_element = line.substr(0, symbol);
             with_element.resize(charge - said.size(), ' ');
@@ -330,10 +365,10 @@ class PdbModels {
 
     const InputFile& file_;
     std::string_view text_;
-    std::optional<bool> names_are_shifted_; ///< once an element has been looked for
-    bool is_open_ = false;                  ///< atoms go on with the last model
-    bool in_model_ = false;                 ///< between MODEL and ENDMDL
-    bool is_title_new_ = false;             ///< no model has it yet
+    std::optional<ShiftedResidues> shifted_; ///< once an element has been looked for
+    bool is_open_ = false;                   ///< atoms go on with the last model
+    bool in_model_ = false;                  ///< between MODEL and ENDMDL
+    bool is_title_new_ = false;              ///< no model has it yet
     bool is_title_of_last_entry_ = false;
     std::string title_, cell_;
     std::vector<ModelText> models_;

@@ -303,6 +303,21 @@ TEST_CASE("elements that a PDB file does not say follow from its columns or its 
                    atom("CA  ", " CA")) == "C H C Ca ");
     CHECK(elements(atom("CA  ", " CA") + atom(" CA ", "ALA") + atom("FE  ", "HEM") +
                    atom(" NA ", "HEM")) == "Ca C Fe N ");
+    CHECK(elements(atom(" SOD", "SOD") + atom("POT ", "POT") + atom("CLA ", "CLA") +
+                   atom(" NA ", "ION")) == "Na K Cl Na ");
+}
+
+TEST_CASE("a ligand whose names all begin in column 13 has elements by these") {
+    if (!has_gemmi()) return;
+    const auto elements = [](const std::string& residue, const std::vector<const char*>& names) {
+        std::string text = pdb_atom("ATOM", 1, " CA ", "ALA", 'A', 1, 1, 2, 3, "  ");
+        for (const char* name : names)
+            text += pdb_atom("HETATM", 1, name, residue.c_str(), 'A', 5, 1, 2, 3, "  ");
+        return elements_of(frames(open_pdb, text).at(0));
+    };
+    CHECK(elements("LIG", {"HO1 ", "CD1 ", "O1  ", "H12A", "CL1 "}) == "C H C O H Cl ");
+    CHECK(elements("LIG", {"HG  ", "CD1 ", " O1 "}) == "C Hg Cd O "); // names of some are not
+    CHECK(elements("LIG", {"HG  ", "CD1 "}) == "C Hg Cd ");
 }
 
 TEST_CASE("a table of a macromolecule's atoms needs coordinates alone") {
