@@ -165,10 +165,10 @@ class DumpReader : public FrameReader {
 
     void read_atoms(Structure& frame, std::string_view names, std::size_t count) {
         read_columns(frame, names);
-        constexpr std::size_t least_bytes = 6; // "0 0 0\n"
-        const std::size_t room = file_.size() != 0
-                                     ? static_cast<std::size_t>(file_.size()) / least_bytes
-                                     : std::size_t{1} << 20;
+        // No more than the file can hold: each number has a byte and a blank.
+        const std::size_t bytes =
+            file_.size() != 0 ? static_cast<std::size_t>(file_.size()) : std::size_t{1} << 23;
+        const std::size_t room = bytes / (2 * columns_.size());
         frame.positions.reserve(std::min(count, room));
         frame.kinds.reserve(std::min(count, room));
         for (AtomProperty& property : frame.properties)

@@ -342,6 +342,10 @@ TEST_CASE("to read a file takes no more memory than SECURITY.md says") {
                     "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2000000000\n" + box +
                         "ITEM: ATOMS type x y z\n1 1 1 1\n",
                     64},
+             Budget{"a.lammpstrj",
+                    "ITEM: NUMBER OF ATOMS\n2000000000\n" + box + "ITEM: ATOMS x y z" +
+                        repeated(5 * many, " a") + "\n" + repeated(5 * many + 3, "1 ") + "\n",
+                    64},
              Budget{"a.lmp",
                     "a\n\n" + count +
                         " atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms # "
