@@ -26,7 +26,8 @@ std::vector<Column> usual_columns() {
     return {{Column::Is::species, 1, 'S', "species"}, {Column::Is::position, 3, 'R', "pos"}};
 }
 
-/// key=value pairs of a remark: values in quotes, or in braces as old files have them.
+/// key=value pairs of a remark, perhaps with blanks around "=": values in quotes, or in braces as
+/// old files have them.
 class Pairs {
   public:
     explicit Pairs(std::string_view text) : text_(text) {}
@@ -38,17 +39,22 @@ class Pairs {
         key = text_.substr(0, stop);
         text_.remove_prefix(std::min(stop, text_.size()));
         value = {};
+        text_ = trimmed(text_);
         if (!text_.starts_with('=')) return true; // a word by itself
         text_.remove_prefix(1);
+        const std::string_view behind = trimmed(text_);
+        const std::size_t end_of_word = behind.find_first_of("= \t");
+        if (behind.size() != text_.size() && end_of_word != std::string_view::npos &&
+            behind[end_of_word] == '=')
+            return true; // the value is empty, and another key follows
+        text_ = behind;
         const char open = text_.empty() ? ' ' : text_.front();
         if (open == '"' || open == '\'' || open == '{' || open == '[') {
             const char close = open == '{' ? '}' : open == '[' ? ']' : open;
             text_.remove_prefix(1);
-            const bool has_rows = open == '[' && text_.starts_with("["); // each in brackets, too
-            const std::size_t end = has_rows ? text_.find("]]", 1) : text_.find(close);
+            const std::size_t end = open == '[' ? end_of_brackets() : text_.find(close);
             value = text_.substr(0, end);
-            text_.remove_prefix(end == std::string_view::npos ? text_.size()
-                                                              : end + (has_rows ? 2 : 1));
+            text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
         } else {
             const std::size_t end = std::min(text_.find_first_of(" \t"), text_.size());
             value = text_.substr(0, end);
@@ -58,6 +64,16 @@ class Pairs {
     }
 
   private:
+    /// Returns the place of the closing bracket. Rows may be in brackets, too.
+    std::size_t end_of_brackets() const {
+        std::size_t depth = 1;
+        for (std::size_t i = 0; i < text_.size(); ++i) {
+            if (text_[i] == '[') ++depth;
+            if (text_[i] == ']' && --depth == 0) return i;
+        }
+        return std::string_view::npos;
+    }
+
     std::string_view text_;
 };
 

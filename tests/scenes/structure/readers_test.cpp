@@ -135,8 +135,9 @@ TEST_CASE("LAMMPS' dumps have columns in any order, and scaled coordinates") {
 }
 
 TEST_CASE("extended XYZ may have a cell in brackets, and properties that were not computed") {
-    for (const std::string cell : {"\"5 0 0 0 6 0 0 0 7\"", "[[5,0,0],[0,6,0],[0,0,7]]",
-                                   "[[5, 0, 0], [0, 6, 0], [0, 0, 7]]", "[5 0 0 0 6 0 0 0 7]"}) {
+    for (const std::string cell :
+         {"\"5 0 0 0 6 0 0 0 7\"", "[[5,0,0],[0,6,0],[0,0,7]]", "[[5, 0, 0], [0, 6, 0], [0, 0, 7]]",
+          "[5 0 0 0 6 0 0 0 7]", "[ [5, 0, 0], [0, 6, 0], [0, 0, 7] ]"}) {
         const Structure frame =
             frames(open_xyz, "1\nLattice=" + cell +
                                  " Properties=species:S:1:pos:R:3:q:R:1:f:R:3 energy=NaN\n"
@@ -150,7 +151,8 @@ TEST_CASE("extended XYZ may have a cell in brackets, and properties that were no
         CHECK(std::isnan(frame.properties[1].values.at(0)));
     }
     // Other keys may come behind them, and behind an empty value.
-    for (const std::string before : {"name=\"\" ", "name='' ", "a=[[1,2],[3,4]] ", "a=[] "}) {
+    for (const std::string before :
+         {"name=\"\" ", "name='' ", "a=[[1,2],[3,4]] ", "a=[] ", "a= ", "a = b "}) {
         CAPTURE(before);
         CHECK(frames(open_xyz, "1\n" + before + "Lattice=\"5 0 0 0 6 0 0 0 7\"\nSi 1 2 3\n")
                   .at(0)
@@ -161,6 +163,16 @@ TEST_CASE("extended XYZ may have a cell in brackets, and properties that were no
               .find("Lattice must have 9 numbers") != std::string::npos);
     CHECK(complaint(open_xyz, "1\nProperties=species:S:1:pos:R:3:q:R:1\nSi 1 2 3 none\n") ==
           "a:3:10: q must be a number, got \"none\"");
+}
+
+TEST_CASE("extended XYZ may have blanks around the equals sign") {
+    const Structure frame =
+        frames(open_xyz, "1\nLattice = \"5 0 0 0 6 0 0 0 7\" pbc= \"T F T\" Properties "
+                         "\t=species:S:1:id:I:1:pos:R:3\nSi 9 1 2 3\n")
+            .at(0);
+    CHECK(frame.cell.edges[2].z == 7.0);
+    CHECK(frame.cell.periodic == std::array{true, false, true});
+    CHECK(frame.positions.at(0) == Vec3f(1, 2, 3));
 }
 
 TEST_CASE("LAMMPS' XYZ has types or elements") {
