@@ -91,6 +91,18 @@ class DataReader : public FrameReader {
         return trimmed(line.substr(0, line.find('#')));
     }
 
+    /// The line without its remark, and with one blank between words.
+    std::string words_of_line() const {
+        std::string all;
+        Words words(lines_);
+        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+            const std::size_t hash = word.find('#');
+            if (hash != 0) all.append(all.empty() ? "" : " ").append(word.substr(0, hash));
+            if (hash != std::string_view::npos) break;
+        }
+        return all;
+    }
+
     void tell(std::size_t line, const std::string& message) const {
         if (options_.on_remark)
             options_.on_remark(text_of({file_.name(), {.line = line}, {}, message}));
@@ -114,7 +126,7 @@ class DataReader : public FrameReader {
         bool has_box = false, is_general = false;
         for (;;) {
             if (!next_of_text()) lines_.fail("must have a section Atoms, and the file ends");
-            const std::string_view line = without_remark(lines_.text());
+            const std::string line = words_of_line();
             if (is_letter(line[0])) break;
             const auto ends_with = [&](std::string_view words) { return line.ends_with(words); };
             Words words(lines_);
@@ -138,7 +150,7 @@ class DataReader : public FrameReader {
             } else {
                 const long long count =
                     words.whole("a count", 0, static_cast<long long>(Structure::most_atoms));
-                header_.counts[std::string(trimmed(without_remark(words.rest())))] =
+                header_.counts[line.substr(std::min(line.find(' '), line.size() - 1) + 1)] =
                     static_cast<std::size_t>(count);
             }
         }
@@ -165,7 +177,7 @@ class DataReader : public FrameReader {
     bool at_section() const {
         const std::string_view line = without_remark(lines_.text());
         return is_letter(line[0]) &&
-               (is_known_section(line) || (is_after_blank_ && has_words_alone()));
+               (is_known_section(words_of_line()) || (is_after_blank_ && has_words_alone()));
     }
 
     /// Skips the names of columns that stand directly behind a section's name, where LAMMPS skips
@@ -173,11 +185,12 @@ class DataReader : public FrameReader {
     void skip_column_names() {
         if (!lines_.next()) return;
         const std::string_view line = without_remark(lines_.text());
-        if (line.empty() || is_known_section(line) || !has_words_alone()) lines_.put_back();
+        if (line.empty() || is_known_section(words_of_line()) || !has_words_alone())
+            lines_.put_back();
     }
 
     void read_section(Structure& frame) {
-        const std::string name(without_remark(lines_.text()));
+        const std::string name = words_of_line();
         const std::size_t hash = lines_.text().find('#');
         const std::string remark(
             hash == std::string_view::npos ? "" : trimmed(lines_.text().substr(hash + 1)));

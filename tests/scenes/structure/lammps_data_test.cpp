@@ -301,6 +301,22 @@ TEST_CASE("LAMMPS' data may have a general triclinic box") {
     CHECK(flat.cell.edges == std::array{Vec3d(3, 1, 0), Vec3d(0, 1, 0), Vec3d(0, 0, 1)});
 }
 
+TEST_CASE("words of a header and of sections have any blanks between them") {
+    const std::string text =
+        "a remark\n\n1\t atoms\n2 atom \t types # two\n0  5 xlo  xhi\n0 6 ylo\tyhi\n"
+        "0 7 zlo zhi\n1 2 3\txy  xz\tyz\n\nPair  Coeffs\n\n1 1.0\n\n"
+        "Atoms\n\n1 1 3 1.5 2.5 3.5\n";
+    const Structure frame = read(text).frame;
+    CHECK(frame.cell.edges == std::array{Vec3d(5, 0, 0), Vec3d(1, 6, 0), Vec3d(2, 3, 7)});
+    CHECK(types_of(frame) == "1 ");
+    CHECK(values_of(frame, "charge") == std::vector{3.0F}); // 3 is no type
+    const Cell general = read("a\n\n1 atoms\n1 0 0  avec\n0 2 0\tbvec\n0 0 3 cvec\n"
+                              "4 5 6 abc  origin\n\nAtoms # atomic\n\n1 1 0 0 0\n")
+                             .frame.cell;
+    CHECK(general.edges[1] == Vec3d(0, 2, 0));
+    CHECK(general.origin == Vec3d(4, 5, 6));
+}
+
 TEST_CASE("labels of types may begin with any letter, and end no section") {
     const std::string rest = "\nBonds\n\n1 OW-HW 1 2\n2 OW-HW 1 3\n";
     const std::string labels = "Atom Type Labels\n\n1 OW\n2 HW\n3 C_3\n\nBond Type Labels\n\n"
