@@ -146,6 +146,9 @@ std::vector<Element> elements_of_masses(const std::vector<double>& masses, MassU
         has_hydrogen = has_hydrogen || (found.back() == 1 && mass > 1.0 && mass < 1.5);
     }
     if (units == MassUnits::daltons) return found;
+    if (masses.size() > 1 && !has_different) return {};
+    if (std::all_of(masses.begin(), masses.end(), [](double mass) { return mass < 1.5; }))
+        return {};
     if (has_one && has_hydrogen) return {}; // as electrons are of mass 1 beside nuclei
     if (!has_decimals && !(has_usual && has_different)) return {};
     return found;

@@ -36,9 +36,9 @@ Element element_of_mass(double mass);
 enum class MassUnits { unknown, daltons, others };
 
 /// Returns the elements of types of atoms by their masses. Empty if a mass is not an element's, or
-/// if the masses may be in other units. Masses with decimals that fit elements are in daltons, and
-/// whole numbers are if 12 or 16 is among them beside another one. In reduced units most masses are
-/// 1, or all the same.
+/// if the masses may be in other units: in reduced units most masses are about 1, or those of all
+/// types the same. Other masses with decimals that fit elements are in daltons, and whole numbers
+/// are if 12 or 16 is among them beside another one.
 std::vector<Element> elements_of_masses(const std::vector<double>& masses, MassUnits units);
 
 } // namespace raylane::scenes

@@ -114,11 +114,13 @@ TEST_CASE("masses in reduced units are no elements") {
     using Masses = std::vector<double>;
     for (const Masses& masses :
          {Masses{1}, Masses{1, 1}, Masses{1, 2}, Masses{12, 12}, Masses{14, 14}, Masses{1, 4},
-          Masses{1, 27}, Masses{14.027, 15.035}, Masses{12.011, 14.027}, Masses{1.00794, 1}}) {
+          Masses{1, 27}, Masses{14.027, 15.035}, Masses{12.011, 14.027}, Masses{1.00794, 1},
+          Masses{1.01}, Masses{1.01, 1.01}, Masses{1, 1.008}, Masses{39.948, 39.948}}) {
         CAPTURE(masses);
         CHECK(symbols(masses, MassUnits::unknown).empty());
     }
-    CHECK(symbols({63.546, 63.546}, MassUnits::unknown) == "Cu Cu ");
+    CHECK(symbols({63.546, 63.546}, MassUnits::daltons) == "Cu Cu ");
+    CHECK(symbols({63.546}, MassUnits::unknown) == "Cu ");
     CHECK(symbols({1, 16}, MassUnits::unknown) == "H O ");
     CHECK(symbols({1, 12}, MassUnits::unknown) == "H C ");
     CHECK(symbols({1, 15.9994}, MassUnits::unknown) == "H O ");
