@@ -8,6 +8,7 @@
 #include <exception>
 #include <new>
 #include <png.h>
+#include <utility>
 
 namespace raylane::scenes {
 
@@ -169,6 +170,9 @@ void read_png(ByteSource& source, Image& image) {
 
 std::string foreign_chunk(std::string_view bytes) {
     constexpr std::string_view written[] = {"IHDR", "pHYs", "tEXt", "iTXt", "IDAT", "IEND"};
+    constexpr std::string_view texts[] = {"Title", "Software", "Comment", "Film", "Part",
+                                          "Scene", "Options",  "Pixels",  "Rays"};
+    bool has_text[std::size(texts)] = {};
     constexpr std::size_t signature = 8, length_and_type = 8, checksum = 4;
     for (std::size_t at = signature; at + length_and_type <= bytes.size();) {
         std::size_t length = 0;
@@ -181,6 +185,12 @@ std::string foreign_chunk(std::string_view bytes) {
         if (is_stretched ||
             std::find(std::begin(written), std::end(written), type) == std::end(written))
             return std::string(type);
+        if (type == "tEXt" || type == "iTXt") {
+            const std::string_view key = data.substr(0, data.find('\0'));
+            const auto* const text = std::find(std::begin(texts), std::end(texts), key);
+            if (text == std::end(texts) || std::exchange(has_text[text - std::begin(texts)], true))
+                return std::string(type) + " " + std::string(key);
+        }
         at += length_and_type + length + checksum;
     }
     return {};

@@ -12,9 +12,9 @@ namespace raylane::scenes {
 /// std::bad_alloc.
 void read_png(ByteSource& source, Image& image);
 
-/// Returns the type of the first chunk that write_png() never writes, such as gAMA, or an empty
-/// text. Such a chunk may change how a viewer shows the codes. `bytes`: a PNG that read_png()
-/// accepts.
+/// Returns the type of the first chunk that raylane never writes, such as gAMA, or an empty text.
+/// Such a chunk may change how a viewer shows the codes. The type of a text has its key behind it
+/// ("tEXt Author"): each key of raylane's is there once. `bytes`: a PNG that read_png() accepts.
 std::string foreign_chunk(std::string_view bytes);
 
 } // namespace raylane::scenes

@@ -311,7 +311,12 @@ TEST_CASE("A PNG with a chunk that raylane does not write is refused") {
     };
     const std::string zero(1, '\0');
     CHECK(with("", header).code == 0);
-    CHECK(with(chunk("tEXt", "Author" + zero + "me"), header).code == 0);
+    refused("tEXt Author", chunk("tEXt", "Author" + zero + "me"), header);
+    refused("tEXt Raw profile type exif",
+            chunk("tEXt", "Raw profile type exif" + zero + "\nexif\n0\n"), header);
+    refused("tEXt Comment", chunk("tEXt", "Comment" + zero + "other"), end);
+    refused("iTXt XML:com.adobe.xmp",
+            chunk("iTXt", "XML:com.adobe.xmp" + std::string(5, '\0') + "<x/>"), header);
     refused("gAMA", chunk("gAMA", big_endian(500'000)), header);
     std::string chromaticities;
     for (const std::uint32_t number : {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000})
