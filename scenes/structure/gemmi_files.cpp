@@ -287,10 +287,11 @@ void add_operation(const gemmi::Op& op, gemmi::UnitCell& cell) {
 constexpr int most_operations = 192; ///< F m -3 m has as many
 
 /// What the file says itself, or else its space group's.
-void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure) {
+void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure,
+                     std::vector<std::string>& remarks) {
     for (const char* tag : {"_space_group_symop_operation_xyz", "_symmetry_equiv_pos_as_xyz"}) {
         gemmi::cif::Column operations = block.find_values(tag);
-        if (!operations) continue;
+        if (std::all_of(operations.begin(), operations.end(), gemmi::cif::is_null)) continue;
         if (operations.length() > most_operations)
             throw std::runtime_error("it has " + std::to_string(operations.length()) +
                                      " operations of symmetry, and no space group has more than " +
@@ -317,8 +318,13 @@ void find_operations(gemmi::cif::Block& block, gemmi::SmallStructure& structure)
     }
     const gemmi::SpaceGroup* group = group_of(structure.spacegroup_hm, structure.cell);
     for (const char* tag : {"_space_group_IT_number", "_symmetry_Int_Tables_number"})
-        if (const std::string* number = block.find_value(tag); number && group == nullptr)
+        if (const std::string* number = block.find_value(tag); number && group == nullptr) {
             group = gemmi::find_spacegroup_by_number(gemmi::cif::as_int(*number, 0));
+            if (group != nullptr && !structure.spacegroup_hm.empty())
+                remarks.push_back("the space group \"" + structure.spacegroup_hm +
+                                  "\" is unknown: number " + gemmi::cif::as_string(*number) +
+                                  " is taken in its standard setting, " + group->hm);
+        }
     if (group == nullptr && !structure.spacegroup_hm.empty())
         throw std::runtime_error("its space group \"" + structure.spacegroup_hm +
                                  "\" is none that is known, and it has no operations of symmetry");
@@ -346,7 +352,7 @@ void require_coordinate(const std::string& text, const std::string& of) {
 }
 
 /// The structure of a block; without the sites that have no place.
-gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
+gemmi::SmallStructure crystal_of(gemmi::cif::Block& block, std::vector<std::string>& remarks) {
     gemmi::SmallStructure structure = gemmi::make_small_structure_from_block(block);
     if (structure.sites.empty()) return structure;
     const gemmi::UnitCell& cell = structure.cell;
@@ -374,7 +380,7 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block) {
         if (!lacks) placed.push_back(of);
     }
     structure.sites = std::move(placed);
-    find_operations(block, structure);
+    find_operations(block, structure, remarks);
     read_aniso_b(block, structure.sites);
     return structure;
 }
@@ -522,7 +528,8 @@ std::vector<Model> read_pdb(std::string_view text, const std::string& name) {
     }
 }
 
-std::vector<Model> read_cif(std::string_view text, const std::string& name) {
+std::vector<Model> read_cif(std::string_view text, const std::string& name,
+                            std::vector<std::string>& remarks) {
     try {
         gemmi::cif::Document document =
             gemmi::cif::read_memory(text.data(), text.size(), name.c_str());
@@ -534,7 +541,7 @@ std::vector<Model> read_cif(std::string_view text, const std::string& name) {
                 std::move(of_block.begin(), of_block.end(), std::back_inserter(models));
                 continue;
             }
-            const gemmi::SmallStructure structure = crystal_of(block);
+            const gemmi::SmallStructure structure = crystal_of(block, remarks);
             if (!structure.sites.empty()) models.push_back(model_of(structure));
         }
         return models;

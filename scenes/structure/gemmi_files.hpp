@@ -48,8 +48,9 @@ class Refused : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Throw Refused. Models without atoms are left out.
+/// Throw Refused. Models without atoms are left out. Add differences from the file to `remarks`.
 std::vector<Model> read_pdb(std::string_view text, const std::string& name);
-std::vector<Model> read_cif(std::string_view text, const std::string& name);
+std::vector<Model> read_cif(std::string_view text, const std::string& name,
+                            std::vector<std::string>& remarks);
 
 } // namespace raylane::scenes::gemmi_files

@@ -404,14 +404,18 @@ std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
     return std::make_unique<ModelReader>(file.name(), std::move(models), texts.shared_bonds());
 }
 
-std::unique_ptr<FrameReader> open_cif(InputFile& file) {
+std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions& options) {
     const std::string text = file.read_all();
     try {
         std::vector<ModelAndBonds> models;
-        for (gemmi_files::Model& model : gemmi_files::read_cif(text, file.name()))
+        std::vector<std::string> remarks;
+        for (gemmi_files::Model& model : gemmi_files::read_cif(text, file.name(), remarks))
             models.push_back({std::move(model), {}, 0});
         if (models.empty())
             throw BadInput(file.name(), "", "must have a table _atom_site, got none");
+        for (const std::string& remark : remarks)
+            if (options.on_remark)
+                options.on_remark(text_of({file.name(), {}, {}, printable(remark, 400)}));
         return std::make_unique<ModelReader>(file.name(), std::move(models),
                                              SharedBonds{.of_all = {}, .of_entry = {{}}});
     } catch (const gemmi_files::Refused& refused) {
@@ -438,7 +442,7 @@ namespace {
 std::unique_ptr<FrameReader> open_pdb(InputFile& file) {
     fail(file, "PDB");
 }
-std::unique_ptr<FrameReader> open_cif(InputFile& file) {
+std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions&) {
     fail(file, "mmCIF and CIF");
 }
 

@@ -41,6 +41,6 @@ std::unique_ptr<FrameReader> open_lammps_data(InputFile& file, const ReaderOptio
 /// PDB, of which each MODEL is a frame; and mmCIF or a small molecule's CIF. By gemmi; without it,
 /// BadInput says so.
 std::unique_ptr<FrameReader> open_pdb(InputFile& file);
-std::unique_ptr<FrameReader> open_cif(InputFile& file);
+std::unique_ptr<FrameReader> open_cif(InputFile& file, const ReaderOptions& options);
 
 } // namespace raylane::scenes

@@ -26,7 +26,7 @@ std::unique_ptr<FrameReader> open_structure(InputFile& file, Format format,
     case Format::pdb:
         return open_pdb(file);
     case Format::cif:
-        return open_cif(file);
+        return open_cif(file, options);
     case Format::xyz:
         return open_xyz(file);
     case Format::gro:

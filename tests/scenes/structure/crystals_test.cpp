@@ -157,6 +157,8 @@ TEST_CASE("a crystal's own operations of symmetry count, or those of its space g
     CHECK(atoms("_symmetry_space_group_name_H-M 'P -1'\n") == inverted);
     CHECK(atoms("_symmetry_space_group_name_H-M ?\n_space_group_IT_number 2\n") == inverted);
     CHECK(atoms("") == "1 2 3\n");
+    CHECK(atoms("_space_group_name_Hall '-P 1'\nloop_\n_space_group_symop_operation_xyz\n?\n") ==
+          inverted);
     const auto error = [](const std::string& symmetry) {
         return complaint(open_cif, cube + symmetry + sites("O1 O 0.1 0.2 0.3\n"));
     };
@@ -169,6 +171,23 @@ TEST_CASE("a crystal's own operations of symmetry count, or those of its space g
         many += "'x+" + std::to_string(i % 24) + "/24,y+" + std::to_string(i / 24) + "/24,z'\n";
     CHECK(complaint(open_cif, cube + many + sites("C1 C 0.1 0.2 0.3\n")) ==
           "a: it has 193 operations of symmetry, and no space group has more than 192 in its cell");
+}
+
+TEST_CASE("a remark names a space group that is taken by its number alone") {
+    if (!has_gemmi()) return;
+    const auto remarks = [](const std::string& name) {
+        std::vector<std::string> all;
+        frames(open_cif,
+               cube + "_symmetry_space_group_name_H-M " + name +
+                   "\n_symmetry_Int_Tables_number 15\n" + sites("O1 O 0.1 0.2 0.3\n"),
+               &all);
+        return all;
+    };
+    CHECK(remarks("'P foo'") ==
+          std::vector<std::string>{"a: the space group \"P foo\" is unknown: number 15 is taken in "
+                                   "its standard setting, C 1 2/c 1"});
+    CHECK(remarks("'I 1 2/a 1'").empty());
+    CHECK(remarks("?").empty());
 }
 
 TEST_CASE("molecules of a crystal stay together, with their middles in the cell") {

@@ -5,6 +5,7 @@
 #include "tests/scenes/message_of.hpp"
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// What readers of atoms make of a text, which messages call "a".
@@ -12,18 +13,26 @@ namespace raylane::tests {
 
 using namespace scenes;
 
-using Open = std::unique_ptr<FrameReader> (*)(InputFile&);
-
-inline std::vector<Structure> frames(Open open, const std::string& text) {
+template <class Open>
+std::vector<Structure> frames(const Open& open, const std::string& text,
+                              std::vector<std::string>* remarks = nullptr) {
     InputFile file("a", text);
-    const std::unique_ptr<FrameReader> reader = open(file);
+    const std::unique_ptr<FrameReader> reader = [&] {
+        if constexpr (std::is_invocable_v<Open, InputFile&>)
+            return open(file);
+        else
+            return open(file, {.atom_style = "", .on_remark = [=](const std::string& remark) {
+                                   if (remarks != nullptr) remarks->push_back(remark);
+                               }});
+    }();
     std::vector<Structure> all;
     for (Structure frame; reader->next(frame);)
         all.push_back(frame);
     return all;
 }
 
-inline std::string complaint(Open open, const std::string& text) {
+template <class Open>
+std::string complaint(const Open& open, const std::string& text) {
     return message_of<BadInput>([&] { frames(open, text); });
 }
 
