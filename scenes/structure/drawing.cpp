@@ -40,12 +40,16 @@ class Artist {
         if (structure_.size() == 0) throw BadInput(file_, "", "has no atoms");
         require_places();
         if (drawing_.select != "all") {
-            selected_ = select_atoms(structure_, "--select", drawing_.select);
+            std::vector<std::string> unmatched;
+            selected_ = select_atoms(structure_, "--select", drawing_.select, &unmatched);
             count_ = static_cast<std::size_t>(std::count(selected_.begin(), selected_.end(), 1));
             if (count_ == 0)
                 throw BadInput("--select", "",
                                "\"" + printable(drawing_.select) + "\" selects none of " +
                                    std::to_string(structure_.size()) + " atoms");
+            if (on_remark_ && !drawing_.scale) // once for all frames
+                for (const std::string& message : unmatched)
+                    on_remark_(message);
         } else {
             count_ = structure_.size();
         }

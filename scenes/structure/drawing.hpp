@@ -52,7 +52,8 @@ inline constexpr AtomPair no_atoms = {std::numeric_limits<AtomIndex>::max(),
 /// Fills a builder with the atoms, a camera that sees them all, lights around them, and settings
 /// for a picture that one looks at. `file` is what messages call it; `atoms_of_shape`, if there is
 /// one, is left with the atoms of each shape. Throws BadInput for what there is not: nothing
-/// selected, no such property. Tells `on_remark` of bonds that are left out.
+/// selected, no such property. Tells `on_remark` of bonds that are left out, and of names that
+/// select nothing.
 DrawingScale draw(const Structure& structure, const Drawing& drawing, const std::string& file,
                   core::SceneBuilder& builder, std::vector<AtomPair>* atoms_of_shape = nullptr,
                   const OnRemark& on_remark = {});

@@ -65,8 +65,9 @@ constexpr std::array<std::string_view, 16> keywords = {
 
 class Parser {
   public:
-    Parser(const Structure& structure, const std::string& option, std::string_view text)
-        : structure_(structure), option_(option), text_(text) {
+    Parser(const Structure& structure, const std::string& option, std::string_view text,
+           std::vector<std::string>* unmatched)
+        : structure_(structure), option_(option), text_(text), unmatched_(unmatched) {
         advance();
     }
 
@@ -78,8 +79,26 @@ class Parser {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& message) const {
-        throw BadInput(option_, "column " + std::to_string(column_), message);
+    std::string place_of(std::string_view word) const {
+        return "column " + std::to_string(word.data() - text_.data() + 1);
+    }
+    /// At a word of the expression, be it behind the parser already.
+    [[noreturn]] void fail_at(std::string_view word, const std::string& message) const {
+        throw BadInput(option_, place_of(word), message);
+    }
+    [[noreturn]] void fail(const std::string& message) const { fail_at(word_, message); }
+
+    /// Notes the words of a list for which `is_there` is false.
+    template <class Test>
+    void note_unmatched(const std::vector<std::string_view>& words, const char* what,
+                        const Test& is_there) const {
+        if (unmatched_ == nullptr) return;
+        for (const std::string_view word : words)
+            if (!is_there(word))
+                unmatched_->push_back(text_of({option_,
+                                               {},
+                                               place_of(word),
+                                               "\"" + printable(word) + "\" matches no " + what}));
     }
 
     /// Words end at blanks, parentheses and comparisons.
@@ -87,7 +106,6 @@ class Parser {
         while (position_ < text_.size() &&
                (text_[position_] == ' ' || text_[position_] == '\t' || text_[position_] == ','))
             ++position_;
-        column_ = position_ + 1;
         const std::size_t begin = position_;
         constexpr std::string_view signs = "()<>=";
         if (position_ < text_.size() && signs.find(text_[position_]) != std::string_view::npos) {
@@ -154,8 +172,9 @@ class Parser {
             return result;
         }
         if (take("within")) {
+            const std::string_view distance = word_;
             const double reach = number("a distance");
-            if (!(reach >= 0.0)) fail("a distance must not be negative");
+            if (!(reach >= 0.0)) fail_at(distance, "a distance must not be negative");
             if (!take("of")) fail(R"(must be "of", got )" + got());
             return atoms_within(structure_, one(), static_cast<float>(reach));
         }
@@ -165,7 +184,8 @@ class Parser {
     double number(const char* what) {
         const std::string_view word = taken(what);
         const std::optional<double> value = number_in(word);
-        if (!value) fail(std::string("must be ") + what + ", got \"" + printable(word) + "\"");
+        if (!value)
+            fail_at(word, std::string("must be ") + what + ", got \"" + printable(word) + "\"");
         return *value;
     }
 
@@ -232,6 +252,10 @@ class Parser {
 
     Selected chains() {
         const std::vector<std::string_view> wanted = list("the name of a chain");
+        note_unmatched(wanted, "chain", [&](std::string_view word) {
+            return std::find(structure_.chains.begin(), structure_.chains.end(), word) !=
+                   structure_.chains.end();
+        });
         return where_residue([&](const Residue& residue) {
             return std::find(wanted.begin(), wanted.end(), structure_.chains[residue.chain]) !=
                    wanted.end();
@@ -260,11 +284,18 @@ class Parser {
 
     Selected residues() {
         std::vector<Range> ranges;
-        std::vector<std::string_view> names;
-        for (const std::string_view word : list("the name or number of a residue")) {
+        const std::vector<std::string_view> names = list("the name or number of a residue");
+        for (const std::string_view word : names) // some names are numbers
             if (const std::optional<Range> range = range_in(word)) ranges.push_back(*range);
-            names.push_back(word); // some names are numbers
-        }
+        note_unmatched(names, "residue", [&](std::string_view word) {
+            const std::optional<Range> range = range_in(word);
+            return std::any_of(structure_.of_residue.begin(), structure_.of_residue.end(),
+                               [&](const Residue& residue) {
+                                   return is_same(word, residue.name) ||
+                                          (range && range->first <= residue.number &&
+                                           residue.number <= range->second);
+                               });
+        });
         return where_residue([&](const Residue& residue) {
             return is_in(ranges, residue.number) ||
                    std::any_of(names.begin(), names.end(),
@@ -274,16 +305,26 @@ class Parser {
 
     Selected elements() {
         std::vector<char> wanted(element_count);
-        for (const std::string_view word : list("an element")) {
+        const std::vector<std::string_view> words = list("an element");
+        for (const std::string_view word : words) {
             const Element element = element_of(word);
-            if (element == 0) fail("must be an element, got \"" + printable(word) + "\"");
+            if (element == 0) fail_at(word, "must be an element, got \"" + printable(word) + "\"");
             wanted[element] = 1;
         }
+        note_unmatched(words, "element", [&](std::string_view word) {
+            return std::any_of(
+                structure_.of_kind.begin(), structure_.of_kind.end(),
+                [&](const AtomKind& kind) { return kind.element == element_of(word); });
+        });
         return where([&](AtomIndex i) { return wanted[structure_.element(i)] != 0; });
     }
 
     Selected names() {
         const std::vector<std::string_view> wanted = list("the name of an atom");
+        note_unmatched(wanted, "atom", [&](std::string_view word) {
+            return std::any_of(structure_.names.begin(), structure_.names.end(),
+                               [&](const std::string& name) { return is_same(word, name); });
+        });
         if (structure_.names.empty()) return Selected(structure_.size());
         return where([&](AtomIndex i) {
             return std::any_of(wanted.begin(), wanted.end(), [&](std::string_view name) {
@@ -294,6 +335,10 @@ class Parser {
 
     Selected types() {
         const std::vector<std::string_view> wanted = list("a type");
+        note_unmatched(wanted, "type", [&](std::string_view word) {
+            return std::any_of(structure_.of_kind.begin(), structure_.of_kind.end(),
+                               [&](const AtomKind& kind) { return kind.label == word; });
+        });
         std::vector<char> of_kind;
         for (const AtomKind& kind : structure_.of_kind)
             of_kind.push_back(
@@ -306,7 +351,8 @@ class Parser {
         for (const std::string_view word : list("a number or a range of numbers")) {
             const std::optional<Range> range = range_in(word);
             if (!range)
-                fail("must be a number or a range such as 1-100, got \"" + printable(word) + "\"");
+                fail_at(word, "must be a number or a range such as 1-100, got \"" +
+                                  printable(word) + "\"");
             ranges.push_back(*range);
         }
         return where([&](AtomIndex i) { return is_in(ranges, static_cast<long long>(i) + 1); });
@@ -323,12 +369,12 @@ class Parser {
             std::string all;
             for (const std::string_view word : known)
                 all.append(all.empty() ? "" : ", ").append(word);
-            fail("must be one of " + printable(all, 400) + ", got \"" + printable(name) + "\"" +
-                 suggestion(name, known));
+            fail_at(name, "must be one of " + printable(all, 400) + ", got \"" + printable(name) +
+                              "\"" + suggestion(name, known));
         }
         const std::string_view sign = taken("<, <=, >, >= or =");
         if (sign != "<" && sign != "<=" && sign != ">" && sign != ">=" && sign != "=")
-            fail("must have <, <=, >, >= or = behind it, got \"" + printable(sign) + "\"");
+            fail_at(sign, "must have <, <=, >, >= or = behind it, got \"" + printable(sign) + "\"");
         const double bound = number("a number");
         return where([&](AtomIndex i) {
             const auto value = static_cast<double>(found->values[i]);
@@ -343,15 +389,16 @@ class Parser {
     const Structure& structure_;
     const std::string& option_;
     std::string_view text_, word_;
-    std::size_t position_ = 0, column_ = 1;
+    std::size_t position_ = 0;
     int depth_ = 0;
+    std::vector<std::string>* unmatched_;
 };
 
 } // namespace
 
 std::vector<char> select_atoms(const Structure& structure, const std::string& option,
-                               std::string_view expression) {
-    return Parser(structure, option, expression).all();
+                               std::string_view expression, std::vector<std::string>* unmatched) {
+    return Parser(structure, option, expression, unmatched).all();
 }
 
 } // namespace raylane::scenes

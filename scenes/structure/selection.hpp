@@ -21,8 +21,10 @@ namespace raylane::scenes {
 ///   within 5 of ...    no farther, in angstrom, from any atom that is selected so; those, too
 ///   not ..., ... and ..., ... or ..., ( ... )
 /// "and" binds more tightly than "or", "not" and "within" more tightly than both. Throws BadInput
-/// for `option`, with the column, for what is none.
+/// for `option`, with the column, for what is none. `unmatched`, if there is one, gets a message
+/// for each name in a list that no atom has.
 std::vector<char> select_atoms(const Structure& structure, const std::string& option,
-                               std::string_view expression);
+                               std::string_view expression,
+                               std::vector<std::string>* unmatched = nullptr);
 
 } // namespace raylane::scenes

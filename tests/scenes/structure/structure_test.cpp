@@ -207,6 +207,14 @@ TEST_CASE("atoms are selected by words") {
 TEST_CASE("what selects no atoms in any words is told with its column") {
     const Structure all = peptide();
     CHECK(complaint(all, "") == "--select: column 1: must be what to select, got nothing");
+    CHECK(complaint(all, "foo").starts_with("--select: column 1: must be one of "));
+    CHECK(complaint(all, "within 5 of foo").starts_with("--select: column 13: must be one of "));
+    CHECK(complaint(all, "within -5 of all").starts_with("--select: column 8: a distance "));
+    CHECK(complaint(all, "b_factor 30") ==
+          "--select: column 10: must have <, <=, >, >= or = behind it, got \"30\"");
+    CHECK(complaint(all, "b_factor < x all").starts_with("--select: column 12: must be a number"));
+    CHECK(complaint(all, "element C Q N").starts_with("--select: column 11: must be an element"));
+    CHECK(complaint(all, "index 1 x 2").starts_with("--select: column 9: must be a number or"));
     CHECK(complaint(all, "chane A").find("did you mean \"chain\"?") != std::string::npos);
     CHECK(complaint(all, "element C and") ==
           "--select: column 14: must be what to select, got nothing");
@@ -219,6 +227,31 @@ TEST_CASE("what selects no atoms in any words is told with its column") {
           std::string::npos);
     CHECK(complaint(all, "element Q").find("must be an element, got \"Q\"") != std::string::npos);
     CHECK(complaint(all, std::string(1000, '(')).find("deeper than 100") != std::string::npos);
+}
+
+TEST_CASE("a remark has the column of a name in a list that matches nothing") {
+    const Structure all = peptide();
+    const auto unmatched = [&](const std::string& expression) {
+        std::vector<std::string> messages;
+        select_atoms(all, "--select", expression, &messages);
+        return messages;
+    };
+    using Messages = std::vector<std::string>;
+    CHECK(unmatched("chain A foo") == Messages{"--select: column 9: \"foo\" matches no chain"});
+    CHECK(unmatched("residue ALA 301 FOO 900-901") ==
+          Messages{"--select: column 17: \"FOO\" matches no residue",
+                   "--select: column 21: \"900-901\" matches no residue"});
+    CHECK(unmatched("element C Fe or name CA XY") ==
+          Messages{"--select: column 11: \"Fe\" matches no element",
+                   "--select: column 25: \"XY\" matches no atom"});
+    CHECK(unmatched("type C 7") == Messages{"--select: column 8: \"7\" matches no type"});
+    CHECK(unmatched("chain A b and residue ala -5--1").empty());
+    Drawing drawing;
+    drawing.select = "chain A foo";
+    Messages told;
+    draw_structure(all, drawing, "a", nullptr, nullptr,
+                   [&](const std::string& remark) { told.push_back(remark); });
+    CHECK(told == unmatched("chain A foo"));
 }
 
 TEST_CASE("within finds what all distances do") {
