@@ -8,6 +8,8 @@ using core::Vec3d;
 
 namespace {
 
+constexpr double half_probability = 1.5382;
+
 /// From a symmetric tensor's rows, by Jacobi's rotations: its principal axes, as long as
 /// `times` the roots of its values. False if one is not positive.
 bool to_axes(std::array<Vec3d, 3>& rows, double times) {
@@ -48,12 +50,15 @@ bool to_axes(std::array<Vec3d, 3>& rows, double times) {
 } // namespace
 
 std::optional<std::array<Vec3d, 3>> axes_of(const Anisotropy& displacement) {
-    constexpr double half_probability = 1.5382;
     const auto& u = displacement.u;
     std::array<Vec3d, 3> axes = {Vec3d(u[0], u[3], u[4]), Vec3d(u[3], u[1], u[5]),
                                  Vec3d(u[4], u[5], u[2])};
     if (!to_axes(axes, half_probability)) return std::nullopt;
     return axes;
+}
+
+double radius_of_displacement(double isotropic) {
+    return half_probability * std::sqrt(isotropic);
 }
 
 } // namespace raylane::scenes

@@ -239,11 +239,20 @@ class Artist {
             if (!is_selected(atom) || (!has_ellipsoid.empty() && has_ellipsoid[atom] != 0))
                 continue;
             const MaterialIndex material = palette_.of(color_of_(atom));
-            const float radius = radius_of(atom);
+            const float radius = displaced_radius(atom).value_or(radius_of(atom));
             for (const Vec3f& image : images_)
                 add(core::Sphere{structure_.positions[atom] + image, radius}, material,
                     {atom, atom});
         }
+    }
+
+    /// Returns the radius of an isotropic displacement that is drawn.
+    std::optional<float> displaced_radius(AtomIndex atom) const {
+        if (!drawing_.ellipsoids || structure_.isotropies.empty() ||
+            !(structure_.isotropies[atom] > 0.0F))
+            return std::nullopt;
+        return static_cast<float>(
+            radius_of_displacement(static_cast<double>(structure_.isotropies[atom])));
     }
 
     std::vector<char> add_displacements() {

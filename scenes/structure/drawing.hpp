@@ -36,7 +36,7 @@ struct Drawing {
     std::string select = "all";            ///< as select_atoms has it
     std::array<int, 3> repeat = {1, 1, 1}; ///< cells side by side along the edges
     bool show_cell = false;                ///< its edges
-    bool ellipsoids = false;               ///< of displacement, which hold half of the probability
+    bool ellipsoids = false;               ///< and spheres, which hold half of a displacement
     core::Framing framing;
     int width = 1200, height = 900; ///< pixels of the picture
     float opacity = 1.0F;           ///< of all that is drawn, in (0, 1]

@@ -92,6 +92,7 @@ Atom image_of(const gemmi::SmallStructure::Site& site, const gemmi::UnitCell& ce
     copy(cell.orthogonalize(at), atom.at);
     atom.element = site.type_symbol == site.label ? 0 : number_of(site.element); // gemmi copies it
     atom.name = site.label;
+    atom.b_factor = static_cast<float>(site.u_iso * gemmi::u_to_b());
     atom.occupancy = static_cast<float>(site.occ);
     atom.has_u = site.aniso.nonzero();
     const double lengths[] = {cell.ar, cell.br, cell.cr};

@@ -14,8 +14,8 @@ struct Atom {
     int element;  ///< atomic number; 0: not said
     std::string name;
     int serial = 0;
-    float b_factor = 0.0F, occupancy = 1.0F;
-    char conformer = '\0'; ///< of places that exclude each other
+    float b_factor = 0.0F, occupancy = 1.0F; ///< B is U by 8 pi^2
+    char conformer = '\0';                   ///< of places that exclude each other
     bool has_u = false;
     float u[6] = {}; ///< U11, U22, U33, U12, U13, U23
 };

@@ -95,6 +95,7 @@ class ModelReader : public FrameReader {
                 before = &residue;
             }
         }
+        if (!frame.anisotropies.empty()) add_isotropies(frame);
         if (model.is_small) frame.properties.erase(frame.properties.begin());
         Directed bonds = shared_.of_all;
         const Directed& of_entry = shared_.of_entry.at(entry);
@@ -110,6 +111,15 @@ class ModelReader : public FrameReader {
     }
 
   private:
+    /// Keeps the displacements of atoms that have B alone.
+    static void add_isotropies(Structure& frame) {
+        constexpr float b_of_u = 78.956835F; // 8 pi^2
+        for (const float b : frame.properties[0].values)
+            frame.isotropies.push_back(b / b_of_u);
+        for (const Anisotropy& of : frame.anisotropies)
+            frame.isotropies[of.atom] = 0.0F;
+    }
+
     /// Of places that exclude each other, adds those of the first, `conformer`, of which residues
     /// of one number (1CBN has SER or PRO as residue 22) share one.
     void add(const gemmi_files::Residue& residue, bool is_small, char& conformer, Structure& frame,

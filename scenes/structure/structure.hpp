@@ -79,9 +79,10 @@ struct Structure {
 
     std::vector<AtomProperty> properties;
     std::vector<Anisotropy> anisotropies; ///< by ascending atom
-    std::vector<AtomShape> shapes;        ///< of some atoms
-    std::vector<Bond> bonds;              ///< those that the file has
-    bool has_all_bonds = false;           ///< true: there are no others
+    std::vector<float> isotropies; ///< mean displacements in angstrom^2 beside tensors; 0: unknown
+    std::vector<AtomShape> shapes; ///< of some atoms
+    std::vector<Bond> bonds;       ///< those that the file has
+    bool has_all_bonds = false;    ///< true: there are no others
     Cell cell;
 
     std::size_t size() const { return positions.size(); }

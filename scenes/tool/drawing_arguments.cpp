@@ -62,7 +62,7 @@ void DrawingArguments::add_to(CLI::App& command) {
     };
     flag("--cell", cell, "Show the cell's edges");
     flag("--ellipsoids", ellipsoids,
-         "Draw atoms with displacements (ANISOU) as ellipsoids of half their probability");
+         "Draw displacements (ANISOU, U and B) as ellipsoids or spheres of half their probability");
 }
 
 Drawing DrawingArguments::drawing() const {

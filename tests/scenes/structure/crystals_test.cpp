@@ -1,8 +1,10 @@
 #include "scenes/errors.hpp"
 #include "scenes/structure/readers.hpp"
+#include "scenes/structure/structure_file.hpp"
 #include "tests/catch.hpp"
 #include "tests/scenes/structure/frames.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -230,6 +232,32 @@ TEST_CASE("mmCIF without an author's numbers has those of its labels") {
         "a: the coordinates of CA must be from -1e30 to 1e30");
     CHECK(complaint(open_cif, text("_atom_site.auth_seq_id\n", "1 C CA . ALA A 1 20 7 1 x 3\n")) ==
           "a: the coordinates of atom 1 must be numbers, got \"x\"");
+}
+
+TEST_CASE("an atom with an isotropic displacement alone is a sphere beside ellipsoids") {
+    if (!has_gemmi()) return;
+    const Structure frame =
+        frames(open_cif, cube + "loop_\n_atom_site_label\n_atom_site_fract_x\n_atom_site_fract_y\n"
+                                "_atom_site_fract_z\n_atom_site_U_iso_or_equiv\nCl1 .1 .1 .1 .05\n"
+                                "Sn1 .5 .5 .5 0.0345(5)\nH1 .8 .8 .8 .\n"
+                                "loop_\n_atom_site_aniso_label\n_atom_site_aniso_U_11\n"
+                                "_atom_site_aniso_U_22\n_atom_site_aniso_U_33\n"
+                                "_atom_site_aniso_U_12\n_atom_site_aniso_U_13\n"
+                                "_atom_site_aniso_U_23\nCl1 .1 .1 .2 0 0 0\n")
+            .at(0);
+    CHECK(frame.isotropies.size() == 3);
+    Drawing drawing;
+    drawing.ellipsoids = true;
+    drawing.style = Style::balls;
+    const raylane::core::Scene scene = draw_structure(frame, drawing, "a");
+    std::vector<double> radii;
+    raylane::core::for_each_shape(
+        std::get<raylane::core::Table<raylane::core::Sphere>>(scene.shapes()),
+        [&](const auto& sphere, raylane::core::ShapeId) { radii.push_back(sphere.radius); });
+    std::sort(radii.begin(), radii.end());
+    REQUIRE(radii.size() == 2);
+    CHECK(radii[0] == Approx(0.285708)); // of tin
+    CHECK(radii[1] == Approx(0.3));      // of hydrogen: a ball
 }
 
 TEST_CASE("B of a crystal's displacements is U by 8 pi squared") {
