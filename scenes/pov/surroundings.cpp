@@ -102,13 +102,16 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
     if (given.look_at) {
         direction = *given.look_at - location;
         if (direction == Vec3d(0.0)) fail(place, "must look at a point other than its location");
-        const Vec3d aside = core::cross(given.sky, direction);
-        if (aside != Vec3d(0.0)) right = (is_left ? width : -width) * core::normalized(aside);
-        up = height * core::normalized(core::cross(direction, is_left ? right : -right));
-        if (aside == Vec3d(0.0)) sky = up;
+        const Vec3d sight = core::normalized(direction);
+        Vec3d aside = core::cross(given.sky, sight);
+        if (core::length(aside) < 1e-10) aside = right; // POV-Ray's bound
+        aside = core::normalized(aside);
+        right = (is_left ? width : -width) * aside;
+        up = height * core::cross(sight, aside);
+        // In floats, a sky close to the line of sight would turn the image.
+        constexpr double oblique = 0x1p-10;
+        if (!(core::length(core::cross(core::normalized(given.sky), sight)) > oblique)) sky = up;
     }
-    if (!(width > 0.0 && height > 0.0 && core::length(direction) > 0.0))
-        fail(place, "must have a right, an up and a direction that have lengths");
     if (given.angle) focus = 0.5 * width / core::slope_of_view(*given.angle);
     double size = 1.0; // of an orthographic picture, by what right and up say
     if (given.look_at && (!given.has_size || given.angle)) size = core::length(direction) / focus;
@@ -124,6 +127,10 @@ View view_of(const Camera& given, Tokens& tokens, const Place& place) {
         up = given.motion->direction(up);
         direction = given.motion->direction(direction);
     }
+    for (const Vec3d& axis : {direction, right, up})
+        if (!(core::length(axis) > 0.0 && std::isfinite(core::length(axis))))
+            fail(place,
+                 "must have a right, an up and a direction that are not 0 or along each other");
     const auto is_across = [](const Vec3d& a, const Vec3d& b) {
         return std::abs(core::dot(a, b)) <= 1e-6 * core::length(a) * core::length(b);
     };

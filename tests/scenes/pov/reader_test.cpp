@@ -292,6 +292,42 @@ TEST_CASE("a camera along its sky keeps its right") {
     CHECK(down.up.x == 0.0F);
 }
 
+TEST_CASE("a camera along its sky has the hand that its right and up have") {
+    const auto up_of = [](const std::string& of) {
+        return read("sphere { 0, 1 }", "camera { " + of + " look_at 0 }\n").scene.camera().up;
+    };
+    // The directions in POV-Ray's own images. z is negated if the world is seen in a mirror.
+    CHECK(up_of("location 9*y") == core::Vec3f(0, 0, -1));
+    CHECK(up_of("location 9*y right -x") == core::Vec3f(0, 0, -1));
+    CHECK(up_of("location 9*y up -y") == core::Vec3f(0, 0, 1));
+    CHECK(up_of("location 9*y direction -z") == core::Vec3f(0, 0, 1));
+    CHECK(up_of("location 9*z sky z right -x") == core::Vec3f(0, 1, 0));
+    CHECK(up_of("location 9*y right z up x") == core::Vec3f(-1, 0, 0));
+}
+
+TEST_CASE("a camera close to its sky is as upright as in POV-Ray") {
+    const auto up_of = [](const std::string& location) {
+        const core::Vec3f up =
+            read("sphere { 0, 1 }", "camera { location " + location + " look_at 0 }\n")
+                .scene.camera()
+                .up;
+        return core::Vec3f(std::round(1e6F * up.x), std::round(1e6F * up.y),
+                           std::round(1e6F * up.z));
+    };
+    CHECK(up_of("<10*cos(pi/2), 10, 10*cos(pi/2)>") == core::Vec3f(0, 0, -1e6F));
+    CHECK(up_of("<0.0000001, 10, 0>") == core::Vec3f(-1e6F, 0, 0));
+    CHECK(up_of("<1, 1, 0>") == core::Vec3f(0, 1e6F, 0)); // as given
+}
+
+TEST_CASE("a camera whose axes do not span an image is refused") {
+    const std::string axes =
+        "a.pov:1:1: must have a right, an up and a direction that are not 0 or along each other";
+    CHECK(complaint("camera { location 10*x sky x look_at 0 }") == axes);
+    CHECK(complaint("camera { location 10*x up 0 look_at 0 }") == axes);
+    CHECK(complaint("camera { location 10*x right 0 }") == axes);
+    CHECK(complaint("camera { right 1e200*x up 1e200*y }") == axes);
+}
+
 TEST_CASE("angles of a camera are bounded as its projection is") {
     const auto angle = [](const std::string& of) {
         return "camera { " + of + " location <0, 0, -9> look_at 0 }\nsphere { 0, 1 }";
