@@ -278,7 +278,8 @@ bool at_tuple(Tokens& tokens) {
 
 std::vector<std::size_t> read_indices(Tokens& tokens, std::size_t most) {
     std::vector<std::size_t> indices;
-    while (indices.size() < most && tokens.at("[")) {
+    // A directive behind an array of #declare is run after the array is declared.
+    while (indices.size() < most && tokens.ahead().is("[")) {
         const Place place = tokens.next().place;
         const double index = read_number(tokens);
         if (!(index > -1.0 && index < static_cast<double>(most_elements)))

@@ -107,6 +107,12 @@ TEST_CASE("POV-Ray: an array is a value") {
               .find("must not be of arrays in each other more than 128 deep") != std::string::npos);
 }
 
+TEST_CASE("POV-Ray: a directive follows an array without a semicolon") {
+    CHECK(number("A[0]", "#declare A = array[2]\n#declare A[0] = 7;") == "7");
+    CHECK(number("A[1][0]", "#declare A = array[2][2]\n#declare A[1][0] = 8;") == "8");
+    CHECK(number("A[1]", "#if (1) #declare A = array[2]\n#end #declare A[1] = 9;") == "9");
+}
+
 TEST_CASE("POV-Ray: an object has the default texture of where it stands") {
     const Read of = read("#default { pigment { rgb <1, 0, 0> } } sphere { -2*x, 1 }\n"
                          "#default { pigment { rgb <0, 0, 1> } } sphere { 2*x, 1 }\n" +
