@@ -184,7 +184,8 @@ void draw_flat_box(Object& object) {
     }
 }
 
-/// A cone's radii of different signs are on both sides of its apex: it is two cones.
+/// A cone's radii of different signs are on both sides of its apex: it is two cones. POV-Ray draws
+/// a cone of two negative radii as a cylinder that has the smaller one.
 void divide_cone(Object& object) {
     std::visit(
         [&]<class Shape>(Shape& cone) {
@@ -192,6 +193,9 @@ void divide_cone(Object& object) {
                 const Shape given = cone;
                 cone.base_radius = std::abs(cone.base_radius);
                 cone.top_radius = std::abs(cone.top_radius);
+                if (given.base_radius < 0.0 && given.top_radius < 0.0)
+                    cone.base_radius = cone.top_radius =
+                        std::min(cone.base_radius, cone.top_radius);
                 if (!(given.base_radius * given.top_radius < 0.0)) return;
                 const Vec3d apex = given.base + given.base_radius /
                                                     (given.base_radius - given.top_radius) *

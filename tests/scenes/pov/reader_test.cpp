@@ -84,7 +84,7 @@ TEST_CASE("shapes are read as they are written") {
           "capped cone 0 0 0 0 1 0 1 0\ncapped cone 0 2 0 0 -1 0 1 0\n");
     CHECK(shapes_of(read("cone { 0, -3, 4*y, 1 open }").scene) ==
           "open cone 0 0 0 0 3 0 3 0\nopen cone 0 4 0 0 -1 0 1 0\n");
-    CHECK(shapes_of(read("cone { 0, -1, y, -2 }").scene) == "capped cone 0 0 0 0 1 0 1 2\n");
+    CHECK(shapes_of(read("cone { 0, -1, y, -2 }").scene) == "capped cone 0 0 0 0 1 0 1 1\n");
     CHECK(read("intersection { cone { -y, -1, y, 1 } box { -2, 2 } }").scene.solids().any());
     CHECK(shapes_of(read("cone { 0, 0, y, 0 }").scene).empty());
     CHECK(shapes_of(read("box { <1, 1, 1>, <-1, 0, 3> }").scene) ==
