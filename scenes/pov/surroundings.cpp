@@ -83,8 +83,8 @@ Camera read_camera(Tokens& tokens) {
         }
     }
     if (camera.angle && !(*camera.angle > 0.0 && *camera.angle < 180.0)) {
-        // ASE writes `orthographic angle 0` for no angle.
-        if (!is_wide && !(camera.orthographic && *camera.angle == 0.0))
+        // POV-Ray ignores an angle of 0, which ASE writes.
+        if (!is_wide && *camera.angle != 0.0)
             fail(angle_place, "must be an angle between 0 and 180 degrees");
         camera.angle.reset();
     }

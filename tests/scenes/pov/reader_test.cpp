@@ -332,7 +332,8 @@ TEST_CASE("angles of a camera are bounded as its projection is") {
     const auto angle = [](const std::string& of) {
         return "camera { " + of + " location <0, 0, -9> look_at 0 }\nsphere { 0, 1 }";
     };
-    CHECK(complaint(angle("angle 0")) == "a.pov:1:10: must be an angle between 0 and 180 degrees");
+    CHECK(complaint(angle("angle -1")) == "a.pov:1:10: must be an angle between 0 and 180 degrees");
+    CHECK(read(angle("angle 0"), "").scene.camera().field_of_view == Approx(53.1301F));
     CHECK(complaint(angle("orthographic angle 200")) ==
           "a.pov:1:23: must be an angle between 0 and 180 degrees");
     CHECK(read(angle("orthographic angle 0"), "").scene.camera().projection ==
