@@ -5,6 +5,7 @@
 #include "scenes/pov/expressions.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -105,7 +106,7 @@ const FunctionOfTwo functions_of_two[] = {
 constexpr std::string_view of_vectors[] = {"vlength", "vnormalize",   "vdot",    "vcross",
                                            "vrotate", "vaxis_rotate", "defined", "dimension_size",
                                            "version", "strlen",       "strcmp",  "asc",
-                                           "select",  "seed",         "rand"};
+                                           "val",     "select",       "seed",    "rand"};
 
 template <class Table>
 auto* entry(Table& table, std::string_view name) {
@@ -155,6 +156,16 @@ Tuple read_select(Tokens& tokens) {
     return values[by < 0.0 ? 0 : by == 0.0 ? 1 : 2];
 }
 
+/// Returns the number that a text begins with, or 0.
+double leading_value(std::string_view text) {
+    const std::string_view number =
+        text.substr(std::min(text.find_first_not_of(" \t\n"), text.size()));
+    double value = 0.0;
+    const char* first = number.data() + (number.starts_with('+') ? 1 : 0);
+    std::from_chars(first, number.data() + number.size(), value);
+    return std::isfinite(value) ? value : 0.0;
+}
+
 /// What is made of strings, or of a stream of random numbers that seed() has begun.
 Tuple of_strings_or_streams(Tokens& tokens, const Token& name) {
     if (name.is("seed")) {
@@ -173,6 +184,7 @@ Tuple of_strings_or_streams(Tokens& tokens, const Token& name) {
         if (text.empty()) fail(place, "must be a string that is not empty");
         return Tuple::of(static_cast<double>(static_cast<unsigned char>(text[0])));
     }
+    if (name.is("val")) return Tuple::of(leading_value(text));
     tokens.expect(",");
     const int order = text.compare(read_string(tokens));
     return Tuple::of(order < 0 ? -1.0 : order > 0 ? 1.0 : 0.0);
@@ -186,7 +198,7 @@ Tuple of_vectors_named(Tokens& tokens, const Token& name) {
     Tuple result;
     if (name.is("select")) {
         result = read_select(tokens);
-    } else if (!name.text.starts_with('v')) {
+    } else if (name.is("val") || !name.text.starts_with('v')) {
         result = of_strings_or_streams(tokens, name);
     } else {
         const Vec3d a = read_vector(tokens);

@@ -64,6 +64,14 @@ TEST_CASE("POV-Ray: str makes of a number what POV-Ray does") {
     CHECK(complaint("#debug str(1") == "a.pov:1:13: must be \",\", got the end of the file");
 }
 
+TEST_CASE("POV-Ray: val takes the number that a string begins with") {
+    CHECK(number("val(\"3.5\")") == "3.5");
+    CHECK(number("val(concat(\" +1\", \"e1 m\"))") == "10");
+    CHECK(number("-val(\"-2\")") == "2");
+    for (const char* none : {"", "  ", "m", "inf", "nan", "1e999"})
+        CHECK(number("val(\"" + std::string(none) + "\")") == "0");
+}
+
 TEST_CASE("POV-Ray: strings are compared") {
     const std::string name = "#declare V = \"a\"; ";
     CHECK(number("(V = \"a\")", name) == "1");
