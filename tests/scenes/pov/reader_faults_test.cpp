@@ -72,6 +72,14 @@ TEST_CASE("POV-Ray: val takes the number that a string begins with") {
         CHECK(number("val(\"" + std::string(none) + "\")") == "0");
 }
 
+TEST_CASE("POV-Ray: an image that is no animation has frame 0") {
+    for (const char* name : {"frame_number", "initial_frame", "final_frame", "clock", "clock_delta",
+                             "clock_on", "initial_clock", "final_clock"}) {
+        CAPTURE(name);
+        CHECK(number(name) == "0");
+    }
+}
+
 TEST_CASE("POV-Ray: strings are compared") {
     const std::string name = "#declare V = \"a\"; ";
     CHECK(number("(V = \"a\")", name) == "1");
