@@ -186,27 +186,31 @@ constexpr std::array synonyms = {
 
 } // namespace
 
-std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates,
-                       std::string_view prefix) {
+std::optional<std::string_view> nearest_to(std::string_view unknown,
+                                           const std::vector<std::string_view>& candidates) {
     const std::string_view start = unknown.substr(0, 64); // a key may be as long as its file
     const auto known = [&](std::string_view name) {
         return std::find(candidates.begin(), candidates.end(), name) != candidates.end();
     };
-    const auto said = [&](std::string_view name) {
-        return ", did you mean \"" + std::string(prefix).append(name) + "\"?";
-    };
     for (const Synonym& synonym : synonyms)
-        if (synonym.elsewhere == start && known(synonym.here)) return said(synonym.here);
+        if (synonym.elsewhere == start && known(synonym.here)) return synonym.here;
     // Of a number there are no misspellings.
-    if (start.find_first_not_of("0123456789+-.") == std::string_view::npos) return "";
+    if (start.find_first_not_of("0123456789+-.") == std::string_view::npos) return std::nullopt;
     const auto nearest =
         std::min_element(candidates.begin(), candidates.end(), [&](auto a, auto b) {
             return edit_distance(start, a) < edit_distance(start, b);
         });
-    if (nearest == candidates.end()) return "";
+    if (nearest == candidates.end()) return std::nullopt;
     const std::size_t longest = std::max(start.size(), nearest->size());
-    if (edit_distance(start, *nearest) > std::max<std::size_t>((longest + 1) / 3, 1)) return "";
-    return said(*nearest);
+    if (edit_distance(start, *nearest) > std::max<std::size_t>((longest + 1) / 3, 1))
+        return std::nullopt;
+    return *nearest;
+}
+
+std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates,
+                       std::string_view prefix) {
+    const std::optional<std::string_view> nearest = nearest_to(unknown, candidates);
+    return nearest ? ", did you mean \"" + std::string(prefix).append(*nearest) + "\"?" : "";
 }
 
 std::string alternatives(const std::vector<std::string>& names) {

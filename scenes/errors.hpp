@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -79,8 +80,11 @@ std::string printable(std::string_view text, std::size_t most = 40);
 /// A word of a file in quotes; `the end of the file` if it is empty.
 std::string quoted_word(std::string_view word);
 
-/// ", did you mean "near"?" with the candidate nearest to `unknown` by edit distance, behind
-/// `prefix`, or "" if none is near.
+/// Returns the candidate nearest to `unknown` by edit distance, or the one that another format
+/// calls by that word; nothing if no candidate is near.
+std::optional<std::string_view> nearest_to(std::string_view unknown,
+                                           const std::vector<std::string_view>& candidates);
+/// ", did you mean "near"?" with that candidate, behind `prefix`, or "".
 std::string suggestion(std::string_view unknown, const std::vector<std::string_view>& candidates,
                        std::string_view prefix = "");
 

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,8 +62,10 @@ std::string expectation_in(std::string_view error) {
 class ItemParser {
   public:
     ItemParser(std::string_view file, JsonText& text, std::span<const RootKey> keys,
-               const TakeItem& take, InputErrors& errors, Parameters* parameters)
-        : file_(file), text_(text), keys_(keys), take_(take), errors_(errors), item_(parameters) {}
+               const TakeItem& take, const MissItems& miss, InputErrors& errors,
+               Parameters* parameters)
+        : file_(file), text_(text), keys_(keys), take_(take), miss_(miss), errors_(errors),
+          item_(parameters) {}
 
     /// Looks for required keys that did not come.
     Outline finish();
@@ -102,6 +105,10 @@ class ItemParser {
     /// True if the value that comes next belongs to a root key that was refused.
     bool is_refused() const { return in_root_ && root_key_ == nullptr; }
     void hand_over();
+    void miss(std::string_view key) {
+        missed_.insert(key);
+        miss_(key);
+    }
     bool go_on() const { return !errors_.overflowed(); }
     InputError error(const TextPosition& position, std::string_view pointer,
                      std::string_view message) const {
@@ -112,9 +119,11 @@ class ItemParser {
     JsonText& text_;
     std::span<const RootKey> keys_;
     const TakeItem& take_;
+    const MissItems& miss_;
     InputErrors& errors_;
 
     Outline outline_;
+    std::set<std::string_view> missed_; // root keys
     bool in_root_ = false;
     const RootKey* root_key_ = nullptr; // the latest; none if it was refused
     bool in_collection_ = false;        // inside of its value, a list or an object of items
@@ -128,7 +137,7 @@ class ItemParser {
 
 Outline ItemParser::finish() {
     for (const RootKey& key : keys_)
-        if (key.required && !outline_.values.contains(key.name))
+        if (key.required && !outline_.values.contains(key.name) && !missed_.contains(key.name))
             errors_.add(
                 error(outline_.root, "", "must have the key \"" + std::string(key.name) + '"'));
     return std::move(outline_);
@@ -165,12 +174,15 @@ void ItemParser::root_key(std::string_view key) {
     const std::size_t index =
         static_cast<std::size_t>(std::find(names.begin(), names.end(), key) - names.begin());
     root_key_ = nullptr;
-    if (index == names.size())
+    if (index == names.size()) {
         errors_.add(error(key_position_, "", unknown_key(key, names)));
-    else if (outline_.values.contains(key))
+        if (const auto meant = nearest_to(key, names)) miss(*meant);
+    } else if (outline_.values.contains(key)) {
         errors_.add(error(key_position_, pointer_token(key), "must be given only once"));
-    else
+        miss(names[index]);
+    } else {
         root_key_ = &keys_[index];
+    }
 }
 
 bool ItemParser::scalar(JsonType type, std::string_view text, double number) {
@@ -232,6 +244,7 @@ bool ItemParser::add(JsonType type, std::string_view text, double number) {
         const InputError wrong = item_.root().error_expecting(name_of(*expected));
         if (!in_root_) throw BadInput({wrong});
         errors_.add(wrong);
+        miss(root_key_->name);
         return false;
     }
     const auto refuse = [&](const std::string& message) {
@@ -299,10 +312,10 @@ bool ItemParser::parse_error(std::size_t read, const std::string& token,
 } // namespace
 
 Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
-                   InputErrors& errors, Parameters* parameters) {
+                   const MissItems& miss, InputErrors& errors, Parameters* parameters) {
     try {
         JsonText text(file);
-        ItemParser parser(file.name(), text, keys, take, errors, parameters);
+        ItemParser parser(file.name(), text, keys, take, miss, errors, parameters);
         if (json::sax_parse(JsonTextIterator(text), JsonTextIterator(), &parser))
             return parser.finish();
     } catch (const BadInput& fatal) {

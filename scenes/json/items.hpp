@@ -34,6 +34,10 @@ struct RootKey {
 using TakeItem =
     std::function<void(const RootKey& key, std::string_view name, const JsonDocument& item)>;
 
+/// Learns of a root key whose items are missing by a mistake that has been added to the errors: it
+/// is misspelt, or its value is of another type. Errors that follow from that are not reported.
+using MissItems = std::function<void(std::string_view key)>;
+
 /// Where the outermost object begins, and the values in it.
 struct Outline {
     TextPosition root;
@@ -55,6 +59,6 @@ struct Outline {
 /// them. Throws BadInput with all errors so far where it cannot: for what is not JSON, for items
 /// too deep or too large to belong to a scene, and where there are too many errors already.
 Outline read_items(InputFile& file, std::span<const RootKey> keys, const TakeItem& take,
-                   InputErrors& errors, Parameters* parameters = nullptr);
+                   const MissItems& miss, InputErrors& errors, Parameters* parameters = nullptr);
 
 } // namespace raylane::scenes

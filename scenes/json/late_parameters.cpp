@@ -18,8 +18,9 @@ void take_all(InputFile& file, std::span<const RootKey> keys, Inclusion& inclusi
                 take_all(included, keys, inclusion, parameters);
             });
     };
+    const auto miss = [&](std::string_view key) { parameters.miss(key); };
     try {
-        read_items(file, keys, take, untold, &parameters);
+        read_items(file, keys, take, miss, untold, &parameters);
     } catch (const BadInput&) { // as far as can be read
         return;
     }
@@ -30,6 +31,7 @@ void take_all(InputFile& file, std::span<const RootKey> keys, Inclusion& inclusi
 void take_parameters(InputFile& file, std::span<const RootKey> keys, Parameters& parameters) {
     Inclusion inclusion(file.name());
     take_all(file, keys, inclusion, parameters);
+    parameters.forget_missing(); // none of them has been reported
 }
 
 } // namespace raylane::scenes

@@ -49,6 +49,11 @@ void Parameters::add_wrong(std::string_view name) {
     parameters_.try_emplace(std::string(name), Parameter{.value = 0.0, .wrong = true});
 }
 
+void Parameters::forget_wrong(std::string_view name) {
+    const auto found = parameters_.find(name);
+    if (found != parameters_.end() && found->second.wrong) parameters_.erase(found);
+}
+
 bool Parameters::is_wrong(std::string_view reference) const {
     const auto found = parameters_.find(name_in(reference));
     return found != parameters_.end() && found->second.wrong;

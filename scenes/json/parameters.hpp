@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,10 +30,22 @@ class Parameters {
     /// True while one without a value may have one further on in the file.
     bool expects_more = false;
 
+    /// True if a mistake that is known keeps some from having a value.
+    bool may_lack_some = false;
+
     /// Adds one that a file has, unless that is given.
     void add_default(std::string_view name, double value);
     /// Notes one that has a mistake, unless it is given.
     void add_wrong(std::string_view name);
+    /// Forgets that one has a mistake, to read it again.
+    void forget_wrong(std::string_view name);
+    /// Learns of a root key that is missing by mistake.
+    void miss(std::string_view key) {
+        if (key == "parameters" || key == "include") may_lack_some = true;
+    }
+    /// Notes one without a value; true if it has been noted before.
+    bool note_missing(std::string_view name) { return !missing_.emplace(name).second; }
+    void forget_missing() { missing_.clear(); }
     /// True of a reference to a parameter that has a mistake.
     bool is_wrong(std::string_view reference) const;
     /// What is_reference() stands for, which then counts as used; nothing if it has no value.
@@ -48,6 +61,7 @@ class Parameters {
         bool given = false, used = false, wrong = false;
     };
     std::map<std::string, Parameter, std::less<>> parameters_;
+    std::set<std::string, std::less<>> missing_;
 };
 
 } // namespace raylane::scenes

@@ -88,7 +88,8 @@ class SceneReader {
     };
     /// Throws BadInput for what is wrong with the item, and is good for others after that.
     void take(const RootKey& key, std::string_view name, const JsonDocument& item);
-    void take_parameter(std::string_view name, const JsonValue& value);
+    /// Learns of a root key that is missing by mistake.
+    void miss(std::string_view key);
     void include(const JsonValue& value);
     void take_settings(const JsonValue& value, void (*read)(const JsonValue&, core::Settings&));
     void take_outline(const JsonValue& value);
@@ -110,6 +111,10 @@ class SceneReader {
     core::MaterialIndex index_of_unknown(const JsonValue& value);
     std::string complaint_about_name(std::string_view name) const;
     void number_materials();
+    /// True if a mistake that is known may be why items of a root key are not there.
+    bool misses(std::string_view key) const {
+        return missed_.contains(key) || missed_.contains("include");
+    }
     InputError error_in_scene(const core::InvalidValue& invalid, const Outline& outline) const;
 
     std::string file_; // that everything is in, but for what is included
@@ -125,8 +130,7 @@ class SceneReader {
     ObjectPlaces objects_;
     bool has_lights_ = false, has_objects_ = false;
     bool may_include_ = true;
-    bool lacks_camera_ = false;   // it has a mistake, and may have brought light along
-    bool lacks_included_ = false; // what was to be included may have had what others lack
+    std::set<std::string_view> missed_; // root keys with mistakes, whose items others may lack
     MaterialOf material_of_ = [this](const JsonValue& value) { return material_of(value); };
 };
 
@@ -143,7 +147,7 @@ Outline SceneReader::take_all(InputFile& file, InputErrors& errors) {
                 refuse_again(item.root());
             if (is_first || is_included(key.name)) take(key, name, item);
         },
-        errors, &parameters_);
+        [&](std::string_view key) { miss(key); }, errors, &parameters_);
 }
 
 void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocument& item) {
@@ -151,7 +155,7 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
     if (key.name == "$schema")
         static_cast<void>(value.string());
     else if (key.name == "parameters")
-        take_parameter(name, value);
+        read_parameter(name, value, parameters_);
     else if (key.name == "include")
         include(value);
     else if (key.name == "image")
@@ -180,13 +184,10 @@ void SceneReader::take(const RootKey& key, std::string_view name, const JsonDocu
         take_object(value);
 }
 
-void SceneReader::take_parameter(std::string_view name, const JsonValue& value) {
-    try {
-        read_parameter(name, value, parameters_);
-    } catch (const BadInput&) {
-        parameters_.add_wrong(name);
-        throw;
-    }
+void SceneReader::miss(std::string_view key) {
+    missed_.insert(key);
+    parameters_.miss(key);
+    if (key == "definitions" || key == "include") definitions_.may_lack_some = true;
 }
 
 void SceneReader::include(const JsonValue& value) {
@@ -200,7 +201,7 @@ void SceneReader::include(const JsonValue& value) {
             objects_.leave(builder_.shape_count());
         });
     } catch (const BadInput&) {
-        lacks_included_ = definitions_.may_lack_some = true;
+        miss("include");
         throw;
     }
 }
@@ -221,11 +222,11 @@ void SceneReader::take_outline(const JsonValue& value) {
 }
 
 void SceneReader::take_camera(const JsonValue& value) {
-    lacks_camera_ = true;
+    missed_.insert("camera"); // which may bring light along, until it is without mistakes
     const core::Camera camera = read_camera(value, builder_.staging);
     checked(value, [&] { core::validate(camera); });
     builder_.camera = camera;
-    lacks_camera_ = false;
+    missed_.erase("camera");
 }
 
 void SceneReader::take_background(const JsonValue& value) {
@@ -321,7 +322,7 @@ core::MaterialIndex SceneReader::material_of(const JsonValue& value) {
 core::MaterialIndex SceneReader::index_of_unknown(const JsonValue& value) {
     const auto found = unknown_names_.find(value.string());
     if (found != unknown_names_.end()) return found->second.index;
-    const bool hopeless = !materials_.empty() && !lacks_included_;
+    const bool hopeless = !materials_.empty() && !misses("materials");
     const core::MaterialIndex index = add({});
     unknown_names_.emplace(value.string(),
                            UnknownName{index, std::string(value.file()), value.positions().value,
@@ -354,9 +355,8 @@ void SceneReader::number_materials() {
 }
 
 core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
-    if (lacks_included_) errors.report();
     for (const auto& [name, unknown] : unknown_names_)
-        if (!unknown.reported && !materials_.contains(name))
+        if (!unknown.reported && !materials_.contains(name) && !misses("materials"))
             errors.add(
                 {unknown.file, unknown.position, unknown.pointer, complaint_about_name(name)});
     // A camera that finds its place by itself has light, too. A list that is empty is meant to be.
@@ -364,7 +364,7 @@ core::Scene SceneReader::finish(const Outline& outline, InputErrors& errors) {
     if (!has_lights_ && builder_.wants_light && builder_.staging.framing)
         builder_.staging.lights = true;
     if (has_objects_ && !has_lights_ && builder_.wants_light && !builder_.staging.lights &&
-        !lacks_camera_)
+        !misses("lights") && !misses("camera"))
         errors.add({file_, outline.of("lights"), "/lights",
                     "must have at least one light where there are objects, or be [] where none is "
                     "meant to be, got none"});

@@ -62,9 +62,15 @@ void read_parameter(std::string_view name, const JsonValue& value, Parameters& p
         wrong.position = value.positions().key;
         throw BadInput({wrong});
     }
-    const double number = value.real();
-    if (!(std::abs(number) <= 1e30)) value.fail_expecting("a number from -1e30 to 1e30");
-    parameters.add_default(name, number);
+    parameters.forget_wrong(name);
+    try {
+        const double number = value.real();
+        if (!(std::abs(number) <= 1e30)) value.fail_expecting("a number from -1e30 to 1e30");
+        parameters.add_default(name, number);
+    } catch (const BadInput&) {
+        parameters.add_wrong(name);
+        throw;
+    }
 }
 
 void read_image(const JsonValue& value, core::Settings& settings) {

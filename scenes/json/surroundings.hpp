@@ -9,6 +9,7 @@
 /// core::SceneBuilder does.
 namespace raylane::scenes {
 
+/// Adds a parameter, or notes that it has a mistake.
 void read_parameter(std::string_view name, const JsonValue& value, Parameters& parameters);
 void read_image(const JsonValue& value, core::Settings& settings);
 void read_sampling(const JsonValue& value, core::Settings& settings);

@@ -178,7 +178,11 @@ Parameters::Number JsonValue::referred() const {
     const BadInput missing(
         {error("must have a value, by \"parameters\" or --set, got " + quoted() +
                (knows_some ? suggestion(name, document_->parameters_->names(), "$") : ""))});
-    if (knows_some && document_->parameters_->expects_more) throw LateParameter{missing};
+    if (knows_some) {
+        if (document_->parameters_->may_lack_some) throw consequence();
+        if (document_->parameters_->expects_more) throw LateParameter{missing};
+        if (document_->parameters_->note_missing(name)) throw consequence();
+    }
     throw missing;
 }
 

@@ -156,6 +156,59 @@ TEST_CASE("objects may come before the materials") {
     }
 }
 
+TEST_CASE("Errors that follow from a misspelt root key are not reported") {
+    const std::string camera = R"("camera": {"from": [0, 0, 5], "at": [0, 0, 0]})";
+    const std::string lights = R"("lights": [{"type": "directional", "direction": [0, 0, 1]}])";
+    const std::string materials = R"("materials": {"clay": {}})";
+    const std::string balls = R"("objects": [)" + sphere("1") + ", " + sphere("2") + "]";
+    const auto complaint = [&](const std::vector<std::string>& items) {
+        std::string text;
+        for (const std::string& item : items)
+            text += (text.empty() ? "{" : ", ") + item;
+        return complaint_about_text(text + "}");
+    };
+    const auto with_suggestion = [](const std::string& key, const std::string& meant) {
+        return "unknown key \"" + key + "\", did you mean \"" + meant + "\"?";
+    };
+    CHECK(complaint({R"("Camera": {})", lights, materials, balls}) ==
+          with_suggestion("Camera", "camera"));
+    CHECK(complaint({camera, R"("light": [])", materials, balls}) ==
+          with_suggestion("light", "lights"));
+    CHECK(complaint({camera, lights, R"("material": {"clay": {}})", balls}) ==
+          with_suggestion("material", "materials"));
+    CHECK(complaint({camera, lights, balls, R"("material": {"clay": {}})"}) ==
+          with_suggestion("material", "materials"));
+    CHECK(complaint({camera, lights, materials, R"("materials": {"iron": {}})",
+                     R"("objects": [)" + sphere("1", "\"iron\"") + "]"}) ==
+          "/materials: must be given only once");
+    CHECK(complaint({camera, lights, R"("materials": [])", balls}) ==
+          "/materials: must be an object, got an array");
+    CHECK(complaint({camera, lights, materials, R"("object": [])"}) ==
+          with_suggestion("object", "objects"));
+    const std::string instances =
+        R"("objects": [{"type": "instance", "of": "d"}, {"type": "instance", "of": "e"}])";
+    CHECK(complaint({camera, lights, materials, R"("definition": {})", instances}) ==
+          with_suggestion("definition", "definitions"));
+    CHECK(complaint({camera, lights, materials, R"("includes": [])", instances}) ==
+          with_suggestion("includes", "include"));
+    const std::string by_parameter =
+        R"("objects": [)" + sphere("\"$r\"") + ", " + sphere("\"-$r\"") + "]";
+    const std::string parameter = R"("parameter": {"r": 1})";
+    CHECK(complaint({camera, lights, materials, parameter, by_parameter}) ==
+          with_suggestion("parameter", "parameters"));
+    CHECK(complaint({camera, lights, materials, by_parameter, parameter}) ==
+          with_suggestion("parameter", "parameters"));
+    CHECK(complaint({camera, lights, materials, by_parameter}) ==
+          "/objects/0/radius: must have a value, by \"parameters\" or --set, got \"$r\"");
+    CHECK(complaint({camera, lights, materials, by_parameter, R"("parameters": {"r": "one"})"}) ==
+          "/parameters/r: must be a number, got \"one\"");
+    // Independent errors are reported.
+    CHECK(complaint({camera, R"("material": {})", balls}) ==
+          "/lights: must have at least one light where there are objects, or be [] where none is "
+          "meant to be, got none\n" +
+              with_suggestion("material", "materials"));
+}
+
 TEST_CASE("A mistake is reported where it is, and not where it is used") {
     const std::string use = R"({"type": "instance", "of": "d"})";
     const std::string solid = R"({"type": "union", "material": "clay", "objects": [)";
