@@ -13,7 +13,7 @@ namespace raylane::scenes {
 
 namespace {
 
-core::Scene read_scene(InputFile& file, const LoadOptions& options) {
+core::Scene read_format(InputFile& file, const LoadOptions& options) {
     file.on_read = options.on_read;
     const Format format = format_of(file);
     if (!options.parameters.empty() && format != Format::json)
@@ -33,6 +33,14 @@ core::Scene read_scene(InputFile& file, const LoadOptions& options) {
         return read_tachyon(file, options.workers, options.on_remark, options.tachyon);
     return format == Format::json ? read_json(file, options.workers, options.parameters)
                                   : read_nff(file, options.workers, options.on_remark);
+}
+
+core::Scene read_scene(InputFile& file, const LoadOptions& options) {
+    core::Scene scene = read_format(file, options);
+    if (scene.shape_count() == 0 && options.on_remark)
+        options.on_remark(
+            text_of({file.name(), {}, "", "has no object, so the background alone is seen"}));
+    return scene;
 }
 
 } // namespace

@@ -16,7 +16,7 @@ namespace raylane::scenes {
 struct LoadOptions {
     core::Workers* workers = nullptr; ///< who builds the hierarchy; default: the caller's thread
     OnRead on_read = {};
-    OnRemark on_remark = {};     ///< of files of other programs
+    OnRemark on_remark = {};     ///< of files of other programs, and of scenes without objects
     std::string atom_style = {}; ///< of LAMMPS' data; empty: the file's
     Drawing drawing = {};        ///< of files of atoms
     Legend* legend = nullptr;    ///< is left with what the shapes are, of a file of atoms

@@ -64,8 +64,6 @@ class Reader {
             }
         }
         set_picture();
-        if (builder_.shape_count() == 0)
-            tokens_.remark(camera_place_, "has no object, so the background alone is seen");
         try {
             return std::move(builder_).build();
         } catch (const core::InvalidValue& invalid) {

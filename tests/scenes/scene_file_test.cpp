@@ -103,6 +103,19 @@ TEST_CASE("a file of another kind is told from a scene with a mistake") {
     CHECK(error_of("# nothing\n\nv\nfrom 0 0 no\n", "").starts_with("a:4: "));
 }
 
+TEST_CASE("A scene of any format without objects gives a remark") {
+    const std::string tachyon = "BEGIN_SCENE\nRESOLUTION 8 8\nEND_SCENE\n";
+    for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+             {"a.json", json}, {"a.nff", nff}, {"a.dat", tachyon}, {"a.pov", "#version 3.7;"}}) {
+        std::vector<std::string> remarks;
+        LoadOptions options;
+        options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
+        parse_scene(name, text, options);
+        REQUIRE_FALSE(remarks.empty());
+        CHECK(remarks.back() == name + ": has no object, so the background alone is seen");
+    }
+}
+
 TEST_CASE("a file that changes while it is read is no shorter scene") {
     std::string text = nff;
     while (text.size() < 300'000)

@@ -134,7 +134,8 @@ class SceneBuilder {
     std::unique_ptr<core::SceneBuilder> builder_; // none as long as it is new
 };
 
-/// Told of what a file says and the scene does not have, one line each, on the caller's thread.
+/// Told of what a file says and the scene does not have, and of a scene without objects, one line
+/// each, on the caller's thread.
 using OnRemark = std::function<void(const std::string& remark)>;
 
 /// Reads a scene from a file: JSON (scenes/raylane-scene.schema.json describes it), NFF, POV-Ray's

@@ -28,7 +28,9 @@ struct Reading {
 Reading read(const std::string& body, const TachyonShading& over = {}) {
     LoadOptions options;
     std::vector<std::string> remarks;
-    options.on_remark = [&](const std::string& remark) { remarks.push_back(remark); };
+    options.on_remark = [&](const std::string& remark) {
+        if (!remark.ends_with("the background alone is seen")) remarks.push_back(remark);
+    };
     options.tachyon = over;
     core::Scene scene = parse_scene("a.dat", begin + body + "\nEND_SCENE\n", options);
     return {std::move(scene), remarks};
