@@ -8,15 +8,37 @@
 
 namespace raylane::scenes {
 
+namespace {
+
+/// Why a path is not that of a file that can be included.
+std::string refused(const std::string& path, std::filesystem::file_status status,
+                    std::error_code error) {
+    switch (status.type()) {
+    case std::filesystem::file_type::not_found:
+        return "there is no file " + path;
+    case std::filesystem::file_type::none:
+        return path + " cannot be found: " + error.message();
+    case std::filesystem::file_type::directory:
+        return path + " is a directory";
+    case std::filesystem::file_type::fifo:
+        return path + " is a pipe";
+    default:
+        return path + " is no regular file";
+    }
+}
+
+} // namespace
+
 std::unique_ptr<InputFile> IncludedFiles::open(const std::filesystem::path& path,
                                                std::string_view name, std::size_t depth) {
     const auto require = [](bool is_good, const std::string& must) {
         if (!is_good) throw core::InvalidValue("", must);
     };
     std::error_code unknown;
-    require(!name.empty() && std::filesystem::is_regular_file(path, unknown),
-            "must be the name of a file, got \"" + printable(name) + "\", and there is no file " +
-                printable(path.string(), 4096));
+    const std::filesystem::file_status status = std::filesystem::status(path, unknown);
+    require(!name.empty() && std::filesystem::is_regular_file(status),
+            "must be the name of a file, got \"" + printable(name) + "\", and " +
+                refused(printable(path.string(), 4096), status, unknown));
     require(depth < deepest, "must not be included more than " + std::to_string(deepest) + " deep");
     require(opened_++ < most, "must be one of at most " + std::to_string(most) + " included files");
     auto file = std::make_unique<InputFile>(path);

@@ -161,6 +161,13 @@ TEST_CASE("Scenes of each format include regular files, and not too many") {
         REQUIRE(::mkfifo((directory.path() / "pipe").c_str(), 0600) == 0);
         CHECK(complaint({"pipe"}).find("must be") != std::string::npos);
         CHECK(complaint({"pipe"}).find("\"pipe\"") != std::string::npos);
+        if (std::string(name) != "a.pov") { // which looks for files in several folders
+            const std::string folder = directory.path().string();
+            CHECK(complaint({"pipe"}).ends_with(", and " + folder + "/pipe is a pipe"));
+            CHECK(complaint({"."}).ends_with(", and " + folder + "/. is a directory"));
+            CHECK(complaint({"/dev/null"}).ends_with(", and /dev/null is no regular file"));
+            CHECK(complaint({"none"}).ends_with(", and there is no file " + folder + "/none"));
+        }
         directory.write("large", "");
         std::filesystem::resize_file(directory.path() / "large", (std::uint64_t{1} << 30) + 1);
         CHECK(complaint({"large"}).find("must be a file of at most 1 GiB") != std::string::npos);
