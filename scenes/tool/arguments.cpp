@@ -1,6 +1,7 @@
 #include "scenes/tool/arguments.hpp"
 
 #include "core/scene/surroundings.hpp"
+#include "scenes/format.hpp"
 #include "simd/threads.hpp"
 
 #include <cmath>
@@ -52,6 +53,16 @@ const std::string& file_argument(const std::string& option, const std::string& t
 void require_other_file(const std::string& option, const std::string& file,
                         const std::string& other_option, const std::string& other_file) {
     if (same_file(file, other_file)) refuse(option, "another file than " + other_option, file);
+}
+
+void require_other_than_scene(const std::string& option, const std::string& file,
+                              const std::string& scene) {
+    std::error_code unknown;
+    if (same_file(file, scene) && std::filesystem::is_regular_file(scene, unknown)) {
+        InputFile input(scene);
+        static_cast<void>(format_of(input));
+    }
+    require_other_file(option, file, "SCENE", scene);
 }
 
 void require_other_output(const std::string& option, const std::string& file,

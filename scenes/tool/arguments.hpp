@@ -19,6 +19,9 @@ const std::string& file_argument(const std::string& option, const std::string& t
 /// Refuses a file to be written that is another argument's as well, by whatever name.
 void require_other_file(const std::string& option, const std::string& file,
                         const std::string& other_option, const std::string& other_file);
+/// The same of the argument SCENE. A file that is no scene is refused as such.
+void require_other_than_scene(const std::string& option, const std::string& file,
+                              const std::string& scene);
 /// The same of two files to be written: standard output, too, takes one of them.
 void require_other_output(const std::string& option, const std::string& file,
                           const std::string& other_option, const std::string& other_file);

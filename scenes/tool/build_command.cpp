@@ -24,7 +24,7 @@ int build(const BuildArguments& arguments) {
     const std::string& scene = file_argument("SCENE", *arguments.scene);
     const std::string output = arguments.output ? file_argument("--output", *arguments.output)
                                                 : default_output(scene, ".rl");
-    require_other_file("--output", output, "SCENE", scene);
+    require_other_than_scene("--output", output, scene);
     if (!output.ends_with(".rl"))
         throw BadInput("--output", "", "must end in .rl, got \"" + printable(output) + '"');
     const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();

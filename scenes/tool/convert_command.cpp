@@ -22,7 +22,7 @@ struct ConvertArguments {
 int convert(const ConvertArguments& arguments) {
     const std::string& scene = file_argument("SCENE", *arguments.scene);
     const std::string& output = file_argument("OUTPUT", *arguments.output);
-    require_other_file("OUTPUT", output, "SCENE", scene);
+    require_other_than_scene("OUTPUT", output, scene);
     require_scene_ending(output);
     const Verbosity verbosity = arguments.scene_arguments.verbosity.verbosity();
     std::string differences;

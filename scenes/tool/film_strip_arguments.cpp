@@ -30,7 +30,7 @@ std::function<std::string(std::size_t)> picture_names(const std::string& scene,
                             !is_one);
     return [=](std::size_t number) {
         std::string file = name(number);
-        require_other_file("--output", file, "SCENE", scene);
+        require_other_than_scene("--output", file, scene);
         return file;
     };
 }

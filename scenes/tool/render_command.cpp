@@ -65,10 +65,10 @@ struct Work {
 struct Files {
     explicit Files(const RenderArguments& arguments)
         : scene(file_argument("SCENE", *arguments.scene)), output(output_of(arguments)) {
-        require_other_file("--output", output, "SCENE", scene);
+        require_other_than_scene("--output", output, scene);
         if (!arguments.stats) return;
         stats = file_argument("--stats", *arguments.stats);
-        require_other_file("--stats", *stats, "SCENE", scene);
+        require_other_than_scene("--stats", *stats, scene);
         require_other_output("--stats", *stats, "--output", output);
     }
 

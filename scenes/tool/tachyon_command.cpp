@@ -209,7 +209,7 @@ int draw(const std::vector<std::string>& words) {
     if (!arguments.scene)
         throw BadInput("tachyon", "", "must be given a scene; see raylane tachyon -help");
     const std::string& scene_name = file_argument("SCENE", *arguments.scene);
-    require_other_file("-o", arguments.output, "SCENE", scene_name);
+    require_other_than_scene("-o", arguments.output, scene_name);
     OutputFile output(arguments.output, format_of(arguments));
     for (const std::string& option : arguments.without_effect)
         std::fprintf(stderr, "%s: changes nothing here\n", option.c_str());

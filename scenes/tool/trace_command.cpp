@@ -168,7 +168,7 @@ int trace(const TraceArguments& arguments) {
     const std::string ray_file = file_argument("RAYS", *arguments.rays);
     const std::string output = arguments.output ? file_argument("--output", *arguments.output)
                                                 : default_output(ray_file, "-hits.npy");
-    require_other_file("--output", output, "SCENE", scene_file);
+    require_other_than_scene("--output", output, scene_file);
     require_other_file("--output", output, "RAYS", ray_file);
     if (ray_file == "-" && scene_file == "-")
         throw BadInput("RAYS", "", "must be another file than SCENE, got \"-\"");

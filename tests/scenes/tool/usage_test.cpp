@@ -135,6 +135,7 @@ TEST_CASE("a file's name that is none is told in one line, before anything is re
     const Workshop workshop;
     std::filesystem::create_symlink("scene.json", workshop.path() / "scene.png");
     workshop.write("stats.png", "");
+    workshop.write("image.png", std::string("\x89PNG\r\n\x1A\n\0", 9));
     std::filesystem::create_hard_link(workshop.path() / "stats.png",
                                       workshop.path() / "stats.link");
     const std::vector<std::pair<Arguments, std::string>> rows = {
@@ -161,6 +162,8 @@ TEST_CASE("a file's name that is none is told in one line, before anything is re
          R"(--stats: must be another file than SCENE, got "out/../scene.json")"},
         {{"render", "scene.json", "-o", "scene.png"},
          R"(--output: must be another file than SCENE, got "scene.png")"},
+        {{"render", "image.png"},
+         "image.png: must be a scene or atoms in a text format, got a binary file"},
         {{"render", "scene.json"}, R"(--output: must be another file than SCENE, got "scene.png")"},
         {{"compare", "a.png", "b.png", "--diff", "a.png"},
          R"(--diff: must be another file than A, got "a.png")"},
