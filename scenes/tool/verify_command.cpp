@@ -326,6 +326,7 @@ int verify(const VerifyArguments& arguments) {
     const bool is_same_scene = verifier.scene_is_the_same();
     std::printf("scene      %s\n", is_same_scene ? "the one that the picture names"
                                                  : "another one than the picture names");
+    if (!is_same_scene) return 1;
     const std::optional<bool> are_same_options = verifier.options_are_the_same();
     if (are_same_options)
         std::printf("options    %s\n", *are_same_options ? "those that the picture names"
@@ -362,8 +363,8 @@ int verify(const VerifyArguments& arguments) {
         std::printf("all bits   %s\n",
                     has_its_bits ? "drawn again as they were" : "others than the picture had");
     }
-    return is_same_scene && are_same_options.value_or(true) && are_only_ties &&
-                   !verdict.has_many_within_a_step() && has_its_bits
+    return are_same_options.value_or(true) && are_only_ties && !verdict.has_many_within_a_step() &&
+                   has_its_bits
                ? 0
                : 1;
 }
@@ -375,7 +376,7 @@ Command add_verify_command(CLI::App& app) {
         app, "verify",
         "Draw random pixels of a picture again, by the scalar reference with exact "
         "numbers or, if it was not drawn with these, by its own precision, and compare; "
-        "exit code 1 if they differ",
+        "exit code 1 if they differ, and at once if the scene is another one",
         "raylane verify birthday.png scenes/birthday.json");
     auto arguments = std::make_shared<VerifyArguments>();
     add_positional(command, "PICTURE", arguments->picture,
