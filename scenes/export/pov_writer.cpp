@@ -7,6 +7,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace raylane::scenes {
 
@@ -17,10 +21,54 @@ using core::Vec3d, core::Vec3f;
 /// Levels of solids that raylane reads of it.
 constexpr int most_depth = 125;
 
+bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// Returns the identifier for a material's name, or "" if the name has other characters than an
+/// identifier. POV-Ray's own words, of which later versions have more, have no capitals, and never
+/// begin with m and an underscore or a digit.
+std::string identifier_of(std::string_view name) {
+    constexpr std::size_t longest = 32;
+    const bool is_identifier =
+        !name.empty() && name.size() <= longest && is_letter(name.front()) &&
+        std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
+    if (!is_identifier) return "";
+    const bool is_own =
+        std::any_of(name.begin(), name.end(), [](char c) { return c >= 'A' && c <= 'Z'; }) ||
+        (name.size() > 1 && name[0] == 'm' && (name[1] == '_' || is_digit(name[1])));
+    return (is_own ? "" : "m_") + std::string(name);
+}
+
+/// Returns an identifier for each material, from its name or its number. All differ.
+std::vector<std::string> identifiers_of(const core::Scene& scene) {
+    std::vector<std::string> identifiers(scene.materials().size());
+    std::set<std::string> taken;
+    std::map<std::string, std::size_t> last; // number of a name that several materials have
+    const auto take = [&](std::size_t index, const std::string& wanted) {
+        std::string name = wanted;
+        while (!taken.insert(name).second)
+            name = wanted + '_' + std::to_string(++last.try_emplace(wanted, 1).first->second);
+        identifiers[index] = name;
+    };
+    for (std::size_t i = 0; i < identifiers.size(); ++i) {
+        const std::string name =
+            identifier_of(scene.material_name(static_cast<core::MaterialIndex>(i)));
+        if (!name.empty()) take(i, name);
+    }
+    for (std::size_t i = 0; i < identifiers.size(); ++i)
+        if (identifiers[i].empty()) take(i, "m" + std::to_string(i));
+    return identifiers;
+}
+
 class PovWriter {
   public:
     PovWriter(TextFile& file, const core::Scene& scene, Differences& differences)
         : file_(file), scene_(scene), differences_(differences),
+          identifiers_(identifiers_of(scene)),
           eye_(core::convert<core::Bounded<double>>(scene.camera().from)) {}
 
     void write() {
@@ -67,8 +115,7 @@ class PovWriter {
                 if (misleads(scene_.material_index_of(id)) &&
                     core::inside_of(shape, eye_) == core::Value::yes)
                     differences_.insert(misled);
-                file_ << " material { m" << std::to_string(scene_.material_index_of(id))
-                      << " } }\n";
+                file_ << " material { " << identifiers_[scene_.material_index_of(id)] << " } }\n";
             },
             write_solid_of_others);
     }
@@ -293,7 +340,7 @@ class PovWriter {
     }
 
     void write_material(std::size_t index, const core::Material& material) {
-        file_ << "#declare m" << std::to_string(index) << " = material { texture { ";
+        file_ << "#declare " << identifiers_[index] << " = material { texture { ";
         write_pigment(material);
         // They are weighed there by what the pigment does not transmit, highlights and reflections
         // are not.
@@ -437,13 +484,14 @@ class PovWriter {
             if (clips && i != 0) file_ << " }";
         }
         if (solid.material != core::no_material)
-            file_ << " material { m" << std::to_string(solid.material) << " }";
+            file_ << " material { " << identifiers_[solid.material] << " }";
         file_ << " }";
     }
 
     TextFile& file_;
     const core::Scene& scene_;
     Differences& differences_;
+    std::vector<std::string> identifiers_; // of materials
     core::Somewhere eye_;
     std::map<Surface, core::ShapeId> surfaces_; // the first solid that each is of
 };

@@ -267,6 +267,35 @@ TEST_CASE("Materials with equal names, and without names, differ in JSON") {
     CHECK(written["materials"].size() == names.size());
 }
 
+TEST_CASE("Materials keep their names in POV-Ray's language where it has these") {
+    const auto written = [](const std::vector<const char*>& names) {
+        core::SceneBuilder builder;
+        builder.staging.framing.emplace();
+        builder.wants_light = false;
+        for (const char* name : names) {
+            core::Material of;
+            of.ambient = 0.01F * static_cast<float>(builder.shape_count()); // all differ
+            const core::MaterialIndex material = builder.add_material(of);
+            builder.name_material(material, name);
+            builder.add(core::Sphere{{static_cast<float>(3 * material), 0, 0}, 1}, material);
+        }
+        const tests::TemporaryDirectory directory;
+        const std::filesystem::path path = directory.path() / "a.pov";
+        scenes::export_scene(path, std::move(builder).build());
+        const core::Scene scene = scenes::load_scene(path);
+        std::vector<std::string> found;
+        for (core::ShapeId id = 0; id < scene.shape_count(); ++id)
+            found.emplace_back(scene.material_name(scene.material_index_of(id)));
+        return found;
+    };
+    const std::vector<std::string> names = {"m_red", "Clay", "m_red_2", "m3",      "m4", "m5", "m1",
+                                            "m_m_2", "m_x",  "Clay_2",  "m_mesh2", "m11"};
+    CHECK(written({"red", "Clay", "red", "", "caf\xC3\xA9", "2b", "m1", "m_m_2", "x", "Clay",
+                   "mesh2", "a name of several words"}) == names);
+    CHECK(written({"m_red", "Clay", "m_red_2"}) ==
+          std::vector<std::string>{"m_red", "Clay", "m_red_2"});
+}
+
 TEST_CASE("POV-Ray is told every shape and material") {
     const tests::TemporaryDirectory directory;
     const std::filesystem::path path = directory.path() / "scene.pov";
