@@ -62,7 +62,7 @@ void note_samples(const Tracer& tracer, const core::Region& tile, const core::Re
                                   static_cast<unsigned>(x - tile.x0)));
 }
 
-/// Of each of the pictures that a picture is the sum of; none if it has no quality.
+/// One survey for each wavelength, or one; empty if the picture has no quality.
 using Surveys = std::vector<core::Survey>;
 
 core::Survey* survey_of(Surveys& surveys, std::size_t picture) {

@@ -16,7 +16,7 @@ struct Square {
     double size; ///< a side
 };
 
-/// Finds what may show in squares of the picture by beams of all rays through them. All of it is
+/// Finds shapes that may show in squares of the picture, by beams of all rays through them. It is
 /// done in plain double, so that it depends on scene and settings alone. To be used by one thread.
 class BeamTracer {
   public:
@@ -30,7 +30,7 @@ class BeamTracer {
     const std::vector<BeamCandidate>& shown() const { return shown_; }
 
     /// Looks at the 4^halvings parts of a square, and keeps the shapes that may show in at least so
-    /// many of them. `shown` is what shown() was of the square; halvings >= 1.
+    /// many of them. `shown` is shown() of the square; halvings >= 1.
     void keep_shown(const Square& square, const std::vector<BeamCandidate>& shown, int halvings,
                     int least_parts, std::vector<ShapeId>& asked);
     static constexpr int most_halvings = 4;

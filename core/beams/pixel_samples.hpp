@@ -22,11 +22,11 @@ struct Sample {
 /// The sample of a pixel that is at its middle; the others are points of a sequence, from 0 on.
 inline constexpr int middle_sample = -1;
 
-/// Where in pixel (x, y) its sample `number` is, from its upper left corner, but for the filter.
+/// The place of sample `number` in pixel (x, y), from the upper left corner, before the filter.
 SamplePoint place_in_pixel(int x, int y, int number);
 
-/// What a sample shows about as the film does: a component's square root, 1 at most, and the share
-/// of the background as if that were white.
+/// A sample in about the scale of the film: square roots of the components, 1 at most, and the
+/// share of the background, which counts as white.
 struct Shown {
     std::array<float, 4> channels{};
 
@@ -34,7 +34,7 @@ struct Shown {
     explicit Shown(const Sample& sample);
 };
 
-/// Variance of what the middles of a pixel and of its neighbours show, up to nine of them.
+/// Variance of the middles of a pixel and its neighbours, at most nine.
 double variance_around(std::span<const Shown> middles);
 
 /// The samples of one pixel so far.
@@ -68,8 +68,7 @@ class PixelSamples {
                shapes_.begin() + shapes_count_;
     }
 
-    /// Of all samples, as the film shows them: the sum of squares about the mean, of the mean
-    /// channel.
+    /// The sum of squares about the mean in the scale of the film, averaged over the channels.
     double squares_shown(Transfer transfer) const;
 
     static constexpr int most_shapes = 8;

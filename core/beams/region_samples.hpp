@@ -11,7 +11,7 @@ namespace raylane::core {
 /// Which samples the pixels of a region want in a picture of a quality (Settings::quality). Round
 /// after round, each is given all that it wants, in order, until none wants any more:
 ///
-/// 1. Its middle, one sample. Where the neighbours' are alike, that is all.
+/// 1. Its middle, one sample. That is enough if the neighbours have about the same.
 /// 2. The others start again, with points of a sequence, and want as many again until the picture's
 ///    survey says that they have enough. So do those in which a shape far thinner than a pixel may
 ///    show, which beams look for, until a sample has seen it, or there are so many that it would be

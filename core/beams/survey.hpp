@@ -9,18 +9,19 @@
 
 namespace raylane::core {
 
-/// Finds how far samples have to go in a picture of a quality (Settings::quality): some of its
-/// pixels are sampled well beforehand, and tell what the picture's error and its cost would be by
-/// each of some policies. The cheapest one is chosen.
+/// Decides how many samples the pixels of a picture of a quality get (Settings::quality). It
+/// samples some pixels beforehand, estimates the picture's error and cost under several policies,
+/// and chooses the cheapest policy that has the quality.
 ///
-/// By each, a pixel is done when the likely variance of n samples is at most limit * n^2, and n at
-/// least `fewest`: then the next sample takes as much off the picture's squared error everywhere.
+/// Under a policy a pixel is done when its variance is at most limit * n^2 for its n samples, and n
+/// is at least `fewest`. One more sample then lowers the squared error by the same amount in every
+/// pixel.
 class Survey {
     /// Samples of a pixel: 1, its middle, or 4, 8, ... 64; as a limit may ask for, further.
     static constexpr std::size_t stages = 6;
     static constexpr std::size_t measured_stages = 5; ///< but for the last, which errors are from
     static constexpr int samples_at(std::size_t stage) { return stage == 0 ? 1 : 2 << stage; }
-    /// Of samples beside the middle.
+    /// The stage of a pixel with `count` samples, not counting its middle.
     static std::size_t stage_of(int count) {
         return count == 0 ? 0 : static_cast<std::size_t>(std::bit_width(unsigned(count))) - 2;
     }
@@ -28,25 +29,25 @@ class Survey {
   public:
     explicit Survey(const Settings& settings);
 
-    /// It is made in two passes: of many places the surroundings are looked at, and of fewer, for
-    /// the most part where these differ, the pixel is sampled. Batches of either are independent.
+    /// The first pass looks at the surroundings of many places. The second one samples fewer
+    /// pixels, most of them where the surroundings differ. Batches of a pass are independent.
     enum class Pass : std::uint8_t { look, sample };
     std::size_t batches(Pass pass) const;
     /// To be called when all batches have been taken.
     void end(Pass pass);
 
-    /// What is known of a pixel: variance_around() it, and of its samples, but for its middle, the
-    /// sum of their squares about the mean (PixelSamples::squares_shown).
+    /// The state of a pixel: variance_around() it, and PixelSamples::squares_shown of its samples
+    /// without the middle.
     struct Known {
         double around;
         double squares;
         int count; ///< of these samples
     };
     bool is_done(const Known& pixel) const { return is_done(pixel, policy_); }
-    /// The samples that a pixel has at least once its middle does not do.
+    /// How many samples a pixel gets first if its middle is not enough.
     int first_samples() const { return std::max(policy_.fewest, samples_at(1)); }
 
-    /// The samples of a batch, for one thread, as RegionSamples has them of a region.
+    /// Collects the samples of a batch, by the interface of RegionSamples. For one thread.
     class Samples {
       public:
         Samples(Survey& survey, Pass pass, std::size_t batch);
@@ -89,7 +90,7 @@ class Survey {
     };
     struct Policy {
         int fewest = 1;
-        bool spares_alike = true; ///< one sample does where all around is exactly alike
+        bool spares_alike = true; ///< one sample is enough where all neighbours are equal
         double limit = 0.0;
     };
     struct Outcome {
@@ -107,7 +108,7 @@ class Survey {
     Settings settings_;
     std::vector<Place> places_;
     std::vector<Record> records_;
-    /// By stage, of so many samples: the squared error as a part of the variance.
+    /// By stage: the squared error of that many samples over the variance of one.
     std::vector<double> left_;
     Policy policy_;
 };

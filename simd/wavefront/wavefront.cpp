@@ -160,7 +160,7 @@ void Wavefront::render_grid(const core::Region& region, core::Film& film) {
         }
 }
 
-/// Gives samples to what has asked for them.
+/// Hands traced samples to the pixels that asked for them.
 template <class Pixels>
 auto Wavefront::adder_to(Pixels& pixels) {
     return [this, &pixels](const Samples& some, std::size_t i) {

@@ -7,7 +7,7 @@
 #include "tests/shapes/shapes.hpp"
 #include "tests/simd/rounds.hpp"
 
-/// What beams say of all of their rays, each of them is held to.
+/// Claims of beams about all of their rays, checked by single rays.
 using namespace raylane;
 using namespace little_scene;
 using ray_sets::Random;
@@ -94,7 +94,7 @@ TEST_CASE("all shapes that rays of a beam meet are among those that may show", "
     });
 }
 
-TEST_CASE("a beam knows what is hidden behind others and how thin what shows is") {
+TEST_CASE("a beam knows hidden shapes and thin ones") {
     Builder builder;
     builder.settings.width = builder.settings.height = 16;
     builder.settings.quality = 40.0F;

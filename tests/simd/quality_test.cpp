@@ -81,7 +81,7 @@ double psnr(const Film& a, const Film& b) {
 } // namespace
 
 TEST_CASE("a picture has the quality that is asked for", "[long]") {
-    // Of fewer pixels too few are surveyed.
+    // In smaller pictures the survey has too few pixels.
     const Scene scene = workshop({240, 160});
     const Film truth = converged(scene, 20);
     std::uint64_t last = 0;
