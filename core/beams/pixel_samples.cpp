@@ -27,7 +27,7 @@ Shown::Shown(const Sample& sample) {
     for (int channel = 0; channel < 3; ++channel)
         channels[static_cast<std::size_t>(channel)] =
             std::sqrt(std::clamp(static_cast<float>(sample.color[channel]), 0.0F, 1.0F));
-    channels[3] = static_cast<float>(sample.transmittance);
+    channels[3] = std::sqrt(static_cast<float>(sample.transmittance));
 }
 
 double variance_around(std::span<const Shown> middles) {
@@ -41,7 +41,8 @@ double variance_around(std::span<const Shown> middles) {
         }
     const auto n = static_cast<float>(middles.size());
     float all = 0.0F;
-    for (std::size_t channel = 0; channel < 4; ++channel)
+    // What is seen of the background counts as three channels of white.
+    for (const std::size_t channel : {0U, 1U, 2U, 3U, 3U, 3U})
         all += std::max(0.0F, squares[channel] / n - sum[channel] / n * (sum[channel] / n));
     return static_cast<double>(all) / 3.0;
 }
@@ -49,10 +50,10 @@ double variance_around(std::span<const Shown> middles) {
 double PixelSamples::squares_shown(Transfer transfer) const {
     const double n = count_;
     double squares = 0.0;
-    for (std::size_t channel = 0; channel < channels; ++channel) {
+    for (const std::size_t channel : {0U, 1U, 2U, 3U, 3U, 3U}) {
         const double mean = seen_sum_[channel] / n;
-        squares += std::max(0.0, seen_squares_[channel] - n * mean * mean) *
-                   (channel == of_background ? 1.0 : squared_slope(mean, transfer));
+        squares +=
+            std::max(0.0, seen_squares_[channel] - n * mean * mean) * squared_slope(mean, transfer);
     }
     return squares / 3.0;
 }

@@ -37,12 +37,22 @@ struct Shown {
 /// Variance of the middles of a pixel and its neighbours, at most nine.
 double variance_around(std::span<const Shown> middles);
 
+/// The mean of samples.
+struct Mean {
+    Vec3d color;
+    double transmittance;
+};
+
 /// The samples of one pixel so far.
 class PixelSamples {
   public:
     int count() const { return count_; }
-    Vec3d exact_mean() const { return sum_ / static_cast<double>(count_); }
-    Color mean() const { return convert<float>(exact_mean()); }
+    Color mean() const { return convert<float>(Vec3d(sum_ / static_cast<double>(count_))); }
+    /// In double, and of the background.
+    Mean exact_mean() const {
+        const double n = count_;
+        return {sum_ / n, seen_sum_[of_background] / n};
+    }
     float alpha() const {
         return static_cast<float>(1.0 - seen_sum_[of_background] / static_cast<double>(count_));
     }

@@ -65,7 +65,7 @@ class Survey {
             std::size_t number; ///< of its place or record
             int next, wanted;
             PixelSamples samples{};
-            Vec3d means[measured_stages]{};
+            Mean means[measured_stages]{};
         };
 
         bool end_stage(Pixel& pixel) const;

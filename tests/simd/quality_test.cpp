@@ -82,7 +82,7 @@ double psnr(const Film& a, const Film& b) {
 
 TEST_CASE("a picture has the quality that is asked for", "[long]") {
     // In smaller pictures the survey has too few pixels.
-    const Scene scene = workshop({240, 160});
+    const Scene scene = workshop({288, 192});
     const Film truth = converged(scene, 20);
     std::uint64_t last = 0;
     for (const float quality : {30.0F, 36.0F, 42.0F}) {
@@ -114,7 +114,7 @@ TEST_CASE("a picture has its quality by wider filters, too", "[long]") {
 
 TEST_CASE("a picture of smooth shapes has few samples", "[native]") {
     Builder builder;
-    builder.settings.width = builder.settings.height = 128;
+    builder.settings.width = builder.settings.height = 256;
     builder.camera.from = {0, 0, 6};
     Material matte = luminous(Color(0.8F));
     matte.ambient = 0.2F;
@@ -123,7 +123,7 @@ TEST_CASE("a picture of smooth shapes has few samples", "[native]") {
     builder.add_shape(CappedCylinder{{-2, -2, 0}, {4, 0.1F, 0}, 0.3F}, matte);
     const Scene scene = builder.finish();
     const simd::Rendering rendering = rendered(scene, 42.0F);
-    CHECK(rendering.counters.primary < 128U * 128U * 6U);
+    CHECK(rendering.counters.primary < 256U * 256U * 6U);
     CHECK(psnr(rendering.film, converged(scene)) > 41.5);
 }
 
