@@ -133,9 +133,12 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
             for (core::Survey& survey : surveys)
                 survey.end(pass);
         }
+    EngineCounters surveyed; // by each part of a picture
+    tracers.for_each([&](const Tracer& tracer) { surveyed += tracer.counters(); });
     for_each_tile(grid, options.threads, draw, options.tiles);
     rendering.complete = complete;
     tracers.for_each([&](const Tracer& tracer) { rendering.counters += tracer.counters(); });
+    rendering.counters -= surveyed;
     recalled.for_each([&](const EngineCounters& counters) { rendering.counters += counters; });
     if (options.crop) rendering.film = rendering.film.cropped(crop);
     return rendering;

@@ -70,10 +70,10 @@ struct RenderOptions {
 };
 
 struct Rendering {
-    core::Film film; ///< of the crop, from (0, 0)
-    EngineCounters counters;
-    core::Layers layers;  ///< of the crop; empty if they were not asked for
-    bool complete = true; ///< false if it was stopped: tiles may be black
+    core::Film film;         ///< of the crop, from (0, 0)
+    EngineCounters counters; ///< of its tiles, without the survey that a quality needs
+    core::Layers layers;     ///< of the crop; empty if they were not asked for
+    bool complete = true;    ///< false if it was stopped: tiles may be black
 };
 
 /// The part of a picture that is drawn: the crop, or with a quality the whole squares that have it.
