@@ -130,6 +130,7 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
                     if (!is_stopped()) tracers.local().survey(pass, batch);
                 });
             });
+            if (is_stopped()) break; // perhaps before its end; no tile is drawn then
             for (core::Survey& survey : surveys)
                 survey.end(pass);
         }
