@@ -3,6 +3,7 @@
 #include "core/beams/region_samples.hpp"
 #include "core/numbers/elementary.hpp"
 #include "core/numbers/infinity.hpp"
+#include "core/scene/transfer.hpp"
 
 #include <cmath>
 
@@ -34,17 +35,13 @@ constexpr double within = 0.5, worth_of_around = 8.0;
 /// Decibels added to the quality that was asked for, because the estimate scatters.
 constexpr double margin = 1.0;
 
-/// A component as the film shows it: the curve of IEC 61966-2-1.
-double shown(double linear, Transfer transfer) {
-    const double x = std::clamp(linear, 0.0, 1.0);
-    if (transfer == Transfer::linear) return x;
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * core::pow(x, 1.0 / 2.4) - 0.055;
-}
-
 double squared_distance(const Vec3d& a, const Vec3d& b, Transfer transfer) {
     double sum = 0.0;
     for (int channel = 0; channel < 3; ++channel) {
-        const double off = shown(a[channel], transfer) - shown(b[channel], transfer);
+        const auto on_film = [&](double linear) {
+            return shown(std::clamp(linear, 0.0, 1.0), transfer);
+        };
+        const double off = on_film(a[channel]) - on_film(b[channel]);
         sum += off * off / 3.0;
     }
     return sum;

@@ -6,16 +6,18 @@
 
 namespace raylane::core {
 
+double shown(double linear, Transfer transfer) {
+    if (transfer == Transfer::linear) return linear;
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * core::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
 namespace {
 
 /// The code of a linear component, of which `white` is the largest.
 double code_of(float linear, Transfer transfer, double white) {
     if (!(linear > 0.0F)) return 0.0;
     if (linear >= 1.0F) return white;
-    auto value = static_cast<double>(linear);
-    if (transfer == Transfer::srgb)
-        value = value <= 0.0031308 ? 12.92 * value : 1.055 * core::pow(value, 1.0 / 2.4) - 0.055;
-    return white * value + 0.5;
+    return white * shown(static_cast<double>(linear), transfer) + 0.5;
 }
 
 } // namespace

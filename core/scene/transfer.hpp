@@ -8,6 +8,10 @@
 
 namespace raylane::core {
 
+/// A linear component in [0, 1] as the film shows it, in [0, 1]. srgb: by the curve of IEC
+/// 61966-2-1.
+double shown(double linear, Transfer transfer);
+
 /// The 8-bit code of a linear component, which is clamped to [0, 1] first; NaN gives 0.
 /// srgb: the curve of IEC 61966-2-1. Rounded to the nearest code.
 std::uint8_t encode(float linear, Transfer transfer);
