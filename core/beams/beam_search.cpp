@@ -163,36 +163,37 @@ BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& bea
     });
 }
 
-BeamHit BeamSearch::first(const Beam& beam, std::vector<BeamCandidate>& candidates) {
+void BeamSearch::keep_first(const Beam& beam, std::vector<BeamCandidate>& candidates) {
     const BeamCone cone(beam);
     std::sort(candidates.begin(), candidates.end(),
               [](const BeamCandidate& a, const BeamCandidate& b) {
                   return a.near != b.near ? a.near < b.near : a.id < b.id;
               });
 
-    BeamHit best;
+    // The first surface that all rays meet, whatever some may meet before.
+    ShapeId covering = no_shape;
+    Affine covered_at;
     met_.clear();
     std::size_t count = 0;
     for (const BeamCandidate& candidate : candidates) {
-        if (best.is_covered() && static_cast<double>(candidate.near) > best.crossing.t.upper())
-            break;
+        if (covering != no_shape && static_cast<double>(candidate.near) > covered_at.upper()) break;
         const Met met = meet(candidate, beam, cone);
         if (met.what == Met::missed) continue;
         const Affine& t = met.crossing.t;
-        if (met.what == Met::whole && (!best.is_covered() || (t - best.crossing.t).upper() < 0.0))
-            best = {BeamHit::surface, candidate, met.crossing};
+        if (met.what == Met::whole && (covering == no_shape || (t - covered_at).upper() < 0.0)) {
+            covering = candidate.id;
+            covered_at = t;
+        }
         met_.push_back(t);
         candidates[count++] = candidate;
     }
     // But for those that are surely behind it.
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i)
-        if (!best.is_covered() || candidates[i].id == best.shape.id ||
-            !((met_[i] - best.crossing.t).lower() > 0.0))
+        if (covering == no_shape || candidates[i].id == covering ||
+            !((met_[i] - covered_at).lower() > 0.0))
             candidates[kept++] = candidates[i];
     candidates.resize(kept);
-    if (kept > (best.is_covered() ? 1U : 0U)) best.what = BeamHit::doubt;
-    return best;
 }
 
 } // namespace raylane::core

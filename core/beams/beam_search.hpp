@@ -17,19 +17,6 @@ struct BeamCandidate {
     float near; ///< lower bound on t
 };
 
-struct BeamHit {
-    enum What : std::uint8_t {
-        nothing, ///< no ray meets anything
-        surface, ///< all rays meet this one face of this one shape first
-        doubt,   ///< there may be an edge
-    } what = nothing;
-    BeamCandidate shape{};
-    Crossing<Affine> crossing{};
-
-    /// True if all rays meet `shape`, whatever some may meet before.
-    bool is_covered() const { return shape.id != no_shape; }
-};
-
 class BeamSearch {
   public:
     explicit BeamSearch(const Scene& scene);
@@ -43,9 +30,8 @@ class BeamSearch {
     /// Of the candidates of a beam those of a part of it.
     static void narrow(const Beam& part, std::vector<BeamCandidate>& candidates);
 
-    /// The first surface of all that may be met. Keeps of the candidates those that a part of the
-    /// beam may meet first.
-    BeamHit first(const Beam& beam, std::vector<BeamCandidate>& candidates);
+    /// Keeps of the candidates those that a part of the beam may meet first.
+    void keep_first(const Beam& beam, std::vector<BeamCandidate>& candidates);
 
   private:
     struct Met {

@@ -70,7 +70,7 @@ bool BeamTracer::shows_thin(const Square& square) {
     if (!search_.collect(beam, shown_)) return false;
     if (std::none_of(shown_.begin(), shown_.end(), [&](const auto& s) { return is_thin(s); }))
         return false;
-    search_.first(beam, shown_);
+    search_.keep_first(beam, shown_);
     for (const BeamCandidate& shape : shown_)
         if (is_thin(shape)) thin_.push_back(shape.id);
     return !thin_.empty() && thin_.size() <= most_thin;
@@ -112,7 +112,7 @@ void BeamTracer::find_shown(const Square& square, const std::vector<BeamCandidat
         const Beam beam = camera_beam(part);
         closer = shown;
         BeamSearch::narrow(beam, closer);
-        search_.first(beam, closer);
+        search_.keep_first(beam, closer);
         parts_shown_.clear();
         for (const ShapeId id : asked)
             if (std::any_of(closer.begin(), closer.end(),

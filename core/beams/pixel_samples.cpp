@@ -14,6 +14,9 @@ double squared_slope(double linear, Transfer transfer) {
     return std::min(steepest * steepest, 0.25 / std::max(linear, 1e-4));
 }
 
+/// The background, the last of four channels, counts as three of white.
+constexpr std::size_t channels_of_film[] = {0, 1, 2, 3, 3, 3};
+
 } // namespace
 
 SamplePoint place_in_pixel(int x, int y, int number) {
@@ -41,8 +44,7 @@ double variance_around(std::span<const Shown> middles) {
         }
     const auto n = static_cast<float>(middles.size());
     float all = 0.0F;
-    // What is seen of the background counts as three channels of white.
-    for (const std::size_t channel : {0U, 1U, 2U, 3U, 3U, 3U})
+    for (const std::size_t channel : channels_of_film)
         all += std::max(0.0F, squares[channel] / n - sum[channel] / n * (sum[channel] / n));
     return static_cast<double>(all) / 3.0;
 }
@@ -50,7 +52,7 @@ double variance_around(std::span<const Shown> middles) {
 double PixelSamples::squares_shown(Transfer transfer) const {
     const double n = count_;
     double squares = 0.0;
-    for (const std::size_t channel : {0U, 1U, 2U, 3U, 3U, 3U}) {
+    for (const std::size_t channel : channels_of_film) {
         const double mean = seen_sum_[channel] / n;
         squares +=
             std::max(0.0, seen_squares_[channel] - n * mean * mean) * squared_slope(mean, transfer);

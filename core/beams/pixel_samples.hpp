@@ -14,7 +14,6 @@ namespace raylane::core {
 struct Sample {
     Vec3d color;              ///< linear RGB
     ShapeId shape = no_shape; ///< that the camera's ray hits first
-    double t = 0.0;           ///< where it does
     /// The share of the background that is seen straight on and left out (Settings::alpha), or 0.
     double transmittance = 0.0;
 };

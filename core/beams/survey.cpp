@@ -35,6 +35,10 @@ constexpr double within = 0.5, worth_of_around = 8.0;
 /// Decibels added to the quality that was asked for, because the estimate scatters.
 constexpr double margin = 1.0;
 
+std::size_t pixels_of(const Settings& settings) {
+    return static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+}
+
 double squared_distance(const Vec3d& a, const Vec3d& b, Transfer transfer) {
     double sum = 0.0;
     for (int channel = 0; channel < 3; ++channel) {
@@ -56,8 +60,7 @@ double squared_distance(const Mean& a, const Mean& b, Transfer transfer) {
 } // namespace
 
 Survey::Survey(const Settings& settings) : settings_(settings) {
-    const auto pixels =
-        static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+    const std::size_t pixels = pixels_of(settings);
     const std::uint64_t key = sequence_key(0, 0, SequenceUse::in_pixel);
     for (std::size_t i = 0; i < places.of(pixels); ++i) {
         const SamplePoint point = sequence_point(key, static_cast<std::uint32_t>(i));
@@ -146,9 +149,8 @@ void Survey::choose_records() {
     }
     const auto count = static_cast<double>(places_.size());
     const double base = all > 0.0 ? anywhere * all / count : 1.0;
-    const auto pixels =
-        static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
-    const double step = (all + base * count) / static_cast<double>(sampled.of(pixels));
+    const auto samples = static_cast<double>(sampled.of(pixels_of(settings_)));
+    const double step = (all + base * count) / samples;
     double due = 0.5 * step;
     for (std::size_t i = 0; i < places_.size(); ++i) {
         const double chance = chances[i] + base;

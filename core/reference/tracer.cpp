@@ -40,8 +40,7 @@ Sample ReferenceTracer<Real>::taken(const SampleName& name) {
     const SamplePoint place = place_in_pixel(name.x, name.y, name.number);
     const Vector color =
         trace(camera_rays_.ray(name, camera_rays_.filtered({Real(place.x), Real(place.y)})));
-    return {convert<double>(color), first_hit_.shape, static_cast<double>(first_hit_.t),
-            static_cast<double>(transmittance_)};
+    return {convert<double>(color), first_hit_.shape, static_cast<double>(transmittance_)};
 }
 
 template <class Real>

@@ -123,7 +123,6 @@ class CameraRays {
     }
 
     bool has_lens() const { return lens_radius_ > 0.0; }
-    double lens_radius() const { return lens_radius_; }
     Real focus() const { return focus_; } ///< distance of the plane that is sharp
     const Vec3<Real>& lens_right() const { return lens_right_; } ///< unit
     const Vec3<Real>& lens_up() const { return lens_up_; }       ///< unit

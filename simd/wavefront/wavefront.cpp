@@ -72,7 +72,6 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
     }
     to_quality_.emplace(scene.scene(), settings, *survey);
     first_shape_.resize(chunk_samples);
-    first_t_.resize(chunk_samples);
 }
 
 void Wavefront::take_from(Arena& arena) {
@@ -167,7 +166,6 @@ auto Wavefront::adder_to(Pixels& pixels) {
         for (const std::size_t end = i + static_cast<std::size_t>(some.count); i < end; ++i)
             pixels.add(some.pixel, {{radiance_[0][i], radiance_[1][i], radiance_[2][i]},
                                     first_shape_[i],
-                                    first_t_[i],
                                     settings_.alpha ? transmittance_[i] : 0.0});
     };
 }
@@ -336,7 +334,7 @@ void Wavefront::trace_wave(int depth, const Coherence& coherence) {
     if (is_first) note_first_hits();
     for (const std::uint32_t lane : finder_.at_contacts()) { // several surfaces meet there
         follow(lane, depth);
-        if (is_first) note_first_hit(lane, reference_.first_hit().shape, reference_.first_hit().t);
+        if (is_first) first_shape_[paths_.sample[lane]] = reference_.first_hit().shape;
     }
     sorted_.sort(finder_.hits().slot, paths_.count, finder_.at_contacts(), paths_.passed,
                  static_cast<std::uint32_t>(settings_.max_see_through));
@@ -347,14 +345,8 @@ void Wavefront::trace_wave(int depth, const Coherence& coherence) {
 void Wavefront::note_first_hits() {
     for (std::size_t lane = 0; lane < paths_.count; ++lane) {
         const std::uint32_t slot = finder_.hits().slot[lane];
-        note_first_hit(lane, slot != no_slot ? scene_.id_of(slot) : core::no_shape,
-                       finder_.hits().t[lane]);
+        first_shape_[paths_.sample[lane]] = slot != no_slot ? scene_.id_of(slot) : core::no_shape;
     }
-}
-
-void Wavefront::note_first_hit(std::size_t lane, core::ShapeId shape, double t) {
-    first_shape_[paths_.sample[lane]] = shape;
-    first_t_[paths_.sample[lane]] = shape != core::no_shape ? t : 0.0;
 }
 
 /// The reference goes on with a lane.

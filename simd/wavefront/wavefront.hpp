@@ -80,7 +80,6 @@ class Wavefront {
     core::CameraRays<double>::InPixel in_pixel(const Samples& some, int number) const;
     void start(std::size_t count);
     void note_first_hits();
-    void note_first_hit(std::size_t lane, core::ShapeId shape, double t);
     void start_in_media();
     void trace();
     void trace_wave(int depth, const Coherence& coherence);
@@ -143,7 +142,6 @@ class Wavefront {
     core::Survey* survey_;
     std::optional<core::RegionSamples> to_quality_;
     std::vector<core::ShapeId> first_shape_; // by sample: that the camera's ray hits
-    std::vector<double> first_t_;
     // A wave, sorted.
     HitSorter sorted_;
     bool coherent_ = false;                  // it was hit by rays on lines from the camera

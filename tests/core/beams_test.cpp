@@ -133,7 +133,7 @@ TEST_CASE("a speck too small to matter is let go") {
             do
                 for (std::size_t pixel = 0; pixel < samples.pixels(); ++pixel)
                     for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
-                        samples.add(pixel, {Vec3d(0.5), wall, 10.5});
+                        samples.add(pixel, {Vec3d(0.5), wall});
             while (samples.end_round());
         }
         survey.end(pass);
@@ -143,7 +143,7 @@ TEST_CASE("a speck too small to matter is let go") {
     do
         for (std::size_t pixel = 0; pixel < 256; ++pixel)
             for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
-                samples.add(pixel, {Vec3d(0.5), wall, 10.5});
+                samples.add(pixel, {Vec3d(0.5), wall});
     while (samples.end_round());
     CHECK(samples.taken(0) == 1);
     const std::size_t with_speck = 7 * 16 + 8;
