@@ -2,6 +2,7 @@
 #include "core/shapes/shapes.hpp"
 #include "core/solids/solid_size.hpp"
 #include "scenes/export/writers.hpp"
+#include "scenes/pov/scanner.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,12 +22,7 @@ using core::Vec3d, core::Vec3f;
 /// Levels of solids that raylane reads of it.
 constexpr int most_depth = 125;
 
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
+using pov::is_digit, pov::is_letter;
 
 /// Returns the identifier for a material's name, or "" if the name has other characters than an
 /// identifier. POV-Ray's own words, of which later versions have more, have no capitals, and never

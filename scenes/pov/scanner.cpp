@@ -10,12 +10,6 @@ namespace {
 
 constexpr std::size_t longest_word = 256;
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
 bool is_blank(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }

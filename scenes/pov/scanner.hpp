@@ -11,6 +11,14 @@
 
 namespace raylane::scenes::pov {
 
+/// Characters of identifiers.
+inline bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+inline bool is_letter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
 /// A file's text, which all that is read of it refers to.
 struct Source {
     std::string name; ///< for messages
