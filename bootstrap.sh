@@ -72,7 +72,7 @@ sizes() { # packages...
 # Estimates the compiler's time from the number of processors.
 say_costs() {
     minutes=$(((seconds / $(nproc) + 59) / 60))
-    if [ -e build/release/bin/raylane ]; then
+    if [ -e "build/release/bin/$last_built" ]; then
         echo "Compiling: only changed files, of $minutes minutes for all on $(nproc) processor(s)."
     else
         echo "Compiling: about $minutes minutes on $(nproc) processor(s); $megabytes MB on the disk, in build/release."
@@ -123,6 +123,7 @@ build() { # target, options of cmake
     esac
     log=build/bootstrap.log
     mkdir -p build
+    [ -e build/release/build.ninja ] || set -- "$@" --fresh # or what configuring left when it failed
     # RAYLANE_ISAS=all ./bootstrap.sh test: kernels for all instruction sets, not for this machine's own.
     if ! cmake --preset release "-DRAYLANE_ISAS=${RAYLANE_ISAS:-native}" "$@" >"$log" 2>&1; then
         cat "$log" >&2
@@ -138,11 +139,13 @@ render)
     packages=$render_packages
     seconds=$render_seconds
     megabytes=$render_megabytes
+    last_built=raylane
     ;;
 test)
     packages=$render_packages$test_packages
     seconds=$test_seconds
     megabytes=$test_megabytes
+    last_built=raylane-test-core
     ;;
 -h | --help)
     usage
@@ -156,17 +159,14 @@ esac
 [ $# -eq 1 ] || { usage >&2; exit 2; }
 
 install_missing
-is_new=
-[ -f build/release/CMakeCache.txt ] || is_new=1 # a tree that exists keeps its generator
 if [ "$1" = render ]; then
-    # A tree that exists keeps its tests.
-    build raylane ${is_new:+-GNinja -DRAYLANE_TESTS=OFF -DRAYLANE_BENCHMARKS=OFF -DRAYLANE_PYTHON=OFF}
+    build raylane -DRAYLANE_TESTS=OFF -DRAYLANE_BENCHMARKS=OFF -DRAYLANE_PYTHON=OFF
     start=$(date +%s%N)
     build/release/bin/raylane render scenes/birthday.json -o birthday.png || fail $? "rendering failed; see above"
     milliseconds=$((($(date +%s%N) - start) / 1000000))
     echo "Rendered $(pwd)/birthday.png in $((milliseconds / 1000)).$(printf %03d $((milliseconds % 1000))) s."
 else
-    build raylane-tests ${is_new:+-GNinja} -DRAYLANE_TESTS=REQUIRED -DRAYLANE_BENCHMARKS=REQUIRED -DRAYLANE_PYTHON=ON
+    build raylane-tests -DRAYLANE_TESTS=REQUIRED -DRAYLANE_BENCHMARKS=REQUIRED
     ctest --preset release --parallel "$(nproc)" --label-exclude bench || # not built here
         fail $? "tests failed; see above"
 fi

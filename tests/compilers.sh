@@ -20,7 +20,7 @@ fi
 look() { # compiler, standard
     folder=build/compilers/$1-$2
     mkdir -p "$folder"
-    cmake --fresh --preset release -B "$folder" -GNinja -DCMAKE_CXX_COMPILER="$1" -DCMAKE_CXX_STANDARD="$2" \
+    cmake --fresh --preset release -B "$folder" -DCMAKE_CXX_COMPILER="$1" -DCMAKE_CXX_STANDARD="$2" \
         -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DRAYLANE_UNITY=OFF -DRAYLANE_BENCHMARKS=OFF -DRAYLANE_TESTS="${TESTS-OFF}" \
         >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log"; return 1; }
     # As it would be compiled, but for what comes of it.

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 raylane=${1:-build/release/bin/raylane}
 
 . tests/have.sh
-have cmake make emscripten nodejs libglm-dev libxsimd-dev nlohmann-json3-dev libstb-dev libxxhash-dev chromium chromium-driver \
+have cmake ninja-build emscripten nodejs libglm-dev libxsimd-dev nlohmann-json3-dev libstb-dev libxxhash-dev chromium chromium-driver \
     python3-selenium
 
 cmake --preset wasm

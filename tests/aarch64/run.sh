@@ -37,9 +37,7 @@ emulate() { # program of build/aarch64, arguments...
 }
 
 echo "== build"
-generator=-GNinja
-[ ! -f build/aarch64/CMakeCache.txt ] || generator=
-cmake --preset aarch64 $generator >build/aarch64.log 2>&1 || { cat build/aarch64.log; exit 1; }
+cmake --preset aarch64 >build/aarch64.log 2>&1 || { cat build/aarch64.log; exit 1; }
 if [ "$form" = lanes ]; then
     cmake --build --preset aarch64 --parallel "$(nproc)" --target raylane-test-lanes
     emulate raylane-test-lanes

@@ -15,7 +15,7 @@ build=${BUILD:-build/fuzz}
 mkdir -p build/fuzz/findings
 kernels= # no sanitizer changes them
 [ ! -e build/asan/CMakeCache.txt ] || kernels=-DRAYLANE_KERNELS=$PWD/build/asan
-[ -e "$build/build.ninja" ] || cmake --preset fuzz -GNinja $kernels >build/fuzz/configure.log || { cat build/fuzz/configure.log; exit 1; }
+[ -e "$build/build.ninja" ] || cmake --preset fuzz $kernels >build/fuzz/configure.log || { cat build/fuzz/configure.log; exit 1; }
 targets=
 for format in $formats; do targets="$targets raylane-fuzz-$format"; done
 # shellcheck disable=SC2086 # a list of words
