@@ -2,7 +2,8 @@
 #
 # step SECONDS NAME begins a step and ends the one before; `step` alone ends the last. A step fails the
 # run at once. So does one that took more than twice its budget, at the end of the run: budgets are for
-# two idle cores without a compiler cache, and other machines differ.
+# two idle cores without a compiler cache, and other machines differ. A step that has called `skipped`
+# says so.
 
 cd "$(dirname "$0")/.."
 steps=$(mktemp)
@@ -16,7 +17,7 @@ step() {
         took=$((now - began))
         late=
         [ "$took" -le $((2 * budget)) ] || late="  more than twice its budget"
-        printf '%5d s of %5d  %s%s\n' "$took" "$budget" "$name" "$late" | tee -a "$steps"
+        printf '%5d s of %5d  %s%s%s\n' "$took" "$budget" "$name" "$skipped" "$late" | tee -a "$steps"
     fi
     if [ $# -eq 0 ]; then
         total=$(($(date +%s) - started))
@@ -29,12 +30,19 @@ step() {
     budget=$1
     name=$2
     began=$now
+    skipped=
     printf '\n== %s\n' "$name"
 }
+skipped() { # why
+    skipped="  skipped: $1"
+}
+may_skip() { # command...: 77 if it cannot run here
+    "$@" || { [ $? -eq 77 ] && skipped "it cannot run here"; }
+}
 slowest() { # build: tests of the last run of ctest
-    echo "the ten slowest tests, in seconds:"
+    echo "the twenty slowest tests, in seconds:"
     awk '/^[0-9]+\/[0-9]+ Testing: / { sub(/^.* Testing: /, ""); test = $0 }
         /^Test time = / { printf "%7.2f  %s\n", $4, test }' \
-        "build/$1/Testing/Temporary/LastTest.log" | sort -rn | head -n 10
+        "build/$1/Testing/Temporary/LastTest.log" | sort -rn | head -n 20
 }
 . tests/have.sh
