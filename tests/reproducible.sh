@@ -32,11 +32,12 @@ export SOURCE_DATE_EPOCH
 lay "$first"
 sleep 2 # files of one second, in archives of two, have the same time; load changes nothing
 lay "$second"
-options="-GNinja -DRAYLANE_TESTS=OFF -DRAYLANE_BENCHMARKS=OFF -DCMAKE_INSTALL_PREFIX=/usr"
+# A cache would hand the first folder's objects to the second.
+options="-GNinja -DRAYLANE_CCACHE=OFF -DRAYLANE_TESTS=OFF -DRAYLANE_BENCHMARKS=OFF -DCMAKE_INSTALL_PREFIX=/usr"
 [ -z "${KERNELS-}" ] || options="$options -DRAYLANE_KERNELS=$(realpath "$KERNELS")"
 
 if [ "${1-}" = quick ]; then
-    options="$options -DCMAKE_BUILD_TYPE=RelWithDebInfo"
+    options="$options -DCMAKE_BUILD_TYPE=RelWithDebInfo -DRAYLANE_UNITY=OFF"
     # Of each floor that is the library's.
     set -- core/CMakeFiles/raylane_core.dir/numbers/dyadic.cpp.o \
         core/CMakeFiles/raylane_core.dir/scene/glass.cpp.o \
