@@ -7,6 +7,7 @@
 #include "simd/render.hpp"
 #include "simd/stream_tracer.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 #include "tests/simd/rounds.hpp"
 

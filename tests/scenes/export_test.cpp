@@ -2,6 +2,7 @@
 #include "scenes/export/writers.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/exports.hpp"
 #include "tests/scenes/json_scenes.hpp"
 

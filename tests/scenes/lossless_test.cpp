@@ -1,6 +1,7 @@
 #include "core/reference/tracer.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/shared_scene.hpp"
 
 #include <cstring>

@@ -1,4 +1,5 @@
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/nff_scenes.hpp"
 
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/scaled_down.hpp"
 #include "tests/simd/rounds.hpp"
 

@@ -1,5 +1,6 @@
 #include "scenes/json/reader.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <vector>

@@ -1,4 +1,5 @@
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
 #include <nlohmann/json.hpp>

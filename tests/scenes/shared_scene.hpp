@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 
 #include <filesystem>
 #include <optional>

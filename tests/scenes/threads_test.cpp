@@ -3,6 +3,7 @@
 #include "scenes/tool/journal/fingerprint.hpp"
 #include "scenes/tool/journal/journal.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <atomic>

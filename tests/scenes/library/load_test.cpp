@@ -1,5 +1,6 @@
 #include "raylane/raylane.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 

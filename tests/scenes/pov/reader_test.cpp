@@ -4,6 +4,7 @@
 #include "scenes/number.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/sanitized.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"

@@ -4,6 +4,7 @@
 #include "scenes/scene_file.hpp"
 #include "simd/render.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/json_scenes.hpp"
 
 #include <algorithm>

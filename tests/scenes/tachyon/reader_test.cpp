@@ -2,6 +2,7 @@
 #include "scenes/scene_file.hpp"
 #include "scenes/tachyon/reader.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/scenes/message_of.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
