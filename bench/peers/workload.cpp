@@ -1,5 +1,8 @@
 #include "bench/peers/workload.hpp"
 
+#include "core/numbers/primitives.hpp"
+#include "core/numbers/sample_sequence.hpp"
+#include "core/optics/soft_light.hpp"
 #include "core/scene/camera_rays.hpp"
 #include "scenes/scene_file.hpp"
 #include "simd/isa.hpp"
@@ -88,9 +91,22 @@ simd::Coherence coherence_at(const Vec3f& apex, bool towards) {
     return {{apex.x, apex.y, apex.z}, towards, false, false, false};
 }
 
-/// Adds the rays that start where the camera's rays hit: mirrored, and to the light.
+/// As a picture's samples of a sky go.
+Vec3d to_sky(const Vec3d& normal, std::size_t pixel) {
+    const core::SoftLight sky = core::prepared({core::LightKind::sky});
+    const auto number = static_cast<std::uint32_t>(pixel);
+    const core::SamplePoint point =
+        core::sequence_point(core::sequence_key(number, 0, core::on_first_light), 0);
+    const auto [x, y, z] = core::SoftLightSampler<double>(sky)
+                               .sample({0.0, 0.0, 0.0}, {normal.x, normal.y, normal.z},
+                                       static_cast<double>(point.x), static_cast<double>(point.y))
+                               .direction;
+    return {x, y, z};
+}
+
+/// Adds the rays that start where the camera's rays hit: mirrored, to the light, and to the sky.
 void add_secondary(const core::Scene& scene, const simd::SceneData& data, const RaySet& camera,
-                   RaySet& mirror, RaySet& shadow) {
+                   RaySet& mirror, RaySet& shadow, RaySet& sky) {
     const simd::Tracing tracing{&simd::kernels_of(simd::best_isa())};
     simd::Query finder(data, tracing, simd::Asked::points);
     const simd::Arena arena =
@@ -109,6 +125,8 @@ void add_secondary(const core::Scene& scene, const simd::SceneData& data, const 
             const double cos = core::dot(normal, ray.direction);
             mirror.add_from({point, core::normalized(Vec3d(ray.direction - 2.0 * cos * normal))},
                             infinity, data, hits.slot[lane], hits.hit[lane], hits.t[lane]);
+            sky.add_from({point, to_sky(cos > 0.0 ? -normal : normal, begin + lane)}, infinity,
+                         data, hits.slot[lane], hits.hit[lane], hits.t[lane]);
             const Vec3d to_light = light - point;
             if (core::dot(to_light, normal) * cos > 0.0) continue; // in its own shadow
             const double distance = core::length(to_light);
@@ -227,12 +245,12 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
     const auto pixels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     std::vector<RaySet> sets(std::size(ray_set_names));
     RaySet &camera = sets[0], &scanlines = sets[1], &mirror = sets[2], &shadow = sets[3],
-           &incoherent = sets[4], &occlusion = sets[5];
+           &sky = sets[4], &incoherent = sets[5], &occlusion = sets[6];
     for (std::size_t i = 0; i < sets.size(); ++i)
         sets[i].name = ray_set_names[i];
-    shadow.occlusion = occlusion.occlusion = true;
+    shadow.occlusion = sky.occlusion = occlusion.occlusion = true;
     camera.coherence = scanlines.coherence = coherence_at(scene.camera().from, false);
-    mirror.coherence = simd::neighbours;
+    mirror.coherence = sky.coherence = simd::neighbours;
     shadow.coherence = coherence_at(light_of(scene), true);
     for (RaySet& set : sets)
         set.reserve(pixels);
@@ -245,7 +263,7 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
         for (int x = 0; x < side; ++x)
             scanlines.add(rays.ray(x, y, 0), infinity);
     camera.finish();
-    add_secondary(scene, data, camera, mirror, shadow);
+    add_secondary(scene, data, camera, mirror, shadow, sky);
 
     std::mt19937_64 engine(2);
     const core::Bounds& bounds = scene.hierarchy().bounds;
@@ -265,7 +283,7 @@ std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneDat
         incoherent.add(ray, infinity);
         occlusion.add(ray, static_cast<float>(distance));
     }
-    for (RaySet* set : {&scanlines, &mirror, &shadow, &incoherent, &occlusion})
+    for (RaySet* set : {&scanlines, &mirror, &shadow, &sky, &incoherent, &occlusion})
         set->finish();
     return sets;
 }

@@ -57,12 +57,13 @@ struct RaySet {
     std::vector<std::uint32_t> origin_first_, origin_last_, origin_slot_, departure_;
 };
 
-inline constexpr const char* ray_set_names[] = {"camera", "scanlines",  "mirror",
-                                                "shadow", "incoherent", "occlusion"};
+inline constexpr const char* ray_set_names[] = {"camera", "scanlines",  "mirror",   "shadow",
+                                                "sky",    "incoherent", "occlusion"};
 
 /// `camera`: those of a picture of side x side pixels, tile by tile, and `scanlines`: line by line;
 /// `mirror`: what the camera's hits
-/// reflect, and `shadow`: from these hits to a point light; `incoherent`: `side`^2 / 4 rays between
+/// reflect, `shadow`: from these hits to a point light, and `sky`: from each one anywhere above the
+/// surface, by the cosine; `incoherent`: `side`^2 / 4 rays between
 /// any points of the scene's bounds, onwards; and `occlusion`: whether there is anything between
 /// those points.
 std::vector<RaySet> make_ray_sets(const core::Scene& scene, const simd::SceneData& data, int side);
