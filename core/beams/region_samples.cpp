@@ -42,7 +42,7 @@ bool RegionSamples::end_round() {
     if (is_first_round_) {
         shown_.clear();
         for (const Pixel& pixel : states_)
-            shown_.push_back(Shown(pixel.middle));
+            shown_.emplace_back(pixel.middle);
         for (int y = region_.y0; y < region_.y1; y += square_size)
             for (int x = region_.x0; x < region_.x1; x += square_size)
                 look_at(Region{x, y, x + square_size, y + square_size}.within(region_));
