@@ -6,6 +6,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <unistd.h>
 
 namespace raylane::scenes {
@@ -37,15 +38,23 @@ extern "C" void end_process(int signal) {
     ::_exit(128 + signal);
 }
 
-std::atomic<std::atomic<bool>*> stop = nullptr;
+std::atomic<simd::Progress*> stopped = nullptr;
 std::atomic<int> stopped_by = 0;
+timer_t patience;
 
 extern "C" void stop_first(int signal) {
-    std::atomic<bool>* const flag = stop;
-    if (flag == nullptr || stopped_by != 0) return end_process(signal);
+    simd::Progress* const progress = stopped;
+    if (progress == nullptr || stopped_by != 0) return end_process(signal);
     stopped_by = signal;
-    *flag = true;
+    progress->stop = true;
+    constexpr itimerspec half_a_second{{}, {0, 500'000'000}};
+    ::timer_settime(patience, 0, &half_a_second, nullptr);
     if (is_shown()) say("\nraylane: finishing what is under way; once more to end at once\n");
+}
+
+extern "C" void abandon(int signal) {
+    if (stopped_by == 0) return end_process(signal); // not by our timer
+    if (simd::Progress* const progress = stopped; progress != nullptr) progress->abandon = true;
 }
 
 /// Pages of a built scene have gone, or cannot be read: all threads that ask for them come here.
@@ -78,19 +87,23 @@ bool is_ignored(int signal) {
 void catch_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2})
         if (!is_ignored(signal))
-            on(signal, signal == SIGINT || signal == SIGTERM ? stop_first : end_process);
+            on(signal, signal == SIGINT || signal == SIGTERM ? stop_first
+                       : signal == SIGALRM                   ? abandon
+                                                             : end_process);
     on(SIGBUS, lose_pages);
     on(SIGPIPE, SIG_IGN);
     on(SIGXFSZ, SIG_IGN);
 }
 
-StopOnSignal::StopOnSignal(std::atomic<bool>& flag) {
+StopOnSignal::StopOnSignal(simd::Progress& progress) {
     stopped_by = 0;
-    stop = &flag;
+    ::timer_create(CLOCK_MONOTONIC, nullptr, &patience); // which sends SIGALRM
+    stopped = &progress;
 }
 
 StopOnSignal::~StopOnSignal() {
-    stop = nullptr;
+    stopped = nullptr;
+    ::timer_delete(patience);
 }
 
 int StopOnSignal::signal() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <atomic>
+#include "simd/render.hpp"
 
 /// Ctrl-C and its kin, which may come at any moment.
 namespace raylane::scenes {
@@ -11,11 +11,12 @@ namespace raylane::scenes {
 /// longer there ends a process as what the system refuses does.
 void catch_signals();
 
-/// While it lives, the first SIGINT or SIGTERM does not end the process but sets `stop`; the second
-/// does. One at a time.
+/// While it lives, the first SIGINT or SIGTERM does not end the process but stops what makes
+/// progress, and has it abandon after half a second what is under way; the second does. One at a
+/// time.
 class StopOnSignal {
   public:
-    explicit StopOnSignal(std::atomic<bool>& stop);
+    explicit StopOnSignal(simd::Progress& progress);
     ~StopOnSignal();
     StopOnSignal(const StopOnSignal&) = delete;
     StopOnSignal& operator=(const StopOnSignal&) = delete;

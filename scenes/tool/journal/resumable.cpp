@@ -117,7 +117,7 @@ int ResumableRendering::percent(std::int64_t pixels) const {
 simd::Rendering ResumableRendering::draw(simd::Progress& progress, Job* job) {
     options_.progress = &progress;
     const bool is_shared = job != nullptr && job->ranks() != nullptr;
-    if (journal_ || is_shared) stop_on_signal_.emplace(progress.stop);
+    if (journal_ || is_shared) stop_on_signal_.emplace(progress);
     if (journal_) say_found();
     simd::Rendering rendering = is_shared ? draw_among(*job, progress) : draw_alone(progress);
     if (!rendering.complete) stopped();

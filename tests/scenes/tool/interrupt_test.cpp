@@ -107,6 +107,21 @@ TEST_CASE("reading a scene can be interrupted") {
     }
 }
 
+TEST_CASE("the first signal ends a rendering whose tiles take hours") {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Workshop workshop;
+        Process process = workshop.start(
+            {"render", "scene.json", "-o", "out/picture.png", "--spp", "65536", "--size", "32x32"},
+            on_terminal());
+        REQUIRE(process.wait_for_err("rays/s"));
+        process.send(signal);
+        const Outcome outcome = process.wait();
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 128 + signal);
+        CHECK(outcome.err.find("stopped at 0 %") != std::string::npos);
+    }
+}
+
 TEST_CASE("waiting for a reader of the picture can be interrupted") {
     const Workshop workshop;
     REQUIRE(::mkfifo((workshop.path() / "pipe.png").c_str(), 0600) == 0);
