@@ -98,7 +98,10 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
         EngineCounters of_tile;
         if (options.recall && options.recall({region, rendering.film, rendering.layers, of_tile})) {
             recalled.local() += of_tile;
-            if (options.progress != nullptr) options.progress->pixels += region.pixels();
+            if (options.progress != nullptr) {
+                options.progress->recalled += region.pixels();
+                options.progress->pixels += region.pixels();
+            }
             return;
         }
         Tracer& tracer = tracers.local();
@@ -136,6 +139,8 @@ Rendering render_by(const std::function<Tracer(Surveys&)>& make_tracer,
         }
     EngineCounters surveyed; // by each part of a picture
     tracers.for_each([&](const Tracer& tracer) { surveyed += tracer.counters(); });
+    if (options.progress != nullptr)
+        options.progress->first_tile = std::chrono::steady_clock::now();
     for_each_tile(grid, options.threads, draw, options.tiles);
     rendering.complete = complete;
     tracers.for_each([&](const Tracer& tracer) { rendering.counters += tracer.counters(); });

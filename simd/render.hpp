@@ -9,6 +9,7 @@
 #include "simd/tiles.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -26,6 +27,10 @@ enum class Engine : std::uint8_t {
 /// Progress of a rendering, for any thread to read while it runs; and to end it.
 struct Progress {
     std::atomic<std::int64_t> pixels = 0;
+    std::atomic<std::int64_t> recalled = 0; ///< of these, not drawn but there before
+    /// When the first tile was begun; what comes before says nothing of how long they take.
+    std::atomic<std::chrono::steady_clock::time_point> first_tile =
+        std::chrono::steady_clock::now();
     std::atomic<std::uint64_t> rays = 0;
     std::atomic<bool> stop = false;    ///< once true, no more tiles are begun
     std::atomic<bool> abandon = false; ///< once true, those under way are left, too

@@ -1,11 +1,29 @@
 #include "simd/tiles.hpp"
 
+#include <cmath>
+#include <numeric>
+
 namespace raylane::simd {
+
+namespace {
+
+/// Multiples of that, modulo the number of tiles, go through all of them, and each few that follow
+/// one another are spread evenly: by the golden ratio, as nearly as that has no factor in common.
+std::size_t stride_of(std::size_t tiles) {
+    constexpr double golden_ratio = 0.6180339887498949;
+    auto stride = static_cast<std::size_t>(std::llround(golden_ratio * static_cast<double>(tiles)));
+    while (std::gcd(stride, tiles) != 1)
+        ++stride;
+    return stride;
+}
+
+} // namespace
 
 TileGrid::TileGrid(const core::Region& part, int size)
     : part_(part), size_(static_cast<std::size_t>(size)),
       columns_((static_cast<std::size_t>(part.x1 - part.x0) + size_ - 1) / size_),
-      rows_((static_cast<std::size_t>(part.y1 - part.y0) + size_ - 1) / size_) {}
+      rows_((static_cast<std::size_t>(part.y1 - part.y0) + size_ - 1) / size_),
+      stride_(stride_of(count())) {}
 
 core::Region TileGrid::tile(std::size_t number) const {
     const int size = static_cast<int>(size_);
@@ -24,7 +42,7 @@ void for_each_tile(const TileGrid& grid, int threads,
     on_threads(threads, [&] {
         if (source == nullptr)
             return parallel_for(grid.count(),
-                                [&](std::size_t number) { visit(grid.tile(number)); });
+                                [&](std::size_t i) { visit(grid.tile(grid.scattered(i))); });
         const int count = threads > 0 ? threads : default_threads();
         parallel_for(static_cast<std::size_t>(count), [&](std::size_t) {
             try {

@@ -19,11 +19,14 @@ class TileGrid {
     core::Region tile(std::size_t number) const;
     /// Of a tile of this grid.
     std::size_t number_of(const core::Region& tile) const;
+    /// The i-th tile's number in an order in which any that follow one another are spread over the
+    /// picture: their mean cost is soon that of all.
+    std::size_t scattered(std::size_t i) const { return i * stride_ % count(); }
     const core::Region& part() const { return part_; }
 
   private:
     core::Region part_;
-    std::size_t size_, columns_, rows_;
+    std::size_t size_, columns_, rows_, stride_;
 };
 
 /// Says which tiles of a grid are visited here, where that is not for this process alone to know.

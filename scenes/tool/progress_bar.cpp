@@ -91,9 +91,14 @@ ProgressBar::ProgressBar(Verbosity verbosity, const simd::Progress& progress, st
 
 std::string ProgressBar::text() const {
     const double seconds = seconds_since(start_);
-    const double done = static_cast<double>(progress_.pixels) / static_cast<double>(pixels_);
-    return bar_text(done) + "  " + with_prefix(static_cast<double>(progress_.rays) / seconds) +
-           "rays/s  " + (done > 0.0 ? duration_text(seconds * (1.0 - done) / done) + " left" : "");
+    const std::int64_t done = progress_.pixels, drawn = done - progress_.recalled;
+    const auto left = static_cast<double>(pixels_ - done);
+    return bar_text(static_cast<double>(done) / static_cast<double>(pixels_)) + "  " +
+           with_prefix(static_cast<double>(progress_.rays) / seconds) + "rays/s  " +
+           (drawn > 0 ? duration_text(seconds_since(progress_.first_tile) * left /
+                                      static_cast<double>(drawn)) +
+                            " left"
+                      : "");
 }
 
 } // namespace raylane::scenes

@@ -130,7 +130,10 @@ TEST_CASE("a journal that ends at any byte gives the picture its bits, and so do
         REQUIRE(rendering.counters.as_numbers() == whole.counters.as_numbers());
         return journal.found_pixels();
     };
-    CHECK(goes_on(content, 240) == 8 * 8 + 8 * 8 + 4 * 8 + 8 * 4);
+    std::int64_t first_four = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        first_four += drawing.records().grid().tile(drawing.records().grid().scattered(i)).pixels();
+    CHECK(goes_on(content, 240) == first_four);
     std::int64_t before = 0;
     for (std::size_t end = 0; end < content.size(); end += 7) {
         CAPTURE(end);

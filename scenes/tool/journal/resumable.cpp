@@ -155,6 +155,7 @@ simd::Rendering ResumableRendering::draw_among(Job& job, simd::Progress& progres
         const std::optional<std::string> bytes = ranked.recall(tile);
         if (!bytes) return journal_ && journal_->recall(tile);
         progress.rays += tile.counters.rays();
+        progress.recalled -= tile.region.pixels(); // another rank has drawn it
         if (journal_) journal_->note(grid_.number_of(tile.region), *bytes);
         return true;
     };
