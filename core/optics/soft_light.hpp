@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/numbers/elementary.hpp"
+#include "core/numbers/sample_sequence.hpp"
 #include "core/scene/appearance.hpp"
 
 /// Light that comes from more than one direction: samples of it, for scalars and registers alike.
@@ -22,6 +23,11 @@ struct SoftLight {
 
 /// `light` has a size.
 SoftLight prepared(const Light& light);
+
+/// The point that makes the sample of a light's middle, as hard light has it; of a sky the normal.
+constexpr SamplePoint middle_of(const SoftLight& light) {
+    return light.kind == LightKind::rectangle ? SamplePoint{0.5F, 0.5F} : SamplePoint{0.0F, 0.0F};
+}
 
 template <class Number>
 struct Directed {

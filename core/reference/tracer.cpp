@@ -277,6 +277,7 @@ Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& su
                                   static_cast<double>(surface.normal.z)};
     const auto lights = static_cast<std::uint32_t>(soft_lights_.size());
     const auto count = static_cast<std::uint32_t>(settings_.light_rays());
+    const bool is_hard = settings_.light_samples == Settings::hard_light;
     Vector color(0);
     for (std::uint32_t number = 0; number < lights; ++number) {
         const SoftLight& light = soft_lights_[number];
@@ -285,7 +286,9 @@ Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& su
         const std::uint64_t key = light_key(sample_, path.depth + path.passed, number, lights);
         for (std::uint32_t k = 0; k < count; ++k) {
             const SamplePoint at =
-                shuffled_point(key, static_cast<std::uint32_t>(sample_.number) * count + k);
+                is_hard
+                    ? middle_of(light)
+                    : shuffled_point(key, static_cast<std::uint32_t>(sample_.number) * count + k);
             const LightSample<double> sample =
                 sampler.sample(point, normal, static_cast<double>(at.x), static_cast<double>(at.y));
             const Vector to_light(Real(sample.direction.x), Real(sample.direction.y),
@@ -301,6 +304,10 @@ Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& su
                 share[channel] *= Real(radiance * (sample.share / static_cast<double>(count)));
             }
             if (share == Vector(0)) continue;
+            if (is_hard && is_sky) {
+                color += share;
+                continue;
+            }
             ++searcher_.counters.shadow;
             color += light_let_through({surface.point, to_light},
                                        surface.origins(/*through=*/false, to_light), path.media,

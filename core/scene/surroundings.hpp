@@ -82,7 +82,8 @@ struct Settings {
     /// for, pixel by pixel, in place of `grid`; 0: each pixel has the samples of `grid`.
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
-    /// Rays to each light with a size, from each point that a sample sees; 0: light_rays() says.
+    /// Rays to each light with a size, from each point that a sample sees; 0: light_rays() says;
+    /// hard_light: one to its middle, and a sky that nothing shades.
     int light_samples = 0;
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
     /// The film has an alpha: where the camera sees the background, past everything or straight
@@ -102,10 +103,12 @@ struct Settings {
     static constexpr int depth_limit = 1000;
     static constexpr int see_through_limit = 1'000'000;
     static constexpr int max_light_samples = 4096;
+    static constexpr int hard_light = -1;
 
     /// Rays to each light with a size: one for each of a pixel's samples, which are spread over the
     /// light together, but four if it has a single sample.
     int light_rays() const {
+        if (light_samples == hard_light) return 1;
         if (light_samples != 0) return light_samples;
         return quality == 0.0F && grid == 1 ? 4 : 1;
     }

@@ -151,7 +151,8 @@ void validate(const Settings& settings) {
     require_enumerator("filter", settings.filter, PixelFilter::blackman_harris);
     if (settings.quality != 0.0F && !(settings.quality >= 10.0F && settings.quality <= 80.0F))
         refuse("quality", "must be 0 or between 10 and 80 decibels", settings.quality);
-    require_count("light_samples", settings.light_samples, 0, Settings::max_light_samples);
+    require_count("light_samples", settings.light_samples, Settings::hard_light,
+                  Settings::max_light_samples);
     require_enumerator("transfer", settings.transfer, Transfer::linear);
     require_count("max_depth", settings.max_depth, 0, Settings::depth_limit);
     require_count("max_see_through", settings.max_see_through, 1, Settings::see_through_limit);

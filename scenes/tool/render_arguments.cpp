@@ -57,8 +57,11 @@ void RenderArguments::add_to(CLI::App& command) {
         "box|gaussian|blackman-harris");
     add("--light-samples", light_samples,
         "Rays to each light with a size, from each point that a sample sees (default: as the scene "
-        "says, or four if pixels have one sample, else one)",
+        "says, or four if pixels have one sample, else one); -1: hard light, which is one ray to "
+        "its middle, and a sky that nothing shades",
         "N");
+    add_flag(command, "--draft", draft, "For a quick look: --spp 1 --light-samples -1");
+    add_flag(command, "--print", print, "For print, without grain at 300 dpi: --quality 50");
     add("--max-depth", max_depth,
         "Reflections and refractions one after the other (default: as the scene says)", "N");
     add("--max-see-through", max_see_through,
@@ -104,6 +107,21 @@ Overrides::Overrides(const RenderArguments& arguments) {
     if (arguments.samples) grid = square_argument("--spp", *arguments.samples, Settings::max_grid);
     if (arguments.quality) quality = number_argument("--quality", *arguments.quality, 10.0F, 80.0F);
     if (quality && grid) throw BadInput("--quality", "", "goes without --spp");
+    if (arguments.draft || arguments.print) {
+        const char* const name = arguments.draft ? "--draft" : "--print";
+        if (arguments.draft && arguments.print) throw BadInput(name, "", "goes without --print");
+        for (const auto& [other, is_given] :
+             {std::pair{"--spp", grid.has_value()},
+              {"--quality", quality.has_value()},
+              {"--light-samples", arguments.light_samples && arguments.draft}})
+            if (is_given) throw BadInput(name, "", std::string("goes without ") + other);
+        if (arguments.draft) {
+            grid = 1;
+            light_samples = Settings::hard_light;
+        } else {
+            quality = 50.0F;
+        }
+    }
     if (arguments.filter)
         filter = choice_argument<core::PixelFilter>(
             "--filter", *arguments.filter,
@@ -111,8 +129,8 @@ Overrides::Overrides(const RenderArguments& arguments) {
              {"gaussian", core::PixelFilter::gaussian},
              {"blackman-harris", core::PixelFilter::blackman_harris}});
     if (arguments.light_samples)
-        light_samples = whole_argument("--light-samples", *arguments.light_samples, 1,
-                                       Settings::max_light_samples);
+        light_samples = whole_argument("--light-samples", *arguments.light_samples,
+                                       Settings::hard_light, Settings::max_light_samples);
     if (arguments.max_depth)
         max_depth = whole_argument("--max-depth", *arguments.max_depth, 0, Settings::depth_limit);
     if (arguments.max_see_through)

@@ -17,7 +17,7 @@ struct RenderArguments {
     Argument scene, output, size, samples, quality, filter, light_samples, max_depth,
         max_see_through, min_weight, threads, transfer, stats, part;
     Argument engine = "vector", isa, tile, precision = "exact";
-    bool no_resume = false;
+    bool no_resume = false, draft = false, print = false;
     SceneArguments scene_arguments;
     FrameArguments frames;
     PictureArguments picture;

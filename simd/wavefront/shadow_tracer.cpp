@@ -59,6 +59,10 @@ void ShadowTracer::trace_softly(EngineCounters& counters) {
     trace(neighbours, !scene_.has_tree(), counters);
 }
 
+void ShadowTracer::let_pass() {
+    std::fill_n(state_, rays_.count, std::uint8_t{unblocked});
+}
+
 /// `together`: whether what is in the way is looked for by many rays at a time.
 void ShadowTracer::trace(const Coherence& coherence, bool together, EngineCounters& counters) {
     counters.shadow += rays_.count;

@@ -36,6 +36,8 @@ class ShadowTracer {
     void trace(const LightView& light, EngineCounters& counters);
     /// The same of rays to all sides.
     void trace_softly(EngineCounters& counters);
+    /// Has all of them arrive, whatever is in the way.
+    void let_pass();
 
     bool arrives(std::size_t ray) const { return state_[ray] != blocked; }
 

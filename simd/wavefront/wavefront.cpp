@@ -484,6 +484,7 @@ void Wavefront::add_lights() {
 void Wavefront::add_soft_lights(int depth) {
     const std::vector<core::SoftLight>& lights = scene_.soft_lights();
     const auto samples = static_cast<std::uint32_t>(settings_.light_rays());
+    const bool is_hard = settings_.light_samples == core::Settings::hard_light;
     const std::size_t count = sorted_.hit_count();
     for (std::uint32_t number = 0; number < lights.size(); ++number) {
         const core::SoftLight& light = lights[number];
@@ -496,6 +497,11 @@ void Wavefront::add_soft_lights(int depth) {
         for (std::uint32_t k = 0; k < samples; ++k) {
             shade_.light_points(count, light_keys_.data(), first_points_.data(), k, light_u_,
                                 light_v_);
+            if (is_hard) {
+                const core::SamplePoint middle = core::middle_of(light);
+                std::fill_n(light_u_, count, static_cast<double>(middle.x));
+                std::fill_n(light_v_, count, static_cast<double>(middle.y));
+            }
             SpawnedRays& rays = shadows_.rays();
             rays.count = 0;
             for (const Run& run : sorted_.runs())
@@ -505,7 +511,10 @@ void Wavefront::add_soft_lights(int depth) {
                                       light_v_, surfaces_, rays);
             if (rays.count == 0) continue;
             look_at_lights();
-            shadows_.trace_softly(counters_);
+            if (is_hard && light.kind == core::LightKind::sky)
+                shadows_.let_pass();
+            else
+                shadows_.trace_softly(counters_);
             add_what_arrives();
         }
     }

@@ -407,8 +407,8 @@ TEST_CASE("complaints about cameras, fogs and lights") {
          "/lights/0/edge_v: must be perpendicular to edge_u's [1, 0, 0], got [1, 1, 0]"},
         {with_camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "lens_radius": -1)"),
          "/camera/lens_radius: must not be negative, got -1"},
-        {with(R"("sampling": {"light_samples": -1})"),
-         "/sampling/light_samples: must be from 0 to 4096, got -1"},
+        {with(R"("sampling": {"light_samples": -2})"),
+         "/sampling/light_samples: must be from -1 to 4096, got -2"},
         {with(
              R"("lights": [{"type": "point", "position": [0, 0, 0]}, {"type": "point", "position": [0, 0, 0], "color": [0, -1, 0]}])"),
          "/lights/1/color/1: must not be negative, got -1"},

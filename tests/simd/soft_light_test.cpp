@@ -258,6 +258,42 @@ TEST_CASE("both engines see the same sky from cylinders along a coordinate") {
     }
 }
 
+TEST_CASE("hard light comes from the middle of a lamp, and from all of a sky") {
+    Light disc = ball_of_light({0, 4, 0}, 1.0F);
+    disc.kind = LightKind::disc;
+    disc.direction = {0, -1, 0};
+    Light rectangle = disc;
+    rectangle.kind = LightKind::rectangle;
+    rectangle.position = {-1, 4, -1};
+    rectangle.edge_u = {2, 0, 0};
+    rectangle.edge_v = {0, 0, 2};
+    for (const Light& lamp : {ball_of_light({0, 4, 0}, 1.0F), disc, rectangle, sky()}) {
+        const auto lit = [&](float ball_at, const auto& check) {
+            Builder builder = floor_seen_from({0, 0.5F, 0});
+            builder.settings.light_samples = Settings::hard_light;
+            builder.add_shape(Sphere{{ball_at, 2, 0}, 0.3F}, white());
+            check_both(builder.finish(lamp), [&](const Film& film) { check(film.at(0, 0).x); });
+        };
+        CAPTURE(lamp.kind);
+        float open = 0.0F;
+        lit(9.0F, [&](float shown) { open = shown; });
+        CHECK(open > 0.05F);
+        lit(0.4F, [&](float shown) { CHECK(shown == open); }); // hides a part of it, not its middle
+        lit(0.2F,
+            [&](float shown) { CHECK(shown == (lamp.kind == LightKind::sky ? open : 0.0F)); });
+    }
+}
+
+TEST_CASE("both engines draw hard light") {
+    const Scene scene = studio(0.0F);
+    Settings settings = scene.settings();
+    settings.light_samples = Settings::hard_light;
+    simd::RenderOptions options;
+    const Film expected = simd::render(scene, settings, options).film;
+    options.engine = simd::Engine::reference;
+    CHECK(error_of(simd::render(scene, settings, options).film, expected) < 2e-3);
+}
+
 TEST_CASE("soft light's error falls faster than that of random samples", "[long]") {
     const Scene scene = studio(0.0F);
     Settings settings = scene.settings();
