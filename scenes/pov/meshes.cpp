@@ -3,6 +3,8 @@
 #include "scenes/pov/finishes.hpp"
 #include "scenes/pov/objects.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace raylane::scenes::pov {
@@ -210,6 +212,24 @@ Shared<Mesh> read_mesh2(Tokens& tokens) {
     return Mesh2Reader(tokens).read();
 }
 
+/// Returns whether all corners are as near to a plane as POV-Ray wants them.
+bool are_coplanar(const std::vector<Vec3d>& corners) {
+    constexpr double tolerance = 1e-10, too_small = 1e-10; // POV-Ray's
+    Vec3d along(0.0), normal(0.0);
+    for (const Vec3d& corner : corners) {
+        const Vec3d offset = corner - corners[0];
+        if (core::squared_length(along) <= too_small)
+            along = offset;
+        else if (core::squared_length(normal) <= too_small)
+            normal = core::cross(along, offset);
+    }
+    if (!(core::squared_length(normal) > 0.0)) return true; // has no area
+    normal = core::normalized(normal);
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec3d& corner) {
+        return std::abs(core::dot(corner - corners[0], normal)) <= tolerance;
+    });
+}
+
 /// One outline, whose last corner may be its first.
 Shared<Mesh> read_polygon(Tokens& tokens) {
     const Place place = tokens.peek().place;
@@ -224,6 +244,10 @@ Shared<Mesh> read_polygon(Tokens& tokens) {
         outline.push_back(core::convert<float>(corners[i]));
         if (i != 0 && corners[i] == corners[0])
             fail(place, "must be a polygon of one outline, got one of several");
+    }
+    if (!are_coplanar(corners)) {
+        tokens.remark(place, "has polygons with corners outside their plane, which are left out");
+        return std::make_shared<const Mesh>();
     }
     Mesh mesh;
     Triangulator triangulator;

@@ -77,6 +77,19 @@ TEST_CASE("POV-Ray: shapes without a size, and those that are inside out") {
         });
 }
 
+TEST_CASE("POV-Ray: polygons that are not flat are left out") {
+    const std::string what = "has polygons with corners outside their plane, which are left out";
+    const auto polygon = [](const std::string& height) {
+        return read("polygon { 5, -y, x, <1, 1, 0>, <0, 1, " + height + ">, -y } sphere { 0, 1 }");
+    };
+    const Read flat = polygon("9e-11"), bent = polygon("2e-10"); // the bound is POV-Ray's
+    CHECK(flat.scene.shape_count() == 3);
+    CHECK(flat.remarks.empty());
+    CHECK(bent.scene.shape_count() == 1);
+    CHECK(bent.remarks_on(what));
+    CHECK(read("polygon { 6, 0, <0, 0.1, 0>, z, <3, 0, 1>, 3*x, 0 }").remarks_on(what));
+}
+
 TEST_CASE("POV-Ray: lights that take light away are black") {
     const Read dark = read("light_source { 9*y, rgb <-1, 0.5, 0> } sphere { 0, 1 }");
     REQUIRE(dark.scene.lights().size() == 1);
