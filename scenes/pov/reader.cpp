@@ -57,6 +57,8 @@ class Reader {
             read_statement();
         if (!has_camera_) set_camera(Camera{}, beginning);
         for (const LightSource& light : assembly_.lights) {
+            if (light.is_dimmed && builder_.fog.kind != core::FogKind::none)
+                tokens_.remark(light.place, "has lights that fog dims, which shine undimmed here");
             try {
                 builder_.add_light(light_of(light));
             } catch (const core::InvalidValue& invalid) {

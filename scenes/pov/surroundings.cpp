@@ -205,9 +205,11 @@ LightSource read_light(Tokens& tokens) {
         } else if (word.is("fade_power")) {
             fade_power = read_number(tokens);
         } else if (word.is("radius") || word.is("falloff") || word.is("tightness") ||
-                   word.is("adaptive") || word.is("media_attenuation") ||
-                   word.is("media_interaction") || word.is("area_illumination")) {
+                   word.is("adaptive") || word.is("media_interaction") ||
+                   word.is("area_illumination")) {
             if (at_tuple(tokens)) read_number(tokens);
+        } else if (word.is("media_attenuation")) {
+            light.is_dimmed = !at_tuple(tokens) || read_number(tokens) != 0.0;
         } else if (word.is("looks_like") || word.is("projected_through")) {
             tokens.skip_braces();
             remark("has " + word.quoted() + " of a light, which is not drawn");

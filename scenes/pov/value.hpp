@@ -117,7 +117,8 @@ struct LightSource {
     Place place{};
     core::Vec3d position{0.0}, point_at{0.0}, color{1.0};
     bool parallel = false;
-    double radius = 0.0; ///< of a ball that shines: its color is then the radiance
+    bool is_dimmed = false; ///< by fog and media, on its way to a surface
+    double radius = 0.0;    ///< of a ball that shines: its color is then the radiance
 
     LightSource moved(const Shared<Motion>& motion) const;
 };

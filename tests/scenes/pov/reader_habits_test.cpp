@@ -97,6 +97,19 @@ TEST_CASE("POV-Ray: lights that take light away are black") {
     CHECK(dark.remarks_on("has lights that take light away, which are black here"));
 }
 
+TEST_CASE("POV-Ray: fog does not dim light on its way to surfaces") {
+    const auto is_remarked = [](const std::string& modifier, const std::string& fog) {
+        return read("light_source { 9*y, rgb 1 media_attenuation " + modifier + " } " + fog +
+                    " sphere { 0, 1 }")
+            .remarks_on("has lights that fog dims, which shine undimmed here");
+    };
+    const std::string fog = "fog { distance 80 rgb 0.5 }";
+    CHECK(is_remarked("on", fog));
+    CHECK(is_remarked("", fog));
+    CHECK_FALSE(is_remarked("off", fog));
+    CHECK_FALSE(is_remarked("on", ""));
+}
+
 TEST_CASE("POV-Ray: a #switch goes on from the first case that holds") {
     const auto chosen = [](const std::string& value) {
         return number("N", "#declare N = 0; #switch (" + value +
