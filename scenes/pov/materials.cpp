@@ -19,6 +19,11 @@ core::Color color_of(const Tuple& tuple) {
     return color;
 }
 
+bool takes_light(const Tuple& color) {
+    return std::any_of(color.at.begin(), color.at.begin() + 3,
+                       [](double channel) { return channel < 0.0; });
+}
+
 Vec3d column(const Motion& motion, int axis) {
     return {motion.rows[0][axis], motion.rows[1][axis], motion.rows[2][axis]};
 }
@@ -134,6 +139,9 @@ core::Material Materials::material_of(const Look& look, const Place& place,
     const Pigment& pigment = texture.pigment;
     const Finish& finish = texture.finish;
     core::Material material;
+    if (takes_light(pigment.color) ||
+        (pigment.kind != PigmentKind::color && takes_light(pigment.other)))
+        tokens_.remark(place, "has colours that take light away, which are black here");
     material.pattern.colors[0] = color_of(pigment.color);
     if (pigment.kind != PigmentKind::color) {
         const Shared<Motion> motion = both(pigment.motion, look.above);

@@ -110,6 +110,15 @@ TEST_CASE("POV-Ray: fog does not dim light on its way to surfaces") {
     CHECK_FALSE(is_remarked("on", ""));
 }
 
+TEST_CASE("POV-Ray: surfaces that take light away are black") {
+    const std::string what = "has colours that take light away, which are black here";
+    const Read dark = read("sphere { 0, 1 pigment { rgb <-1, 0.5, 0> } }");
+    CHECK(dark.material_of().pattern.colors[0] == core::Color(0, 0.5F, 0));
+    CHECK(dark.remarks_on(what));
+    CHECK(read("plane { y, 0 pigment { checker rgb 1, rgb -1 } }").remarks_on(what));
+    CHECK_FALSE(read("sphere { 0, 1 pigment { rgb 0 transmit -1 } }").remarks_on(what));
+}
+
 TEST_CASE("POV-Ray: a #switch goes on from the first case that holds") {
     const auto chosen = [](const std::string& value) {
         return number("N", "#declare N = 0; #switch (" + value +
