@@ -20,8 +20,8 @@ struct Pattern {
     std::array<Color, 2> colors = {Color(1.0F), Color(1.0F)};
     /// checker: the cells' edge; stripes: their width. > 0
     float size = 1.0F;
-    /// checker: which axes count, as bits (1 = x, 2 = y, 4 = z). A floor wants x and z: an edge of
-    /// cells may be where y is constant.
+    /// checker: which axes count, as bits (x 1, y 2, z 4), and along which cells hold their upper
+    /// edge, not the lower one (x 8, y 16, z 32). A floor wants x and z: all of y may be an edge.
     std::uint8_t axes = 1 | 4;
     /// stripes: across the bands, any length but zero.
     Vec3f direction{1.0F, 0.0F, 0.0F};

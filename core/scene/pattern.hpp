@@ -9,6 +9,11 @@
 
 namespace raylane::core {
 
+/// Returns whether a checker's cells hold their upper edge along an axis, not the lower one.
+inline bool holds_upper_edge(const Pattern& pattern, int axis) {
+    return (pattern.axes >> (axis + 3) & 1) != 0;
+}
+
 namespace detail {
 
 /// Added and taken away again, it rounds what is less than 2^23 to multiples of 2^-28, in float
@@ -55,7 +60,9 @@ Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point) {
         int sum = 0;
         for (int axis = 0; axis < 3; ++axis)
             if ((pattern.axes >> axis & 1) != 0)
-                sum += detail::parity(point[axis] / Real(pattern.size));
+                sum += holds_upper_edge(pattern, axis)
+                           ? 1 - detail::parity(-point[axis] / Real(pattern.size))
+                           : detail::parity(point[axis] / Real(pattern.size));
         return sum % 2 == 0 ? first : second;
     }
     case PatternKind::stripes: {

@@ -26,7 +26,7 @@ void validate(const Pattern& pattern) {
     require_point("to", pattern.to);
     if (pattern.kind == PatternKind::gradient && pattern.from == pattern.to)
         throw InvalidValue("to", "must differ from \"from\", got " + text_of(pattern.to));
-    if (pattern.axes == 0 || pattern.axes > 7)
+    if ((pattern.axes & 7) == 0 || pattern.axes > 63)
         throw InvalidValue("axes", "must be one or more of x, y and z");
 }
 

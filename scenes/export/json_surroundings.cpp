@@ -1,5 +1,7 @@
 #include "scenes/export/json_surroundings.hpp"
 
+#include "core/scene/pattern.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
@@ -31,10 +33,13 @@ void write_pattern(JsonObject& material, TextFile& file, const core::Pattern& pa
     object.vectors("colors", {pattern.colors[0], pattern.colors[1]});
     if (pattern.kind == PatternKind::checker) {
         object.number("size", pattern.size);
-        std::string axes;
-        for (int axis = 0; axis < 3; ++axis)
+        std::string axes, upper_edges;
+        for (int axis = 0; axis < 3; ++axis) {
             if ((pattern.axes >> axis & 1) != 0) axes += "xyz"[axis];
+            if (core::holds_upper_edge(pattern, axis)) upper_edges += "xyz"[axis];
+        }
         object.text("axes", axes);
+        if (!upper_edges.empty()) object.text("upper_edges", upper_edges);
     } else if (pattern.kind == PatternKind::stripes) {
         object.number("width", pattern.size);
         object.vector("direction", pattern.direction);

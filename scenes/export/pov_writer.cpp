@@ -1,4 +1,5 @@
 #include "core/scene/camera_rays.hpp"
+#include "core/scene/pattern.hpp"
 #include "core/shapes/shapes.hpp"
 #include "core/solids/solid_size.hpp"
 #include "scenes/export/writers.hpp"
@@ -295,6 +296,10 @@ class PovWriter {
                 const bool counts = (pattern.axes >> axis & 1) != 0;
                 size[axis] = counts ? pattern.size : 1e6F;
                 offset[axis] = counts ? 0.0F : -0.5e6F;
+                if (counts && core::holds_upper_edge(pattern, axis)) {
+                    size[axis] = -pattern.size;
+                    offset[axis] = pattern.size;
+                }
             }
             file_ << "checker ";
             color(pattern.colors[0]) << ", ";

@@ -14,21 +14,25 @@ void read_colors(const JsonValue& value, Pattern& pattern) {
     pattern.colors = {colors[0].color(), colors[1].color()};
 }
 
+std::uint8_t axes_of(const JsonValue& value) {
+    static constexpr std::uint8_t x = 1, y = 2, z = 4;
+    return value.choice<std::uint8_t>({{"x", x},
+                                       {"y", y},
+                                       {"z", z},
+                                       {"xy", x | y},
+                                       {"xz", x | z},
+                                       {"yz", y | z},
+                                       {"xyz", x | y | z}});
+}
+
 Pattern read_checker(const JsonValue& value) {
-    value.allow_only({"type", "colors", "size", "axes"});
+    value.allow_only({"type", "colors", "size", "axes", "upper_edges"});
     Pattern pattern{.kind = PatternKind::checker};
     read_colors(value, pattern);
     pattern.size = value.at("size").number();
-    if (const auto axes = value.find("axes")) {
-        static constexpr std::uint8_t x = 1, y = 2, z = 4;
-        pattern.axes = axes->choice<std::uint8_t>({{"x", x},
-                                                   {"y", y},
-                                                   {"z", z},
-                                                   {"xy", x | y},
-                                                   {"xz", x | z},
-                                                   {"yz", y | z},
-                                                   {"xyz", x | y | z}});
-    }
+    if (const auto axes = value.find("axes")) pattern.axes = axes_of(*axes);
+    if (const auto axes = value.find("upper_edges"))
+        pattern.axes = static_cast<std::uint8_t>(pattern.axes | axes_of(*axes) << 3);
     return pattern;
 }
 

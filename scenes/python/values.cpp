@@ -55,9 +55,10 @@ struct Names<Precision> {
     static constexpr std::array names = {"fast", "robust", "exact", "double"};
 };
 
-/// Axes of a checker, as "xz".
+/// Axes of a checker, as "xz": three bits.
 struct Axes {
     std::uint8_t& bits;
+    int shift;
 };
 
 /// What Python shows of a value, on one line of no great length.
@@ -149,10 +150,10 @@ void take(const py::handle& from, const std::string& field, Enum& to) {
     to = enum_from<Enum>(from, field);
 }
 void take(const py::handle& from, const std::string& field, const Axes& to) {
-    to.bits = 0;
+    to.bits = static_cast<std::uint8_t>(to.bits & ~(7 << to.shift));
     for (const char axis : cast<std::string>(from, field, "a text as \"xz\"")) {
         if (axis < 'x' || axis > 'z') refuse(field, "a text as \"xz\"", from);
-        to.bits = static_cast<std::uint8_t>(to.bits | 1 << (axis - 'x'));
+        to.bits = static_cast<std::uint8_t>(to.bits | 1 << (axis - 'x' + to.shift));
     }
 }
 
@@ -220,7 +221,9 @@ void fields(const Visit& visit, Of& of) requires std::same_as<std::remove_const_
     visit("kind", of.kind);
     visit("colors", of.colors);
     visit("size", of.size);
-    visit("axes", Axes{const_cast<std::uint8_t&>(of.axes)}); // NOLINT: only visited if it is const
+    auto& axes = const_cast<std::uint8_t&>(of.axes); // NOLINT: only visited if it is const
+    visit("axes", Axes{axes, 0});
+    visit("upper_edges", Axes{axes, 3});
     visit("direction", of.direction);
     visit("start", of.from);
     visit("end", of.to);
@@ -326,7 +329,7 @@ requires std::is_enum_v<Enum> py::object give(Enum value) {
 py::object give(const Axes& axes) {
     std::string text;
     for (int axis = 0; axis < 3; ++axis)
-        if ((axes.bits >> axis & 1) != 0) text += static_cast<char>('x' + axis);
+        if ((axes.bits >> (axis + axes.shift) & 1) != 0) text += static_cast<char>('x' + axis);
     return py::str(text);
 }
 template <class Value>

@@ -57,6 +57,22 @@ TEST_CASE("what rounding takes to either side of an edge is of the cell that beg
     CHECK(color_at(stripes, Vec3f(0.1F * (3 - 0x1p-12F), 0, 0)).x == 0.0F);
 }
 
+TEST_CASE("a checker's cells hold their upper edges along chosen axes") {
+    Pattern checker = two_colors(PatternKind::checker);
+    checker.axes = 1 | 4 | 32;
+    checker.size = 2.0F;
+    for (const double edge : {0.0, 1.0, -1.0, 7.0, -1000.0, 1e6}) {
+        CAPTURE(edge);
+        const double below = std::fmod(std::abs(edge - 1.0), 2.0);
+        for (const double off : {0.0, 0x1p-30, -0x1p-30, -0.25}) {
+            CAPTURE(off);
+            CHECK(at(checker, {0, 0, (edge + off) * 2.0}) == below);
+        }
+        CHECK(at(checker, {0, 0, (edge + 0x1p-26) * 2.0}) == 1.0 - below);
+        CHECK(at(checker, {edge * 2.0, 0, 1}) == 1.0 - below);
+    }
+}
+
 TEST_CASE("stripes run across their direction") {
     Pattern stripes = two_colors(PatternKind::stripes);
     stripes.size = 0.5F;

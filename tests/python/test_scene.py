@@ -30,7 +30,7 @@ def test_what_is_set_is_there():
         opacity=1.0,
     )
     checker = raylane.Material(
-        color=raylane.Pattern("checker", ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), size=2.0, axes="yz")
+        color=raylane.Pattern("checker", ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), size=2.0, axes="yz", upper_edges="z")
     )
     stripes = raylane.Material(color=raylane.Pattern("stripes", direction=(0.0, 1.0, 0.0)), visible="inside")
     gradient = raylane.Material(color=raylane.Pattern("gradient", start=(1.0, 2.0, 3.0), end=(4.0, 5.0, 6.0)))

@@ -116,7 +116,7 @@ TEST_CASE("every value of a scene goes into JSON") {
             "s": {"pattern": {"type": "stripes", "colors": [[1, 0, 0], [0, 1, 0]], "width": 0.3,
                               "direction": [1, 2, 3]}, "visible": "inside"},
             "c": {"pattern": {"type": "checker", "colors": [[1, 0, 0], [0, 1, 0]], "size": 0.7,
-                              "axes": "yz"}, "visible": "outside"},
+                              "axes": "yz", "upper_edges": "z"}, "visible": "outside"},
             "g": {"pattern": {"type": "gradient", "colors": [[1, 0, 0], [0, 1, 0]],
                               "from": [0, 1, 0], "to": [1, 1, 1]}, "reflection": "schlick"},
             "w": {"ambient": 0.3, "diffuse": 0.4, "specular": 0.5, "exponent": 7,

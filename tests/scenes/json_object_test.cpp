@@ -127,6 +127,10 @@ TEST_CASE("patterns land in the material") {
     CHECK(checker.colors[1] == Color(0, 1, 0));
     CHECK(checker.size == 0.3F);
     CHECK(checker.axes == 7);
+    CHECK(
+        material_of(
+            R"({"pattern": {"type": "checker", "colors": ["#000000", "#ffffff"], "size": 1, "upper_edges": "xz"}})")
+            .pattern.axes == (5 | 5 << 3));
     CHECK(material_of(
               R"({"pattern": {"type": "checker", "colors": [[1, 0, 0], [0, 1, 0]], "size": 1}})")
               .pattern.axes == 5);

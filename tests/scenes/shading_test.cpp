@@ -241,6 +241,18 @@ TEST_CASE("Surfaces in contact are both shaded") {
           red + 0.5 * (green + 0.5 * (red + 0.5 * green)));
 }
 
+TEST_CASE("A face on an edge of a checker's cells has the color of the cell that holds the edge") {
+    const auto scene = [](const std::string& upper_edges) {
+        return camera("[0.5, 0.5, 9]", "[0.5, 0.5, 0]") + ", " + no_lights + R"("objects": [
+            {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 2], "material": {
+                "ambient": 1, "diffuse": 0, "pattern": {"type": "checker", "size": 1,
+                "axes": "xyz", "colors": [[1, 0, 0], [0, 1, 0]])" +
+               upper_edges + "}}}]";
+    };
+    check(scene(""), Vector(1.0, 0.0, 0.0));
+    check(scene(R"(, "upper_edges": "z")"), Vector(0.0, 1.0, 0.0));
+}
+
 TEST_CASE("Lights with a size give the mean over their directions") {
     const auto scene = [](const std::string& light) {
         return camera("[0, 3, 4]", "[0, 0, 0]") +

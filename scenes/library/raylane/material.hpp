@@ -17,10 +17,10 @@ struct Pattern {
     /// origin. gradient: at `from` and at `to`. back_plane: not used. >= 0
     Color colors[2] = {{1.0F, 1.0F, 1.0F}, {1.0F, 1.0F, 1.0F}};
     /// checker: the cells' edge; stripes: their width. What is nearer than 2^-29 of it to an edge
-    /// is of the cell that begins there. > 0
+    /// is of the cell that begins there, unless `axes` says otherwise. > 0
     float size = 1.0F;
-    /// checker: which axes count, as bits (1 = x, 2 = y, 4 = z), at least one. A floor wants x and
-    /// z: an edge of cells may be where y is constant.
+    /// checker: which axes count, one or more (x 1, y 2, z 4), and where cells hold their upper
+    /// edge, not the lower one (x 8, y 16, z 32). A floor wants x and z: all of y may be an edge.
     std::uint8_t axes = 1 | 4;
     /// stripes: across the bands, any length but zero.
     Vec3 direction{1.0F, 0.0F, 0.0F};

@@ -34,6 +34,8 @@ class Pattern(Fields):
     """stripes: across the bands, of any length but zero."""
     start: Vector = _BLACK
     end: Vector = (0.0, 1.0, 0.0)
+    upper_edges: str = ""
+    """checker: along which axes cells hold their upper edge, not the lower one."""
 
 
 @dataclass

@@ -34,9 +34,12 @@ struct Patterns {
             const F zero(0.0), one(1.0);
             F sum = zero;
             const F* coordinates[3] = {&point.x, &point.y, &point.z};
-            for (int axis = 0; axis < 3; ++axis)
-                if ((material.axes >> axis & 1) != 0)
-                    sum = sum + parity(*coordinates[axis] / F(material.size));
+            for (int axis = 0; axis < 3; ++axis) {
+                if ((material.axes >> axis & 1) == 0) continue;
+                const F cells = *coordinates[axis] / F(material.size);
+                const bool holds_upper_edge = (material.axes >> (axis + 3) & 1) != 0;
+                sum = sum + (holds_upper_edge ? one - parity(zero - cells) : parity(cells));
+            }
             return select<Arch>(parity(sum) < one, first, second);
         }
         case core::PatternKind::stripes:

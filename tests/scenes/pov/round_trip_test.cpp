@@ -110,7 +110,8 @@ TEST_CASE("solids and materials come back from POV-Ray's language") {
         "tint": {"transmission": 0.75, "index": 1, "reflectivity": 0.125},
         "pane": {"opacity": 0.25, "color": [0, 0.5, 1], "specular": 0.5, "reflectivity": 0.25},
         "red": {"color": [1, 0, 0], "reflectivity": 0.25},
-        "floor": {"pattern": {"type": "checker", "colors": ["#ffffff", "#305070"], "size": 0.75}},
+        "floor": {"pattern": {"type": "checker", "colors": ["#ffffff", "#305070"], "size": 0.75,
+                              "upper_edges": "z"}},
         "bands": {"pattern": {"type": "stripes", "colors": [[1, 0, 0], [0, 1, 0]], "width": 0.25,
                               "direction": [1, 2, 3]}}},
     "objects": [
