@@ -52,7 +52,9 @@ bool set_checker(const Pigment& pigment, const Motion& motion, const core::Plane
         if (size == 0.0) size = std::abs(edge);
         const double cells = offset / size;
         if (std::abs(edge) != size || cells != std::floor(cells)) return false;
-        pattern.axes = static_cast<std::uint8_t>(pattern.axes | 1 << axis);
+        // POV-Ray counts an edge to the cell above it.
+        const int bits = edge < 0.0 ? 1 | 8 : 1;
+        pattern.axes = static_cast<std::uint8_t>(pattern.axes | bits << axis);
         parity += cells + (edge < 0.0 ? 1.0 : 0.0);
     }
     if (pattern.axes == 0) return false;

@@ -1,3 +1,4 @@
+#include "core/scene/pattern.hpp"
 #include "core/scene/scene.hpp"
 #include "scenes/scene_file.hpp"
 #include "tests/catch.hpp"
@@ -48,6 +49,21 @@ const core::Color red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1), white(1, 1, 1),
     grey(0.5F, 0.5F, 0.5F);
 
 } // namespace
+
+TEST_CASE("POV-Ray: a face on an edge of a checker's cells has the colour of the cell above") {
+    const std::string left_handed = "camera { location <0, 0, -9> look_at 0 }\n";
+    const auto color_at = [&](double z, const std::string& motion = "") {
+        const Read box = read(
+            "box { -1, <1, 1, 5> pigment { checker rgb 0, rgb 1 " + motion + "} }", left_handed);
+        return core::color_at(pattern_of(box), core::Vec3d(0.5, 0.5, -z)).x;
+    };
+    CHECK(color_at(4.5) == 0.0);
+    CHECK(color_at(5.0) == 1.0);
+    CHECK(color_at(-1.0) == 1.0);
+    CHECK(color_at(4.5, "scale <1, 1, -1>") == 1.0);
+    CHECK(color_at(5.0, "scale <1, 1, -1>") == 1.0);
+    CHECK(color_at(5.5, "scale <1, 1, -1>") == 0.0);
+}
 
 TEST_CASE("POV-Ray: checkers are of colours, pigments and textures") {
     for (const std::string text :
