@@ -20,7 +20,15 @@ Look look_of(const Object& object, const Look& inherited, const Shared<Motion>& 
         look.above = above;
     }
     if (object.interior != nullptr) look.interior = object.interior;
+    look.is_hollow = inherited.is_hollow || object.is_hollow;
     return look;
+}
+
+bool has_inside(const Object& object) {
+    return object.kind != ObjectKind::shape ||
+           std::visit(
+               []<class Shape>(const Shape&) { return core::has_inside<core::InFloat<Shape>>; },
+               object.shape);
 }
 
 const core::PlaneOf<double>* plane_of(const core::PartShape& shape) {
@@ -209,6 +217,7 @@ void Assembly::add(const Object& object, const Look& inherited, const Shared<Mot
         add_mesh(object, look, motion);
         return;
     case ObjectKind::shape:
+        note_fog(object, look);
         if (clips.empty()) return add_shape(object, object.shape, look, motion);
         if (add_quadric(object, look, motion, clips)) return;
         break;
@@ -216,11 +225,21 @@ void Assembly::add(const Object& object, const Look& inherited, const Shared<Mot
     case ObjectKind::merge:
     case ObjectKind::intersection:
     case ObjectKind::difference:
+        note_fog(object, look);
         break;
     }
     Solid solid = clipped(made_of(object, look, motion), clips);
     solid.material = materials.index_of(look, object.place);
     put(object, solid, core::no_material);
+}
+
+/// Here, fog fills objects without an index of refraction.
+void Assembly::note_fog(const Object& object, const Look& look) {
+    if (look.texture == nullptr || fog_differs_at) return;
+    const auto& color = look.texture->pigment.color.at;
+    const bool bends = look.interior != nullptr && look.interior->has_index;
+    if (color[3] + color[4] > 0.0 && bends == look.is_hollow && has_inside(object))
+        fog_differs_at = object.place;
 }
 
 /// Those in it, whatever it is: no light is hidden, clipped or taken away.

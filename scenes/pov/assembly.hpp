@@ -2,6 +2,7 @@
 
 #include "scenes/pov/materials.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace raylane::scenes::pov {
@@ -13,7 +14,8 @@ class Assembly {
         : materials(builder, tokens), builder_(builder) {}
 
     Materials materials;
-    std::vector<LightSource> lights; ///< where they have come to
+    std::vector<LightSource> lights;       ///< where they have come to
+    std::optional<Place> fog_differs_at{}; ///< the first object with fog only here, or only there
 
     /// z against z, of all that is added from then on.
     void set_mirrored();
@@ -43,6 +45,7 @@ class Assembly {
                           bool is_clip);
     core::Solid made_of(const Object& object, const Look& look, const Shared<Motion>& motion);
     core::Solid clipped(core::Solid solid, const Clips& clips);
+    void note_fog(const Object& object, const Look& look);
     void put(const Object& object, const core::Solid& solid, core::MaterialIndex material);
 
     core::SceneBuilder& builder_;

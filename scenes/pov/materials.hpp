@@ -12,6 +12,7 @@ struct Look {
     Shared<Texture> texture{};
     Shared<Interior> interior{};
     Shared<Motion> above{}; ///< what moves all of the texture
+    bool is_hollow = false;
 };
 
 /// Makes materials of looks: of those that are the same, one.

@@ -132,14 +132,15 @@ class Modifiers {
 
     void read_flag(const Token& word) {
         static constexpr std::string_view without_meaning[] = {
-            "hollow",      "double_illuminate", "sturm",  "hierarchy",
-            "split_union", "cutaway_textures",  "orient", "global_lights"};
+            "double_illuminate", "sturm",  "hierarchy",    "split_union",
+            "cutaway_textures",  "orient", "global_lights"};
         const bool is_ignored = std::find(std::begin(without_meaning), std::end(without_meaning),
                                           word.text) != std::end(without_meaning);
         if (is_ignored || word.is("no_shadow") || word.is("no_reflection") || word.is("no_image") ||
-            word.is("no_radiosity") || word.is("uv_mapping")) {
+            word.is("no_radiosity") || word.is("uv_mapping") || word.is("hollow")) {
             const bool holds = !at_tuple(tokens_) || read_number(tokens_) != 0.0;
             if (word.is("no_image") && holds) object_.is_hidden = true;
+            if (word.is("hollow")) object_.is_hollow = holds;
             if (word.is("cutaway_textures")) cuts_textures_ = holds;
             if (word.is("uv_mapping") && holds)
                 tokens_.remark(word.place, "has patterns on a surface's own axes, drawn in space");

@@ -56,8 +56,13 @@ class Reader {
         while (tokens_.peek().kind != TokenKind::end)
             read_statement();
         if (!has_camera_) set_camera(Camera{}, beginning);
+        const bool has_fog = builder_.fog.kind != core::FogKind::none;
+        if (has_fog && assembly_.fog_differs_at)
+            tokens_.remark(*assembly_.fog_differs_at,
+                           "has transparent objects in fog, which fills those without an ior here, "
+                           "hollow or not");
         for (const LightSource& light : assembly_.lights) {
-            if (light.is_dimmed && builder_.fog.kind != core::FogKind::none)
+            if (light.is_dimmed && has_fog)
                 tokens_.remark(light.place, "has lights that fog dims, which shine undimmed here");
             try {
                 builder_.add_light(light_of(light));

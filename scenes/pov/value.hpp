@@ -137,6 +137,7 @@ struct Object {
     Shared<Motion> motion{};
     bool inverse = false;
     bool is_hidden = false;       ///< that is left out
+    bool is_hollow = false;       ///< filled by fog
     std::size_t count = 1;        ///< of shapes in it, its clips with them
     std::size_t lights = 0;       ///< in it
     std::size_t pieces = 1;       ///< that it is in a scene, each with all of its clips

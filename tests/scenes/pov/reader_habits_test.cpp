@@ -110,6 +110,25 @@ TEST_CASE("POV-Ray: fog does not dim light on its way to surfaces") {
     CHECK_FALSE(is_remarked("on", ""));
 }
 
+TEST_CASE("POV-Ray: fog fills transparent objects that are hollow") {
+    const auto is_remarked = [](const std::string& object, const std::string& modifiers,
+                                const std::string& fog = "fog { distance 80 rgb 0.5 }") {
+        return read(fog + object + " pigment { rgbt 1 } " + modifiers + " }")
+            .remarks_on("has transparent objects in fog, which fills those without an ior here");
+    };
+    const std::string ball = "sphere { 0, 1", bends = "interior { ior 1.5 } ";
+    CHECK(is_remarked(ball, ""));
+    CHECK(is_remarked(ball, bends + "hollow"));
+    CHECK_FALSE(is_remarked(ball, "hollow"));
+    CHECK_FALSE(is_remarked(ball, bends + "hollow off"));
+    CHECK(is_remarked("union { " + ball + " }", bends + "hollow"));
+    CHECK_FALSE(is_remarked("difference { " + ball + " } sphere { x, 1 }", "hollow on"));
+    CHECK_FALSE(is_remarked("disc { 0, y, 1", ""));
+    CHECK_FALSE(is_remarked(ball, "", ""));
+    CHECK_FALSE(read("fog { distance 80 rgb 0.5 } sphere { 0, 1 pigment { rgb 1 } }")
+                    .remarks_on("has transparent objects in fog"));
+}
+
 TEST_CASE("POV-Ray: surfaces that take light away are black") {
     const std::string what = "has colours that take light away, which are black here";
     const Read dark = read("sphere { 0, 1 pigment { rgb <-1, 0.5, 0> } }");
