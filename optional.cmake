@@ -117,15 +117,15 @@ set(CMAKE_MESSAGE_LOG_LEVEL ERROR) # Debian's OpenEXR and FindMPI report parts t
 
 find_path(GEMMI_INCLUDE_DIR gemmi/pdb.hpp NO_CACHE)
 find_path(PEGTL_INCLUDE_DIR tao/pegtl.hpp NO_CACHE)
-set(version "")
+set(GEMMI_VERSION "")
 set(found OFF)
 if(GEMMI_INCLUDE_DIR AND PEGTL_INCLUDE_DIR)
   set(found ON)
   if(EXISTS ${GEMMI_INCLUDE_DIR}/gemmi/version.hpp)
-    file(STRINGS ${GEMMI_INCLUDE_DIR}/gemmi/version.hpp version REGEX "define GEMMI_VERSION ")
-    string(REGEX MATCH "[0-9.]+" version "${version}")
+    file(STRINGS ${GEMMI_INCLUDE_DIR}/gemmi/version.hpp GEMMI_VERSION REGEX "define GEMMI_VERSION ")
+    string(REGEX MATCH "[0-9.]+" GEMMI_VERSION "${GEMMI_VERSION}")
   endif()
-  if(version VERSION_GREATER_EQUAL 0.6) # before, headers are all of it
+  if(GEMMI_VERSION VERSION_GREATER_EQUAL 0.6) # before, headers are all of it
     find_library(GEMMI_LIBRARY gemmi_cpp NO_CACHE)
     if(NOT GEMMI_LIBRARY)
       set(found OFF)
@@ -133,7 +133,7 @@ if(GEMMI_INCLUDE_DIR AND PEGTL_INCLUDE_DIR)
   endif()
 endif()
 # gemmi/cif.hpp takes six seconds, and includes no other headers than these do.
-raylane_optional(gemmi ${found} "${version}" "gemmi-dev tao-pegtl-dev" STANDARD 17
+raylane_optional(gemmi ${found} "${GEMMI_VERSION}" "gemmi-dev tao-pegtl-dev" STANDARD 17
                  HEADERS gemmi/pdb.hpp gemmi/smcif.hpp tao/pegtl.hpp
                  INCLUDES ${GEMMI_INCLUDE_DIR} ${PEGTL_INCLUDE_DIR})
 raylane_part("PDB, mmCIF and CIF files" "" gemmi)

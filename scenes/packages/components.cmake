@@ -42,8 +42,7 @@ list(JOIN version "." version)
 component(xxHash "${version}" BSD-2-Clause github/Cyan4973/xxHash "libxxhash[.]" raylane libraylane)
 
 if(RAYLANE_HAS_gemmi)
-  macro_of(${GEMMI_INCLUDE_DIR}/gemmi/version.hpp GEMMI_VERSION version)
-  component(gemmi "${version}" "(MPL-2.0 OR LGPL-3.0-only) AND (Apache-2.0 OR MIT)" # its fast_float
+  component(gemmi "${GEMMI_VERSION}" "(MPL-2.0 OR LGPL-3.0-only) AND (Apache-2.0 OR MIT)" # its fast_float
             github/project-gemmi/gemmi "libgemmi" raylane libraylane)
   macro_of(${PEGTL_INCLUDE_DIR}/tao/pegtl/version.hpp TAO_PEGTL_VERSION version)
   component(PEGTL "${version}" MIT github/taocpp/PEGTL "" raylane libraylane)
