@@ -2,8 +2,8 @@
 
 import copy
 import pickle
+import sys
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -285,26 +285,31 @@ def test_precisions(crowd):
 def test_the_interpreter_goes_on_meanwhile(crowd):
     """Its lock is free while rays are asked; and several threads may ask one tracer."""
     tracer = Tracer(crowd, 1)
-    for count in (300_000, 1_000_000, 3_000_000, 10_000_000):  # more where they are done at once
-        origins, directions = rays(count)
-        expected = tracer.intersect(origins, directions).t
-        found, turns = [], 0
-        asking = threading.Event()
+    origins, directions = rays(100_000)
+    expected = tracer.intersect(origins, directions).t
+    may_run, has_run = threading.Event(), threading.Event()
 
-        def ask():
-            asking.set()
-            found.append(tracer.intersect(origins, directions).t)
+    def run():
+        may_run.wait()
+        has_run.set()
 
-        threads = [threading.Thread(target=ask) for _ in range(3)]
-        for thread in threads:
-            thread.start()
-        asking.wait()
-        while any(thread.is_alive() for thread in threads):
-            turns += 1
-            time.sleep(0.001)
-        for thread in threads:
-            thread.join()
-        assert all(np.array_equal(t, expected) for t in found)
-        if turns > 5:
-            return
-    pytest.fail("the lock was held")
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e6)  # a thread waits until another one lets go of the lock
+    try:
+        other = threading.Thread(target=run)
+        other.start()
+        may_run.set()
+        while not has_run.is_set():
+            tracer.intersect(origins, directions)
+        other.join()
+    finally:
+        sys.setswitchinterval(interval)
+    found = []
+    threads = [
+        threading.Thread(target=lambda: found.append(tracer.intersect(origins, directions).t)) for _ in range(3)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert len(found) == 3 and all(np.array_equal(t, expected) for t in found)
