@@ -316,9 +316,13 @@ TEST_CASE("A journal that was cut off gives way as soon as there is room for the
     notes.directory.write("picture.part", "raylane jour");
     Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
     CHECK(journal.found() == Journal::Found::cut_off);
-    journal.note(0, notes.bytes(0));
-    for (const std::uintmax_t bytes : {20, 300}) { // in the head, and in the tile
-        const Fullness full(bytes);
+    {
+        const Fullness full(20); // in the head
+        journal.note(0, notes.bytes(0));
+        CHECK(!journal.keep());
+    }
+    {
+        const Fullness full(300); // in the tile
         CHECK(!journal.keep());
     }
     CHECK(journal.keep());
@@ -326,6 +330,18 @@ TEST_CASE("A journal that was cut off gives way as soon as there is room for the
     notes.directory.write("copy", content);
     std::filesystem::rename(notes.directory.path() / "copy", notes.path);
     CHECK(notes.found() == 1);
+}
+
+TEST_CASE("A journal that was cut off is written from the first tile on, and removed") {
+    const Notes notes;
+    notes.directory.write("picture.part", "");
+    Journal journal(notes.drawing.path, notes.drawing.subject(), notes.drawing.records());
+    CHECK(journal.found() == Journal::Found::cut_off);
+    journal.note(0, notes.bytes(0));
+    CHECK(tests::content_of(notes.path).find(notes.bytes(0)) != std::string::npos);
+    notes.directory.write("picture", "drawn");
+    journal.remove();
+    CHECK(!std::filesystem::exists(notes.path));
 }
 
 TEST_CASE("a journal that has given its room, or is done with, takes no more") {

@@ -179,7 +179,7 @@ Journal::Journal(const std::filesystem::path& picture, const JournalSubject& sub
     : picture_(picture), records_(records), head_(head_of(subject)), seed_(checksum_of(head_, 0)),
       places_(records_.grid().count(), -1), tell_(std::move(tell)) {
     open();
-    if (!is_ours_) next_try_ = start_ + begin_after;
+    if (descriptor_ < 0) next_try_ = start_ + begin_after;
 }
 
 Journal::~Journal() {
