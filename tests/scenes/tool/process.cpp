@@ -9,6 +9,7 @@
 #include <iterator>
 #include <poll.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <system_error>
@@ -118,13 +119,6 @@ void Process::send(int signal) const {
     checked(::kill(child_, signal), "kill");
 }
 
-void Process::stop() const {
-    send(SIGSTOP);
-    siginfo_t stopped{};
-    checked(::waitid(P_PID, static_cast<id_t>(child_), &stopped, WSTOPPED | WEXITED | WNOWAIT),
-            "waitid");
-}
-
 bool Process::waits_in_open() const {
     const std::string folder = "/proc/" + std::to_string(child_);
     long call = -1; // not a number while it runs
@@ -191,6 +185,37 @@ bool Process::collect(std::chrono::steady_clock::time_point end, std::string_vie
         }
     }
     return expected.empty() || has_come();
+}
+
+Hold::Hold(const std::string& call, int count) {
+    const std::string path = directory_.path() / "pipe";
+    checked(::mkfifo(path.c_str(), 0666), "mkfifo");
+    pipe_ = checked(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC), "open");
+    text_ = call + ':' + std::to_string(count) + ':' + path;
+}
+
+Setup Hold::in(Setup setup) const {
+    setup.in_child = [prepare = setup.in_child, text = text_] {
+        if (prepare) prepare();
+        ::setenv("LD_PRELOAD", RAYLANE_HELD_CALL, 1);
+        ::setenv("RAYLANE_HOLD", text.c_str(), 1);
+        // The address sanitizer asks to be loaded first, which its allocator alone needs.
+        const char* const options = std::getenv("ASAN_OPTIONS");
+        const std::string more = options != nullptr ? std::string(options) + ':' : "";
+        ::setenv("ASAN_OPTIONS", (more + "verify_asan_link_order=0").c_str(), 1);
+    };
+    return setup;
+}
+
+bool Hold::wait() const {
+    pollfd source{pipe_, POLLIN, 0};
+    const auto milliseconds = std::chrono::milliseconds(patience).count();
+    return ::poll(&source, 1, static_cast<int>(milliseconds)) == 1 && source.revents == POLLIN;
+}
+
+void Hold::release() {
+    if (pipe_ >= 0) ::close(pipe_);
+    pipe_ = -1;
 }
 
 } // namespace raylane::tests

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/scenes/temporary_directory.hpp"
+
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -37,8 +39,6 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     void send(int signal) const;
-    /// Sends SIGSTOP, and waits until it has stopped or ended.
-    void stop() const;
     /// Waits until it has written a text on standard error. Returns false if it ends without, or
     /// after two minutes.
     bool wait_for_err(std::string_view text);
@@ -58,6 +58,28 @@ class Process {
     pid_t child_ = -1;
     int out_ = -1, err_ = -1; // where to read what it writes
     std::string out_text_, err_text_;
+};
+
+/// Holds a process at a call of the C library: see held_call.c.
+class Hold {
+  public:
+    /// At the `count`-th call, from 1.
+    Hold(const std::string& call, int count);
+    ~Hold() { release(); }
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+
+    /// Returns the setup of a process that is to be held.
+    Setup in(Setup setup) const;
+    /// Waits until the process is at the call. Returns false after two minutes.
+    bool wait() const;
+    /// Lets the process go on.
+    void release();
+
+  private:
+    TemporaryDirectory directory_;
+    std::string text_;
+    int pipe_ = -1;
 };
 
 inline Outcome run(const std::vector<std::string>& arguments, const Setup& setup) {

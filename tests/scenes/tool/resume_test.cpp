@@ -18,31 +18,16 @@ using namespace raylane::tests;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Options = std::vector<std::string>;
 
-/// Options of a rendering.
-struct Drawing {
-    Options options;
-    int samples = 16; ///< per pixel
-
-    Options command(const Options& more = {}) const {
-        return joined(joined({"render", "scene.json", "-o", "out/picture.png", "--spp",
-                              std::to_string(samples)},
-                             options),
-                      more);
-    }
-};
-
-/// A picture of many tiles. whole() sets the samples.
-Drawing many_tiles{{"--size", sanitized ? "800x800" : "1000x1000", "--threads", "2"}};
-
-Options drawing(const Options& options = {}) {
-    return many_tiles.command(options);
+/// The command that renders a picture of many tiles.
+Options drawing(const Options& options = {}, const char* threads = "2") {
+    return joined({"render", "scene.json", "-o", "out/picture.png", "--spp", "16", "--size",
+                   sanitized ? "800x800" : "1000x1000", "--threads", threads},
+                  options);
 }
 
-/// A picture of two tiles: the first is empty, the second shows glass. With these samples the
-/// second takes minutes, the first a moment.
+/// A picture of two tiles: the first is empty, the second shows glass.
 const std::string two_tiles = R"({"image": {"width": 128, "height": 64},
     "camera": {"from": [0, 0, 5], "at": [0, 0, 0]}, "background": [0, 0, 0.5],
     "lights": [], "limits": {"max_depth": 12, "min_weight": 0},
@@ -50,22 +35,19 @@ const std::string two_tiles = R"({"image": {"width": 128, "height": 64},
     "objects": [{"type": "sphere", "material": "glass", "center": [2, 0, 0], "radius": 1.5},
                 {"type": "sphere", "material": "glass", "center": [2, 1, 2], "radius": 0.7},
                 {"type": "sphere", "material": "glass", "center": [2, -1, 2], "radius": 0.7}]})";
-const Options second_takes_minutes = {"render", "scene.json", "-o", "out/picture.png", "--tile",
-                                      "64",     "--threads",  "1",  "--spp",           "16384"};
+Options drawing_two(const std::string& samples) {
+    return {"render", "scene.json", "-o", "out/picture.png", "--tile",
+            "64",     "--threads",  "1",  "--spp",           samples};
+}
+const Options second_takes_minutes = drawing_two("16384");
 
 std::string picture_of(const Workshop& workshop) {
     return content_of(workshop.output() / "picture.png");
 }
 
-/// Returns the picture without any interruption. A fast machine gets more samples, until the
-/// progress line shows three times that some tiles are done. Tests wait for that line.
-std::string whole(const Workshop& workshop, Drawing& drawn = many_tiles) {
-    for (;; drawn.samples *= 4) {
-        const Outcome outcome = workshop.run(drawn.command({"--no-resume"}), on_terminal());
-        REQUIRE(outcome.code == 0);
-        if (count_of(" left", outcome.err) >= 3) break;
-        REQUIRE(drawn.samples < 16384);
-    }
+/// Returns the picture without any interruption.
+std::string whole(const Workshop& workshop, const Options& command = drawing()) {
+    REQUIRE(workshop.run(joined(command, {"--no-resume"})).code == 0);
     std::string picture = picture_of(workshop);
     std::filesystem::remove(workshop.output() / "picture.png");
     REQUIRE(workshop.is_output_empty());
@@ -79,33 +61,43 @@ bool has_journal(const Workshop& workshop) {
     return std::filesystem::exists(workshop.output() / "picture.png.part");
 }
 
+/// Makes each tile be in the journal as soon as it is drawn: an empty journal is written at once.
+/// The first of its writes is the head.
+void begin_journal(const Workshop& workshop) {
+    workshop.write("out/picture.png.part", "");
+}
+
+/// Sends the signal to a process that is held, with a terminal as standard error, and lets it go.
+Outcome end_held(Process& process, Hold& hold, int signal) {
+    REQUIRE(hold.wait());
+    process.send(signal);
+    REQUIRE(process.wait_for_err("once more to end at once"));
+    hold.release();
+    return process.wait();
+}
+
 /// Interrupts the rendering between two tiles, which leaves a journal. Returns the outcome, with a
-/// terminal as standard error. Repeats a signal that came too late. Call whole() first.
+/// terminal as standard error.
 Outcome interrupt(const Workshop& workshop, int signal = SIGINT) {
-    for (int i = 0; i < 20; ++i) {
-        Process process = workshop.start(drawing(), on_terminal());
-        static_cast<void>(process.wait_for_err(" left")); // a tile is done
-        process.send(signal);
-        Outcome outcome = process.wait();
-        if (has_journal(workshop)) return outcome;
-    }
-    FAIL("no signal came in the middle");
-    return {};
+    if (!has_journal(workshop)) begin_journal(workshop);
+    Hold hold("pwrite", 4);
+    Process process = workshop.start(drawing(), hold.in(on_terminal()));
+    Outcome outcome = end_held(process, hold, signal);
+    REQUIRE(has_journal(workshop));
+    return outcome;
 }
 
 /// Leaves a journal of all of the picture, which could not take its name.
 void leave_whole_journal(const Workshop& workshop) {
-    for (int i = 0; i < 20; ++i) {
-        static_cast<void>(interrupt(workshop)); // now there is one as soon as it is drawn
-        Process process = workshop.start(drawing());
-        REQUIRE(process.wait_for_err("goes on at "));
-        std::error_code is_done;
-        std::filesystem::create_directory(workshop.output() / "picture.png", is_done);
-        static_cast<void>(process.wait());
-        std::filesystem::remove(workshop.output() / "picture.png");
-        if (has_journal(workshop)) return;
-    }
-    FAIL("never before it was done");
+    begin_journal(workshop);
+    Hold hold("pwrite", 1);
+    Process process = workshop.start(drawing(), hold.in({}));
+    REQUIRE(hold.wait());
+    std::filesystem::create_directory(workshop.output() / "picture.png");
+    hold.release();
+    CHECK(process.wait().code == 3);
+    std::filesystem::remove(workshop.output() / "picture.png");
+    REQUIRE(has_journal(workshop));
 }
 
 } // namespace
@@ -124,19 +116,16 @@ TEST_CASE("the first SIGINT or SIGTERM finishes what is under way, and the pictu
               std::string::npos);
         CHECK(last_line(stopped.err).starts_with("raylane: stopped at "));
         CHECK(last_line(stopped.err).ends_with(goes_on));
-        // The same in a pipe. A signal that comes after the last tile is repeated.
-        std::string err;
-        for (int i = 0; err.empty(); ++i) {
-            REQUIRE(i < 20);
-            Process process = workshop.start(drawing());
-            REQUIRE(process.wait_for_err(" %\n")); // where it goes on
-            process.send(signal);
-            const Outcome again = process.wait();
-            if (has_journal(workshop))
-                err = again.err.substr(again.err.find('\n') + 1);
-            else
-                static_cast<void>(interrupt(workshop, signal));
-        }
+        // The same in a pipe. A single thread gets the signal where it is held.
+        Hold hold("pwrite", 1);
+        Process process = workshop.start(drawing({}, "1"), hold.in({}));
+        REQUIRE(hold.wait());
+        process.send(signal);
+        hold.release();
+        const Outcome again = process.wait();
+        CHECK(again.code == 128 + signal);
+        CHECK(again.err.starts_with("raylane: out/picture.png.part: goes on at "));
+        const std::string err = again.err.substr(again.err.find('\n') + 1);
         CHECK(is_one_line(err));
         CHECK(err.starts_with("raylane: stopped at "));
         CHECK(err.ends_with(goes_on + "\n"));
@@ -150,61 +139,60 @@ TEST_CASE("the first SIGINT or SIGTERM finishes what is under way, and the pictu
 }
 
 TEST_CASE("the second signal ends a rendering at once, and what it had is not lost") {
-    // Returns false if the first signal ended the process alone: no tile had begun yet.
     const auto end_by_two = [](Process& process) {
         process.send(SIGTERM);
-        const bool finishes = process.wait_for_err("once more to end at once");
+        static_cast<void>(process.wait_for_err("once more to end at once"));
         process.send(SIGINT);
-        const Outcome outcome = process.wait();
-        CAPTURE(outcome.err);
-        REQUIRE(outcome.exited);
-        REQUIRE((outcome.code == 128 + SIGINT || outcome.code == 128 + SIGTERM));
-        return finishes && outcome.code == 128 + SIGINT;
+        return process.wait();
     };
-    SECTION("before the first tile is done") {
+    SECTION("without a journal") {
         const Workshop workshop;
-        bool is_ended = false;
-        for (int i = 0; i < 20 && !is_ended; ++i) {
-            Process process = workshop.start(
-                joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
-            REQUIRE(process.wait_for_err("rays/s"));
-            is_ended = end_by_two(process);
-        }
-        CHECK(is_ended);
+        Process process = workshop.start(
+            joined({"render", "scene.json", "-o", "out/picture.png"}, hours), on_terminal());
+        REQUIRE(process.wait_for_err("rays/s"));
+        const Outcome outcome = end_by_two(process);
+        CAPTURE(outcome.err);
+        CHECK(outcome.exited);
+        // The first signal ends it alone if no tile has begun.
+        CHECK((outcome.code == 128 + SIGINT || outcome.code == 128 + SIGTERM));
         CHECK(workshop.is_output_empty()); // not one tile
     }
-    SECTION("after the first tile is done") {
+    SECTION("while a tile is written") {
         const Workshop workshop(two_tiles);
-        bool is_ended = false;
-        for (int i = 0; i < 20 && !is_ended; ++i) {
-            std::filesystem::remove(workshop.output() / "picture.png.part");
-            Process process = workshop.start(second_takes_minutes, on_terminal());
-            REQUIRE(workshop.wait_for(workshop.output() / "picture.png.part"));
-            is_ended = end_by_two(process);
-            REQUIRE(has_journal(workshop));
+        for (const int kept : {0, 1}) {
+            begin_journal(workshop);
+            Hold hold("pwrite", 2 + kept);
+            Process process = workshop.start(drawing_two("16"), hold.in(on_terminal()));
+            REQUIRE(hold.wait());
+            const Outcome outcome = end_by_two(process);
+            CAPTURE(outcome.err);
+            CHECK(outcome.exited);
+            CHECK(outcome.code == 128 + SIGINT);
+            CHECK(workshop.run(drawing_two("16")).err ==
+                  "raylane: out/picture.png.part: goes on at " + std::to_string(50 * kept) +
+                      " %\n");
         }
-        CHECK(is_ended);
-        Process again = workshop.start(second_takes_minutes);
-        CHECK(again.wait_for_err("raylane: out/picture.png.part: goes on at 50 %\n"));
     }
 }
 
 TEST_CASE("a rendering that is killed fifty times at any moment has the same bits in the end") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
-    static_cast<void>(
-        interrupt(workshop)); // now each tile is in the journal as soon as it is drawn
+    static_cast<void>(interrupt(workshop));
     std::mt19937 random(7);
-    // The checks hold at any moment. Every other signal comes while new tiles are rendered, the
-    // rest during the start or while tiles are read from the journal.
-    for (int killed = 0, runs = 0; killed < 50; ++runs) {
-        REQUIRE(runs < 1000);
-        Process process = workshop.start(drawing());
-        if (runs % 2 == 0) REQUIRE(process.wait_for_err("goes on at "));
-        std::this_thread::sleep_for(std::chrono::milliseconds(random() % 60));
+    for (int killed = 0; killed < 25; ++killed) { // while a new tile is written
+        const Hold hold("pwrite", 1 + static_cast<int>(random() % 3));
+        Process process = workshop.start(drawing(), hold.in({}));
+        REQUIRE(hold.wait());
         process.send(SIGKILL);
-        killed += process.wait().exited ? 0 : 1;
-        if (!has_journal(workshop)) static_cast<void>(interrupt(workshop)); // it was done
+        CHECK(!process.wait().exited);
+    }
+    for (int killed = 0; killed < 25; ++killed) { // at any moment, perhaps after its end
+        if (!has_journal(workshop)) static_cast<void>(interrupt(workshop));
+        Process process = workshop.start(drawing());
+        std::this_thread::sleep_for(std::chrono::milliseconds(random() % 120));
+        process.send(SIGKILL);
+        static_cast<void>(process.wait());
     }
     CHECK(workshop.run(drawing()).code == 0);
     CHECK(picture_of(workshop) == expected);
@@ -241,7 +229,6 @@ TEST_CASE(
 
 TEST_CASE("a picture that goes on has its rays in a second by those of this run alone") {
     const Workshop workshop;
-    static_cast<void>(whole(workshop));
     const auto figures = [&] {
         const Outcome outcome = workshop.run(drawing({"--stats", "stats.json"}));
         CHECK(outcome.code == 0);
@@ -257,7 +244,7 @@ TEST_CASE("a picture that goes on has its rays in a second by those of this run 
     static_cast<void>(interrupt(workshop));
     const nlohmann::json resumed = figures();
     CHECK(resumed["rays"] == at_once["rays"]);
-    CHECK(resumed["samples_per_pixel"] == many_tiles.samples);
+    CHECK(resumed["samples_per_pixel"] == 16);
     CHECK(rays_now(resumed) < total - 0.5);
 }
 
@@ -273,23 +260,17 @@ TEST_CASE("a file that is none of raylane's is left alone, and so is a journal i
     CHECK((picture_of(workshop) == expected));
     std::filesystem::remove(workshop.output() / "picture.png.part");
 
-    for (int i = 0; i < 20; ++i) {
-        static_cast<void>(interrupt(workshop));
-        Process first = workshop.start(drawing());
-        REQUIRE(first.wait_for_err("goes on at "));
-        first.stop();
-        const bool is_underway = has_journal(workshop); // // it was stopped before its end
-        const Outcome second = workshop.run(drawing());
-        first.send(SIGCONT);
-        CHECK(second.code == 0);
-        CHECK(first.wait().code == 0);
-        CHECK((picture_of(workshop) == expected));
-        if (!is_underway) continue;
-        CHECK(second.err.find("is in use, so the picture is drawn without a journal") !=
-              std::string::npos);
-        return;
-    }
-    FAIL("never before it was done");
+    static_cast<void>(interrupt(workshop));
+    Hold hold("pwrite", 1);
+    Process first = workshop.start(drawing(), hold.in({}));
+    REQUIRE(hold.wait());
+    const Outcome second = workshop.run(drawing());
+    hold.release();
+    CHECK(second.code == 0);
+    CHECK(second.err.find("is in use, so the picture is drawn without a journal") !=
+          std::string::npos);
+    CHECK(first.wait().code == 0);
+    CHECK((picture_of(workshop) == expected));
 }
 
 TEST_CASE("where there is no room for a journal, the picture is drawn all the same") {
@@ -298,7 +279,7 @@ TEST_CASE("where there is no room for a journal, the picture is drawn all the sa
     static_cast<void>(interrupt(workshop));
     const auto had = std::filesystem::file_size(workshop.output() / "picture.png.part");
     Setup limited;
-    // Too little for one more tile, and enough for the picture.
+    // Too little for all tiles, and enough for the picture.
     const rlim_t room = std::max<rlim_t>(had, expected.size()) + 1000;
     limited.in_child = [room] {
         const rlimit limit{room, room};
@@ -318,14 +299,9 @@ TEST_CASE("a journal that has filled the disk gives its room to the picture") {
     // The missing tiles have more bytes than the picture.
     const std::filesystem::path journal = workshop.output() / "picture.png.part";
     const std::size_t pixels = sanitized ? 800 * 800 : 1000 * 1000;
-    const auto missing = [&] { return 12 * pixels - std::filesystem::file_size(journal); };
-    for (int i = 0; i < 20; ++i) {
-        static_cast<void>(interrupt(workshop));
-        if (missing() > expected.size() + (1 << 20)) break;
-        std::filesystem::remove(journal);
-    }
-    REQUIRE(has_journal(workshop));
+    static_cast<void>(interrupt(workshop));
     const std::string kept = content_of(journal);
+    REQUIRE(12 * pixels > kept.size() + expected.size() + (1 << 20));
     const std::string room =
         "size=" + std::to_string(std::max(kept.size(), expected.size()) + (1 << 18));
     const bool mounted = ::unshare(CLONE_NEWNS) == 0 &&
@@ -386,41 +362,27 @@ TEST_CASE("an empty picture of a film is drawn, as power may have left it") {
     CHECK(content_of(workshop.output() / "f1.png") == expected);
 }
 
-TEST_CASE("a signal while the last tile is drawn ends the program behind the whole picture") {
+TEST_CASE("a signal while the last tile is written ends the program behind the whole picture") {
     const Workshop workshop(two_tiles);
-    Drawing drawn{{"--tile", "64", "--threads", "1"}};
-    const std::string expected = whole(workshop, drawn);
-    // Repeats until a signal comes during the second tile. An earlier one leaves a journal, and a
-    // later one has no message.
+    const std::string expected = whole(workshop, drawing_two("16"));
     const auto end_amid_the_last = [&](const Options& command, const std::string& name) {
-        for (int i = 0; i < 20; ++i) {
-            Process process = workshop.start(command, on_terminal());
-            static_cast<void>(process.wait_for_err(" left")); // the first tile is done
-            process.send(SIGTERM);
-            const Outcome outcome = process.wait();
-            CAPTURE(outcome.err);
-            CHECK(std::filesystem::exists(workshop.output() / (name + ".part")) !=
-                  std::filesystem::exists(workshop.output() / name));
-            if (last_line(outcome.err) == "raylane: stopped, and out/" + name + " is whole") {
-                CHECK(outcome.code == 128 + SIGTERM);
-                return;
-            }
-            for (const auto& file : std::filesystem::directory_iterator(workshop.output()))
-                std::filesystem::remove(file);
-        }
-        FAIL("no signal came during the last tile");
+        workshop.write("out/" + name + ".part", "");
+        Hold hold("pwrite", 3);
+        Process process = workshop.start(command, hold.in(on_terminal()));
+        const Outcome outcome = end_held(process, hold, SIGTERM);
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 128 + SIGTERM);
+        CHECK(last_line(outcome.err) == "raylane: stopped, and out/" + name + " is whole");
+        CHECK(std::filesystem::exists(workshop.output() / name));
+        CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
     };
-    end_amid_the_last(drawn.command(), "picture.png");
+    end_amid_the_last(drawing_two("16"), "picture.png");
     CHECK((picture_of(workshop) == expected));
-    CHECK(!has_journal(workshop));
     std::filesystem::remove(workshop.output() / "picture.png");
-
     // So is the first of a film, and there is no second.
-    end_amid_the_last(joined({"render", "scene.json", "-o", "out/f-%d.png", "--turn", "90/4",
-                              "--spp", std::to_string(drawn.samples)},
-                             drawn.options),
+    end_amid_the_last({"render", "scene.json", "-o", "out/f-%d.png", "--turn", "90/4", "--tile",
+                       "64", "--threads", "1", "--spp", "16"},
                       "f-0.png");
-    CHECK(std::distance(std::filesystem::directory_iterator(workshop.output()), {}) == 1);
 }
 
 TEST_CASE("settings of a scene that no option could tell are told apart") {
@@ -430,7 +392,6 @@ TEST_CASE("settings of a scene that no option could tell are told apart") {
         return text.insert(1, std::string(R"("outline": {"width": 3, "color": )") + color + "},");
     };
     const Workshop workshop(with_outline("[9, 0.3, 0.1]"));
-    static_cast<void>(whole(workshop));
     static_cast<void>(interrupt(workshop));
     workshop.write("scene.json", with_outline("[1, 0.3, 0.1]"));
     CHECK(workshop.run(drawing()).err == "raylane: out/picture.png.part: is of other options or "
@@ -443,52 +404,45 @@ TEST_CASE("settings of a scene that no option could tell are told apart") {
 
 TEST_CASE("a journal is as private as the picture that is there") {
     const Workshop workshop;
-    static_cast<void>(whole(workshop));
     workshop.write("out/picture.png", "old");
     const auto mode = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
     std::filesystem::permissions(workshop.output() / "picture.png", mode);
-    static_cast<void>(interrupt(workshop));
+    Process process =
+        workshop.start(joined({"render", "scene.json", "-o", "out/picture.png"}, minutes));
+    REQUIRE(workshop.wait_for(workshop.output() / "picture.png.part"));
     CHECK(std::filesystem::status(workshop.output() / "picture.png.part").permissions() == mode);
-    CHECK(workshop.run(drawing()).code == 0);
-    CHECK(!has_journal(workshop));
+    process.send(SIGTERM);
+    CHECK(process.wait().err.ends_with("; the same command goes on with out/picture.png.part\n"));
 }
 
-TEST_CASE("a signal while the picture is written ends the program behind the whole picture") {
+TEST_CASE("a signal behind the last tile ends the program behind the whole picture") {
     const Workshop workshop;
     const std::string expected = whole(workshop);
     leave_whole_journal(workshop);
     const std::string journal = content_of(workshop.output() / "picture.png.part");
-    int whole_count = 0;
-    // The first run gets no signal, and its duration sets the moments: from the reading of the
-    // journal to after the end. Each check holds at any moment.
-    Clock::duration duration{};
-    for (int i = 0; i < 60 || whole_count == 0; ++i) {
-        REQUIRE(i < 1000);
+    // The hundredth read is one of a tile; then the picture gets its name, and the journal goes.
+    for (const auto& [call, count] :
+         {std::pair{"pread", 100}, std::pair{"rename", 1}, std::pair{"unlink", 1}}) {
+        CAPTURE(call);
         workshop.write("out/picture.png.part", journal);
-        Process process = workshop.start(drawing());
-        REQUIRE(process.wait_for_err("goes on at 100 %"));
-        const auto start = Clock::now();
-        if (i > 0) {
-            std::this_thread::sleep_for(duration * (i % 30) / 25);
-            process.send(SIGTERM);
-        }
+        Hold hold(call, count);
+        Process process = workshop.start(drawing({}, "1"), hold.in({}));
+        REQUIRE(hold.wait());
+        process.send(SIGTERM);
+        hold.release();
         const Outcome outcome = process.wait();
-        if (i == 0) duration = Clock::now() - start;
+        CAPTURE(outcome.err);
+        CHECK(outcome.code == 128 + SIGTERM);
+        CHECK(outcome.err.starts_with("raylane: out/picture.png.part: goes on at 100 %\n"));
         const std::string said = outcome.err.substr(outcome.err.find('\n') + 1);
-        CAPTURE(i, said);
-        if (said == "raylane: stopped, and out/picture.png is whole\n") {
-            ++whole_count;
-            REQUIRE(outcome.code == 128 + SIGTERM);
-            REQUIRE((picture_of(workshop) == expected));
-            REQUIRE(!has_journal(workshop));
-        } else if (outcome.code != 0 && !said.empty()) {
-            REQUIRE(outcome.code == 128 + SIGTERM);
-            REQUIRE(said.starts_with("raylane: stopped at "));
-            REQUIRE(said.ends_with("; the same command goes on with out/picture.png.part\n"));
-        } else { // it was done, or has just been
-            REQUIRE(said.empty());
-            REQUIRE((picture_of(workshop) == expected)); // which is too much to be printed
+        if (call == std::string("pread")) {
+            CHECK(said.starts_with("raylane: stopped at "));
+            CHECK(said.ends_with("; the same command goes on with out/picture.png.part\n"));
+            continue;
         }
+        CHECK(said == "raylane: stopped, and out/picture.png is whole\n");
+        CHECK((picture_of(workshop) == expected)); // which is too much to be printed
+        CHECK(!has_journal(workshop));
         std::filesystem::remove(workshop.output() / "picture.png");
     }
 }
@@ -542,7 +496,6 @@ TEST_CASE("a full disk is told at once, and the journal goes on when there is ro
 
 TEST_CASE("what a link leads to has a journal, unless that is among the devices") {
     const Workshop workshop;
-    static_cast<void>(whole(workshop));
     std::filesystem::create_directories(workshop.path() / "dev");
     workshop.write("dev/real.png", "old");
     std::filesystem::create_symlink(workshop.path() / "dev/real.png",
