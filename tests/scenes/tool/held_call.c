@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 static void hold(const char* call) {
@@ -33,6 +34,8 @@ static void hold(const char* call) {
         return next arguments;                                                                     \
     }
 
+HELD(int, madvise, (void* memory, size_t bytes, int advice), (memory, bytes, advice))
+HELD(ssize_t, read, (int file, void* bytes, size_t count), (file, bytes, count))
 HELD(ssize_t, pread, (int file, void* bytes, size_t count, off_t at), (file, bytes, count, at))
 HELD(ssize_t, pwrite, (int file, const void* bytes, size_t count, off_t at),
      (file, bytes, count, at))

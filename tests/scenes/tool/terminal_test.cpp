@@ -44,15 +44,18 @@ TEST_CASE("a good rendering says nothing in a pipe") {
 
 TEST_CASE("a rendering shows its progress on a terminal, and at the end a summary") {
     const Workshop workshop;
-    // The ball fills a tile every so often; on a fast machine it takes more samples to be seen.
-    Outcome outcome{};
-    for (const char* samples : {"1024", "4096", "16384", "65536"}) {
-        outcome = workshop.run({"render", "scene.json", "-o", "out/picture.png", "--size", "64x64",
-                                "--threads", "1", "--spp", samples},
-                               on_terminal());
-        REQUIRE(outcome.code == 0);
-        if (outcome.err.find("left") != std::string::npos) break;
-    }
+    // Each tile is written to the journal that is there. The first three writes are of the head and
+    // two tiles.
+    workshop.write("out/picture.png.part", "");
+    Hold hold("pwrite", 3);
+    Process process = workshop.start({"render", "scene.json", "-o", "out/picture.png", "--size",
+                                      "64x64", "--tile", "16", "--threads", "1"},
+                                     hold.in(on_terminal()));
+    REQUIRE(hold.wait());
+    CHECK(process.wait_for_err(" left"));
+    hold.release();
+    const Outcome outcome = process.wait();
+    CHECK(outcome.code == 0);
     CHECK(outcome.out.empty());
     CHECK(form_of(outcome.err).find("\r[N] N % N rays/s N s left\x1B[K") != std::string::npos);
     // The bar is wiped away before the summary.
@@ -80,47 +83,46 @@ TEST_CASE("reading and building show their progress on a terminal, and nothing i
         CHECK(shown.code == 0);
         CHECK(shown.err.ends_with("\r\x1B[K"));
     }
-    const auto flake = [](const char* depth) {
-        return R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
+    workshop.write("scene.json",
+                   R"({"camera": {"from": [0, 0, 5], "at": [0, 0, 0]},
             "lights": [{"type": "directional", "direction": [-1, -2, -3]}],
             "objects": [{"type": "sphereflake", "material": {}, "center": [0, 0, 0], "radius": 1,
-                         "depth": )" +
-               std::string(depth) + "}]}";
-    };
+                         "depth": 6}]})");
     {
-        // Five million shapes, which take one thread seconds. A tenth of one is enough.
-        workshop.write("scene.json", flake("7"));
-        Setup setup = on_terminal();
+        // With all shapes placed, it gives back the first of its large arrays.
+        Hold hold("madvise", 3);
+        Setup setup = hold.in(on_terminal());
         setup.in_child = [prepare = setup.in_child] {
             prepare();
             ::setenv("RAYLANE_THREADS", "1", 1);
         };
         Process process = workshop.start({"info", "scene.json"}, setup);
+        REQUIRE(hold.wait());
         CHECK(process.wait_for_err(" million shapes placed\x1B[K"));
-        process.send(SIGHUP);
-        CHECK(form_of(process.wait().err).find("\r[N] N % of N million shapes placed\x1B[K") !=
+        hold.release();
+        const Outcome shown = process.wait();
+        CHECK(shown.code == 0);
+        CHECK(form_of(shown.err).find("\r[N] N % of N million shapes placed\x1B[K") !=
               std::string::npos);
     }
-    workshop.write("scene.json", flake("6"));
     CHECK(workshop.run({"info", "scene.json"}).err.empty());
 }
 
 TEST_CASE("reading a file shows how much of it has been read") {
     const Workshop workshop;
-    // Some tenths of a second's reading; on a fast machine it takes more to be seen.
-    std::string err;
-    for (const std::size_t megabytes : {24, 96, 384}) {
-        std::string text = nff_head;
-        while (text.size() < megabytes << 20)
-            text += nff_line;
-        workshop.write("scene.nff", text);
-        Process process = workshop.start({"info", "scene.nff"}, on_terminal());
-        const bool is_seen = process.wait_for_err(" % ");
-        process.send(SIGHUP);
-        err = process.wait().err;
-        if (is_seen) break;
-    }
-    CHECK(form_of(err).find("\r[N] N % N million shapes read\x1B[K") != std::string::npos);
+    std::string text = nff_head;
+    while (text.size() < 16 << 20)
+        text += nff_line;
+    workshop.write("scene.nff", text);
+    // A read takes no more than a mebibyte.
+    Hold hold("read", 8);
+    Process process = workshop.start({"info", "scene.nff"}, hold.in(on_terminal()));
+    REQUIRE(hold.wait());
+    CHECK(process.wait_for_err(" % "));
+    hold.release();
+    const Outcome outcome = process.wait();
+    CHECK(outcome.code == 0);
+    CHECK(form_of(outcome.err).find("\r[N] N % N million shapes read\x1B[K") != std::string::npos);
 }
 
 TEST_CASE("an error is one line on a terminal, too") {
