@@ -451,7 +451,7 @@ TEST_CASE("a film that a signal ends says so at any moment between its first and
     for (int i = 0; i < 40; ++i) {
         const Workshop workshop;
         Process film = workshop.start({"render", "scene.json", "-o", "out/f-%d.png", "--turn",
-                                       "360/4000", "--size", "8x8", "--threads", "1"});
+                                       "360/1000000", "--size", "8x8", "--threads", "1"});
         REQUIRE(workshop.wait_for(workshop.output() / ("f-" + std::to_string(i % 7) + ".png")));
         film.send(i % 2 == 0 ? SIGTERM : SIGINT);
         const Outcome outcome = film.wait();
