@@ -2,14 +2,16 @@
 # Several ranks of one job draw and trace what one process does, to the byte; what ends one of them
 # loses no tile that was done.
 #
-#   ranks_test.sh RAYLANE SCENE    77 where there is no mpirun, or raylane was built without MPI
+#   ranks_test.sh RAYLANE SCENE    77 without mpirun, python3 or raylane's MPI
 #
 # With RAYLANE_TEST_ROUNDS=full, images and rays are tested with 2 ranks and with 3, otherwise with 3.
 set -eu
 
 raylane=$1
 scene=$2
-command -v mpirun >/dev/null || exit 77
+for program in mpirun python3; do
+    command -v $program >/dev/null || exit 77
+done
 [ -e "$(dirname "$raylane")/raylane-mpi.so" ] || exit 77
 . "$(dirname "$0")/../../wait.sh"
 folder=$(mktemp -d)
@@ -145,13 +147,13 @@ done
 # Longer than what goes from rank to rank at once.
 python3 -c 'print(300000)
 print()
-for i in range(300000): print("C %.6f %.6f %.6f" % (i % 70, i // 70 % 70, i // 4900))' >many.xyz || exit 77
+for i in range(300000): print("C %.6f %.6f %.6f" % (i % 70, i // 70 % 70, i // 4900))' >many.xyz
 "$raylane" render many.xyz -q --style points -o one.pfm --size 90x60 --spp 1
 job 2 render - --style points -o many.pfm --size 90x60 --spp 1 <many.xyz 2>err || fail "many by -"
 same one.pfm many.pfm
 
 echo "rays"
-python3 - <<'PYTHON' || exit 77
+python3 - <<'PYTHON'
 import random, struct
 random.seed(7)
 count = 200_000
@@ -177,7 +179,7 @@ job 2 trace "$scenes/cutaway.json" - -o many.npy <rays.npy 2>err || fail "trace 
 same one.npy many.npy
 
 echo "more answers than memory is taken for, of whom nobody reads them yet"
-python3 - <<'PYTHON' || exit 77
+python3 - <<'PYTHON'
 import random, struct
 random.seed(7)
 count, times = 100_000, 40
