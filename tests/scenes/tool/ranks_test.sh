@@ -199,24 +199,37 @@ has_bytes() { # pipe that is open as descriptor 3
 count = struct.unpack("i", fcntl.ioctl(3, termios.FIONREAD, bytes(4)))[0]
 sys.exit(0 if count > 0 else 1)'
 }
-# Succeeds where none of two ranks' threads runs or wants to at any of ten looks: all that may be begun is done.
-# A thread that waits for a processor is in state R.
-all_sleep() {
-    for look in 1 2 3 4 5 6 7 8 9 10; do
-        count=0
-        for process in $(pgrep -f "^$raylane trace $scene many-rays.npy"); do
-            states=$(sed 's/.*) \(.\) .*/\1/' "/proc/$process"/task/*/stat 2>/dev/null | tr -d '\n')
-            case $states in
-            *[!S]* | '') return 1 ;;
-            esac
-            count=$((count + 1))
-        done
-        [ "$count" -eq 2 ] || return 1
-        [ "$look" -eq 10 ] || sleep 0.1
-    done
-}
 wait_until has_bytes || fail "no answer is written"
-wait_until all_sleep || fail "ranks that nobody reads from do not come to rest"
+# Waits until no thread of the two ranks has anything left to do. Between two looks, which find the same memory in
+# use, each thread has slept, or has woken up three times.
+timeout 120 python3 - "^$raylane trace $scene many-rays.npy" <<'PYTHON' || fail "ranks that nobody reads from do not come to rest"
+import pathlib, subprocess, sys, time
+
+def status(folder):
+    return dict(line.split(":", 1) for line in (folder / "status").read_text().splitlines())
+
+def look():
+    found = subprocess.run(["pgrep", "-f", sys.argv[1]], stdout=subprocess.PIPE, text=True).stdout.split()
+    ranks = [pathlib.Path("/proc", process) for process in found]
+    threads = {}
+    for task in (task for rank in ranks for task in (rank / "task").iterdir()):
+        of_task = status(task)
+        threads[task] = (of_task["State"].split()[0], int(of_task["voluntary_ctxt_switches"]))
+    return [status(rank)["RssAnon"] for rank in ranks], threads
+
+def is_rest(before, now):
+    return before[0] == now[0] and before[1].keys() == now[1].keys() and all(
+        before[1][task] == now[1][task] == ("S", switches) or switches >= before[1][task][1] + 3
+        for task, (_, switches) in now[1].items())
+
+looks = []
+while not any(is_rest(before, looks[-1]) for before in looks[:-1]):
+    time.sleep(0.1)
+    try:
+        looks.append(look())
+    except OSError:  # a thread has ended
+        pass
+PYTHON
 found=0
 for process in $(pgrep -f "^$raylane trace $scene many-rays.npy"); do
     found=$((found + 1))
