@@ -2,13 +2,14 @@
 # Several ranks of one job draw and trace what one process does, to the byte; what ends one of them
 # loses no tile that was done.
 #
-#   ranks_test.sh RAYLANE SCENE    77 without mpirun, python3 or raylane's MPI
+#   ranks_test.sh RAYLANE SCENE HELD_CALL    77 without mpirun, python3 or raylane's MPI
 #
 # With RAYLANE_TEST_ROUNDS=full, images and rays are tested with 2 ranks and with 3, otherwise with 3.
 set -eu
 
 raylane=$1
 scene=$2
+held_call=$3
 for program in mpirun python3; do
     command -v $program >/dev/null || exit 77
 done
@@ -264,29 +265,33 @@ refused 2 "none.npy: no such file" trace "$scene" none.npy
 refused 2 "err: must be an array in NumPy's format" trace "$scene" err
 
 echo "what ends a rank loses no tile that was done"
-has_begun_or_ended() { # process
-    [ -e many.png.part ] || ! kill -0 "$1" 2>/dev/null
+begin() { # options of mpirun and a program, options of the rendering
+    : >many.png.part # is written from the first tile on
+    # shellcheck disable=SC2086 # lists of options
+    timeout 300 mpirun --oversubscribe -n 2 $1 "$raylane" render "$scene" -o many.png $2 >out 2>err 5>&- &
 }
-for signal in KILL TERM; do
-    for samples in 484 484 1936 7744 30976; do # more on a machine where it ends before there is a journal
-        long="--size 600x600 --spp $samples"
-        rm -f many.png many.png.part
-        # shellcheck disable=SC2086 # a list of options
-        job 2 render "$scene" -o many.png $long >out 2>err &
-        ranks=$!
-        wait_until has_begun_or_ended $ranks || fail "no journal is begun"
-        # The rank that was started last.
-        pkill -"$signal" -n -f "^$raylane render $scene -o many.png" || true
-        status=0
-        wait $ranks || status=$?
-        [ ! -e many.png.part ] || break
-    done
-    [ "$status" -ne 0 ] || fail "$signal came too late each time"
-    [ -e many.png.part ] || fail "$signal left nothing to go on with"
-    # shellcheck disable=SC2086
-    [ -e "$samples.png" ] || "$raylane" render "$scene" -q -o "$samples.png" $long
-    # shellcheck disable=SC2086
-    job 2 render "$scene" -o many.png $long 2>err || fail "it does not go on"
-    grep -q "many.png.part: goes on at" err || fail "it has begun anew"
-    same "$samples.png" many.png
-done
+end_newest() { # signal
+    pkill -"$1" -n -f "^$raylane render $scene -o many.png"
+    status=0
+    wait $! || status=$?
+    [ "$status" -ne 0 ] || fail "$1 ends a rank, and the job with 0"
+}
+# Rank 0 is held at the third tile that it writes.
+mkfifo hold
+exec 5<>hold
+begin "env LD_PRELOAD=$held_call RAYLANE_HOLD=pwrite:4:$folder/hold" "--size 600x600 --spp 16"
+timeout 120 head -c 1 <&5 >held || fail "no tile is written"
+end_newest KILL
+exec 5>&-
+"$raylane" render "$scene" -q -o one.png --size 600x600 --spp 16
+job 2 render "$scene" -o many.png --size 600x600 --spp 16 2>err || fail "it does not go on"
+grep -q "many.png.part: goes on at" err || fail "it has begun anew"
+same one.png many.png
+# Hours, in tiles of a second.
+has_tiles() { # bytes
+    [ "$(stat -c %s many.png.part)" -ge "$1" ]
+}
+begin "" "--size 600x600 --tile 8 --spp 65536"
+wait_until has_tiles 2000 || fail "no tile is written"
+end_newest TERM
+has_tiles 2000 || fail "TERM has lost a tile"
