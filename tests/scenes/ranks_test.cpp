@@ -170,7 +170,7 @@ class Begun {
         }
     }
     std::size_t max() const { return max_; }
-    /// Waits until a piece is begun. False if it is not in a minute.
+    /// Waits until a piece is begun. False after ten minutes.
     bool wait_for(std::size_t number) const {
         return tests::comes_true([&] { return max() >= number; });
     }

@@ -19,7 +19,7 @@ namespace raylane::tests {
 
 namespace {
 
-constexpr std::chrono::minutes patience{2};
+constexpr std::chrono::minutes patience{10};
 
 /// What is started: raylane, or what runs a program for another processor.
 #ifdef RAYLANE_EMULATOR

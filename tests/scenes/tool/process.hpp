@@ -40,7 +40,7 @@ class Process {
 
     void send(int signal) const;
     /// Waits until it has written a text on standard error. Returns false if it ends without, or
-    /// after two minutes.
+    /// after ten minutes.
     bool wait_for_err(std::string_view text);
     /// Waits for a text that it writes from now on.
     bool wait_for_further_err(std::string_view text);
@@ -71,7 +71,7 @@ class Hold {
 
     /// Returns the setup of a process that is to be held.
     Setup in(Setup setup) const;
-    /// Waits until the process is at the call. Returns false after two minutes.
+    /// Waits until the process is at the call. Returns false after ten minutes.
     bool wait() const;
     /// Lets the process go on.
     void release();

@@ -203,7 +203,7 @@ sys.exit(0 if count > 0 else 1)'
 wait_until has_bytes || fail "no answer is written"
 # Waits until no thread of the two ranks has anything left to do. Between two looks, which find the same memory in
 # use, each thread has slept, or has woken up three times.
-timeout 120 python3 - "^$raylane trace $scene many-rays.npy" <<'PYTHON' || fail "ranks that nobody reads from do not come to rest"
+timeout 600 python3 - "^$raylane trace $scene many-rays.npy" <<'PYTHON' || fail "ranks that nobody reads from do not come to rest"
 import pathlib, subprocess, sys, time
 
 def status(folder):
@@ -280,7 +280,7 @@ end_newest() { # signal
 mkfifo hold
 exec 5<>hold
 begin "env LD_PRELOAD=$held_call RAYLANE_HOLD=pwrite:4:$folder/hold" "--size 600x600 --spp 16"
-timeout 120 head -c 1 <&5 >held || fail "no tile is written"
+timeout 600 head -c 1 <&5 >held || fail "no tile is written"
 end_newest KILL
 exec 5>&-
 "$raylane" render "$scene" -q -o one.png --size 600x600 --spp 16

@@ -54,7 +54,7 @@ class Workshop {
     std::vector<std::string> names() const { return directory_.names(); }
     bool is_output_empty() const { return std::filesystem::is_empty(output()); }
     /// Until as many files as that have come out, temporaries included, also those without a name.
-    /// False if that takes a minute.
+    /// False after ten minutes.
     bool wait_for_files(const Process& process, int count) const {
         return comes_true([&] {
             return std::distance(std::filesystem::directory_iterator(output()), {}) +
@@ -63,7 +63,7 @@ class Workshop {
         });
     }
 
-    /// Until that file is there. False if that takes a minute.
+    /// Until that file is there. False after ten minutes.
     bool wait_for(const std::filesystem::path& file) const {
         return comes_true([&] { return std::filesystem::exists(file); });
     }
