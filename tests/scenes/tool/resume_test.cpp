@@ -22,7 +22,7 @@ using Options = std::vector<std::string>;
 
 /// The command that renders a picture of many tiles.
 Options drawing(const Options& options = {}, const char* threads = "2") {
-    return joined({"render", "scene.json", "-o", "out/picture.png", "--spp", "16", "--size",
+    return joined({"render", "scene.json", "-o", "out/picture.png", "--spp", "4", "--size",
                    sanitized ? "800x800" : "1000x1000", "--threads", threads},
                   options);
 }
@@ -125,7 +125,8 @@ TEST_CASE("the first SIGINT or SIGTERM finishes what is under way, and the pictu
         const Outcome again = process.wait();
         CHECK(again.code == 128 + signal);
         CHECK(again.err.starts_with("raylane: out/picture.png.part: goes on at "));
-        const std::string err = again.err.substr(again.err.find('\n') + 1);
+        const std::string messages = messages_in(again.err);
+        const std::string err = messages.substr(messages.find('\n') + 1);
         CHECK(is_one_line(err));
         CHECK(err.starts_with("raylane: stopped at "));
         CHECK(err.ends_with(goes_on + "\n"));
@@ -168,7 +169,7 @@ TEST_CASE("the second signal ends a rendering at once, and what it had is not lo
             CAPTURE(outcome.err);
             CHECK(outcome.exited);
             CHECK(outcome.code == 128 + SIGINT);
-            CHECK(workshop.run(drawing_two("16")).err ==
+            CHECK(messages_in(workshop.run(drawing_two("16")).err) ==
                   "raylane: out/picture.png.part: goes on at " + std::to_string(50 * kept) +
                       " %\n");
         }
@@ -209,7 +210,8 @@ TEST_CASE(
         const std::string journal = content_of(workshop.output() / "picture.png.part");
         const Outcome outcome = workshop.run(drawing(options));
         CHECK(outcome.code == 0);
-        CHECK(outcome.err == "raylane: out/picture.png.part: is of " + what + kept_until_complete);
+        CHECK(messages_in(outcome.err) ==
+              "raylane: out/picture.png.part: is of " + what + kept_until_complete);
         CHECK(!has_journal(workshop));
         workshop.write("out/picture.png.part", journal);
     };
@@ -244,7 +246,7 @@ TEST_CASE("a picture that goes on has its rays in a second by those of this run 
     static_cast<void>(interrupt(workshop));
     const nlohmann::json resumed = figures();
     CHECK(resumed["rays"] == at_once["rays"]);
-    CHECK(resumed["samples_per_pixel"] == 16);
+    CHECK(resumed["samples_per_pixel"] == 4);
     CHECK(rays_now(resumed) < total - 0.5);
 }
 
@@ -254,8 +256,9 @@ TEST_CASE("a file that is none of raylane's is left alone, and so is a journal i
     workshop.write("out/picture.png.part", "mine");
     const Outcome outcome = workshop.run(drawing());
     CHECK(outcome.code == 0);
-    CHECK(outcome.err == "raylane: out/picture.png.part: is none of raylane's, so the picture is "
-                         "drawn without a journal\n");
+    CHECK(messages_in(outcome.err) ==
+          "raylane: out/picture.png.part: is none of raylane's, so the picture is "
+          "drawn without a journal\n");
     CHECK(content_of(workshop.output() / "picture.png.part") == "mine");
     CHECK((picture_of(workshop) == expected));
     std::filesystem::remove(workshop.output() / "picture.png.part");
@@ -394,9 +397,10 @@ TEST_CASE("settings of a scene that no option could tell are told apart") {
     const Workshop workshop(with_outline("[9, 0.3, 0.1]"));
     static_cast<void>(interrupt(workshop));
     workshop.write("scene.json", with_outline("[1, 0.3, 0.1]"));
-    CHECK(workshop.run(drawing()).err == "raylane: out/picture.png.part: is of other options or "
-                                         "another version" +
-                                             std::string(kept_until_complete));
+    CHECK(messages_in(workshop.run(drawing()).err) ==
+          "raylane: out/picture.png.part: is of other options or "
+          "another version" +
+              std::string(kept_until_complete));
     const std::string picture = picture_of(workshop);
     CHECK(workshop.run(drawing({"--no-resume"})).code == 0);
     CHECK(picture_of(workshop) == picture);
@@ -433,8 +437,9 @@ TEST_CASE("a signal behind the last tile ends the program behind the whole pictu
         const Outcome outcome = process.wait();
         CAPTURE(outcome.err);
         CHECK(outcome.code == 128 + SIGTERM);
-        CHECK(outcome.err.starts_with("raylane: out/picture.png.part: goes on at 100 %\n"));
-        const std::string said = outcome.err.substr(outcome.err.find('\n') + 1);
+        const std::string messages = messages_in(outcome.err);
+        CHECK(messages.starts_with("raylane: out/picture.png.part: goes on at 100 %\n"));
+        const std::string said = messages.substr(messages.find('\n') + 1);
         if (call == std::string("pread")) {
             CHECK(said.starts_with("raylane: stopped at "));
             CHECK(said.ends_with("; the same command goes on with out/picture.png.part\n"));
@@ -457,8 +462,8 @@ TEST_CASE("a film that a signal ends says so at any moment between its first and
         const Outcome outcome = film.wait();
         CAPTURE(outcome.err);
         REQUIRE(outcome.code == 128 + (i % 2 == 0 ? SIGTERM : SIGINT));
-        REQUIRE(is_one_line(outcome.err));
-        REQUIRE(outcome.err.starts_with("raylane: stopped"));
+        REQUIRE(is_one_line(messages_in(outcome.err)));
+        REQUIRE(messages_in(outcome.err).starts_with("raylane: stopped"));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 namespace raylane::tests {
 
@@ -87,6 +88,16 @@ class Workshop {
 
 inline bool is_one_line(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n');
+}
+
+/// Returns the lines that are messages. A pipe gets a line of progress every now and then, after
+/// ten seconds.
+inline std::string messages_in(const std::string& text) {
+    std::string messages;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("raylane: ")) messages += line + '\n';
+    return messages;
 }
 
 /// Returns the last line that a terminal shows: without a progress bar that was wiped away.
