@@ -107,7 +107,7 @@ Shared<Motion> inverse_of(const Motion& motion, const Place& place) {
     const auto column = [&](int i) {
         return Vec3d(motion.rows[0][i], motion.rows[1][i], motion.rows[2][i]);
     };
-    const auto back = std::make_shared<const Motion>(translation(Vec3d(0.0) - column(3)));
+    auto back = std::make_shared<const Motion>(translation(Vec3d(0.0) - column(3)));
     if (motion.translation) return back;
     return both(back, std::make_shared<const Motion>(
                           inverse_of_linear(column(0), column(1), column(2), place)));

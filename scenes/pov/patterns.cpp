@@ -271,6 +271,7 @@ class PatternReader {
 /// Shares of 1 that entries have of a pattern whose values are even from 0 to 1.
 void weigh_by_place(std::vector<Weighted>& entries) {
     std::vector<double> places;
+    places.reserve(entries.size());
     for (const Weighted& entry : entries)
         places.push_back(std::clamp(entry.weight, 0.0, 1.0));
     for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -106,8 +106,6 @@ class Reader {
             const Sky sky = read_sky(tokens_);
             if (!has_background_) background_ = sky.color;
             tokens_.remark(word.place, "has a sky_sphere, of which one colour is drawn");
-        } else if (tokens_.accept("default")) {
-            read_default(tokens_);
         } else if (word.is("rainbow") || word.is("media")) {
             tokens_.next();
             tokens_.skip_braces();

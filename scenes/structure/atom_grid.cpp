@@ -12,7 +12,7 @@ AtomGrid::AtomGrid(const std::vector<core::Vec3f>& positions, const std::vector<
     struct Placed {
         Place place;
         AtomIndex atom;
-        auto operator<=>(const Placed&) const = default;
+        auto operator<=>(const Placed&) const = default; // NOLINT: no pointer
     };
     std::vector<Placed> placed;
     placed.reserve(atoms.size());
@@ -37,8 +37,9 @@ AtomGrid::Place AtomGrid::place_of(const core::Vec3f& point) const {
 
 /// The first cell of three in a row: one of nine rows around a place.
 AtomGrid::Place AtomGrid::first_of_row(const Place& place, std::size_t row) {
-    return {place.z + static_cast<double>(row / 3) - 1.0,
-            place.y + static_cast<double>(row % 3) - 1.0, place.x - 1.0};
+    const std::size_t z = row / 3, y = row % 3;
+    return {place.z + static_cast<double>(z) - 1.0, place.y + static_cast<double>(y) - 1.0,
+            place.x - 1.0};
 }
 
 AtomGrid::Near AtomGrid::near(const Place& place, std::array<std::size_t, 9>& begin) const {

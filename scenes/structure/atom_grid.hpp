@@ -54,7 +54,7 @@ class AtomGrid {
     /// In widths. Whole numbers, which doubles hold however far out they are.
     struct Place {
         double z, y, x;
-        auto operator<=>(const Place&) const = default;
+        auto operator<=>(const Place&) const = default; // NOLINT: no pointer
     };
     struct Cell {
         Place place;

@@ -291,6 +291,7 @@ class DataReader : public FrameReader {
         const std::vector<AtomLayout> fitting = layouts_that_fit(table, header_);
         if (fitting.size() != 1) {
             std::vector<std::string> styles;
+            styles.reserve(fitting.size());
             for (const AtomLayout& layout : fitting)
                 styles.push_back(layout.style);
             fail({},
