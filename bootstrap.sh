@@ -123,7 +123,7 @@ build() { # target, options of cmake
     esac
     log=build/bootstrap.log
     mkdir -p build
-    [ -e build/release/build.ninja ] || set -- "$@" --fresh # or what configuring left when it failed
+    [ -e build/release/build.ninja ] || set -- "$@" --fresh # configuring may have failed before
     # RAYLANE_ISAS=all ./bootstrap.sh test: kernels for all instruction sets, not for this machine's own.
     if ! cmake --preset release "-DRAYLANE_ISAS=${RAYLANE_ISAS:-native}" "$@" >"$log" 2>&1; then
         cat "$log" >&2

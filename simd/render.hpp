@@ -28,7 +28,7 @@ enum class Engine : std::uint8_t {
 struct Progress {
     std::atomic<std::int64_t> pixels = 0;
     std::atomic<std::int64_t> recalled = 0; ///< of these, not drawn but there before
-    /// When the first tile was begun; what comes before says nothing of how long they take.
+    /// Time at which the first tile was begun, behind the survey.
     std::atomic<std::chrono::steady_clock::time_point> first_tile =
         std::chrono::steady_clock::now();
     std::atomic<std::uint64_t> rays = 0;

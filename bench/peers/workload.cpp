@@ -91,7 +91,7 @@ simd::Coherence coherence_at(const Vec3f& apex, bool towards) {
     return {{apex.x, apex.y, apex.z}, towards, false, false, false};
 }
 
-/// As a picture's samples of a sky go.
+/// The way of a picture's first sample of a sky.
 Vec3d to_sky(const Vec3d& normal, std::size_t pixel) {
     const core::SoftLight sky = core::prepared({core::LightKind::sky});
     const auto number = static_cast<std::uint32_t>(pixel);

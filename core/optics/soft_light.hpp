@@ -24,7 +24,8 @@ struct SoftLight {
 /// `light` has a size.
 SoftLight prepared(const Light& light);
 
-/// The point that makes the sample of a light's middle, as hard light has it; of a sky the normal.
+/// The point whose sample is the light's middle, for hard light; the sky's sample is then the
+/// normal.
 constexpr SamplePoint middle_of(const SoftLight& light) {
     return light.kind == LightKind::rectangle ? SamplePoint{0.5F, 0.5F} : SamplePoint{0.0F, 0.0F};
 }

@@ -29,7 +29,7 @@ namespace {
 using Exactly = Vec3<Dyadic>;
 
 /// p . rows p + 2 linear . p + one.
-struct Form { // NOLINT: clang-tidy 14 names what copies arrays
+struct Form { // NOLINT: clang-tidy 14 invents the name
     Exactly rows[3];
     Exactly linear;
     Dyadic one;

@@ -11,9 +11,9 @@ namespace raylane::scenes {
 /// longer there ends a process as what the system refuses does.
 void catch_signals();
 
-/// While it lives, the first SIGINT or SIGTERM does not end the process but stops what makes
-/// progress, and has it abandon after half a second what is under way; the second does. One at a
-/// time.
+/// While it lives, the first SIGINT or SIGTERM stops a rendering instead of the process: no tile is
+/// begun any more, and after half a second those under way are abandoned. The second signal ends
+/// the process. There may be one object at a time.
 class StopOnSignal {
   public:
     explicit StopOnSignal(simd::Progress& progress);

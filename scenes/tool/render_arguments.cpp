@@ -57,8 +57,8 @@ void RenderArguments::add_to(CLI::App& command) {
         "box|gaussian|blackman-harris");
     add("--light-samples", light_samples,
         "Rays to each light with a size, from each point that a sample sees (default: as the scene "
-        "says, or four if pixels have one sample, else one); -1: hard light, which is one ray to "
-        "its middle, and a sky that nothing shades",
+        "says, or four if pixels have one sample, one otherwise); -1: hard light, which is one ray "
+        "to the middle of each lamp, and a sky that nothing shades",
         "N");
     add_flag(command, "--draft", draft, "For a quick look: --spp 1 --light-samples -1");
     add_flag(command, "--print", print, "For print, without grain at 300 dpi: --quality 50");

@@ -104,8 +104,8 @@ struct Settings {
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
     /// Rays to each light with a size, from each point that a sample sees, 1 to 4096; 0: four if
-    /// pixels have one sample, else one for each sample; -1: hard light, which is one ray to its
-    /// middle, and a sky that nothing shades.
+    /// pixels have one sample, one otherwise; -1: hard light, which is one ray to the middle of
+    /// each lamp, and a sky that nothing shades.
     int light_samples = 0;
     Transfer transfer = Transfer::srgb; ///< for write_image
     /// The picture has an alpha: where the camera sees the background, past everything or straight

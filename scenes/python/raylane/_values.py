@@ -154,7 +154,7 @@ class Settings(Fields):
     """0, or decibels (PSNR) against a converged picture, 10 to 80: each pixel gets the samples that it needs."""
     filter: Literal["box", "gaussian", "blackman_harris"] = "box"
     light_samples: int = 0
-    """Rays to each light with a size, from each point that a sample sees; 0: four if pixels have one sample, else one for each sample; -1: hard light, which is one ray to its middle, and a sky that nothing shades."""
+    """Rays to each light with a size, from each point that a sample sees; 0: four if pixels have one sample, one otherwise; -1: hard light, which is one ray to the middle of each lamp, and a sky that nothing shades."""
     transfer: Literal["srgb", "linear"] = "srgb"
     alpha: bool = False
     """The background is left out: the picture has an alpha."""
