@@ -127,7 +127,7 @@ bool is_flag(const CLI::Option& option) {
 std::string manual_page(const CLI::App& app, const CLI::App& command) {
     const bool is_whole = &app == &command;
     const std::string name = is_whole ? "raylane" : "raylane-" + command.get_name();
-    std::string page = ".TH " + in_capitals(plain(name, true)) + " 1 \"\" \"raylane " +
+    std::string page = ".TH " + in_capitals(plain(name, true)) + R"( 1 "" "raylane )" +
                        RAYLANE_VERSION + "\" \"Commands\"\n.SH NAME\n" + plain(name, true) +
                        " \\- " + plain(without_subject(command.get_description())) +
                        "\n.SH SYNOPSIS\n";

@@ -174,10 +174,10 @@ bool is_at(const std::filesystem::path& path, int descriptor) {
 
 } // namespace
 
-Journal::Journal(const std::filesystem::path& picture, const JournalSubject& subject,
-                 TileRecords records, std::function<void(const std::string&)> tell)
-    : picture_(picture), records_(records), head_(head_of(subject)), seed_(checksum_of(head_, 0)),
-      places_(records_.grid().count(), -1), tell_(std::move(tell)) {
+Journal::Journal(std::filesystem::path picture, const JournalSubject& subject, TileRecords records,
+                 std::function<void(const std::string&)> tell)
+    : picture_(std::move(picture)), records_(records), head_(head_of(subject)),
+      seed_(checksum_of(head_, 0)), places_(records_.grid().count(), -1), tell_(std::move(tell)) {
     open();
     if (descriptor_ < 0) next_try_ = start_ + begin_after;
 }

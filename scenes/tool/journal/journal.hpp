@@ -56,8 +56,8 @@ class Journal {
 
     /// `picture`: the output. `tell` receives the first problem() as soon as there is one, from
     /// whichever thread has it.
-    Journal(const std::filesystem::path& picture, const JournalSubject& subject,
-            TileRecords records, std::function<void(const std::string&)> tell = {});
+    Journal(std::filesystem::path picture, const JournalSubject& subject, TileRecords records,
+            std::function<void(const std::string&)> tell = {});
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
