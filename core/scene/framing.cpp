@@ -14,13 +14,13 @@ constexpr double margin = 1.05;
 /// The eye's distance from the nearest, by the size of all.
 constexpr double closest = 0x1p-6;
 
-constexpr float side = 0.5F;
+constexpr float sideways = 0.5F;
 constexpr NamedView views[] = {
     {"front", {0, 0, -1}, {0, 1, 0}}, {"back", {0, 0, 1}, {0, 1, 0}},
     {"right", {-1, 0, 0}, {0, 1, 0}}, {"left", {1, 0, 0}, {0, 1, 0}},
     {"top", {0, -1, 0}, {0, 0, -1}},  {"bottom", {0, 1, 0}, {0, 0, 1}},
     {"x", {-1, 0, 0}, {0, 0, 1}},     {"y", {0, -1, 0}, {0, 0, 1}},
-    {"z", {0, 0, -1}, {0, 1, 0}},     {"corner", {-1, -side, -0.7F}, {0, 1, 0}},
+    {"z", {0, 0, -1}, {0, 1, 0}},     {"corner", {-1, -sideways, -0.7F}, {0, 1, 0}},
 };
 
 } // namespace

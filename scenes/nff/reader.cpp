@@ -34,7 +34,7 @@ class Reader {
         builder_.on_light_moved = [&](std::size_t i) {
             if (on_remark)
                 on_remark(text_of({file_.name(),
-                                   {lights_[i].line, 0},
+                                   {static_cast<std::size_t>(lights_[i].line), 0},
                                    "",
                                    "l: is on a surface, and shines from beside it here"}));
         };
