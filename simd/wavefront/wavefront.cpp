@@ -495,12 +495,13 @@ void Wavefront::add_soft_lights(int depth) {
             first_points_[i] = static_cast<std::uint32_t>(sample.number) * samples;
         }
         for (std::uint32_t k = 0; k < samples; ++k) {
-            shade_.light_points(count, light_keys_.data(), first_points_.data(), k, light_u_,
-                                light_v_);
             if (is_hard) {
                 const core::SamplePoint middle = core::middle_of(light);
                 std::fill_n(light_u_, count, static_cast<double>(middle.x));
                 std::fill_n(light_v_, count, static_cast<double>(middle.y));
+            } else {
+                shade_.light_points(count, light_keys_.data(), first_points_.data(), k, light_u_,
+                                    light_v_);
             }
             SpawnedRays& rays = shadows_.rays();
             rays.count = 0;
