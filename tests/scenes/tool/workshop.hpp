@@ -90,13 +90,13 @@ inline bool is_one_line(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n') == 1 && text.ends_with('\n');
 }
 
-/// Returns the lines that are messages. A pipe gets a line of progress every now and then, after
-/// ten seconds.
+/// Returns all but the lines of progress, "[###...] 12 % ...", of which a pipe gets one every now
+/// and then, after ten seconds.
 inline std::string messages_in(const std::string& text) {
     std::string messages;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)
-        if (line.starts_with("raylane: ")) messages += line + '\n';
+        if (!line.starts_with('[')) messages += line + (lines.eof() ? "" : "\n");
     return messages;
 }
 
