@@ -10,7 +10,7 @@
 # as avx2 (the best there is).
 #
 # The structures are made here: sixteen alpha helices side by side (1,920 atoms), one of six residues, and
-# 64,000 atoms of copper whose b_factor is the distance from the middle.
+# 62,500 atoms of copper whose b_factor is the distance from the middle.
 set -eu
 cd "$(dirname "$0")/.."
 build=${1:-build/release}

@@ -32,7 +32,7 @@ constexpr double anywhere = 1.0;
 /// Over twelve scenes this pair took 2 % more samples than the best pair for each scene.
 constexpr double within = 0.5, worth_of_around = 8.0;
 
-/// Decibels added to the quality that was asked for, because the estimate scatters.
+/// Decibels above the quality of the settings, because the estimate scatters.
 constexpr double margin = 1.0;
 
 std::size_t pixels_of(const Settings& settings) {

@@ -108,7 +108,7 @@ class Survey {
     Settings settings_;
     std::vector<Place> places_;
     std::vector<Record> records_;
-    /// By stage: the squared error of that many samples over the variance of one.
+    /// The squared error of that many samples over the variance of one, by stage.
     std::vector<double> left_;
     Policy policy_;
 };

@@ -420,7 +420,7 @@ class Artist {
     void set_up_view() {
         builder_.settings.width = drawing_.width;
         builder_.settings.height = drawing_.height;
-        // Balls and sticks leave most of a picture white, where there is no error.
+        // A picture of balls and sticks is mostly white, and white has no error.
         const bool is_filled = scale_.style == Style::spheres || scale_.style == Style::points;
         builder_.settings.quality = is_filled ? 40.0F : 46.0F;
         builder_.background = core::Color(1.0F);

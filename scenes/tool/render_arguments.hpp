@@ -40,7 +40,7 @@ struct Overrides {
     std::optional<core::PixelFilter> filter;
 };
 
-/// None: auto, which wants to see the scene. Throws BadInput.
+/// Throws BadInput.
 core::Precision precision_argument(const std::string& text);
 
 /// Throws BadInput.

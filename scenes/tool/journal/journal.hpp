@@ -26,9 +26,9 @@ struct JournalSubject {
 
 /// The finished tiles of a picture that is being drawn, in a file beside it, from which another
 /// process can go on when this one ends before its time, however that be. Each tile is written as
-/// it comes, with a checksum, and at most the tiles under way are lost with the process; what is
-/// lost with the power is what the last `sync_every` wrote. No file is made before `begin_after`,
-/// but one that is there is written from the first tile on.
+/// it comes, with a checksum. If the process dies, the tiles under way are lost at most; if the
+/// power fails, those of the last `sync_every`, too. No file is made before `begin_after`, but one
+/// that is there is written from the first tile on.
 ///
 /// Journals of one output and different subjects exist side by side. The first is "OUTPUT.part",
 /// the others are "OUTPUT.CHECKSUM.part", with 16 hexadecimal digits that follow from the subject.
