@@ -63,16 +63,4 @@ AtomGrid::Near AtomGrid::near(const Place& place, std::array<std::size_t, 9>& be
     return near;
 }
 
-AtomGrid::Near AtomGrid::near(const core::Vec3f& point) const {
-    std::array<std::size_t, 9> begin{};
-    const Place place = place_of(point);
-    const auto is_before = [](const Cell& cell, const Place& other) { return cell.place < other; };
-    for (std::size_t row = 0; row < begin.size(); ++row)
-        begin[row] =
-            static_cast<std::size_t>(std::lower_bound(cells_.begin(), cells_.end() - 1,
-                                                      first_of_row(place, row), is_before) -
-                                     cells_.begin());
-    return near(place, begin);
-}
-
 } // namespace raylane::scenes

@@ -36,9 +36,6 @@ class AtomGrid {
         std::size_t count_ = 0;
     };
 
-    /// All atoms that are as near to a point as cells are wide, and others.
-    Near near(const core::Vec3f& point) const;
-
     /// Calls visit(atom, those that are as near to it, and others) for all atoms.
     template <class Visit>
     void for_each(const Visit& visit) const {

@@ -1,7 +1,7 @@
 #include "scenes/structure/selection.hpp"
 
 #include "scenes/errors.hpp"
-#include "scenes/structure/atom_grid.hpp"
+#include "scenes/structure/atom_tree.hpp"
 #include "scenes/structure/lines.hpp"
 
 #include <algorithm>
@@ -45,16 +45,10 @@ Selected atoms_within(const Structure& structure, const Selected& of, float reac
     std::vector<AtomIndex> atoms;
     for (AtomIndex i = 0; i < of.size(); ++i)
         if (of[i] != 0) atoms.push_back(i);
-    const AtomGrid grid(structure.positions, atoms, reach);
+    const AtomTree tree(structure.positions, atoms);
     Selected result = of;
-    for (AtomIndex i = 0; i < of.size(); ++i) {
-        if (result[i] != 0) continue;
-        const bool is_apart = grid.near(structure.positions[i]).each([&](AtomIndex other) {
-            const core::Vec3f apart = structure.positions[i] - structure.positions[other];
-            return !(core::dot(apart, apart) <= reach * reach);
-        });
-        result[i] = is_apart ? 0 : 1;
-    }
+    for (AtomIndex i = 0; i < of.size(); ++i)
+        if (result[i] == 0 && tree.has_within(structure.positions[i], reach)) result[i] = 1;
     return result;
 }
 

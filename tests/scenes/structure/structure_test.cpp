@@ -278,6 +278,19 @@ TEST_CASE("within finds what all distances do") {
     }
 }
 
+TEST_CASE("within takes no pairs of two dense crowds") {
+    std::vector<std::pair<const char*, Vec3f>> atoms;
+    Random random(8);
+    for (const char* const element : {"O", "C"})
+        for (int i = 0; i < 100'000; ++i)
+            atoms.emplace_back(element, raylane::core::convert<float>(
+                                            random.cube(0.01) +
+                                            raylane::core::Vec3d(element[0] == 'O' ? 0 : 3, 0, 0)));
+    const Structure structure = of_atoms(atoms);
+    CHECK(selected(structure, "within 2.9 of element O") ==
+          std::string(100'000, '1') + std::string(100'000, '0'));
+}
+
 TEST_CASE("lists of a selection end where the language goes on") {
     const Structure structure = peptide();
     CHECK(complaint(structure, "chain A an water") ==
