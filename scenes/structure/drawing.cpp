@@ -119,7 +119,8 @@ class Artist {
     }
 
     void color_by_property(const std::string& name) {
-        std::vector<std::string> names = {"element", "chain", "residue"};
+        std::vector<std::string> names = {"element"};
+        if (!structure_.residues.empty()) names.insert(names.end(), {"chain", "residue"});
         for (const AtomProperty& property : structure_.properties)
             names.push_back(property.name);
         const auto found =

@@ -5,8 +5,10 @@
 #include "scenes/structure/selection.hpp"
 #include "scenes/structure/structure_file.hpp"
 #include "tests/catch.hpp"
+#include "tests/places.hpp"
 #include "tests/random.hpp"
 #include "tests/scenes/message_of.hpp"
+#include "tests/scenes/structure/frames.hpp"
 #include "tests/scenes/temporary_directory.hpp"
 
 #include <algorithm>
@@ -126,6 +128,16 @@ TEST_CASE("masses in reduced units are no elements") {
     CHECK(symbols({1, 15.9994}, MassUnits::unknown) == "H O ");
     CHECK(symbols({1, 4}, MassUnits::daltons) == "H He ");
     CHECK(symbols({15.9994}, MassUnits::others).empty());
+}
+
+TEST_CASE("shipped atoms have their bonds and fill their cell") {
+    const auto read = [](const std::string& name, const auto& open) {
+        return frames(open, content_of(RAYLANE_SOURCE_DIR "/scenes/" + name)).at(0);
+    };
+    const Structure fullerene = read("fullerene.xyz", open_xyz);
+    CHECK(fullerene.size() == 60);
+    CHECK(find_bonds(fullerene).size() == 90);
+    if (has_gemmi()) CHECK(elements_of(read("salt.cif", open_cif)) == "Na Na Na Na Cl Cl Cl Cl ");
 }
 
 TEST_CASE("bonds are those of all pairs that are near enough") {
@@ -387,7 +399,7 @@ TEST_CASE("what cannot be drawn is said in a line") {
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "chain"; }) ==
           "--color: must not be chain here: a.xyz has no residues");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.color = "elment"; }) ==
-          "--color: must be element, chain or residue, got \"elment\", did you mean \"element\"?");
+          "--color: must be element, got \"elment\", did you mean \"element\"?");
     CHECK(error("a.xyz", one, [](LoadOptions& o) { o.drawing.show_cell = true; }) ==
           "--cell: must have a cell to show, and a.xyz has none");
     CHECK(error("a.xyz", one, [](LoadOptions& o) {
