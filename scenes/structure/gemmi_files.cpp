@@ -252,6 +252,23 @@ std::string with_fractions(const std::string& operation) {
     return result;
 }
 
+/// Returns a space group's name without the marks of subscripts ("P2(1)/c", "P 2_1/c") and without
+/// remarks in parentheses ("P 1 21/c 1 (b)").
+std::string plain_name(const std::string& name) {
+    std::string plain;
+    for (std::size_t at = 0; at < name.size(); ++at)
+        if (name[at] == '(' && at + 2 < name.size() && name[at + 1] >= '1' && name[at + 1] <= '5' &&
+            name[at + 2] == ')') {
+            plain += name[at + 1];
+            at += 2;
+        } else if (name[at] == '(') {
+            break;
+        } else if (name[at] != '_') {
+            plain += name[at];
+        }
+    return plain.substr(0, plain.find_last_not_of(' ') + 1);
+}
+
 /// A space group by its name: as it is, with the setting as ICSD has it (H, R; S and Z for origins
 /// 1 and 2), with a bar that older names leave out, or short ("F 4/m -3 2/m" is "F m -3 m").
 const gemmi::SpaceGroup* group_of(const std::string& name, const gemmi::UnitCell& cell) {
@@ -259,7 +276,7 @@ const gemmi::SpaceGroup* group_of(const std::string& name, const gemmi::UnitCell
         return gemmi::find_spacegroup_by_name(as, cell.alpha, cell.gamma);
     };
     if (const gemmi::SpaceGroup* group = find(name)) return group;
-    std::string own = name, setting;
+    std::string own = plain_name(name), setting;
     const std::size_t last = own.find_last_not_of(' ');
     if (last != std::string::npos && last > 1 && own[last - 1] == ' ')
         if (const std::size_t known = std::string("HRSZ").find(own[last]); known < 4) {
@@ -352,6 +369,30 @@ void require_coordinate(const std::string& text, const std::string& of) {
                                  "\"");
 }
 
+/// Keeps the atom of the highest occupancy, or the first one, of those that share a site, as in a
+/// solid solution.
+void keep_one_of_each_site(Sites& sites, std::vector<std::string>& remarks) {
+    std::map<std::array<double, 3>, std::size_t> at;
+    Sites kept;
+    std::string shared; // the first two elements on one site
+    for (auto& site : sites) {
+        const auto [found, is_new] =
+            at.try_emplace({site.fract.x, site.fract.y, site.fract.z}, kept.size());
+        if (is_new) {
+            kept.push_back(std::move(site));
+            continue;
+        }
+        auto& other = kept[found->second];
+        if (shared.empty() && other.element != site.element)
+            shared = other.label + " and " + site.label;
+        if (site.occ > other.occ) other = std::move(site);
+    }
+    sites = std::move(kept);
+    if (!shared.empty())
+        remarks.push_back("different elements share a site (" + shared +
+                          "): the one of the highest occupancy is shown");
+}
+
 /// The structure of a block; without the sites that have no place.
 gemmi::SmallStructure crystal_of(gemmi::cif::Block& block, std::vector<std::string>& remarks) {
     gemmi::SmallStructure structure = gemmi::make_small_structure_from_block(block);
@@ -380,6 +421,7 @@ gemmi::SmallStructure crystal_of(gemmi::cif::Block& block, std::vector<std::stri
         }
         if (!lacks) placed.push_back(of);
     }
+    keep_one_of_each_site(placed, remarks);
     structure.sites = std::move(placed);
     find_operations(block, structure, remarks);
     read_aniso_b(block, structure.sites);

@@ -70,6 +70,9 @@ TEST_CASE("a crystal's operations follow from Hall's symbol, and from names of m
     CHECK(named("F m 3 m") == 192);
     CHECK(named("F 4/m -3 2/m") == 192);
     CHECK(named("R -3 c H") == 36);
+    CHECK(named("P2(1)/c") == 4);
+    CHECK(named("P 2_1 2_1 2_1") == 4);
+    CHECK(named("P 1 21/c 1 (b)") == 4);
     CHECK(count_of("_symmetry_space_group_name_H-M 'F d -3 m S'", "0.02 0.07 0.15") == 192);
     CHECK(count_of("_symmetry_space_group_name_H-M 'F d -3 m Z'", "0.125 0.125 0.125") == 8);
     CHECK(count_of("loop_\n_symmetry_equiv_pos_as_xyz\nX,Y,Z\n'-X, 0.5-Y, Z+.25'",
@@ -84,6 +87,29 @@ TEST_CASE("groups of a disorder exclude each other") {
                                     "C1 C 0.1 0.1 0.1 . .\nC2A C 0.2 0.1 0.1 A 1\n"
                                     "N2B N 0.22 0.1 0.1 A 2\nO3 O 0.5 0.5 0.5 B 2\n";
     CHECK(elements_of(frames(open_cif, text).at(0)) == "C C O ");
+}
+
+TEST_CASE("of elements that share a site the one of the highest occupancy is shown") {
+    if (!has_gemmi()) return;
+    std::vector<std::string> remarks;
+    const auto elements = [&](const std::string& sites) {
+        remarks.clear();
+        return elements_of(frames(open_cif,
+                                  cube +
+                                      "loop_\n_atom_site_label\n_atom_site_occupancy\n"
+                                      "_atom_site_fract_x\n_atom_site_fract_y\n"
+                                      "_atom_site_fract_z\n" +
+                                      sites,
+                                  &remarks)
+                               .at(0));
+    };
+    CHECK(elements("Mg1 0.3 0 0 0\nFe1 0.7 0 0 0\nO1 1 .5 0 0\nMg2 .5 .5 .5 0\nFe2 .5 .5 .5 0\n") ==
+          "Fe O Mg ");
+    CHECK(remarks == std::vector<std::string>{
+                         "a: different elements share a site (Mg1 and Fe1): the one of the "
+                         "highest occupancy is shown"});
+    CHECK(elements("C1A 0.4 0 0 0\nC1B 0.6 0 0 0\n") == "C ");
+    CHECK(remarks.empty());
 }
 
 TEST_CASE("images of a negative disorder group exclude each other where they meet") {
