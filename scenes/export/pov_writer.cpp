@@ -112,7 +112,8 @@ class PovWriter {
                 if (misleads(scene_.material_index_of(id)) &&
                     core::inside_of(shape, eye_) == core::Value::yes)
                     differences_.insert(misled);
-                file_ << " material { " << identifiers_[scene_.material_index_of(id)] << " } }\n";
+                write_use(scene_.material_index_of(id));
+                file_ << " }\n";
             },
             write_solid_of_others);
     }
@@ -374,8 +375,16 @@ class PovWriter {
             differences_.insert("absorption");
         if (material.reflection == core::Reflection::schlick)
             differences_.insert("Schlick's reflection, which is Fresnel's there");
-        if (scene_.fog().kind == core::FogKind::exponential && material.transmits())
-            differences_.insert("fog, which is inside of transmissive bodies, too");
+    }
+
+    /// Makes the object at hand of a material, and fills it with the scene's fog if fog fills it
+    /// here.
+    void write_use(core::MaterialIndex index) {
+        const core::Material& material = scene_.materials()[index];
+        file_ << " material { " << identifiers_[index] << " }";
+        if (scene_.fog().kind == core::FogKind::exponential && material.is_see_through() &&
+            !material.transmits())
+            file_ << " hollow";
     }
 
     void write_shape(const core::SphereOf<double>& s) {
@@ -484,8 +493,7 @@ class PovWriter {
             write_solid(solid.parts[i], transparent || clips);
             if (clips && i != 0) file_ << " }";
         }
-        if (solid.material != core::no_material)
-            file_ << " material { " << identifiers_[solid.material] << " }";
+        if (solid.material != core::no_material) write_use(solid.material);
         file_ << " }";
     }
 

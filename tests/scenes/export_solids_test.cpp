@@ -162,6 +162,28 @@ TEST_CASE("unions that are seen through have no walls inside for POV-Ray") {
     }
 }
 
+TEST_CASE("fog fills panes and no glass for POV-Ray") {
+    const auto fills = [](const std::string& material, const std::string& objects) {
+        return for_povray(R"("clay": {}, "m": )" + material +
+                              R"(}, "fog": {"type": "exponential", "density": 0.05)",
+                          objects)
+                   .second.find("hollow") != std::string::npos;
+    };
+    for (const std::string& objects :
+         {R"({"type": "union", "material": "m", )" + two_balls,
+          R"({"type": "union", )" + painted_balls,
+          std::string(
+              R"({"type": "sphere", "center": [9, 0, 0], "radius": 1, "material": "m"})")}) {
+        CAPTURE(objects);
+        CHECK(fills(R"({"opacity": 0.4})", objects));
+        CHECK(!fills(R"({"transmission": 0.5})", objects));
+        CHECK(!fills("{}", objects));
+    }
+    CHECK(
+        for_povray(R"("m": {"opacity": 0.4})", R"({"type": "union", "material": "m", )" + two_balls)
+            .second.find("hollow") == std::string::npos);
+}
+
 TEST_CASE("what lenses share, and opaque solids around the camera, is told for POV-Ray") {
     const auto lenses = [](const std::string& material, const std::string& first,
                            const std::string& second) {
