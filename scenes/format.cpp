@@ -178,7 +178,8 @@ bool looks_like_lammps_data(const std::vector<std::string_view>& lines) {
 
 Format format_of(InputFile& file) {
     const auto require_any = [&](std::string_view text) {
-        if (text.empty()) throw BadInput(file.name(), "", "must be a scene, got an empty file");
+        if (text.empty())
+            throw BadInput(file.name(), "", "must be a scene or atoms, got an empty file");
     };
     require_any(file.head());
     std::filesystem::path name = file.name();

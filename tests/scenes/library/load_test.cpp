@@ -77,8 +77,8 @@ TEST_CASE("scenes are parsed from text") {
     const auto message = [](const std::string& text, const std::string& name) {
         return refusal_of([&] { parse(text, name); });
     };
-    CHECK(message("", "x") == "x: must be a scene, got an empty file");
-    CHECK(message("\xEF\xBB\xBF", "x") == "x: must be a scene, got an empty file");
+    CHECK(message("", "x") == "x: must be a scene or atoms, got an empty file");
+    CHECK(message("\xEF\xBB\xBF", "x") == "x: must be a scene or atoms, got an empty file");
     CHECK(message(nff, "x.json").starts_with("x.json:1:1: "));
     CHECK(message(nff + "s 0 0 0\n", "x").starts_with("x:11: "));
     CHECK(message("{}", "x") ==

@@ -75,9 +75,9 @@ TEST_CASE("what is no file that holds a scene is told in one line") {
     check(workshop, "out", "must be a file, got a directory");
     check(workshop, ".", "must be a file, got a directory");
     check({
-        {"an empty JSON file", "a.json", "", "must be a scene, got an empty file"},
-        {"an empty NFF file", "a.nff", "", "must be a scene, got an empty file"},
-        {"an empty file", "a", "", "must be a scene, got an empty file"},
+        {"an empty JSON file", "a.json", "", "must be a scene or atoms, got an empty file"},
+        {"an empty NFF file", "a.nff", "", "must be a scene or atoms, got an empty file"},
+        {"an empty file", "a", "", "must be a scene or atoms, got an empty file"},
         {"JSON of nothing", "a.json", " // nothing\n", "must be a scene, got an empty file"},
         {"NFF of nothing", "a.nff", "# nothing\n", "must have a v entity, got none"},
         {"no scene at all", "a", "Dear Sir,\n",

@@ -356,7 +356,7 @@ TEST_CASE("mistakes about several pictures cost one line") {
     says({"move.xyz", "--frames", "-3", "-o", "x.png"},
          "--frames: must be of the 2 frames that move.xyz has, from 0 on, got none of them\n");
     workshop.write("nothing", "");
-    says({"nothing", "--frames", "0:2"}, "nothing: must be a scene, got an empty file");
+    says({"nothing", "--frames", "0:2"}, "nothing: must be a scene or atoms, got an empty file");
     says({"move.xyz", "--frames", "0:2", "-o", "f%d.gif"}, "f0.gif: must end in");
     says({"move.xyz", "--frames", "1:1"}, "--frames: must be of at least one picture");
     says({"scene.json", "--turn", "360"}, "--turn: must be DEGREES/PICTURES");

@@ -260,7 +260,7 @@ refused() { # code, line, command...
 refused 2 "--spp: must be a square number" render "$scene" --spp 3
 refused 2 "none.json: no such file" render none.json
 refused 3 "none/a.png: cannot write" render "$scene" -o none/a.png
-refused 2 "standard input: must be a scene, got an empty file" render - </dev/null
+refused 2 "standard input: must be a scene or atoms, got an empty file" render - </dev/null
 refused 2 "none.npy: no such file" trace "$scene" none.npy
 refused 2 "err: must be an array in NumPy's format" trace "$scene" err
 
