@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 /// Points of squares that samples choose, for scalars and, as all of it is inlined, kernels.
@@ -13,8 +14,9 @@ struct SamplePoint {
 
 /// A sample of a pixel.
 struct SampleName {
-    int x, y;   ///< the pixel
-    int number; ///< of its samples
+    int x, y;       ///< the pixel
+    int number;     ///< of its samples, from 0 on; negative for its middle
+    int common = 0; ///< of its samples that all pixels have, from 0 on; 0: unknown
 };
 
 namespace detail {
@@ -84,12 +86,44 @@ inline std::uint64_t sequence_key(std::uint32_t x, std::uint32_t y, std::uint32_
         key, detail::reversed_bits(detail::flipped_by_lower(detail::reversed_bits(number), seed)));
 }
 
-/// Of a sample's points on one of its soft lights, from what it meets at that depth.
-inline std::uint64_t light_key(const SampleName& sample, int depth, std::uint32_t light,
-                               std::uint32_t lights) {
-    return sequence_key(static_cast<std::uint32_t>(sample.x), static_cast<std::uint32_t>(sample.y),
-                        SequenceUse::on_first_light + static_cast<std::uint32_t>(depth) * lights +
-                            light);
+/// Consecutive points: shuffled_point(key, first), and so on.
+struct PointRange {
+    std::uint64_t key;
+    std::uint32_t first;
+};
+
+/// Returns the points on soft light number `light` of `lights` that a sample chooses for a surface
+/// that its path meets at a depth, `count` of them.
+///
+/// Samples that all pixels have take their points from one sequence for each square of 256 x 256
+/// pixels, pixel by pixel along a Z-order curve: so not only the points of each pixel are
+/// stratified, but also those of each 2 x 2 pixels, 4 x 4 and so on. Errors of neighbours cancel:
+/// blue noise (Ahmed and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error
+/// via Hierarchical Ordering of Pixels", 2020). Further samples of a pixel have a sequence of its
+/// own.
+inline PointRange points_on_light(const SampleName& sample, std::uint32_t count, int depth,
+                                  std::uint32_t light, std::uint32_t lights) {
+    constexpr std::uint32_t side_bits = 8, most = 1U << (32 - 2 * side_bits);
+    const auto x = static_cast<std::uint32_t>(sample.x), y = static_cast<std::uint32_t>(sample.y),
+               number = static_cast<std::uint32_t>(sample.number);
+    const bool is_middle = sample.number < 0;
+    const std::uint32_t common = is_middle ? 1U : static_cast<std::uint32_t>(sample.common);
+    const std::uint32_t use =
+        SequenceUse::on_first_light + static_cast<std::uint32_t>(depth) * lights + light;
+    if ((!is_middle && number >= common) || common > most / count)
+        return {sequence_key(x, y, use), number * count};
+
+    const auto spread = [](std::uint32_t coordinate) {
+        std::uint32_t bits = 0;
+        for (std::uint32_t bit = 0; bit < side_bits; ++bit)
+            bits |= (coordinate >> bit & 1U) << 2 * bit;
+        return bits;
+    };
+    const std::uint32_t pixel = spread(x) | spread(y) << 1;
+    constexpr std::uint32_t of_middles = 1U << 30, of_others = 2U << 30;
+    return {
+        sequence_key(x >> side_bits, y >> side_bits, use + (is_middle ? of_middles : of_others)),
+        pixel * std::bit_ceil(common * count) + (is_middle ? 0U : number * count)};
 }
 
 } // namespace raylane::core

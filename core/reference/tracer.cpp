@@ -66,6 +66,7 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
         return;
     }
     RegionSamples& samples = *to_quality_;
+    const int common = survey_->first_samples();
     const auto for_each_pixel = [&](const auto& visit) {
         std::size_t number = 0;
         for (int y = region.y0; y < region.y1; ++y)
@@ -76,7 +77,7 @@ void ReferenceTracer<Real>::render(const Region& region, Film& film) {
     do {
         for_each_pixel([&](int x, int y, std::size_t pixel) {
             for (int wanted = samples.wanted(pixel); wanted > 0; --wanted)
-                samples.add(pixel, taken({x, y, samples.next(pixel)}));
+                samples.add(pixel, taken({x, y, samples.next(pixel), common}));
         });
     } while (samples.end_round());
     for_each_pixel([&](int x, int y, std::size_t pixel) {
@@ -91,7 +92,7 @@ Color ReferenceTracer<Real>::pixel(int x, int y) {
     Vector sum(0);
     Real transmittance = 0;
     for (int sample = 0; sample < samples; ++sample) {
-        sample_ = {x, y, sample};
+        sample_ = {x, y, sample, samples};
         sum += trace(camera_rays_.ray(x, y, sample));
         transmittance += transmittance_;
     }
@@ -283,12 +284,11 @@ Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& su
         const SoftLight& light = soft_lights_[number];
         const bool is_sky = light.kind == LightKind::sky;
         const SoftLightSampler<double> sampler(light);
-        const std::uint64_t key = light_key(sample_, path.depth + path.passed, number, lights);
+        const PointRange points =
+            points_on_light(sample_, count, path.depth + path.passed, number, lights);
         for (std::uint32_t k = 0; k < count; ++k) {
             const SamplePoint at =
-                is_hard
-                    ? middle_of(light)
-                    : shuffled_point(key, static_cast<std::uint32_t>(sample_.number) * count + k);
+                is_hard ? middle_of(light) : shuffled_point(points.key, points.first + k);
             const LightSample<double> sample =
                 sampler.sample(point, normal, static_cast<double>(at.x), static_cast<double>(at.y));
             const Vector to_light(Real(sample.direction.x), Real(sample.direction.y),

@@ -66,6 +66,7 @@ Wavefront::Wavefront(const SceneData& scene, const core::Settings& settings, con
             cells_.push_back(camera_rays_.in_pixel(0, 0, number));
     constexpr std::size_t most_pixels = static_cast<std::size_t>(max_region) * max_region;
     if (settings.quality == 0.0F) {
+        common_samples_ = settings.grid * settings.grid;
         sums_.reserve(most_pixels);
         transmittances_.reserve(settings.alpha ? most_pixels : 0);
         return;
@@ -186,6 +187,7 @@ void Wavefront::survey(core::Survey::Pass pass, std::size_t batch) {
 void Wavefront::render_to_quality(const core::Region& region, core::Film& film) {
     core::RegionSamples& pixels = *to_quality_;
     const auto add = adder_to(pixels);
+    common_samples_ = survey_->first_samples();
     pixels.begin(region);
     do {
         for_each_pixel(region, [&](int x, int y, std::size_t pixel) {
@@ -260,7 +262,7 @@ void Wavefront::start(std::size_t count) {
             const auto point = camera_rays_.point_at(some.x, some.y, in_pixel(some, number));
             across_[filled] = point.across;
             upward_[filled] = point.upward;
-            names_[filled++] = {some.x, some.y, number};
+            names_[filled++] = {some.x, some.y, number, common_samples_};
         }
     if (camera_rays_.has_lens())
         for (std::size_t i = 0; i < count; ++i) {
@@ -490,9 +492,10 @@ void Wavefront::add_soft_lights(int depth) {
         const core::SoftLight& light = lights[number];
         for (std::size_t i = 0; i < count; ++i) {
             const core::SampleName& sample = names_[paths_.sample[sorted_.order()[i]]];
-            light_keys_[i] =
-                core::light_key(sample, depth, number, static_cast<std::uint32_t>(lights.size()));
-            first_points_[i] = static_cast<std::uint32_t>(sample.number) * samples;
+            const core::PointRange points = core::points_on_light(
+                sample, samples, depth, number, static_cast<std::uint32_t>(lights.size()));
+            light_keys_[i] = points.key;
+            first_points_[i] = points.first;
         }
         for (std::uint32_t k = 0; k < samples; ++k) {
             if (is_hard) {

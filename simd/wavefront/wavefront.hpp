@@ -134,6 +134,7 @@ class Wavefront {
     double* radiance_[3] = {};            // by sample
     double* transmittance_ = nullptr;     // by sample, if the picture has an alpha
     std::vector<core::SampleName> names_; // by sample
+    int common_samples_ = 0;              // SampleName::common
     std::size_t filled_ = 0;              // samples of the chunk
     std::vector<core::Vec3d> sums_;       // by pixel of the region
     std::vector<double> transmittances_;  // the same

@@ -3,6 +3,7 @@
 #include "tests/catch.hpp"
 #include "tests/core/little_scene.hpp"
 
+#include <bit>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -45,6 +46,33 @@ TEST_CASE("points of a pixel's sequence are spread over it, wherever one begins"
     };
     CHECK(first_of(3, 4, 0) != first_of(4, 3, 0));
     CHECK(first_of(3, 4, 0) != first_of(3, 4, 1));
+}
+
+TEST_CASE("points on lights are spread over pixels and squares of pixels") {
+    for (const int samples : {1, 4, 16})
+        for (const std::uint32_t count : {1U, 2U})
+            for (const int side : {1, 2, 4, 8}) {
+                std::vector<SamplePoint> points;
+                for (int y = 296; y < 296 + side; ++y)
+                    for (int x = 520; x < 520 + side; ++x)
+                        for (int number = 0; number < samples; ++number) {
+                            const PointRange range =
+                                points_on_light({x, y, number, samples}, count, 1, 0, 2);
+                            for (std::uint32_t k = 0; k < count; ++k)
+                                points.push_back(shuffled_point(range.key, range.first + k));
+                        }
+                const int power = std::countr_zero(points.size());
+                CAPTURE(samples, count, side, power);
+                for (int across = 0; across <= power; ++across)
+                    CHECK(is_net(points, 1 << across, 1 << (power - across)));
+            }
+    const auto first_of = [](const SampleName& sample, std::uint32_t light) {
+        const PointRange range = points_on_light(sample, 1, 0, light, 2);
+        return shuffled_point(range.key, range.first).x;
+    };
+    CHECK(first_of({1, 2, -1, 4}, 0) != first_of({1, 2, 0, 4}, 0));
+    CHECK(first_of({1, 2, 0, 4}, 0) != first_of({1, 2, 0, 4}, 1));
+    CHECK(first_of({1, 2, 4, 4}, 0) != first_of({1, 3, 4, 4}, 0));
 }
 
 /// Else a picture has what one side of the lens sees on one side of its pixels.

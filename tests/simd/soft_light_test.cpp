@@ -137,8 +137,10 @@ TEST_CASE("a ball takes of the sky what it fills of the hemisphere", "[long]") {
         };
         const double squared = static_cast<double>(squared_length(middle));
         const double hidden = static_cast<double>(middle.y) / std::sqrt(squared) / squared;
+        // The ball's edge crosses some 150 of 64 x 64 strata, each with an error of up to one
+        // sample: a standard deviation of 1.2e-3.
         check_both(scene(100.0F), [&](const Film& film) {
-            CHECK(static_cast<double>(film.pixels()[0].x) == Approx(1.0 - hidden).margin(1e-3));
+            CHECK(static_cast<double>(film.pixels()[0].x) == Approx(1.0 - hidden).margin(4e-3));
         });
         // Beyond its reach it takes nothing.
         check_both(scene(static_cast<float>(std::sqrt(squared) - 1.01)),
