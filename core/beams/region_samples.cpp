@@ -34,15 +34,18 @@ Square RegionSamples::seen_by(int x, int y, int size) const {
 void RegionSamples::begin(const Region& region) {
     region_ = region;
     width_ = static_cast<std::size_t>(region.x1 - region.x0);
+    has_middles_ = survey_.has_middles();
     is_first_round_ = true;
-    states_.assign(static_cast<std::size_t>(region.pixels()), {});
+    Pixel pixel;
+    pixel.wanted = has_middles_ ? 1 : survey_.first_samples();
+    states_.assign(static_cast<std::size_t>(region.pixels()), pixel);
 }
 
 bool RegionSamples::end_round() {
     if (is_first_round_) {
         shown_.clear();
         for (const Pixel& pixel : states_)
-            shown_.emplace_back(pixel.middle);
+            shown_.emplace_back(pixel.first);
         for (int y = region_.y0; y < region_.y1; y += square_size)
             for (int x = region_.x0; x < region_.x1; x += square_size)
                 look_at(Region{x, y, x + square_size, y + square_size}.within(region_));
@@ -102,7 +105,7 @@ bool RegionSamples::hides(Pixel& pixel, int x, int y) {
         }
     }
     std::erase_if(pixel.hidden, [&](ShapeId id) {
-        return pixel.samples.has_seen(id) || (count == 0 && id == pixel.middle.shape);
+        return pixel.samples.has_seen(id) || (count == 0 && id == pixel.first.shape);
     });
     pixel.may_hide = !pixel.hidden.empty() && count < most_unseen_;
     return pixel.may_hide;

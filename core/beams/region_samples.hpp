@@ -11,7 +11,8 @@ namespace raylane::core {
 /// Which samples the pixels of a region want in a picture of a quality (Settings::quality). Round
 /// after round, each is given all that it wants, in order, until none wants any more:
 ///
-/// 1. Its middle, one sample. That is enough if the neighbours have about the same.
+/// 1. Its middle, one sample, if the survey expects it to be enough for some pixels: for those whose
+///    neighbours have about the same.
 /// 2. The others start again, with points of a sequence, and want as many again until the picture's
 ///    survey says that they have enough. So do those in which a shape far thinner than a pixel may
 ///    show, which beams look for, until a sample has seen it, or there are so many that it would be
@@ -34,31 +35,30 @@ class RegionSamples {
     int taken(std::size_t pixel) const { return std::max(1, states_[pixel].samples.count()); }
     /// The number of the next sample.
     int next(std::size_t pixel) const {
-        return is_first_round_ ? middle_sample : states_[pixel].samples.count();
+        return has_middles_ && is_first_round_ ? middle_sample : states_[pixel].samples.count();
     }
     void add(std::size_t pixel, const Sample& sample) {
-        if (is_first_round_)
-            states_[pixel].middle = sample;
-        else
-            states_[pixel].samples.add(sample);
+        Pixel& at = states_[pixel];
+        if (is_first_round_ && at.samples.count() == 0) at.first = sample;
+        if (!has_middles_ || !is_first_round_) at.samples.add(sample);
     }
     /// False if no pixel wants any more.
     bool end_round();
     Color mean(std::size_t pixel) const {
         const Pixel& at = states_[pixel];
-        return at.samples.count() == 0 ? convert<float>(at.middle.color) : at.samples.mean();
+        return at.samples.count() == 0 ? convert<float>(at.first.color) : at.samples.mean();
     }
     float alpha(std::size_t pixel) const {
         const Pixel& at = states_[pixel];
-        return at.samples.count() == 0 ? static_cast<float>(1.0 - at.middle.transmittance)
+        return at.samples.count() == 0 ? static_cast<float>(1.0 - at.first.transmittance)
                                        : at.samples.alpha();
     }
 
   private:
     struct Pixel {
         PixelSamples samples;
-        Sample middle;
-        int wanted = 1;
+        Sample first; ///< its middle, if the first round takes middles
+        int wanted = 0;
         double around = 0.0; ///< variance
         bool may_hide = false;
         std::uint8_t closer_looks = 0;
@@ -81,7 +81,7 @@ class RegionSamples {
     BeamTracer beams_;
     Region region_{};
     std::size_t width_ = 0;
-    bool is_first_round_ = false;
+    bool has_middles_ = false, is_first_round_ = false;
     std::vector<Pixel> states_;
     std::vector<Shown> shown_; // by pixel, of the first round
     std::vector<BeamCandidate> in_pixel_;

@@ -32,6 +32,10 @@ constexpr double anywhere = 1.0;
 /// Over twelve scenes this pair took 2 % more samples than the best pair for each scene.
 constexpr double within = 0.5, worth_of_around = 8.0;
 
+/// A sample of a later round costs as much as this many of the first: its neighbours are not always
+/// sampled, too, and rays apart from each other share less work.
+constexpr double scattered = 1.3;
+
 /// Decibels above the quality of the settings, because the estimate scatters.
 constexpr double margin = 1.0;
 
@@ -216,10 +220,17 @@ Survey::Outcome Survey::outcome_of(const Policy& policy) const {
         while (samples_at(stage) < RegionSamples::most_samples && !is_done())
             ++stage;
         all.squared_error += record.weight * squared_error_at(record, stage);
-        all.samples += record.weight * (samples_at(stage) + (stage > 0 ? 1 : 0));
+        all.cost += record.weight * cost_of(samples_at(stage), policy);
         weights += record.weight;
     }
-    return {all.squared_error / weights, all.samples / weights};
+    return {all.squared_error / weights, all.cost / weights};
+}
+
+/// The cost of a pixel's samples, in samples of the first round.
+double Survey::cost_of(int samples, const Policy& policy) {
+    const int first = policy.has_middles() ? 1 : std::max(policy.fewest, samples_at(1));
+    if (samples <= first) return first;
+    return first + scattered * (policy.has_middles() ? samples : samples - first);
 }
 
 /// Finds the largest limit of each policy that has the quality, by halving, as the error grows with
@@ -239,12 +250,12 @@ void Survey::choose_policy() {
             }
             policy.limit = core::pow(2.0, low);
             const Outcome outcome = outcome_of(policy);
-            const double samples =
+            const double cost =
                 outcome.squared_error <= asked
-                    ? outcome.samples
+                    ? outcome.cost
                     : RegionSamples::most_samples * outcome.squared_error / asked;
-            if (samples < least) {
-                least = samples;
+            if (cost < least) {
+                least = cost;
                 policy_ = policy;
             }
         }

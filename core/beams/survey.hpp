@@ -44,6 +44,8 @@ class Survey {
         int count; ///< of these samples
     };
     bool is_done(const Known& pixel) const { return is_done(pixel, policy_); }
+    /// True if pixels begin with one sample at their middle, which is enough for some of them.
+    bool has_middles() const { return policy_.has_middles(); }
     /// How many samples a pixel gets first if its middle is not enough.
     int first_samples() const { return std::max(policy_.fewest, samples_at(1)); }
 
@@ -92,13 +94,16 @@ class Survey {
         int fewest = 1;
         bool spares_alike = true; ///< one sample is enough where all neighbours are equal
         double limit = 0.0;
+
+        bool has_middles() const { return spares_alike || fewest == 1; }
     };
     struct Outcome {
-        double squared_error = 0.0, samples = 0.0; ///< of a pixel, in the mean
+        double squared_error = 0.0, cost = 0.0; ///< of a pixel, in the mean
     };
 
     static double likely_variance(const Known& pixel);
     static bool is_done(const Known& pixel, const Policy& policy);
+    static double cost_of(int samples, const Policy& policy);
     void choose_records();
     void choose_policy();
     void fit_errors();
