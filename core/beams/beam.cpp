@@ -15,7 +15,7 @@ BeamCone::BeamCone(const Beam& beam) {
     width_ = length(of_origin) * more;
     growth_ = length(of_direction) * more;
     per_speed_ = 1.0 / speed;
-    // Where rays may run beside the axis there is no last t.
+    // If rays may run beside the axis, no upper bound on t exists.
     const double approach = speed * less - growth_;
     per_approach_ = approach > 0.0 ? 1.0 / approach : std::numeric_limits<double>::infinity();
 }
@@ -33,7 +33,8 @@ BeamSlabs::BeamSlabs(const Beam& beam) {
     }
 }
 
-/// What hardly moves, either way, may as well rise a little: that bounds t by less.
+/// Returns the line of a speed. A speed near 0, of either sign, is replaced by a small positive
+/// one, which gives a weaker bound on t.
 BeamSlabs::Line BeamSlabs::line(double speed) {
     constexpr double least = 0x1p-100;
     if (std::abs(speed) < least) speed = least;

@@ -10,11 +10,11 @@
 #include <limits>
 #include <utility>
 
-/// Bundles of rays that are followed as one: what holds for a beam holds for each of its rays.
+/// Bundles of rays that are traced as one: a statement about a beam holds for each of its rays.
 namespace raylane::core {
 
-/// Judge of all rays of a beam: an answer that is not the same for all is a doubt. What is in doubt
-/// is answered as for the middle; or, to bound t from below, as if no ray missed.
+/// Judge of all rays of a beam. An answer that differs between rays is a doubt. The answer in doubt
+/// is that of the middle ray; or, to bound t from below, the answer of a ray that hits.
 template <>
 class Judge<Affine> {
   public:
@@ -36,7 +36,7 @@ class Judge<Affine> {
     bool less(const Affine& a, const Affine& b) { return negative(a - b); }
     bool doubt() const { return doubt_; }
 
-    /// Where a doubt concerns one crossing alone, its error says so: it is infinite.
+    /// A doubt that concerns one crossing alone sets the error of that crossing to infinity.
     static bool is_doubtful(const Crossing<Affine>& crossing) { return !(crossing.error == 0.0); }
     void keep_first(Crossing<Affine>& kept, const Crossing<Affine>& other) {
         keep(kept, other, kept.t - other.t, [](double a, double b) { return std::min(a, b); });
@@ -44,8 +44,8 @@ class Judge<Affine> {
     void keep_last(Crossing<Affine>& kept, const Crossing<Affine>& other) {
         keep(kept, other, other.t - kept.t, [](double a, double b) { return std::max(a, b); });
     }
-    /// True if rays start between two planes and some may go to either: they come in before they
-    /// start, and go out not before `out_after_`.
+    /// Returns true if rays start between two planes and some of them may go to either plane. Such
+    /// rays enter before they start, and leave no earlier than `out_after_`.
     bool is_along(const Affine& start, const Affine& slope, const Affine& end) {
         const Affine rest = end - start;
         if (std::abs(slope.value) > slope.spread() || !(start.lower() > 0.0) ||
@@ -55,7 +55,7 @@ class Judge<Affine> {
             std::min(out_after_, 0.999 * std::min(start.lower(), rest.lower()) / slope.magnitude());
         return true;
     }
-    /// What is left of a line, null if there is none, has to be within that.
+    /// Checks that the rest of a line is within `out_after_`. Null: the line has no such end.
     void settle(const Crossing<Affine>* in, const Crossing<Affine>* out) {
         if (out_after_ == std::numeric_limits<double>::infinity()) return;
         doubt_ |= in == nullptr || out == nullptr || !(in->t.lower() > 0.0) ||
@@ -71,8 +71,8 @@ class Judge<Affine> {
     }
 
   private:
-    /// Keeps the other if `better`, that it is so by, is positive. If that is in doubt, bounds of
-    /// what `best_of` says.
+    /// Keeps `other` if `better`, the amount by which it is better, is positive. If the sign is in
+    /// doubt, keeps bounds on `best_of` of both.
     template <class BestOf>
     static void keep(Crossing<Affine>& kept, const Crossing<Affine>& other, const Affine& better,
                      const BestOf& best_of) {
@@ -96,14 +96,15 @@ class Judge<Affine> {
 /// Rays whose origins and directions depend on two parameters.
 using Beam = Ray<Affine>;
 
-/// A beam as an axis and how far its rays may be from it: balls that it surely misses are found in
-/// a fraction of the time that their crossings take.
+/// A beam as an axis and a bound on the distance of its rays from the axis. Finds balls that the
+/// beam certainly misses, in a fraction of the time that their crossings take.
 class BeamCone {
   public:
     explicit BeamCone(const Beam& beam);
 
-    /// True if no ray meets a ball at t >= 0. A ray's point at t is within width + t growth of the
-    /// axis'; so if it is in the ball, the axis' is in a larger one, and t is not above `last`.
+    /// Returns true if no ray meets a ball at t >= 0. The point of each ray at t is within width +
+    /// t growth of the axis' point at t. If the ray's point is in the ball, the axis' point is
+    /// therefore in a larger ball, and t is not above `last`.
     bool misses(const Vec3d& center, double r) const {
         const Vec3d to_center = center - origin_;
         const double squared = squared_length(to_center), along = dot(to_center, direction_);
@@ -120,20 +121,20 @@ class BeamCone {
     double per_speed_, per_approach_; // 1 / |direction|, 1 / (|direction| - growth)
 };
 
-/// Boxes of a block's shapes, as a WideNode has those of its children.
+/// Boxes of a block's shapes, laid out like a WideNode's boxes of its children.
 struct alignas(64) BlockBounds {
     float lower[3][block_size];
     float upper[3][block_size];
 };
 
-/// Which boxes a beam may meet: each axis bounds t by two lines, as a ray's slabs do. In float,
-/// with what that is off by on the safe side.
+/// Tells which boxes a beam may meet. Each axis bounds t by two lines, as a ray's slabs do.
+/// Computes in float and rounds to the safe side.
 class BeamSlabs {
   public:
     explicit BeamSlabs(const Beam& beam);
 
-    /// Lower bounds on t where the beam may meet boxes; infinite where it misses them. Of `Boxes`
-    /// that has lower and upper[3][block_size].
+    /// Computes lower bounds on t for boxes that the beam may meet, and infinity for boxes that it
+    /// misses. `Boxes` has lower and upper[3][block_size].
     template <class Boxes>
     void near(const Boxes& boxes, float (&near)[block_size]) const {
         for (int first = 0; first < block_size; first += 4) {
@@ -142,11 +143,11 @@ class BeamSlabs {
         }
     }
 
-    /// The same of one box.
+    /// Same, for one box.
     float near(const Bounds& box) const;
 
   private:
-    /// t speed >= way, that is t >= way / speed or, for a negative one, t <= way / speed.
+    /// t speed >= way: t >= way / speed or, for a negative speed, t <= way / speed.
     struct Line {
         float per_speed;
         bool rises;
@@ -171,7 +172,7 @@ class BeamSlabs {
             fastest_[axis].bound(low - all4(highest_[axis]), enters, leaves);
             slowest_[axis].bound(all4(lowest_[axis]) - high, enters, leaves);
         }
-        // Each was rounded a few times.
+        // Each bound was rounded a few times.
         enters *= all4(1.0F - 0x1p-20F);
         return enters <= leaves * all4(1.0F + 0x1p-20F)
                    ? enters

@@ -9,7 +9,7 @@ namespace raylane::core {
 
 namespace {
 
-/// Blocks whose bounds are held: 3 MB.
+/// Maximum number of blocks in the cache of bounds: 3 MB.
 constexpr std::size_t most_held = 8192;
 
 constexpr float far = std::numeric_limits<float>::infinity();
@@ -55,7 +55,7 @@ BeamSearch::BeamSearch(const Scene& scene) : scene_(scene) {
 }
 
 const BlockBounds& BeamSearch::bounds_of(const Child& block) {
-    constexpr std::size_t apart = 0x9e37; // of kinds whose indices are alike
+    constexpr std::size_t apart = 0x9e37; // separates kinds with equal indices
     const std::size_t place = block.index() + apart * static_cast<std::size_t>(block.kind());
     Held& held = held_[place & (held_.size() - 1)];
     if (held.any && held.index == block.index() && held.kind == block.kind()) return held.bounds;
@@ -119,15 +119,15 @@ void BeamSearch::add(const Child& block, int lane, const BlockBounds& all, float
 
 namespace {
 
-/// crossings(), all of it in one function.
+/// crossings(), inlined into one function.
 template <class Shape>
 [[gnu::flatten]] Crossings<Affine> meetings(const Shape& shape, const Beam& beam,
                                             Judge<Affine>& judge) {
     return crossings(shape, beam, Start{}, judge);
 }
 
-/// A crossing that is not behind the first of any ray that meets the shape. Where nothing is known,
-/// it may be infinitely far in front.
+/// Returns a crossing that is not behind the first crossing of any ray that meets the shape. Where
+/// nothing is known, its t may be any number.
 template <class Shape>
 Crossing<Affine> first_possible(const Shape& shape, const Beam& beam) {
     Judge<Affine> judge = Judge<Affine>::that_lets_none_miss();
@@ -139,7 +139,7 @@ Crossing<Affine> first_possible(const Shape& shape, const Beam& beam) {
 
 } // namespace
 
-/// Where a beam meets a shape first, on the side that can be seen.
+/// Finds where a beam meets a shape first, on the visible side.
 BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& beam,
                                  const BeamCone& cone) const {
     if (candidate.kind == Kind::sphere) {
@@ -155,7 +155,7 @@ BeamSearch::Met BeamSearch::meet(const BeamCandidate& candidate, const Beam& bea
             if (crossing.t.upper() < 0.0) continue;
             if (!(crossing.t.lower() > 0.0)) return {Met::partly, crossing};
             if (Judge<Affine>::is_doubtful(crossing)) return {Met::partly, crossing};
-            // Whether a part is the surface of its solid is not known.
+            // A part may or may not be the surface of its solid here.
             if (scene_.solids().has(candidate.id)) return {Met::partly, crossing};
             if (material.is_seen(crossing.entering)) return {Met::whole, crossing};
         }
@@ -170,7 +170,7 @@ void BeamSearch::keep_first(const Beam& beam, std::vector<BeamCandidate>& candid
                   return a.near != b.near ? a.near < b.near : a.id < b.id;
               });
 
-    // The first surface that all rays meet, whatever some may meet before.
+    // The first surface that all rays meet, whatever some of them meet before it.
     ShapeId covering = no_shape;
     Affine covered_at;
     met_.clear();
@@ -187,7 +187,7 @@ void BeamSearch::keep_first(const Beam& beam, std::vector<BeamCandidate>& candid
         met_.push_back(t);
         candidates[count++] = candidate;
     }
-    // But for those that are surely behind it.
+    // Drops shapes that are certainly behind it.
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i)
         if (covering == no_shape || candidates[i].id == covering ||

@@ -8,7 +8,7 @@ namespace raylane::core {
 
 namespace {
 
-// Across a shape where it is narrowest, in units of length, or about that.
+// Width of a shape where it is narrowest, in units of length, roughly.
 double width_of(const SphereOf<double>& sphere) {
     return 2.0 * sphere.radius;
 }
@@ -76,7 +76,7 @@ bool BeamTracer::shows_thin(const Square& square) {
     return !thin_.empty() && thin_.size() <= most_thin;
 }
 
-/// At its bounds' middle.
+/// Compares the shape's width with the size of a pixel at the middle of its bounds.
 bool BeamTracer::is_thin(const BeamCandidate& candidate) const {
     return with_table(scene_.shapes(), candidate.kind, [&]<class Shape>(const Table<Shape>& table) {
         if constexpr (is_bounded<Shape>) {
@@ -101,7 +101,7 @@ void BeamTracer::keep_shown(const Square& square, const std::vector<BeamCandidat
     });
 }
 
-/// Notes the asked shapes of each of the smallest parts.
+/// Notes the shapes of `asked` that may show, for each of the smallest parts.
 void BeamTracer::find_shown(const Square& square, const std::vector<BeamCandidate>& shown,
                             int halvings, const std::vector<ShapeId>& asked) {
     std::vector<BeamCandidate>& closer = closer_[static_cast<std::size_t>(halvings) - 1];

@@ -10,27 +10,29 @@
 
 namespace raylane::core {
 
-/// A square of the picture, in pixels from its upper left corner.
+/// A square of the image, in pixels from its upper left corner.
 struct Square {
     double x, y;
     double size; ///< a side
 };
 
-/// Finds shapes that may show in squares of the picture, by beams of all rays through them. It is
-/// done in plain double, so that it depends on scene and settings alone. To be used by one thread.
+/// Finds shapes that may show in squares of the image, by beams of all rays through them. Computes
+/// in plain double, so that the result depends on scene and settings alone. For use by one thread.
 class BeamTracer {
   public:
     BeamTracer(const Scene& scene, const Settings& settings);
 
-    /// True if shapes thinner than a pixel may show in a square, but not so many that its samples
-    /// will see them anyway. No beam looks through a lens: it shows all that is thin as a blur.
+    /// Returns true if shapes thinner than a pixel may show in a square, but not so many of them
+    /// that its samples will see them anyway. Returns false for cameras with a lens, which blurs
+    /// thin shapes.
     bool shows_thin(const Square& square);
-    /// These shapes, and all that may show; until the next call.
+    /// The thin shapes, and all shapes that may show. Valid until the next call of shows_thin.
     const std::vector<ShapeId>& thin() const { return thin_; }
     const std::vector<BeamCandidate>& shown() const { return shown_; }
 
-    /// Looks at the 4^halvings parts of a square, and keeps the shapes that may show in at least so
-    /// many of them. `shown` is shown() of the square; halvings >= 1.
+    /// Tests the 4^halvings parts of a square, and keeps the shapes of `asked` that may show in at
+    /// least `least_parts` of them. `shown` is shown() of the square; 1 <= halvings <=
+    /// most_halvings.
     void keep_shown(const Square& square, const std::vector<BeamCandidate>& shown, int halvings,
                     int least_parts, std::vector<ShapeId>& asked);
     static constexpr int most_halvings = 4;
@@ -49,7 +51,7 @@ class BeamTracer {
     BeamSearch search_;
     std::vector<BeamCandidate> shown_;
     std::vector<ShapeId> thin_, found_, parts_shown_;
-    std::array<std::vector<BeamCandidate>, most_halvings> closer_; // by halvings that are left
+    std::array<std::vector<BeamCandidate>, most_halvings> closer_; // by remaining halvings
 };
 
 } // namespace raylane::core

@@ -6,15 +6,16 @@ namespace raylane::core {
 
 namespace {
 
-/// How much more a small step of a linear component is as the film shows it, squared: of the square
-/// root, which is near to the curve of IEC 61966-2-1, and no steeper than that.
+/// Returns the squared slope of the film's transfer curve at a linear component. For sRGB this is
+/// the slope of the square root, which is close to the curve of IEC 61966-2-1, limited to the
+/// curve's steepest slope.
 double squared_slope(double linear, Transfer transfer) {
     constexpr double steepest = 12.92;
     if (transfer == Transfer::linear) return 1.0;
     return std::min(steepest * steepest, 0.25 / std::max(linear, 1e-4));
 }
 
-/// The background, the last of four channels, counts as three of white.
+/// The background, the last of four channels, counts as three channels of white.
 constexpr std::size_t channels_of_film[] = {0, 1, 2, 3, 3, 3};
 
 } // namespace

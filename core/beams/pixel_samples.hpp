@@ -10,21 +10,24 @@
 
 namespace raylane::core {
 
-/// What a sample shows.
+/// The result of one sample.
 struct Sample {
     Vec3d color;              ///< linear RGB
-    ShapeId shape = no_shape; ///< that the camera's ray hits first
-    /// The share of the background that is seen straight on and left out (Settings::alpha), or 0.
+    ShapeId shape = no_shape; ///< the first shape that the camera's ray hits
+    /// Share of the background that is visible in a straight line and left out (Settings::alpha),
+    /// or 0.
     double transmittance = 0.0;
 };
 
-/// The sample of a pixel that is at its middle; the others are points of a sequence, from 0 on.
+/// Number of the sample at the middle of a pixel. The other samples are points of a sequence,
+/// numbered from 0.
 inline constexpr int middle_sample = -1;
 
-/// The place of sample `number` in pixel (x, y), from the upper left corner, before the filter.
+/// Returns the position of sample `number` in pixel (x, y), relative to the upper left corner,
+/// before the filter is applied.
 SamplePoint place_in_pixel(int x, int y, int number);
 
-/// A sample in about the scale of the film: square roots of the components, 1 at most, and the
+/// A sample in roughly the scale of the film: square roots of the components, at most 1, and of the
 /// share of the background, which counts as white.
 struct Shown {
     std::array<float, 4> channels{};
@@ -33,7 +36,7 @@ struct Shown {
     explicit Shown(const Sample& sample);
 };
 
-/// Variance of the middles of a pixel and its neighbours, at most nine.
+/// Returns the variance of the middle samples of a pixel and its neighbours, at most nine of them.
 double variance_around(std::span<const Shown> middles);
 
 /// The mean of samples.
@@ -47,7 +50,7 @@ class PixelSamples {
   public:
     int count() const { return count_; }
     Color mean() const { return convert<float>(Vec3d(sum_ / static_cast<double>(count_))); }
-    /// In double, and of the background.
+    /// Mean in double, including the background.
     Mean exact_mean() const {
         const double n = count_;
         return {sum_ / n, seen_sum_[of_background] / n};
@@ -56,7 +59,7 @@ class PixelSamples {
         return static_cast<float>(1.0 - seen_sum_[of_background] / static_cast<double>(count_));
     }
 
-    /// To be called in the order of the samples' numbers.
+    /// Adds a sample. Call in the order of the samples' numbers.
     void add(const Sample& sample) {
         ++count_;
         sum_ += sample.color;
@@ -71,26 +74,28 @@ class PixelSamples {
             shapes_[shapes_count_++] = sample.shape;
     }
 
-    /// True if a sample has hit the shape, or, for no_shape, none. Of the first `most_shapes`.
+    /// Returns true if a sample has hit the shape, or, for no_shape, has hit nothing. Knows the
+    /// first `most_shapes` shapes only.
     bool has_seen(ShapeId shape) const {
         return std::find(shapes_.begin(), shapes_.begin() + shapes_count_, shape) !=
                shapes_.begin() + shapes_count_;
     }
 
-    /// The sum of squares about the mean in the scale of the film, averaged over the channels.
+    /// Returns the sum of squares about the mean in the scale of the film, averaged over the
+    /// channels.
     double squares_shown(Transfer transfer) const;
 
     static constexpr int most_shapes = 8;
 
   private:
-    /// What is left out of the background is seen as if that were white.
+    /// The share of the background that is left out counts as white.
     static constexpr std::size_t of_background = 3, channels = 4;
 
     int count_ = 0;
     std::size_t shapes_count_ = 0;
     std::array<ShapeId, most_shapes> shapes_{};
     Vec3d sum_{0.0};
-    // Of colours as the film has them, 1 at most, and of the background.
+    // Sums over the colours clamped to [0, 1], and over the background's share.
     std::array<double, channels> seen_sum_{}, seen_squares_{};
 };
 

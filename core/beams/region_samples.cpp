@@ -8,8 +8,8 @@ namespace raylane::core {
 
 namespace {
 
-/// What all of n samples have missed is some 1 / n of the pixel or less; n is this much per error
-/// that the picture may have.
+/// A feature that n samples have all missed covers about 1 / n of the pixel or less. The required n
+/// is this constant divided by the allowed error of the image.
 constexpr double of_unseen = 6.4;
 
 int most_unseen_of(double quality) {
@@ -25,7 +25,7 @@ RegionSamples::RegionSamples(const Scene& scene, const Settings& settings, const
       most_unseen_(most_unseen_of(static_cast<double>(settings.quality))), beams_(scene, settings) {
 }
 
-/// What the filters of a square's pixels reach.
+/// Returns the square that the filters of a square's pixels reach.
 Square RegionSamples::seen_by(int x, int y, int size) const {
     const double beyond = reach_of(settings_.filter) - 0.5;
     return {x - beyond, y - beyond, size + 2.0 * beyond};
@@ -83,11 +83,13 @@ void RegionSamples::look_closer(Pixel& pixel, int x, int y) {
     pixel.wanted = is_done ? 0 : count != 0 ? count : survey_.first_samples();
 }
 
-/// True if a thin shape may show in a pixel that its samples have not shown, and they are few.
+/// Returns true if a thin shape may show in a pixel, no sample has hit it, and the samples are
+/// still few.
 bool RegionSamples::hides(Pixel& pixel, int x, int y) {
     if (!pixel.may_hide) return false;
     const int count = pixel.samples.count();
-    // The longer it stays hidden, the more it is worth to find out whether it can be seen at all.
+    // The longer a shape stays hidden, the more effort is justified to find out whether it is
+    // visible.
     struct CloserLook {
         int at, halvings, least_parts;
     };

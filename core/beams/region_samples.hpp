@@ -8,24 +8,24 @@
 
 namespace raylane::core {
 
-/// Which samples the pixels of a region want in a picture of a quality (Settings::quality). Round
-/// after round, each is given all that it wants, in order, until none wants any more:
+/// Chooses the samples of a region's pixels in an image of a given quality (Settings::quality). In
+/// each round every pixel gets all the samples that it wants, in order, until no pixel wants more:
 ///
-/// 1. Its middle, one sample, if the survey expects it to be enough for some pixels: for those whose
-///    neighbours have about the same.
-/// 2. The others start again, with points of a sequence, and want as many again until the picture's
-///    survey says that they have enough. So do those in which a shape far thinner than a pixel may
-///    show, which beams look for, until a sample has seen it, or there are so many that it would be
-///    too small to matter.
+/// 1. Each pixel gets one sample at its middle, if the survey expects this to be enough for some
+///    pixels: for those whose neighbours are about equal.
+/// 2. The other pixels start again with points of a sequence. They double their samples until the
+///    image's survey finds them sufficient. Pixels in which beams find that a shape far thinner
+///    than a pixel may show continue until a sample hits the shape, or until the shape would be too
+///    small to matter.
 ///
-/// What a pixel gets depends on scene and settings alone. To be used by one thread.
+/// The samples of a pixel depend on scene and settings alone. For use by one thread.
 class RegionSamples {
   public:
-    /// `survey` is finished before the first round ends.
+    /// `survey` must be finished before the first round ends.
     RegionSamples(const Scene& scene, const Settings& settings, const Survey& survey);
 
-    /// Pixels on a side of the squares that are looked at together: regions consist of whole ones,
-    /// but at the picture's right and lower edges.
+    /// Side, in pixels, of the squares that are tested together. Regions consist of whole squares,
+    /// except at the image's right and lower edges.
     static constexpr int square_size = 16;
     static constexpr int most_samples = 1024;
 
@@ -42,7 +42,7 @@ class RegionSamples {
         if (is_first_round_ && at.samples.count() == 0) at.first = sample;
         if (!has_middles_ || !is_first_round_) at.samples.add(sample);
     }
-    /// False if no pixel wants any more.
+    /// Ends a round. Returns false if no pixel wants more samples.
     bool end_round();
     Color mean(std::size_t pixel) const {
         const Pixel& at = states_[pixel];
@@ -76,14 +76,14 @@ class RegionSamples {
 
     Settings settings_;
     const Survey& survey_;
-    /// Samples of a pixel in which a thin shape may show that none of them does.
+    /// Maximum number of samples for a pixel whose thin shapes no sample has hit.
     int most_unseen_;
     BeamTracer beams_;
     Region region_{};
     std::size_t width_ = 0;
     bool has_middles_ = false, is_first_round_ = false;
     std::vector<Pixel> states_;
-    std::vector<Shown> shown_; // by pixel, of the first round
+    std::vector<Shown> shown_; // by pixel, from the first round
     std::vector<BeamCandidate> in_pixel_;
 };
 

@@ -11,7 +11,7 @@ namespace raylane::core {
 
 namespace {
 
-/// How many of n pixels a pass takes: n / dense, and of large pictures n / sparse, within bounds.
+/// How many of n pixels a pass takes: n / dense, or n / sparse for large images, within bounds.
 struct Fraction {
     std::size_t dense, fewest, sparse, most;
 
@@ -24,19 +24,20 @@ struct Fraction {
 constexpr Fraction places{6, 4096, 32, 16384}, sampled{24, 2048, 256, 4096};
 /// Places in a batch.
 constexpr std::size_t batch_places = 128;
-/// The chance of a place grows with its deviation. This part of the mean deviation is added, so
-/// that no place is left out.
+/// The chance of a place grows with its deviation. This multiple of the mean deviation is added to
+/// it, so that no place is left out.
 constexpr double anywhere = 1.0;
 
-/// A pixel's variance is taken for half of the variance around it, with the weight of 8 samples.
-/// Over twelve scenes this pair took 2 % more samples than the best pair for each scene.
+/// The estimate of a pixel's variance starts from half of the variance around it, with the weight
+/// of 8 samples. Over twelve scenes this pair took 2 % more samples than the best pair for each
+/// scene.
 constexpr double within = 0.5, worth_of_around = 8.0;
 
-/// A sample of a later round costs as much as this many of the first: its neighbours are not always
-/// sampled, too, and rays apart from each other share less work.
+/// The cost of a sample of a later round, in samples of the first: its neighbours may not be
+/// sampled, and scattered rays share less work.
 constexpr double scattered = 1.3;
 
-/// Decibels above the quality of the settings, because the estimate scatters.
+/// Decibels above the quality of the settings: a margin because the estimate scatters.
 constexpr double margin = 1.0;
 
 std::size_t pixels_of(const Settings& settings) {
@@ -115,7 +116,7 @@ bool Survey::Samples::end_round() {
     return is_any;
 }
 
-/// False if it was the last.
+/// Returns false if the stage was the last.
 bool Survey::Samples::end_stage(Pixel& pixel) const {
     const Transfer transfer = survey_.settings_.transfer;
     Record& record = survey_.records_[pixel.number];
@@ -226,15 +227,15 @@ Survey::Outcome Survey::outcome_of(const Policy& policy) const {
     return {all.squared_error / weights, all.cost / weights};
 }
 
-/// The cost of a pixel's samples, in samples of the first round.
+/// Returns the cost of a pixel's samples, in samples of the first round.
 double Survey::cost_of(int samples, const Policy& policy) {
     const int first = policy.has_middles() ? 1 : std::max(policy.fewest, samples_at(1));
     if (samples <= first) return first;
     return first + scattered * (policy.has_middles() ? samples : samples - first);
 }
 
-/// Finds the largest limit of each policy that has the quality, by halving, as the error grows with
-/// the limit.
+/// Finds the largest limit of each policy that reaches the quality, by bisection, as the error
+/// grows with the limit. Chooses the cheapest policy.
 void Survey::choose_policy() {
     fit_errors();
     const double asked = core::pow(10.0, -(static_cast<double>(settings_.quality) + margin) / 10.0);
@@ -250,10 +251,9 @@ void Survey::choose_policy() {
             }
             policy.limit = core::pow(2.0, low);
             const Outcome outcome = outcome_of(policy);
-            const double cost =
-                outcome.squared_error <= asked
-                    ? outcome.cost
-                    : RegionSamples::most_samples * outcome.squared_error / asked;
+            const double cost = outcome.squared_error <= asked
+                                    ? outcome.cost
+                                    : RegionSamples::most_samples * outcome.squared_error / asked;
             if (cost < least) {
                 least = cost;
                 policy_ = policy;

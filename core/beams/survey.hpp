@@ -9,17 +9,19 @@
 
 namespace raylane::core {
 
-/// Decides how many samples the pixels of a picture of a quality get (Settings::quality). It
-/// samples some pixels beforehand, estimates the picture's error and cost under several policies,
-/// and chooses the cheapest policy that has the quality.
+/// Decides how many samples the pixels of an image of a given quality get (Settings::quality).
+/// Samples some pixels beforehand, estimates the image's error and cost under several policies, and
+/// chooses the cheapest policy that reaches the quality.
 ///
 /// Under a policy a pixel is done when its variance is at most limit * n^2 for its n samples, and n
 /// is at least `fewest`. One more sample then lowers the squared error by the same amount in every
 /// pixel.
 class Survey {
-    /// Samples of a pixel: 1, its middle, or 4, 8, ... 64; as a limit may ask for, further.
+    /// Stages of a pixel: 1 sample, at its middle, then 4, 8, ... 64. A limit may require further
+    /// stages.
     static constexpr std::size_t stages = 6;
-    static constexpr std::size_t measured_stages = 5; ///< but for the last, which errors are from
+    static constexpr std::size_t measured_stages =
+        5; ///< all but the last, which is the reference for errors
     static constexpr int samples_at(std::size_t stage) { return stage == 0 ? 1 : 2 << stage; }
     /// The stage of a pixel with `count` samples, not counting its middle.
     static std::size_t stage_of(int count) {
@@ -29,11 +31,11 @@ class Survey {
   public:
     explicit Survey(const Settings& settings);
 
-    /// The first pass looks at the surroundings of many places. The second one samples fewer
-    /// pixels, most of them where the surroundings differ. Batches of a pass are independent.
+    /// The first pass samples the neighbourhoods of many places. The second pass samples fewer
+    /// pixels, most of them where neighbours differ. Batches of a pass are independent.
     enum class Pass : std::uint8_t { look, sample };
     std::size_t batches(Pass pass) const;
-    /// To be called when all batches have been taken.
+    /// Ends a pass. Call when all batches have been taken.
     void end(Pass pass);
 
     /// The state of a pixel: variance_around() it, and PixelSamples::squares_shown of its samples
@@ -44,12 +46,12 @@ class Survey {
         int count; ///< of these samples
     };
     bool is_done(const Known& pixel) const { return is_done(pixel, policy_); }
-    /// True if pixels begin with one sample at their middle, which is enough for some of them.
+    /// Returns whether pixels begin with one sample at their middle, which is enough for some.
     bool has_middles() const { return policy_.has_middles(); }
-    /// How many samples a pixel gets first if its middle is not enough.
+    /// Returns how many samples a pixel gets first if its middle is not enough.
     int first_samples() const { return std::max(policy_.fewest, samples_at(1)); }
 
-    /// Collects the samples of a batch, by the interface of RegionSamples. For one thread.
+    /// Collects the samples of a batch, with the interface of RegionSamples. For use by one thread.
     class Samples {
       public:
         Samples(Survey& survey, Pass pass, std::size_t batch);
@@ -81,14 +83,14 @@ class Survey {
     struct Place {
         int x, y;
         Shown around[9]{};
-        std::size_t neighbours = 0; ///< itself, too
+        std::size_t neighbours = 0; ///< includes the place itself
     };
     struct Record {
         std::size_t place;
-        double weight;                           ///< pixels that it stands for
+        double weight;                           ///< number of pixels that the record stands for
         double around;                           ///< variance
-        double squares[stages]{};                ///< 0 of the middle
-        double squared_error[measured_stages]{}; ///< from the mean of all 64
+        double squares[stages]{};                ///< 0 for the middle
+        double squared_error[measured_stages]{}; ///< relative to the mean of all 64 samples
     };
     struct Policy {
         int fewest = 1;
@@ -98,7 +100,7 @@ class Survey {
         bool has_middles() const { return spares_alike || fewest == 1; }
     };
     struct Outcome {
-        double squared_error = 0.0, cost = 0.0; ///< of a pixel, in the mean
+        double squared_error = 0.0, cost = 0.0; ///< mean over pixels
     };
 
     static double likely_variance(const Known& pixel);
@@ -113,7 +115,7 @@ class Survey {
     Settings settings_;
     std::vector<Place> places_;
     std::vector<Record> records_;
-    /// The squared error of that many samples over the variance of one, by stage.
+    /// The squared error of that many samples, divided by the variance of one sample, by stage.
     std::vector<double> left_;
     Policy policy_;
 };
