@@ -7,13 +7,13 @@
 #include <tuple>
 #include <type_traits>
 
-/// The one list of shapes. Tables, switches and names follow from it, here and in the kernels; what
-/// a kind is like is said in its own files, core/shapes/ and simd/kernel/shapes/.
+/// The one list of shapes. Tables, switches and names follow from it, here and in the kernels. The
+/// files of a kind, in core/shapes/ and simd/kernel/shapes/, describe it.
 namespace raylane::core {
 
 enum class Ends : std::uint8_t { open, capped };
 
-/// Shapes of numbers that are float or double.
+/// Shapes with numbers of type float or double.
 template <class Number>
 struct SphereOf;
 template <class Number>
@@ -74,14 +74,14 @@ struct ShapeParts<Of<Number_, ends>> {
 /// The type of a shape's numbers.
 template <class Shape>
 using NumberOf = typename detail::ShapeParts<Shape>::Number;
-/// The shape of the same kind that has other numbers.
+/// The shape of the same kind with the other number type.
 template <class Shape>
 using InFloat = typename detail::ShapeParts<Shape>::template With<float>;
 template <class Shape>
 using InDouble = typename detail::ShapeParts<Shape>::template With<double>;
 
-/// Type, enumerator, and what people call it: a last word that is JSON's "type", behind what tells
-/// it from others of that type.
+/// Type, enumerator, and name. The last word of the name is JSON's "type"; the words before it
+/// distinguish kinds of the same type.
 #define RAYLANE_SHAPES(SHAPE)                                                                      \
     SHAPE(Sphere, sphere, "sphere")                                                                \
     SHAPE(Plane, plane, "plane")                                                                   \
@@ -148,13 +148,13 @@ constexpr std::string_view name_of(Kind kind) {
     return kind_names[static_cast<std::size_t>(kind)];
 }
 
-/// Type name, which kinds that differ in a detail have in common: JSON's "type".
+/// Returns the type name, which similar kinds share: JSON's "type".
 constexpr std::string_view type_name_of(Kind kind) {
     const std::string_view name = name_of(kind);
     return name.substr(name.rfind(' ') + 1);
 }
 
-/// Calls visit(std::type_identity<Shape>()) with the type of shape that `kind` is.
+/// Calls visit(std::type_identity<Shape>()) with the shape type of `kind`.
 template <class Visit>
 constexpr decltype(auto) with_shape_type(Kind kind, Visit&& visit) {
     switch (kind) {

@@ -9,11 +9,12 @@ namespace raylane::core {
 
 namespace {
 
-/// Up to so many items are built by one thread: much less than there are of them in a scene that
-/// takes long, much more than handing them over costs.
+/// Maximum number of items that one thread builds as one task. It is much smaller than a scene that
+/// takes long to build, and much larger than the cost of a task is worth.
 constexpr std::size_t most_in_a_part = std::size_t{1} << 14;
 
-/// Drops duplicates where they are sure to be together: in what is few, or all in one place.
+/// Drops duplicates where they are certain to be together: in a small range, or if all centres
+/// coincide.
 void drop_duplicates(std::span<Item> items, const Duplicates& duplicates,
                      std::vector<std::uint32_t>& room, Range& range) {
     const auto [lower, upper] = range.centers.bounds();
@@ -23,7 +24,7 @@ void drop_duplicates(std::span<Item> items, const Duplicates& duplicates,
                      duplicates.drop_from(items.subspan(range.first, range.size()), room, is_place);
 }
 
-/// Grows parts of the tree that are one task each.
+/// Builds parts of the tree, one task each.
 class PartBuilder {
   public:
     PartBuilder(std::span<Item> items, const Duplicates& duplicates)
@@ -32,7 +33,7 @@ class PartBuilder {
     EntryCosts build(const Range& range, TreePart& part) {
         nodes_.assign(1, {range.box.bounds(), 0, 0, {}, {}});
         const EntryCosts costs = grow(range, 0);
-        part.nodes.assign(nodes_.begin(), nodes_.end()); // exactly as many
+        part.nodes.assign(nodes_.begin(), nodes_.end()); // without spare capacity
         return costs;
     }
 
@@ -97,7 +98,7 @@ class TreeBuilder {
 } // namespace
 
 Positions::Positions(BigArray<Item> items) : memory_(std::move(items)) {
-    auto* to = reinterpret_cast<std::byte*>(memory_.data()); // never ahead of what is read
+    auto* to = reinterpret_cast<std::byte*>(memory_.data()); // never ahead of the read position
     for (const Item& item : memory_) {
         const std::uint32_t position = item.position();
         std::memcpy(to, &position, sizeof position);

@@ -18,9 +18,9 @@ namespace raylane::core {
 /// A node of the binary tree over items. Its leaves hold at most block_size items of one kind.
 struct BinaryNode {
     Bounds bounds;
-    std::uint32_t first; ///< leaf: of its items; inner: the left child, the right one is first + 1
-    std::uint8_t count;  ///< leaf: how many items; inner: 0
-    Kind kind;           ///< leaf: of all its items
+    std::uint32_t first; ///< leaf: first item; inner: left child (right child: first + 1)
+    std::uint8_t count;  ///< leaf: number of items; inner: 0
+    Kind kind;           ///< leaf: kind of all its items
     EntryShares shares;  ///< inner
 
     bool is_leaf() const { return count != 0; }
@@ -28,7 +28,7 @@ struct BinaryNode {
 
 /// Size of a subtree: its entries, nodes and blocks.
 struct Tally {
-    int entries = 0; ///< of the wide node that its parent is in
+    int entries = 0; ///< in the wide node that its parent is in
     std::uint32_t nodes = 0;
     std::array<std::uint32_t, kind_count> blocks{};
 
@@ -41,15 +41,15 @@ struct Tally {
     }
 };
 
-/// Part of the binary tree: a whole subtree, or one inner node whose children are parts of their
-/// own.
+/// Part of the binary tree: a whole subtree, or one inner node whose children are separate parts.
 struct TreePart {
     std::vector<BinaryNode> nodes; ///< the root first, children behind parents
     std::unique_ptr<TreePart> left, right;
-    Tally left_tally; ///< for whoever walks it first
+    Tally left_tally; ///< size of the left part, set by the first traversal
 };
 
-/// The positions of items that are done with, packed into their own memory.
+/// The positions of items, packed in place into the memory of the items, which are no longer
+/// needed.
 class Positions {
   public:
     Positions() = default;
@@ -76,8 +76,8 @@ struct BinaryTree {
     const Bounds& bounds() const { return root.nodes.front().bounds; }
 };
 
-/// The tree by the surface-area heuristic, its collapse into wide nodes decided. `items` must not
-/// be empty; they are used up. Of duplicates, it has one.
+/// Builds the tree by the surface-area heuristic, and decides its collapse into wide nodes. `items`
+/// must not be empty and is consumed. The tree has one item of each set of duplicates.
 BinaryTree build_binary_tree(BigArray<Item> items, const Duplicates& duplicates, Workers& workers);
 
 } // namespace raylane::core

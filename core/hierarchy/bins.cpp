@@ -13,24 +13,25 @@ namespace {
 
 constexpr int most_bins = 32;
 
-/// Larger ranges are worked on strip by strip, perhaps by many threads. Its size is part of the
-/// result: it decides the order in which items come out of a partition.
+/// Larger ranges are processed strip by strip, possibly by many threads. The strip size affects the
+/// result: it decides the order of the items after a partition.
 constexpr std::size_t strip_size = std::size_t{1} << 16;
 
 std::size_t strips_of(std::size_t count) {
     return (count + strip_size - 1) / strip_size;
 }
 
-/// Bin of a centre, for all axes at once.
+/// Computes the bin of a centre for all axes at once.
 class Grid {
   public:
     Grid(const Box4& centers, int bins) : lower_(centers.lower), last_(all4(float(bins - 1))) {
         for (int axis = 0; axis < 3; ++axis) {
             const float scale = float(bins) / (centers.upper[axis] - centers.lower[axis]);
-            // All in one bin where the centres are too close to divide by their distance.
+            // All items share one bin if the centres are too close to divide by their distance.
             scale_[axis] = std::isfinite(scale) ? scale : 0.0F;
         }
-        // The fourth component of an item means nothing, but may be slow: denormal numbers are.
+        // The fourth component of an item is meaningless, but a denormal number there would be
+        // slow.
         lower_[3] = 0.0F;
     }
 
@@ -65,24 +66,25 @@ struct Bins {
     }
 };
 
-/// Left of it are the bins before `bin`.
+/// A splitting plane. The bins before `bin` are to its left.
 struct Plane3 {
-    int axis = -1; ///< none
+    int axis = -1; ///< -1: no plane
     int bin = 0;
 };
 
 float blocks_for(std::uint32_t count) {
-    return float((count + block_size - 1) / block_size); // NOLINT: whole ones
+    return float((count + block_size - 1) / block_size); // NOLINT: whole blocks
 }
 
-/// A factor that brings all sizes within the box into the range of 0 to 1.
+/// Returns a factor that scales all sizes within the box to the range of 0 to 1.
 float unit_of(const Box4& box) {
     const Float4 size = box.upper - box.lower;
     const float unit = 1.0F / std::max({float(size[0]), float(size[1]), float(size[2])});
     return std::isfinite(unit) ? unit : 1.0F;
 }
 
-/// Expected work is the chance to be hit (by surface area) times the blocks of 16 to be tested.
+/// Returns the plane of the least expected work: the probability of a hit (by surface area) times
+/// the number of blocks of 16 to be tested.
 Plane3 best_plane(const Bins& bins, int count, float unit) {
     Plane3 best;
     float best_cost = std::numeric_limits<float>::infinity();
@@ -100,7 +102,7 @@ Plane3 best_plane(const Bins& bins, int count, float unit) {
         for (int bin = 1; bin < count; ++bin) {
             left.include(bins.boxes[axis][bin - 1]);
             items += bins.counts[axis][bin - 1];
-            // Not a number where a side is empty, and so not less.
+            // NaN if a side is empty; the comparison is then false.
             const float cost = left.half_area(unit) * blocks_for(items) + right_cost[bin];
             if (cost < best_cost) {
                 best_cost = cost;
@@ -111,8 +113,8 @@ Plane3 best_plane(const Bins& bins, int count, float unit) {
     return best;
 }
 
-/// Moves the items for which `is_left` to the front; returns how many. Looks at blocks from both
-/// ends and notes without a branch what is on the wrong side, as no processor can foretell that
+/// Moves the items for which `is_left` holds to the front; returns their number. Scans blocks from
+/// both ends and records misplaced items without a branch, as no processor can predict this one
 /// (Edelkamp and Weiss, "BlockQuicksort", 2016).
 template <class IsLeft>
 std::size_t partition(std::span<Item> items, const IsLeft& is_left) {
@@ -164,8 +166,8 @@ struct Strip {
     Box4 left_centers, right_centers;
 };
 
-/// Exchanges what is right of the strips' middles, but left of `middle`, with what is left of them,
-/// but right of it.
+/// Exchanges items that are right of their strip's middle but left of `middle` with items that are
+/// left of their strip's middle but right of `middle`.
 void exchange(std::span<Item> items, const std::vector<Strip>& strips, std::size_t middle) {
     struct Run {
         std::size_t first, last;
@@ -189,7 +191,7 @@ void exchange(std::span<Item> items, const std::vector<Strip>& strips, std::size
         }
 }
 
-/// Like partition, for a whole range: fills in the halves but for their boxes.
+/// Like partition, for a whole range. Fills in the halves except their boxes.
 template <class IsLeft>
 void partition_strips(std::span<Item> items, const Range& range, const IsLeft& is_left,
                       Halves& halves, Workers& workers) {
@@ -253,7 +255,7 @@ Halves split_by_bins(std::span<Item> items, const Range& range, Workers& workers
 
     Halves halves;
     const Plane3 plane = best_plane(bins, count, unit_of(range.box));
-    if (plane.axis < 0) { // all centres are equal, or as good as: any half is as good
+    if (plane.axis < 0) { // all centres are equal or nearly so: any split will do
         const std::size_t middle = range.first + range.size() / 2;
         for (std::size_t i = range.first; i < range.last; ++i) {
             Range& half = i < middle ? halves.left : halves.right;

@@ -8,7 +8,7 @@
 
 namespace raylane::core {
 
-/// Items that stand together, what bounds them, and what bounds their centres, doubled.
+/// Consecutive items with their bounds and the bounds of their doubled centres.
 struct Range {
     std::size_t first, last;
     Box4 box, centers;
@@ -20,11 +20,11 @@ struct Halves {
     Range left, right;
 };
 
-/// Bounds of all items, and of their centres.
+/// Returns the range of all items with the bounds of the items and of their doubled centres.
 Range whole_range(std::span<const Item> items, Workers& workers);
 
-/// Parts a range of more than one block by the surface-area heuristic over bins of centres (Wald,
-/// "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007), whose cost counts blocks
+/// Splits a range of more than one block by the surface-area heuristic over bins of centres (Wald,
+/// "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007). The cost counts blocks
 /// of 16. Rearranges the range's items. Neither half is empty.
 Halves split_by_bins(std::span<Item> items, const Range& range, Workers& workers);
 

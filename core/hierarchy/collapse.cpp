@@ -16,10 +16,10 @@ struct Share {
     int left;
 };
 
-/// Best share of `entries`, 2 or more, among both children.
+/// Returns the best division of `entries`, 2 or more, between both children.
 Share best_share(int entries, const EntryCosts& left, const EntryCosts& right) {
     Share best{std::numeric_limits<double>::infinity(), 1};
-    // Neither gets more than it can use, as far as the other can use the rest.
+    // Neither child gets more entries than it can use, provided that the other can use the rest.
     const int least = std::clamp(entries - right.useful_entries, 1, left.useful_entries);
     const int most = std::min(entries - 1, left.useful_entries);
     for (int k = least; k <= most; ++k) {

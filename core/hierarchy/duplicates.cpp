@@ -31,7 +31,7 @@ bool have_same_bounds(const Item& a, const Item& b) {
 
 std::size_t Duplicates::drop_from(std::span<Item> items, std::vector<std::uint32_t>& room,
                                   bool deep) const {
-    // A hash table of the places of what is left, plus 1; 0: free.
+    // A hash table of the indices of the kept items, plus 1; 0: free.
     const std::size_t size = std::bit_ceil(2 * items.size());
     room.assign(size, 0);
     std::uint32_t left = 0;
@@ -55,7 +55,7 @@ bool Duplicates::are_duplicates(const Item& a, const Item& b) const {
         const auto& list = std::get<ShapeList<Shape>>(lists_);
         const Listed<Shape>&one = list[a.position()], &other = list[b.position()];
         const auto are_same = [](const auto& s, const auto& t) {
-            return std::memcmp(&s, &t, sizeof s) == 0; // NOLINT: their bits
+            return std::memcmp(&s, &t, sizeof s) == 0; // NOLINT: compares bits
         };
         return are_same(one.shape, other.shape) &&
                (!list.has_doubles() ||
@@ -72,7 +72,7 @@ std::uint64_t Duplicates::hash_of_shape(const Item& item) const {
             mixed(static_cast<std::uint64_t>(item.kind()), material_of_[listed.id]);
         for (const float value : numbers_of(listed.shape))
             hash = mixed(hash, std::bit_cast<std::uint32_t>(value));
-        // None is like another then.
+        // A unique shape equals no other shape.
         return is_unique(listed.id) ? mixed(hash, listed.id) : hash;
     });
 }

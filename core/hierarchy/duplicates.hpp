@@ -13,28 +13,28 @@
 
 namespace raylane::core {
 
-/// Knows shapes that say again what another one says: the same floats, of the same material. A
-/// scene needs one of them, the first. Triangles of a larger polygon are never duplicates: what
-/// they lie in one plane with is said of each. Nor are parts of solids.
+/// Finds duplicate shapes: same kind, numbers and material. A scene needs only the first of them.
+/// Triangles of a larger polygon are never duplicates, because each has its own list of coplanar
+/// triangles. Parts of solids are never duplicates either.
 class Duplicates {
   public:
-    /// `material_of`: by id. `polygons`: of more than one triangle, ascending. `solids`: null if
-    /// there are none.
+    /// `material_of`: by id. `polygons`: ids of polygons with more than one triangle, ascending.
+    /// `solids`: null if the scene has no solids.
     Duplicates(const ShapeLists& lists, const MaterialIndices& material_of,
                std::span<const IdRange> polygons, const Solids* solids = nullptr)
         : lists_(lists), material_of_(material_of), polygons_(polygons), solids_(solids) {}
 
-    /// Bounds of a part of a solid within that; null for other shapes.
+    /// Returns the bounds of a part of a solid within the solid; null for other shapes.
     const Bounds* bounds_of_part(ShapeId id) const {
         return solids_ != nullptr ? solids_->bounds_of(id) : nullptr;
     }
 
-    /// Leaves one item of each shape, at the front, and returns how many these are. In time that
-    /// grows with the number of items, if not too many have the same bounds; or else, if `deep`.
-    /// `room` is worked in.
+    /// Moves one item of each distinct shape to the front and returns their number. Takes linear
+    /// time if few items have the same bounds, or if `deep`, which hashes the shapes rather than
+    /// the bounds. `room` is scratch memory.
     std::size_t drop_from(std::span<Item> items, std::vector<std::uint32_t>& room, bool deep) const;
 
-    /// Unbounded shapes of a list, each once.
+    /// Returns the unbounded shapes of a list without duplicates.
     template <class Shape>
     ShapeList<Shape> without_duplicates(const ShapeList<Shape>& list) const {
         std::vector<Item> items;

@@ -8,20 +8,20 @@ namespace raylane::core {
 
 namespace {
 
-/// A node of the binary tree, wherever it is.
+/// A reference to a node of the binary tree, in any part.
 class Cursor {
   public:
     explicit Cursor(TreePart& part, std::uint32_t index = 0) : part_(&part), index_(index) {}
 
     const BinaryNode& node() const { return part_->nodes[index_]; }
     bool is_leaf() const { return node().is_leaf(); }
-    /// True if the children are parts of their own.
+    /// Returns true if the children are separate parts.
     bool forks() const { return part_->left != nullptr; }
     Cursor left() const { return forks() ? Cursor(*part_->left) : Cursor(*part_, node().first); }
     Cursor right() const {
         return forks() ? Cursor(*part_->right) : Cursor(*part_, node().first + 1);
     }
-    /// Size of the left child, once it has been counted, where this forks.
+    /// Returns the size of the left child, where the tree forks. Valid after count().
     Tally& left_tally() const { return part_->left_tally; }
 
   private:
@@ -34,7 +34,8 @@ struct Shares {
     int left, right;
 };
 
-/// Shares of the children in `entries` of a subtree: nothing if it takes one itself.
+/// Returns the shares of the children when a subtree gets `entries`. Both are 0 if it takes one
+/// entry itself.
 Shares shares_of(const Cursor& at, int entries) {
     if (at.is_leaf()) return {0, 0};
     for (; entries > 1; --entries)
@@ -48,8 +49,8 @@ Shares own_shares_of(const Cursor& at) {
     return {left, block_size - left};
 }
 
-/// Size of a subtree that may fill `entries` of a wide node. Where it forks, remembers the left
-/// child's part.
+/// Returns the size of a subtree that may fill `entries` of a wide node. At a fork, also stores the
+/// left child's size.
 Tally count(const Cursor& at, int entries, Workers& workers);
 
 Tally count_children(const Cursor& at, const Shares& shares, Workers& workers) {
@@ -80,7 +81,7 @@ Tally count(const Cursor& at, int entries, Workers& workers) {
     return tally;
 }
 
-/// Bounds wider by an ulp, so that nothing touches them.
+/// Returns bounds wider by an ulp, so that no shape touches them.
 Bounds padded(Bounds bounds) {
     for (int axis = 0; axis < 3; ++axis) {
         bounds.lower[axis] = std::nextafter(bounds.lower[axis], -std::numeric_limits<float>::max());
@@ -103,7 +104,7 @@ class Emitter {
 
     void emit(const Cursor& root) {
         const Tally whole = count(root, 1, workers_);
-        // A root that is a leaf needs a node to be in.
+        // A root that is a leaf still needs a wide node.
         nodes_ = BigArray<WideNode>(whole.nodes + (root.is_leaf() ? 1 : 0));
         for_each_table(lists_, [&]<class Shape>(const ShapeList<Shape>& list) {
             blocks_of<Shape>() = Blocks<Shape>(
@@ -132,7 +133,8 @@ class Emitter {
         return std::get<Blocks<Shape>>(blocks_);
     }
 
-    /// `next`, here and below: how many of everything there are so far; `entries` counts in `wide`.
+    /// `next`, here and below: the numbers of the next node and blocks; its `entries` counts those
+    /// of the node `wide`.
     void emit_children(const Cursor& at, const Shares& shares, std::uint32_t wide, Tally& next) {
         if (!at.forks()) {
             emit(at.left(), shares.left, wide, next);
@@ -175,13 +177,14 @@ class Emitter {
         return Child::block(leaf.kind, index);
     }
 
-    /// Leaves come in the order of their items. What a later one asks for is all over the list.
+    /// Prefetches a shape of a later leaf. Leaves come in the order of their items, but their
+    /// shapes are scattered over the list.
     template <class Shape>
     void fetch_ahead(const ShapeList<Shape>& list, std::size_t at) const {
         constexpr auto ahead = std::size_t{4} * block_size;
         if (at + ahead >= positions_.size()) return;
         const std::uint32_t position = positions_[at + ahead];
-        if (position < list.size()) list.prefetch(position); // it may be another kind's
+        if (position < list.size()) list.prefetch(position); // it may belong to another kind
     }
 
     const Positions& positions_;

@@ -5,8 +5,8 @@
 
 namespace raylane::core {
 
-/// Turns a binary tree, as its nodes have decided, into wide nodes whose bounds are padded, and its
-/// leaves into blocks of the lists' shapes. Numbers both by where they are in the tree.
+/// Turns a binary tree into wide nodes with padded bounds, following its nodes' decisions, and its
+/// leaves into blocks of the lists' shapes. Numbers both by their position in the tree.
 void emit(BinaryTree& tree, const ShapeLists& lists, Workers& workers, Hierarchy& hierarchy,
           Tables& tables);
 

@@ -30,7 +30,7 @@ void WideNode::set(int i, const Bounds& bounds, Child child) {
 
 namespace {
 
-/// So many shapes at a time: enough to be worth a task.
+/// Number of shapes in a task: enough to be worth the overhead.
 constexpr std::size_t shapes_in_a_task = std::size_t{1} << 14;
 
 template <class Shape>

@@ -10,7 +10,7 @@
 
 namespace raylane::core {
 
-/// Reference in a node's entry: to nothing, another node, or a block of shapes of one kind.
+/// A reference in a node's entry: empty, or to another node, or to a block of shapes of one kind.
 class Child {
   public:
     static constexpr std::uint32_t max_index = (1U << 27) - 1;
@@ -49,18 +49,19 @@ struct alignas(64) WideNode {
 };
 
 /// Bounding volume hierarchy over the bounded shapes of a scene. Its leaves are the blocks of the
-/// scene's tables. Planes are not in it.
+/// scene's tables. It does not contain planes.
 struct Hierarchy {
-    BigArray<WideNode> nodes; ///< the root first; empty if there are no bounded shapes
-    Bounds bounds;            ///< of everything in it
+    BigArray<WideNode> nodes; ///< the root first; empty without bounded shapes
+    Bounds bounds;            ///< bounds of all its shapes
 
     std::size_t bytes() const { return nodes.bytes(); }
 };
 
 /// Builds the hierarchy by the binned surface-area heuristic, whose cost counts blocks of 16 rather
-/// than shapes, and collapses the binary tree into wide nodes. Fills the tables, so that each leaf
-/// is one block; of duplicates, they have one. The result depends on the shapes alone, whoever the
-/// workers are. No shape touches its bounds; what a traversal is off by, rays bring themselves.
+/// than shapes, and collapses the binary tree into wide nodes. Fills the tables: each leaf is one
+/// block, and each set of duplicates has one shape. The result depends on the shapes alone, not on
+/// the workers. No shape touches its bounds; rays bring the tolerance for a traversal's rounding
+/// errors.
 Hierarchy build_hierarchy(const ShapeLists& lists, const Duplicates& duplicates, Workers& workers,
                           Tables& tables);
 

@@ -10,7 +10,7 @@
 
 namespace raylane::core {
 
-/// Bounds for building with; empty to begin with. The fourth number goes along and means nothing.
+/// Bounds used while building; initially empty. The fourth number is meaningless.
 struct Box4 {
     Float4 lower = all4(std::numeric_limits<float>::infinity());
     Float4 upper = -all4(std::numeric_limits<float>::infinity());
@@ -26,15 +26,15 @@ struct Box4 {
     Bounds bounds() const {
         return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
     }
-    /// Half of the surface area, in a unit in which it cannot overflow.
+    /// Returns half of the surface area, in a unit in which it cannot overflow.
     float half_area(float per_unit) const {
         const Float4 size = (upper - lower) * per_unit;
         return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
     }
 };
 
-/// One bounded shape, as the builder of the hierarchy sees it: its bounds, and in their fourth
-/// components its kind and its position in the list of that.
+/// One bounded shape, as the builder of the hierarchy sees it. The fourth components of its bounds
+/// hold its kind and its position in the list of that kind.
 struct alignas(32) Item : Box4 {
     Item(const Bounds& bounds, Kind kind, std::uint32_t position) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -49,7 +49,8 @@ struct alignas(32) Item : Box4 {
     std::uint32_t position() const { return std::bit_cast<std::uint32_t>(float(lower[3])); }
     void set_position(std::uint32_t position) { lower[3] = std::bit_cast<float>(position); }
     Kind kind() const { return static_cast<Kind>(std::bit_cast<std::uint32_t>(float(upper[3]))); }
-    /// The fourth component is about 1 where the position is taken for a small number.
+    /// Returns the sum of both bounds. Its fourth component is about 1 where the position, read as
+    /// a float, is a small number.
     Float4 doubled_center() const { return lower + upper; }
 
   private:

@@ -20,7 +20,7 @@ class Packer {
         : blocks_(blocks), workers_(workers),
           tasks_((blocks.size() + blocks_in_a_task - 1) / blocks_in_a_task), palette_(id_count) {}
 
-    /// Empty where it does not pay.
+    /// Returns the packed spheres, or an empty object if packing does not pay.
     PackedSpheres pack() {
         collect_radii();
         const std::size_t rows = place_rows();
@@ -28,8 +28,7 @@ class Packer {
         const std::size_t bytes =
             blocks_.size() * sizeof(PackedBlock) + rows * sizeof(PackedSpheres::Row);
         constexpr std::size_t most_rows = std::size_t{1} << (32 - PackedBlock::rows);
-        // What stands by itself has to be waited for: it is to be a row in every other block at
-        // most.
+        // A row outside of its block costs a memory access: at most every other block may have one.
         if (bytes > blocks_.bytes() / 5 * 4 || rows >= most_rows) return packed;
         packed.blocks = BigArray<PackedBlock>(blocks_.size());
         packed.rows = decltype(packed.rows)(rows);
@@ -54,7 +53,8 @@ class Packer {
             visit(i);
     }
 
-    /// Radii of some blocks, and how many spheres have each: of the first that are met.
+    /// The distinct radii of some blocks, in order of appearance until the palette is full, with
+    /// the number of spheres of each.
     class Counts {
       public:
         void add(const Block<Sphere>& block) {
@@ -66,7 +66,7 @@ class Packer {
             }
         }
         void add_to(std::map<std::uint32_t, std::size_t>& by_pattern) const {
-            constexpr std::size_t most = std::size_t{1} << 16; // more are none that pay
+            constexpr std::size_t most = std::size_t{1} << 16; // more radii never pay
             for (std::size_t i = 0; i < radii_.size(); ++i) {
                 const auto pattern = std::bit_cast<std::uint32_t>(radii_.radii()[i]);
                 const auto known = by_pattern.find(pattern);
@@ -82,11 +82,12 @@ class Packer {
         std::array<std::uint32_t, RadiusPalette::most> counts_{};
     };
 
-    /// The most frequent, as many as there is room for.
+    /// Fills the palette with the most frequent radii, as many as fit.
     void collect_radii() {
         std::map<std::uint32_t, std::size_t> by_pattern;
         std::vector<Counts> found(std::min<std::size_t>(tasks_, 64));
-        for (std::size_t first = 0; first < tasks_; first += found.size()) { // little memory each
+        for (std::size_t first = 0; first < tasks_;
+             first += found.size()) { // bounds the memory in use
             const std::size_t some = std::min(found.size(), tasks_ - first);
             std::fill(found.begin(), found.end(), Counts());
             workers_.each(some, [&](std::size_t i) {
@@ -99,13 +100,13 @@ class Packer {
         std::vector<std::pair<std::size_t, std::uint32_t>> by_count;
         by_count.reserve(by_pattern.size());
         for (const auto& [pattern, count] : by_pattern)
-            by_count.emplace_back(~count, pattern); // the largest first
+            by_count.emplace_back(~count, pattern); // the largest count first
         std::sort(by_count.begin(), by_count.end());
         for (const auto& [count, pattern] : by_count)
             palette_.add(std::bit_cast<float>(pattern));
     }
 
-    /// How many rows stand by themselves.
+    /// Returns the number of rows that are stored outside of their blocks.
     std::size_t place_rows() {
         first_row_.assign(tasks_ + 1, 0);
         workers_.each(tasks_, [&](std::size_t task) {

@@ -7,15 +7,16 @@
 
 namespace raylane::core {
 
-/// From so many spheres on they are packed: fewer take little memory anyway, and rays are faster
-/// where there is nothing to unpack.
+/// Number of spheres from which tables are packed. Smaller tables take little memory anyway, and
+/// tracing is faster without unpacking.
 inline constexpr std::size_t packed_from = std::size_t{1} << 22;
 
-/// No fewer are packed, whoever asks for it: scenes without a tree have their tables plain.
+/// Minimum number of spheres for packing, whatever the caller asks for: scenes without a tree keep
+/// plain tables.
 inline constexpr std::size_t least_packed = 64;
 
-/// Packs a table if it has blocks for `from` spheres or more, floats all of them, and if that saves
-/// a fifth; their ids are less than `id_count`. Nothing of it depends on the workers.
+/// Packs a table if it has blocks for at least `from` spheres, all of floats, and if packing saves
+/// a fifth. All ids must be less than `id_count`. The result does not depend on the workers.
 void pack_spheres(Table<Sphere>& table, std::size_t id_count, std::size_t from, Workers& workers);
 
 } // namespace raylane::core

@@ -47,8 +47,8 @@ EntryCosts Sweep::build(std::span<Item> items, std::size_t first, std::vector<Bi
     return costs;
 }
 
-/// Sorts by the centres' first twelve bits between the least and the greatest: what is nearer to
-/// each other than that stays in the order in which it was.
+/// Sorts by the first twelve bits of the centres' positions between the least and the greatest
+/// centre. Items with equal bits keep their order.
 void Sweep::sort(int axis, const Box4& centers) {
     constexpr int digit_bits = 6, digits = 1 << digit_bits;
     constexpr float last_key = digits * digits - 1;
@@ -90,7 +90,7 @@ EntryCosts Sweep::grow(int first, int last, std::uint32_t node) {
     const float unit = unit_of((*nodes_)[node].bounds);
     Split split = best_split(first, last, unit);
     if (several_kinds) {
-        // Where few blocks are left, halves in space would need as many each.
+        // If few blocks are left, each of two halves in space may need as many blocks as the whole.
         const Split other = best_split_by_kind(first, last, unit);
         if (!(split.cost < other.cost)) split = other;
     }
@@ -113,7 +113,8 @@ bool Sweep::has_several_kinds(int first, int last) const {
                        [&](Index i) { return items_[i].kind() != kind; });
 }
 
-/// blocks_before_[i]: what the first i of the items need in blocks; blocks_from_[i]: the others.
+/// Fills blocks_before_[i], the number of blocks for the first i items, and blocks_from_[i], the
+/// number for the others.
 void Sweep::count_blocks(int axis, int first, int last) {
     const int count = last - first;
     if (!mixed_) {
@@ -140,7 +141,8 @@ void Sweep::count_blocks(int axis, int first, int last) {
     }
 }
 
-/// Expected work is the chance to be hit (by surface area) times the blocks of 16 to be tested.
+/// Returns the split of the least expected work: the probability of a hit (by surface area) times
+/// the number of blocks of 16 to be tested.
 Sweep::Split Sweep::best_split(int first, int last, float unit) {
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
@@ -163,7 +165,8 @@ Sweep::Split Sweep::best_split(int first, int last, float unit) {
     return best;
 }
 
-/// One kind to the left, the others to the right. By the same measure.
+/// Returns the best split with one kind to the left and the others to the right, by the same
+/// measure.
 Sweep::Split Sweep::best_split_by_kind(int first, int last, float unit) {
     std::array<Box4, kind_count> boxes;
     std::array<int, kind_count> counts{};
@@ -191,7 +194,7 @@ Sweep::Split Sweep::best_split_by_kind(int first, int last, float unit) {
     return best;
 }
 
-/// Puts the split's left half in front, in the order along each axis.
+/// Moves the split's left half to the front, in the order along each axis.
 void Sweep::divide(int first, const Split& split, int last) {
     for (int i = first; i < last; ++i) {
         if (split.axis >= 0)

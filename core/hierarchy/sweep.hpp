@@ -12,28 +12,29 @@
 namespace raylane::core {
 
 /// Builds the subtree over a few items by the surface-area heuristic over all splits between
-/// neighbours: that lets the leaves fill up, because the cost counts blocks. Sorts once along each
-/// axis; the halves of a split stay sorted.
+/// neighbours. The leaves fill up, because the cost counts blocks. Sorts once along each axis; the
+/// halves of a split stay sorted.
 class Sweep {
   public:
     static constexpr int most_items = 128;
 
-    /// Below node `root` of `nodes`, whose bounds are set. `first` is that of the leaves' items,
-    /// whose positions are put in the leaves' order: their bounds mean nothing then.
+    /// Builds the subtree below node `root` of `nodes`, whose bounds must be set. `first` is the
+    /// index of the first item among all items of the tree. Rearranges the items' positions, but
+    /// not their bounds, into the order of the leaves.
     EntryCosts build(std::span<Item> items, std::size_t first, std::vector<BinaryNode>& nodes,
                      std::uint32_t root);
 
   private:
     using Index = std::uint8_t;
-    /// The whole blocks that so many of the items need, from either end.
+    /// Number of blocks that the first or last i items need.
     using BlockCounts = std::array<std::uint8_t, most_items + 1>;
 
     struct Split {
         float cost = std::numeric_limits<float>::infinity();
-        int axis = -1; ///< none: by kind
+        int axis = -1; ///< -1: split by kind
         int middle = 0;
         Box4 left{}, right{};
-        Kind kind{}; ///< that is left, where there is no axis
+        Kind kind{}; ///< of the left half, if split by kind
     };
 
     void sort(int axis, const Box4& centers);

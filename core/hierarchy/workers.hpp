@@ -5,8 +5,9 @@
 
 namespace raylane::core {
 
-/// Threads that do the work of a build: here, the caller's alone, and nobody is told how far it is.
-/// Whoever has threads, or somebody to tell, overrides this. Nothing that is built depends on it.
+/// Runs the tasks of a build. This base class runs them in the caller's thread and reports no
+/// progress. A subclass may add threads or progress reports. The result of a build does not depend
+/// on it.
 class Workers {
   public:
     using Task = std::function<void()>;
@@ -16,21 +17,21 @@ class Workers {
     Workers& operator=(const Workers&) = delete;
     virtual ~Workers() = default;
 
-    /// Calls both, perhaps at the same time.
+    /// Calls both, possibly at the same time.
     virtual void both(const Task& one, const Task& other) {
         one();
         other();
     }
-    /// Calls task(0) ... task(count - 1), perhaps at the same time.
+    /// Calls task(0) ... task(count - 1), possibly at the same time.
     virtual void each(std::size_t count, const std::function<void(std::size_t)>& task) {
         for (std::size_t i = 0; i < count; ++i)
             task(i);
     }
 
-    /// So many shapes have been added to the scene so far. Called every now and then.
+    /// Reports the number of shapes added to the scene so far. Called every now and then.
     virtual void added(std::size_t count) { static_cast<void>(count); }
-    /// `count` more of the bounded shapes, `all` in all, have found their place in the hierarchy.
-    /// Called by whatever thread has placed them.
+    /// Reports that `count` more of the bounded shapes, out of `all`, have a place in the
+    /// hierarchy. Called by the thread that placed them.
     virtual void placed(std::size_t count, std::size_t all) {
         static_cast<void>(count);
         static_cast<void>(all);
