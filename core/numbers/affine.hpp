@@ -9,10 +9,10 @@ namespace raylane::core {
 
 /// A function of two parameters a and b in [-1, 1], known to first order:
 ///   |f(a, b) - (value + a across + b upward)| <= error
-/// A Taylor model (Makino and Berz, "Taylor Models and Other Validated Functional Inclusion
-/// Methods", 2003) of degree one. A formula written once for any real type thereby says what it
-/// gives for all rays of a beam: what depends on the parameters in the same way cancels, and what
-/// is left over is of second order in the beam's width. Roundoff is part of the error.
+/// A Taylor model of degree one (Makino and Berz, "Taylor Models and Other Validated Functional
+/// Inclusion Methods", 2003). A formula that is a template over the real type is thereby evaluated
+/// for all rays of a beam at once. Terms that depend on the parameters in the same way cancel; the
+/// remainder is of second order in the beam's width. Roundoff is part of the error.
 struct Affine {
     double value = 0.0;
     double across = 0.0;
@@ -26,10 +26,10 @@ struct Affine {
     Affine(double value_, double across_, double upward_, double error_ = 0.0)
         : value(value_), across(across_), upward(upward_), error(error_) {}
 
-    /// Of the middle, where the error is left aside.
+    /// Returns the value at the middle, without the error.
     explicit operator double() const { return value; }
     double slope() const { return std::abs(across) + std::abs(upward); }
-    /// The most that it differs from the middle's value.
+    /// Returns the largest possible difference from the value at the middle.
     double spread() const { return slope() + error; }
     double magnitude() const { return std::abs(value) + spread(); }
     double lower() const { return value - spread(); }
@@ -38,14 +38,14 @@ struct Affine {
 
 namespace affine {
 
-/// More than a handful of roundings of what is no larger than `magnitude`; it pays for those of
-/// the errors, too.
+/// Returns an upper bound on a handful of roundings of numbers up to `magnitude`, including those
+/// of the errors.
 inline double roundoff(double magnitude) {
     return 0x1p-49 * magnitude + 0x1p-1060;
 }
 
-/// f(x) for a function of one variable: its value at x.value, its derivative there, and a bound on
-/// what its tangent is off by within x.spread().
+/// Returns f(x) for a function of one variable, given its value and its derivative at x.value, and
+/// a bound `off` on the error of its tangent within x.spread().
 inline Affine along_tangent(const Affine& x, double value, double derivative, double off) {
     const double slope = std::abs(derivative);
     return {value, derivative * x.across, derivative * x.upward,
@@ -77,7 +77,7 @@ inline Affine operator*(const Affine& x, const Affine& y) {
                 affine::roundoff((size_of_x + of_x) * (size_of_y + of_y))};
 }
 
-/// 1 / x; its error is infinite if x may be 0.
+/// Returns 1 / x; the error is infinite if x may be 0.
 inline Affine reciprocal(const Affine& x) {
     const double spread = x.spread(), least = std::abs(x.value) - spread;
     const double value = 1.0 / x.value;
@@ -90,7 +90,8 @@ inline Affine operator/(const Affine& x, const Affine& y) {
     return x * reciprocal(y);
 }
 
-/// Root of what is known not to be negative. Where it may be 0 it has no tangent.
+/// Returns the square root of a number that is known not to be negative. If x may be 0, the result
+/// has slope 0.
 inline Affine sqrt(const Affine& x) {
     const double spread = x.spread(), least = x.value - spread;
     if (!(least > 0.0)) {
@@ -103,7 +104,7 @@ inline Affine sqrt(const Affine& x) {
                                  spread * spread / (8.0 * least * std::sqrt(least)));
 }
 
-/// True if that is so for all parameters.
+/// Returns true if x < y for all parameters.
 inline bool operator<(const Affine& x, const Affine& y) {
     return (x - y).upper() < 0.0;
 }

@@ -18,8 +18,8 @@ struct Rounded {
 
 namespace rounding {
 
-/// Roundoff in double: twice what one operation is off by, relative to its result, so that the
-/// rounding of the errors themselves is paid for.
+/// Roundoff in double: twice the relative error of one operation, which also covers the rounding of
+/// the errors themselves.
 inline Rounded<double> with_roundoff(double value) {
     return {value, 0x1p-52 * std::abs(value)};
 }
@@ -36,10 +36,10 @@ inline Rounded<double> root(double a) {
     return with_roundoff(std::sqrt(a));
 }
 
-/// Roundoff in double-double: twice what its authors prove, where its lower part does not
-/// underflow. Or nothing: where no digit is lost, that is found out. Numbers of few digits, as
-/// people put them into scenes, are then as good as exact ones: a tie or a tangent among them is
-/// known for one.
+/// Roundoff in double-double: twice the bound that its authors prove, provided that the lower part
+/// does not underflow; or 0 if the operation is found to be exact. Numbers with few digits, as
+/// people write them in scenes, are then as good as exact ones: a tie or a tangent among them is
+/// recognised.
 inline Rounded<DoubleDouble> with_roundoff(const DoubleDouble& value, bool is_exact) {
     const double size = std::abs(value.high);
     if (!(size > 0x1p-900)) return {value, std::numeric_limits<double>::infinity()};
@@ -47,7 +47,7 @@ inline Rounded<DoubleDouble> with_roundoff(const DoubleDouble& value, bool is_ex
 }
 inline Rounded<DoubleDouble> sum(const DoubleDouble& a, const DoubleDouble& b) {
     using namespace double_double;
-    // As operator+ has it, but that what it leaves out is kept.
+    // Same as operator+, but keeps the terms that it drops.
     const DoubleDouble high = two_sum(a.high, b.high), low = two_sum(a.low, b.low);
     const DoubleDouble cross = two_sum(high.low, low.high);
     const DoubleDouble upper = two_sum(high.high, cross.high);
@@ -56,11 +56,11 @@ inline Rounded<DoubleDouble> sum(const DoubleDouble& a, const DoubleDouble& b) {
 }
 inline Rounded<DoubleDouble> product(const DoubleDouble& a, const DoubleDouble& b) {
     const DoubleDouble value = a * b;
-    // Not what has underflown.
+    // A product that underflows is not exact.
     if ((a.high == 0.0 || b.high == 0.0) && value.high == 0.0) return {value, 0.0};
     return with_roundoff(value, a.low == 0.0 && b.low == 0.0);
 }
-/// True if quotient * divisor, each of one double, is just the dividend.
+/// Returns true if quotient * divisor, each of one double, equals the dividend exactly.
 inline bool divides(const DoubleDouble& quotient, const DoubleDouble& divisor,
                     const DoubleDouble& dividend) {
     const DoubleDouble product = double_double::two_product(quotient.high, divisor.high);
@@ -79,12 +79,12 @@ inline Rounded<DoubleDouble> root(const DoubleDouble& a) {
 
 } // namespace rounding
 
-/// A number and how far it may be from the one that real arithmetic would have given: running error
-/// analysis (Higham, "Accuracy and Stability of Numerical Algorithms", 3.3). A formula written once
-/// for any real type thereby carries the proof of its own accuracy.
+/// A number and a bound on its distance from the result of real arithmetic: running error analysis
+/// (Higham, "Accuracy and Stability of Numerical Algorithms", 3.3). A formula that is a template
+/// over the real type thereby proves its accuracy as it runs.
 ///
-/// Every rule below bounds the true error from above, given that the operands' bounds do. What
-/// overflows, or underflows where that is not provided for, has none: its error is infinite or NaN.
+/// Each rule below bounds the true error from above if the operands' bounds do. A result that
+/// overflows, or that underflows where no rule allows for it, has an error that is infinite or NaN.
 template <class T>
 struct Bounded {
     T value{};
@@ -110,10 +110,10 @@ inline Bounded<double> in_double(const Bounded<DoubleDouble>& a) {
 
 namespace bounded {
 
-/// More than an operation in double loses where it underflows, and so more than the errors' do.
+/// More than an operation in double, or one on the errors, can lose to underflow.
 inline constexpr double underflow = 0x1p-1070;
 
-/// An error made of several, each rounded a few times.
+/// Rounds up an error that is a sum of several, each rounded a few times.
 inline double rounded_up(double error) {
     return error * (1.0 + 0x1p-49);
 }
@@ -164,14 +164,16 @@ Bounded<T> operator/(const Bounded<T>& a, const Bounded<T>& b) {
     return {quotient.value, bounded::rounded_up(error)};
 }
 
-/// Root of a number that is known not to be negative; what rounding makes negative counts as 0.
+/// Returns the square root of a number that is known not to be negative; a value that rounding made
+/// negative counts as 0.
 template <class T>
 Bounded<T> sqrt(const Bounded<T>& a) {
     const double most = std::sqrt(a.error) * 1.0000001;
     if (!(static_cast<double>(a.value) > 0.0)) return {T(0.0), most};
     const Rounded<T> root = rounding::root(a.value);
     double error = root.error;
-    // |sqrt(x) - sqrt(y)| = |x - y| / (sqrt(x) + sqrt(y)), which is below both.
+    // sqrt(x) - sqrt(y)| = |x - y| / (sqrt(x) + sqrt(y)), which is at most a.error / sqrt(a.value)
+    // and at most sqrt(a.error).
     if (a.error != 0.0)
         error += std::min(a.error / static_cast<double>(root.value), most) + bounded::underflow;
     return {root.value, bounded::rounded_up(error)};

@@ -5,8 +5,8 @@
 
 /// About 106 bits as the unevaluated sum of two doubles, for the few questions that double cannot
 /// answer. Source: Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic building
-/// blocks of double-word arithmetic" (2017): each operation below has a relative error of less than
-/// 2^-102, where no result overflows or underflows.
+/// blocks of double-word arithmetic" (2017). Each operation below has a relative error of less than
+/// 2^-102, provided that no result overflows or underflows.
 namespace raylane::core {
 
 struct DoubleDouble {

@@ -7,17 +7,18 @@
 
 namespace raylane::core {
 
-/// A double and a power of two that double's exponents need not hold: value * 2^exponent.
+/// value * 2^exponent, where the exponent may exceed the range of double's exponents.
 struct Scaled {
     double value = 0.0; ///< 0, or of magnitude [0.5, 1)
     std::int64_t exponent = 0;
 
     static Scaled of(double value, std::int64_t exponent);
-    /// Overflow gives the largest double, underflow the smallest: the sign stays.
+    /// Converts to double. Overflow gives the largest double, underflow the smallest; the sign is
+    /// kept.
     double to_double() const;
 };
 
-/// A whole number times a power of two, of any size: sums and products of doubles are exact.
+/// An integer of any size times a power of two: sums and products of doubles are exact.
 class Dyadic {
   public:
     Dyadic() = default;
@@ -25,7 +26,7 @@ class Dyadic {
     Dyadic(Real value) : Dyadic(from_double, static_cast<double>(value)) {} // NOLINT: exact, finite
 
     int sign() const { return digits_.size() == 0 ? 0 : negative_ ? -1 : 1; }
-    /// Within 2^-50 of itself.
+    /// Returns the value with a relative error of at most 2^-50.
     Scaled approximately() const;
 
     friend Dyadic operator-(Dyadic a) {
@@ -54,8 +55,9 @@ class Dyadic {
     static int compare_magnitudes(const Dyadic& a, const Dyadic& b);
     void trim();
 
-    // |value| = sum of digits_[i] 2^(64 (exponent_ + i)); neither end's digit is 0, and 0 has none.
-    InlineVector<Digit, 20> digits_; // more than most need
+    // value| = sum of digits_[i] 2^(64 (exponent_ + i)); the digits at both ends are not 0, and 0
+    // has no digits.
+    InlineVector<Digit, 20> digits_; // enough for most numbers
     std::int64_t exponent_ = 0;
     bool negative_ = false;
 };

@@ -4,33 +4,34 @@
 
 #include <cstdint>
 
-/// Elementary functions of our own: those of the C libraries differ in their last bits, and a
-/// picture shall not. They are written once, for the scalar reference and for vector registers, in
-/// plain IEEE 754 operations without fused ones, tables or branches per lane; so the bits are the
-/// same on every processor.
+/// Elementary functions. Those of C libraries differ in their last bits, but an image must not.
+/// Each is written once, for the scalar reference and for vector registers, in plain IEEE 754
+/// operations without fused ones, tables or branches per lane. The bits are therefore the same on
+/// every processor.
 namespace raylane::core {
 
-/// Operations that `Elementary` needs of double, or a register of them, besides + - * / < > ==:
-/// Bits: as many unsigned 64-bit integers, with + - & ^ << >>. Mask: what comparisons give. And
-/// sqrt(), correctly rounded.
+/// Operations that `Elementary` needs of double, or of a register of doubles, besides + - * / < >
+/// ==: Bits: as many unsigned 64-bit integers, with + - & ^ << >>. Mask: the result of comparisons.
+/// And sqrt(), correctly rounded.
 template <class Number>
 struct Primitives;
 
-/// Functions of double or a register of them. Errors are the largest that tests have seen, in ulps.
+/// Functions of double or of a register of doubles. Errors are the largest found by tests, in ulps.
 template <class Number>
 struct Elementary {
     /// e^x for all x. 0 below ln 2^-1021, infinity beyond the largest double. 0.9 ulp.
     static Number exp(const Number& x);
 
-    /// e^x - 1. For all x, but infinity from 709 on. 0.9 ulp for x < 0, else 1.7.
+    /// e^x - 1 for all x; infinity above 709. 0.9 ulp for x < 0, 1.7 otherwise.
     static Number expm1(const Number& x);
 
-    /// x^y for finite x and y, of which x > 0, or x = 0 and y >= 0; 1 if both are 0. 0 below
-    /// 2^-1021, infinity beyond the largest double. 1.6 ulps; 1.1 down to 2^-126, the least float.
+    /// x^y for finite x and y with x > 0, or with x = 0 and y >= 0; 1 if both are 0. 0 below
+    /// 2^-1021, infinity beyond the largest double. 1.6 ulps; 1.1 down to 2^-126, the smallest
+    /// normal float.
     static Number pow(const Number& x, const Number& y);
 
-    /// The logarithm to the base e, and to 10, where powers of ten have theirs exactly: NaN below
-    /// 0, of which it is -infinity. 0.6 ulp.
+    /// Natural logarithm, and logarithm to the base 10, which is exact for powers of ten. NaN below
+    /// 0, -infinity at 0. 0.6 ulp.
     static Number log(const Number& x) {
         return of_log2(x, 0x1.62e42f8000000p-1, 0x1.be8e7bcd5e4f2p-27);
     }
@@ -47,14 +48,14 @@ struct Elementary {
     static Number sin(const Number& x) { return sin_cos(x).sine; }
     static Number cos(const Number& x) { return sin_cos(x).cosine; }
 
-    /// The angle in [-pi/2, pi/2] of that tangent, for all x; NaN for NaN. 1.9 ulps.
+    /// Returns the angle in [-pi/2, pi/2] whose tangent is x, for all x; NaN for NaN. 1.9 ulps.
     static Number atan(const Number& x);
 
   private:
     using P = Primitives<Number>;
     using Bits = typename P::Bits;
 
-    /// A whole number; its last bits are those of the two's complement.
+    /// An integer; the last bits of `bits` are those of its two's complement.
     struct Whole {
         Number value;
         Bits bits;
@@ -85,7 +86,7 @@ struct Elementary {
     [[gnu::always_inline]] static inline ReducedAngle<Number> reduced(const Number& x);
 };
 
-/// Functions; those of a float are computed in double and rounded.
+/// The functions above. The versions for float compute in double and round.
 double exp(double x);
 float exp(float x);
 double expm1(double x);
@@ -101,28 +102,29 @@ float atan(float x);
 double log(double x);
 double log10(double x);
 
-// Steps that they share.
+// Steps that the functions share.
 
-/// Whole number nearest to x, for |x| < 2^51; the even one of two that are as near.
+/// Returns the integer nearest to x, for |x| < 2^51; ties go to the even one.
 template <class Number>
 typename Elementary<Number>::Whole Elementary<Number>::nearest_whole(const Number& x) {
     const Number shifted = x + Number(0x1.8p52);
     return {shifted - Number(0x1.8p52), P::bits(shifted)};
 }
 
-/// x 2^n, if that is a normal number.
+/// Returns x 2^n, provided that the result is a normal number.
 template <class Number>
 Number Elementary<Number>::scaled(const Number& x, const Whole& n) {
     return P::number(P::bits(x) + (n.bits << 52));
 }
 
-/// The first 26 bits of x: products of two such are exact. What is left of x has 27.
+/// Returns the first 26 bits of x: products of two such numbers are exact. The rest of x has 27
+/// bits.
 template <class Number>
 Number Elementary<Number>::head(const Number& x) {
     return P::number(P::bits(x) & Bits(~std::uint64_t(0) << 27));
 }
 
-/// a - b without error. Source: Knuth, "The Art of Computer Programming", volume 2, 4.2.2.
+/// Returns a - b without error. Source: Knuth, "The Art of Computer Programming", volume 2, 4.2.2.
 template <class Number>
 typename Elementary<Number>::Pair Elementary<Number>::difference(const Number& a, const Number& b) {
     const Number high = a - b;
@@ -143,8 +145,9 @@ Number Elementary<Number>::cubic(const Number& x, const Number& square, double c
     return linear(x, c2, c3) * square + linear(x, c0, c1);
 }
 
-// The coefficients of all polynomials minimise the largest relative error, which is noted beside
-// them (Lawson's algorithm in 400 bits, each coefficient rounded before the next ones are fitted).
+// The coefficients of all polynomials minimise the largest relative error, which a comment beside
+// them gives (Lawson's algorithm in 400 bits, each coefficient rounded before the next ones are
+// fitted).
 
 // exp, expm1
 
@@ -192,7 +195,7 @@ Number Elementary<Number>::expm1(const Number& x) {
 
 // pow
 
-/// The logarithm of x > 0 to the base 2, to about 2^-65 of it.
+/// Returns the base-2 logarithm of x > 0, with a relative error of about 2^-65.
 template <class Number>
 typename Elementary<Number>::Logarithm Elementary<Number>::log2(const Number& x) {
     // x = 2^e m, sqrt(1/2) <= m < sqrt(2)
@@ -215,8 +218,8 @@ typename Elementary<Number>::Logarithm Elementary<Number>::log2(const Number& x)
     const Number s_rest =
         ((numerator - s_head * denominator_head) - s_head * denominator_rest) * inverse;
 
-    // log2 m = 2 atanh(s) / ln 2 = (s + s^3/3 + s^5/5 + ...) 2 / ln 2. The first two terms in heads
-    // and rests, what is beyond them to 2^-66 of the sum.
+    // log2 m = 2 atanh(s) / ln 2 = (s + s^3/3 + s^5/5 + ...) 2 / ln 2. The first two terms are
+    // split in heads and rests; the remaining terms are accurate to 2^-66 of the sum.
     const Number square_head = head(s_head * s_head);
     const Number square_rest = (s_head * s_head - square_head) + s_rest * (s_head + s);
     const Number third = Number(0x1.ec709d8000000p-1) * s_head; // exact
@@ -262,7 +265,7 @@ Number Elementary<Number>::pow(const Number& x, const Number& y) {
 
 // log, log10
 
-/// The logarithm to the base 2 times a number: 26 bits of it, and the rest.
+/// Returns log2(x) times head + rest. `head` holds the first 26 bits of the factor.
 template <class Number>
 Number Elementary<Number>::of_log2(const Number& x, double head, double rest) {
     const Logarithm log2_x = log2(x);
@@ -277,8 +280,9 @@ Number Elementary<Number>::of_log2(const Number& x, double head, double rest) {
 
 // sin, cos
 
-/// Cody and Waite's reduction in four parts, 33 bits each but the last: their products with
-/// quadrants up to 2^20 are exact. Payne and Hanek's beyond that.
+/// Reduces an angle. Up to 2^20: Cody and Waite's reduction in four parts, of 33 bits each except
+/// the last; the products of the parts with quadrants up to 2^20 are exact. Beyond: Payne and
+/// Hanek's reduction.
 template <class Number>
 ReducedAngle<Number> Elementary<Number>::reduced(const Number& x) {
     const Number quadrant = nearest_whole(x * Number(0x1.45f306dc9c883p-1)).value;
@@ -323,7 +327,7 @@ typename Elementary<Number>::SineCosine Elementary<Number>::sin_cos(const Number
               0x1.71de355e97e73p-19);
     const Number sine = r + (r * square * sine_terms + (c - c * half));
 
-    // 1 - r^2/2 + r^4/24 - ..., to 2^-63; what 1 - r^2/2 loses is put back.
+    // 1 - r^2/2 + r^4/24 - ..., to 2^-63; the rounding error of 1 - r^2/2 is added back.
     const Number cosine_terms =
         linear(square, 0x1.1ee9dbd5da2b6p-29, -0x1.8fa68573ea2eep-37) * (fourth * fourth) +
         cubic(square, fourth, 0x1.555555555554bp-5, -0x1.6c16c16c15016p-10, 0x1.a01a019c8f419p-16,
@@ -342,8 +346,8 @@ typename Elementary<Number>::SineCosine Elementary<Number>::sin_cos(const Number
 
 // atan
 
-/// With a = |x| of an angle beyond 3/8 pi its complement's tangent is 1/a, between that and 1/8 pi
-/// the tangent of what is beyond 1/4 pi is (a - 1) / (a + 1).
+/// Let a = |x|. For an angle beyond 3/8 pi, the tangent of its complement is 1/a. For an angle
+/// between 1/8 pi and 3/8 pi, the tangent of its difference from 1/4 pi is (a - 1) / (a + 1).
 template <class Number>
 Number Elementary<Number>::atan(const Number& x) {
     const Bits sign = P::bits(x) & Bits(std::uint64_t(1) << 63);

@@ -28,7 +28,7 @@ Scaled sum(const Scaled& a, const Scaled& b) {
                       a.exponent);
 }
 
-/// Product of numbers that are 1 where they are 0: denominators.
+/// Returns the product of two denominators, for which 0 stands for 1.
 Dyadic multiplied(const Dyadic& a, const Dyadic& b) {
     return a.sign() == 0 ? b : b.sign() == 0 ? a : a * b;
 }
@@ -88,7 +88,7 @@ int Exact::sign() const {
     const int of_root = root_.sign();
     if (of_root == 0 || of_rational == of_root) return of_rational;
     if (of_rational == 0) return of_root;
-    return of_rational * norm().sign(); // the larger square's
+    return of_rational * norm().sign(); // the sign of the part with the larger square
 }
 
 Exact::operator double() const {

@@ -10,7 +10,7 @@ namespace raylane::core {
 /// A quotient of exact numbers.
 struct Rational {
     Dyadic numerator;
-    Dyadic denominator; ///< > 0; 0 stands for 1, which most are
+    Dyadic denominator; ///< > 0; 0 stands for 1, the most frequent denominator
 
     int sign() const { return numerator.sign(); }
     Scaled approximately() const;
@@ -20,13 +20,13 @@ Rational operator-(const Rational& a);
 Rational operator+(const Rational& a, const Rational& b);
 Rational operator-(const Rational& a, const Rational& b);
 Rational operator*(const Rational& a, const Rational& b);
-/// `b` is not 0.
+/// `b` must not be 0.
 Rational operator/(const Rational& a, const Rational& b);
 
 /// Real arithmetic, as far as a quadratic equation needs it: rational + root sqrt(radicand), in
-/// integers of any size. Nothing is rounded and every question is answered. A solver takes 2 to 30
-/// us by it, and memory from the heap: for the few rays that wider floats leave undecided. All
-/// numbers of one computation have to come from one square root.
+/// integers of any size. No operation rounds, and every sign is decided. A solver with these
+/// numbers takes 2 to 30 us and allocates memory, so it is for the few rays that wider floats leave
+/// undecided. All numbers of one computation must come from the same square root.
 class Exact {
   public:
     Exact() = default;
@@ -35,16 +35,16 @@ class Exact {
         : rational_{Dyadic(static_cast<double>(value)), {}} {}
 
     int sign() const;
-    /// Within 2^-48 of itself, and of its sign.
+    /// Returns the value with a relative error of at most 2^-48 and the right sign.
     explicit operator double() const;
 
     friend Exact operator-(const Exact& a);
     friend Exact operator+(const Exact& a, const Exact& b);
     friend Exact operator-(const Exact& a, const Exact& b);
     friend Exact operator*(const Exact& a, const Exact& b);
-    /// 0 if `b` is 0.
+    /// Returns 0 if `b` is 0.
     friend Exact operator/(const Exact& a, const Exact& b);
-    /// Root of a number >= 0 without a root of its own.
+    /// Returns the square root of a rational number >= 0.
     friend Exact sqrt(const Exact& a);
 
     friend bool operator<(const Exact& a, const Exact& b) { return (a - b).sign() < 0; }

@@ -21,11 +21,12 @@ Dyadic power_of_2(int exponent) {
 
 } // namespace
 
-/// Sign of G at the root. With t = (-B + s sqrt(D)) / A for D = B^2 - A C, s = 1 where F rises, and
+/// Returns the sign of G at the root. Let t = (-B + s sqrt(D)) / A with D = B^2 - A C, s = 1 where
+/// F rises and -1 where it falls, and
 ///   J = A B' - A' B,  K = A C' - A' C,  L = B C' - B' C
-/// for G = A' t^2 + 2 B' t + C', it is
+/// for G = A' t^2 + 2 B' t + C'. Then
 ///   A^2 G(t) = X + Y sqrt(D),  X = A K - 2 J B,  Y = 2 s J.
-/// Where X and Y oppose each other, the larger square decides, and
+/// If X and Y have opposite signs, the one with the larger square decides, and
 ///   X^2 - Y^2 D = A^2 (K^2 - 4 J L).
 int ExactRoot::sign_of(const ExactQuadratic& G) const {
     const auto& [A, B, C] = F_;
@@ -43,7 +44,8 @@ int ExactRoot::sign_of(const ExactQuadratic& G) const {
 int compare(const ExactRoot& a, const ExactRoot& b) {
     const int of_F = a.sign_of(b.F_);
     if (b.is_linear()) return of_F * b.F_.B.sign();
-    // Between the roots of b's polynomial, at one of them, or on which side of both?
+    // Tells whether a is between the roots of b's polynomial, at one of them, or on one side of
+    // both.
     const int opens = b.F_.A.sign();
     const bool b_is_second = b.rises_ == (opens > 0);
     if (of_F * opens < 0) return b_is_second ? -1 : 1;
@@ -53,7 +55,8 @@ int compare(const ExactRoot& a, const ExactRoot& b) {
 }
 
 float ExactRoot::rounded_between(float low, float high, int exponent) const {
-    // By the number of the float, which is in the order of floats that are not negative.
+    // Bisects over the bit patterns, which are in the order of the floats for floats that are not
+    // negative.
     auto below = std::bit_cast<std::uint32_t>(low), above = std::bit_cast<std::uint32_t>(high);
     while (below < above) {
         const std::uint32_t next = below + (above - below) / 2;
@@ -70,7 +73,7 @@ float ExactRoot::rounded_between(float low, float high, int exponent) const {
 
 Bounded<DoubleDouble> ExactRoot::in_wide(double t, double error) const {
     DoubleDouble middle(t);
-    double half = std::ldexp(1.0, std::ilogb(error) + 1); // so that no sum is rounded
+    double half = std::ldexp(1.0, std::ilogb(error) + 1); // a power of two: no sum is rounded
     while (half > 0x1p-101 * std::abs(t)) {
         half *= 0.5;
         const int side = sign_of(ExactQuadratic::minus(Dyadic(middle.high) + middle.low));

@@ -17,30 +17,31 @@ struct ExactQuadratic {
     ExactQuadratic half_derivative() const { return {0.0, 0.5 * A, B}; }
 };
 
-/// A real root of a quadratic, which need not be a number that can be written down. What is asked
-/// of it are signs, and those follow from the coefficients by sums and products alone: as few as
-/// resultants need (Deakin and Snoeyink, "Sorting line-quadric intersections at low degree", arXiv
-/// 1605.05629; Karavelas and Emiris, "Root comparison techniques applied to computing the
-/// additively weighted Voronoi diagram", 2003).
+/// A real root of a quadratic. It need not be representable; only signs are computed. They follow
+/// from the coefficients by sums and products alone, as few as resultants need (Deakin and
+/// Snoeyink, "Sorting line-quadric intersections at low degree", arXiv 1605.05629; Karavelas and
+/// Emiris, "Root comparison techniques applied to computing the additively weighted Voronoi
+/// diagram", 2003).
 class ExactRoot {
   public:
-    /// The root where F rises, or else falls; of a linear F, which is not constant, its only one.
-    /// A double root is both.
+    /// The root where F rises, or the one where it falls. A linear F must not be constant and has
+    /// one root. A double root is both.
     ExactRoot(ExactQuadratic F, bool rises) : F_(std::move(F)), rises_(rises) {}
     static ExactRoot at(double t) { return {ExactQuadratic::minus(t), true}; }
 
-    /// The sign of another quadratic there.
+    /// Returns the sign of another quadratic at the root.
     int sign_of(const ExactQuadratic& G) const;
-    /// Sign of the root itself.
+    /// Returns the sign of the root itself.
     int sign() const { return sign_of(ExactQuadratic::minus(0.0)); }
-    /// Order of two roots: -1 if a is less, 0 if they are the same.
+    /// Returns the order of two roots: -1 if a is less, 0 if they are equal, 1 if a is greater.
     friend int compare(const ExactRoot& a, const ExactRoot& b);
-    /// The float that root * 2^exponent is nearest to, ties to even, of those from low to high,
-    /// which are >= 0. It must not be nearer to another.
+    /// Returns the float nearest to root * 2^exponent, ties to even, among the floats from low to
+    /// high, which are >= 0. The nearest of all floats must be one of them.
     float rounded_between(float low, float high, int exponent) const;
-    /// Within 2^-100 of itself. Double knows it already, but for an error.
+    /// Returns the root with a relative error of at most 2^-100, given `t` in double within `error`
+    /// of it.
     Bounded<DoubleDouble> in_wide(double t, double error) const;
-    /// Within 2^exponent, likewise.
+    /// Returns the root with an absolute error of at most 2^exponent, given the same.
     Dyadic near(double t, double error, int exponent) const;
 
   private:

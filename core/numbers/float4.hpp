@@ -4,8 +4,8 @@
 
 namespace raylane::core {
 
-/// Four floats at a time, by the compilers' own vector types: for loops that are held up by minima,
-/// of which g++ makes scalar ones otherwise.
+/// Four floats, as a vector type of the compilers, for loops that are limited by minima: g++
+/// compiles plain float minima to scalar code.
 using Float4 [[gnu::vector_size(16)]] = float;
 using Int4 [[gnu::vector_size(16)]] = std::int32_t;
 

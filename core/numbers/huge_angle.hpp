@@ -5,7 +5,8 @@
 namespace raylane::core {
 
 /// An angle x as quadrant * pi/2 + (remainder + correction), with |remainder| <= pi/4 and the
-/// correction below the remainder's last digit. The quadrant is a whole number, modulo 4 that of x.
+/// correction below the remainder's last digit. The quadrant is an integer congruent to x's
+/// quadrant modulo 4.
 template <class Number>
 struct ReducedAngle {
     Number quadrant;
@@ -13,15 +14,15 @@ struct ReducedAngle {
     Number correction;
 };
 
-/// Reduced angle for |x| > 1, finite, however large: exact but for a relative error of 2^-61 in
-/// remainder + correction. x is whole times a power of two, so only 192 binary digits of 2/pi
-/// decide where in its turn it ends: those before count whole turns, those behind are too small. No
-/// double comes nearer to a multiple of pi/2 than 2^-62. Source: Payne and Hanek, "Radian reduction
-/// for trigonometric functions" (1983). `User` keeps apart the copies of units that must share
-/// none.
+/// Returns the reduced angle of a finite x with |x| > 1, however large, with a relative error of
+/// 2^-61 in remainder + correction. x is an integer times a power of two, so only 192 binary digits
+/// of 2/pi decide its position within a turn: earlier digits count whole turns, later ones are too
+/// small. No double is closer to a multiple of pi/2 than 2^-62. Source: Payne and Hanek, "Radian
+/// reduction for trigonometric functions" (1983). `User` separates the instantiations of
+/// compilation units that must not share one.
 template <class User>
 ReducedAngle<double> reduced_huge_angle(double x) {
-    // 2/pi, behind 64 zeros before the point.
+    // Binary digits of 2/pi, preceded by 64 zeros before the binary point.
     static constexpr std::uint64_t digits[] = {
         0x0000000000000000, 0xA2F9836E4E441529, 0xFC2757D1F534DDC0, 0xDB6295993C439041,
         0xFE5163ABDEBBC561, 0xB7246E3A424DD2E0, 0x06492EEA09D1921C, 0xFE1DEB1CB129A73E,
@@ -35,7 +36,7 @@ ReducedAngle<double> reduced_huge_angle(double x) {
     const int exponent = static_cast<int>(bits >> 52 & 0x7FF) - 1075;
     const std::uint64_t whole = (bits & 0xFFFFFFFFFFFFF) | 0x10000000000000;
 
-    // The digit that counts two quadrants is the first that matters.
+    // The digit that counts two quadrants is the first significant one.
     const int first = exponent + 62, shift = first % 64;
     std::uint64_t window[3];
     for (int i = 0; i < 3; ++i) {

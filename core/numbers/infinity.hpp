@@ -4,7 +4,7 @@
 
 namespace raylane::core {
 
-/// Hidden, for GCC would otherwise export it where its address is taken.
+/// Hidden, because GCC would otherwise export it where its address is taken.
 template <class Real>
 [[gnu::visibility("hidden")]] inline constexpr Real
     infinity = std::numeric_limits<Real>::infinity();

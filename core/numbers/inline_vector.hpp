@@ -8,7 +8,7 @@
 
 namespace raylane::core {
 
-/// A vector that has room for `own` elements in itself, and asks for memory only if there are more.
+/// A vector that stores up to `own` elements in itself and allocates memory only for more.
 template <class Value, std::size_t own>
 class InlineVector {
     static_assert(std::is_trivially_copyable_v<Value>);
@@ -28,7 +28,7 @@ class InlineVector {
         if (this == &other) return *this;
         size_ = std::exchange(other.size_, 0);
         if (other.more_ == nullptr) {
-            std::copy_n(other.few_, size_, begin()); // there is room for that
+            std::copy_n(other.few_, size_, begin()); // fits in any case
             return *this;
         }
         more_ = std::move(other.more_);
@@ -46,7 +46,7 @@ class InlineVector {
     Value& operator[](std::size_t i) { return begin()[i]; }
     const Value& operator[](std::size_t i) const { return begin()[i]; }
 
-    /// `size` elements that have no values yet.
+    /// Resizes to `size` elements with unspecified values.
     void reset(std::size_t size) {
         size_ = 0;
         make_room(size);
@@ -68,8 +68,8 @@ class InlineVector {
     }
 
     std::size_t size_ = 0, room_ = own;
-    std::unique_ptr<Value[]> more_; // null: they are in few_
-    Value few_[own];                // NOLINT: only what is set is read
+    std::unique_ptr<Value[]> more_; // null: the elements are in few_
+    Value few_[own];                // NOLINT: only elements that were set are read
 };
 
 } // namespace raylane::core

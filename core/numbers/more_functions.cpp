@@ -13,17 +13,18 @@ namespace raylane::core {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Beyond it, e^x is infinite, or e^-x of no account beside it.
+/// Beyond this, e^x is infinite, or e^-x is negligible beside it.
 constexpr double large = 709.0;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr int most_squared = 1024; // by squares, which lose 2^-90 of it
+constexpr int most_squared =
+    1024; // largest exponent for repeated squaring, whose relative error is 2^-90
 
 /// x^n for finite x != 0 and |n| <= most_squared.
 double whole_power(double x, int n) {
     int exponent = 0;
     double m = std::frexp(x, &exponent);
-    if (std::abs(m) < std::numbers::sqrt2 / 2.0) { // m^n and what it loses stay in range
+    if (std::abs(m) < std::numbers::sqrt2 / 2.0) { // keeps m^n and its error terms in range
         m *= 2.0;
         --exponent;
     }
@@ -38,13 +39,13 @@ double whole_power(double x, int n) {
     return std::ldexp(static_cast<double>(result), exponent * n);
 }
 
-/// e^x / 2, which may be finite where e^x is not.
+/// Returns e^x / 2, which may be finite where e^x is not.
 double half_of_large_exp(double x) {
     const double root = exp(0.5 * x);
     return 0.5 * root * root;
 }
 
-/// log(1 + x), x >= 0. Source: Kahan; the error of 1 + x is in both factors.
+/// Returns log(1 + x) for x >= 0. Source: Kahan; both factors contain the error of 1 + x.
 double log1p(double x) {
     const double sum = 1.0 + x;
     if (sum == 1.0) return x;
@@ -54,14 +55,14 @@ double log1p(double x) {
 } // namespace
 
 double power(double x, double y) {
-    // Exact by any library.
+    // Exact in every library.
     if (!std::isfinite(x) || !std::isfinite(y) || x == 0.0 || y == 0.0) return std::pow(x, y);
     const double size = std::abs(y);
     const bool is_whole = std::floor(size) == size;
     if (x < 0.0 && !is_whole) return not_a_number;
     if (y == 0.5) return std::sqrt(x);
     if (is_whole && size <= most_squared) return whole_power(x, static_cast<int>(y));
-    const double result = pow(std::abs(x), y); // for x > 0 it does not ask for the sign of y
+    const double result = pow(std::abs(x), y); // any y is valid for a positive base
     return x < 0.0 && std::fmod(size, 2.0) != 0.0 ? -result : result;
 }
 
@@ -80,7 +81,7 @@ double acos(double x) {
 }
 
 double atan2(double y, double x) {
-    // Exact but for multiples of pi / 4.
+    // Exact in every library, except for multiples of pi / 4.
     if (!std::isfinite(x) || !std::isfinite(y) || x == 0.0 || y == 0.0) return std::atan2(y, x);
     const double angle = atan(std::abs(y / x));
     return std::copysign(x < 0.0 ? pi - angle : angle, y);

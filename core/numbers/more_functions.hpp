@@ -1,9 +1,9 @@
 #pragma once
 
-/// Functions that readers of scenes are asked for, which few rays depend on: of one double at a
-/// time, made of those of elementary.hpp, and so with the same bits on every processor and by every
-/// C library. They are within 3 ulps. What is not finite, or outside of where a function is
-/// defined, gives what <cmath> gives.
+/// Functions that readers of scenes need and few rays depend on. They take one double at a time and
+/// build on those of elementary.hpp, so they have the same bits on every processor and with every C
+/// library. They are within 3 ulps. For arguments that are not finite or outside of a function's
+/// domain, they return the same as <cmath>.
 namespace raylane::core {
 
 double tan(double x);
@@ -17,8 +17,8 @@ double asinh(double x);
 double acosh(double x);
 double atanh(double x);
 
-/// x^y for all numbers. 0.5 ulp where y is a whole number of up to 1024, so that it is exact where
-/// a double holds it; else 1.7, and 0 below 2^-1021.
+/// x^y for all numbers. 0.5 ulp if y is an integer up to 1024, so the result is exact if a double
+/// can hold it. Otherwise 1.7 ulps, and 0 below 2^-1021.
 double power(double x, double y);
 
 } // namespace raylane::core

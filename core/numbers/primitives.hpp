@@ -6,7 +6,7 @@
 
 namespace raylane::core {
 
-/// For whoever writes a formula once, for scalars and registers.
+/// Primitives of scalars, for formulas that are written once for scalars and registers.
 template <>
 struct Primitives<double> {
     using Bits = std::uint64_t;

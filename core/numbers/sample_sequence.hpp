@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstdint>
 
-/// Points of squares that samples choose, for scalars and, as all of it is inlined, kernels.
+/// Points in a square for samples. All functions are inlined, for scalar code and kernels alike.
 namespace raylane::core {
 
 /// A point of [0, 1)^2.
@@ -15,8 +15,8 @@ struct SamplePoint {
 /// A sample of a pixel.
 struct SampleName {
     int x, y;       ///< the pixel
-    int number;     ///< of its samples, from 0 on; negative for its middle
-    int common = 0; ///< of its samples that all pixels have, from 0 on; 0: unknown
+    int number;     ///< index of the sample; negative for the pixel's middle
+    int common = 0; ///< the number of samples, from index 0 on, that all pixels have; 0: unknown
 };
 
 namespace detail {
@@ -29,8 +29,8 @@ namespace detail {
     return (x & 0xAAAAAAAAU) >> 1 | (x & 0x55555555U) << 1;
 }
 
-/// Each bit is flipped or not by a hash of those below it: Laine and Karras, "Stratified sampling
-/// for stochastic transparency" (2011), with the constants of Vegdahl (2021).
+/// Flips each bit or not, by a hash of the lower bits: Laine and Karras, "Stratified sampling for
+/// stochastic transparency" (2011), with the constants of Vegdahl (2021).
 [[gnu::always_inline]] constexpr std::uint32_t flipped_by_lower(std::uint32_t x,
                                                                 std::uint32_t seed) {
     x ^= x * 0x3D20ADEAU;
@@ -47,10 +47,10 @@ namespace detail {
 
 } // namespace detail
 
-/// What a pixel's samples choose by a sequence of its own; soft lights follow, depth by depth.
+/// Choices of a pixel's samples, each with its own sequence. Soft lights follow, depth by depth.
 enum SequenceUse : std::uint32_t { in_pixel = 0, on_lens = 1, on_first_light = 2 };
 
-/// Names the sequence of pixel (x, y) for that use.
+/// Returns the key of the sequence of pixel (x, y) for a use.
 inline std::uint64_t sequence_key(std::uint32_t x, std::uint32_t y, std::uint32_t use) {
     std::uint64_t key = (static_cast<std::uint64_t>(y) << 32 | x) +
                         0x9E3779B97F4A7C15ULL * (use + std::uint64_t{1});
@@ -59,14 +59,14 @@ inline std::uint64_t sequence_key(std::uint32_t x, std::uint32_t y, std::uint32_
     return key ^ key >> 31;
 }
 
-/// Points one after the other, any number of them: Sobol's (0, 2)-sequence, scrambled as Owen has
-/// it by a hash of the key (Burley, "Practical Hash-based Owen Scrambling", 2020). The first 2^k of
-/// them have one in each cell of every division of the square into 2^k equal rectangles, and so has
-/// each 2^k that follow.
+/// Returns point `number` of an unlimited sequence: Sobol's (0, 2)-sequence with Owen scrambling by
+/// a hash of the key (Burley, "Practical Hash-based Owen Scrambling", 2020). The first 2^k points
+/// have one in each cell of every division of the square into 2^k equal rectangles, and so has each
+/// following block of 2^k.
 [[gnu::always_inline]] constexpr SamplePoint sequence_point(std::uint64_t key,
                                                             std::uint32_t number) {
-    // Sobol's second matrix, Pascal's triangle: each bit is the sum of those at all places that
-    // have its place's bits.
+    // Sobol's second matrix, Pascal's triangle: each bit is the sum of the bits at all positions
+    // whose binary digits include those of its position.
     std::uint32_t second = number;
     second ^= second >> 1 & 0x55555555U;
     second ^= second >> 2 & 0x33333333U;
@@ -77,8 +77,8 @@ inline std::uint64_t sequence_key(std::uint32_t x, std::uint32_t y, std::uint32_
             detail::scrambled(second, static_cast<std::uint32_t>(key >> 32))};
 }
 
-/// The same points, each 2^k of them in another order: so that what has the same number in another
-/// sequence, or in a grid, says nothing of where they are.
+/// Returns the same points, each block of 2^k in another order. A number that a sample has in
+/// another sequence, or in a grid, then has no relation to the position of its point.
 [[gnu::always_inline]] constexpr SamplePoint shuffled_point(std::uint64_t key,
                                                             std::uint32_t number) {
     const auto seed = static_cast<std::uint32_t>(key * 0x9E3779B97F4A7C15ULL >> 32);
@@ -92,15 +92,15 @@ struct PointRange {
     std::uint32_t first;
 };
 
-/// Returns the points on soft light number `light` of `lights` that a sample chooses for a surface
-/// that its path meets at a depth, `count` of them.
+/// Returns the `count` points of a sample on soft light number `light` of `lights`, as seen from
+/// its hit at a depth.
 ///
-/// Samples that all pixels have take their points from one sequence for each square of 256 x 256
-/// pixels, pixel by pixel along a Z-order curve: so not only the points of each pixel are
-/// stratified, but also those of each 2 x 2 pixels, 4 x 4 and so on. Errors of neighbours cancel:
-/// blue noise (Ahmed and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error
-/// via Hierarchical Ordering of Pixels", 2020). Further samples of a pixel have a sequence of its
-/// own.
+/// Samples that all pixels have share one sequence in each square of 256 x 256 pixels, pixel by
+/// pixel along a Z-order curve. So points are stratified within each pixel, and within each aligned
+/// square of 2 x 2 pixels, 4 x 4 and so on: errors of neighbours cancel, and noise is blue. Source:
+/// Ahmed and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
+/// Hierarchical Ordering of Pixels" (2020). Further samples of a pixel use a sequence of that
+/// pixel.
 inline PointRange points_on_light(const SampleName& sample, std::uint32_t count, int depth,
                                   std::uint32_t light, std::uint32_t lights) {
     constexpr std::uint32_t side_bits = 8, most = 1U << (32 - 2 * side_bits);

@@ -6,8 +6,8 @@
 
 namespace glm {
 
-/// From GLM 1.0.2 on its own is 0 - v, which has the other zeros, and asks numbers to be made of
-/// ints. This one is taken before it, as it is more special.
+/// GLM's own negation, from 1.0.2 on, is 0 - v: it gives zeros of the other sign and requires
+/// numbers that can be made of ints. The compiler prefers this overload, as it is more specialised.
 template <class Real>
 constexpr vec<3, Real, defaultp> operator-(const vec<3, Real, defaultp>& v) {
     return {-v.x, -v.y, -v.z};
@@ -15,11 +15,11 @@ constexpr vec<3, Real, defaultp> operator-(const vec<3, Real, defaultp>& v) {
 
 } // namespace glm
 
-/// Three-component vectors. GLM holds the components; the products are ours, because the order of
-/// the operations and every fused multiply-add in them is part of what raylane promises.
+/// Three-component vectors. GLM holds the components. The products are defined here, because
+/// raylane guarantees the order of the operations and every fused multiply-add in them.
 ///
-/// GLM's x/r/s unions need trivial types, and the oracle's numbers are not: the build defines
-/// GLM_FORCE_XYZW_ONLY for every target.
+/// GLM's x/r/s unions need trivial types, but the oracle's numbers are not trivial: the build
+/// defines GLM_FORCE_XYZW_ONLY for every target.
 namespace raylane::core {
 
 template <class Real>
@@ -50,8 +50,8 @@ Real dot(const Vec3<Real>& a, const Vec3<Real>& b) {
     return mul_add(a.x, b.x, mul_add(a.y, b.y, Real(a.z * b.z)));
 }
 
-/// The products are rounded before they are subtracted, so that cross(a, b) is -cross(b, a) to the
-/// bit: two triangles that share an edge then agree on which side of it a ray passes.
+/// The products are rounded before they are subtracted, so that cross(a, b) equals -cross(b, a) to
+/// the bit: two triangles that share an edge then agree on which side of it a ray passes.
 template <class Real>
 Vec3<Real> cross(const Vec3<Real>& a, const Vec3<Real>& b) {
     return {Real(Real(a.y * b.z) - Real(a.z * b.y)), Real(Real(a.z * b.x) - Real(a.x * b.z)),
@@ -74,13 +74,14 @@ Vec3<Real> normalized(const Vec3<Real>& a) {
     return a / length(a);
 }
 
-/// The mirror image of `incident` (pointing at the surface) in the plane across the unit `normal`.
+/// Returns the mirror image of `incident` (pointing at the surface) in the plane across the unit
+/// `normal`.
 template <class Real>
 Vec3<Real> reflected(const Vec3<Real>& incident, const Vec3<Real>& normal) {
     return mul_add(Real(Real(-2) * dot(incident, normal)), normal, incident);
 }
 
-/// The same vector in another real type.
+/// Converts a vector to another real type.
 template <class To, class From>
 Vec3<To> convert(const Vec3<From>& v) {
     return {static_cast<To>(v.x), static_cast<To>(v.y), static_cast<To>(v.z)};
