@@ -7,7 +7,7 @@
 
 namespace raylane::core {
 
-/// The fraction of fog in [0, 1] on a segment of this length that ends at world z.
+/// Returns the fraction of fog in [0, 1] on a segment of length `distance` that ends at world `z`.
 template <class Real>
 Real fog_fraction(const Fog& fog, Real distance, Real z) {
     const Real start = Real(fog.start), end = Real(fog.end);
@@ -24,7 +24,7 @@ Real fog_fraction(const Fog& fog, Real distance, Real z) {
     return Real(0);
 }
 
-/// The same for a ray that hits nothing: the limit for a segment without end.
+/// Returns the same for a ray that hits nothing: the limit for an infinite segment.
 template <class Real>
 Real fog_fraction_at_infinity(const Fog& fog, const Vec3<Real>& origin,
                               const Vec3<Real>& direction) {

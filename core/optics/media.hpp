@@ -9,21 +9,21 @@
 
 namespace raylane::core {
 
-/// Empty space, among materials.
+/// The index of empty space among materials.
 inline constexpr MaterialIndex no_medium = std::numeric_limits<MaterialIndex>::max();
 
-/// Refractive index of a medium; of empty space 1.
+/// Returns the refractive index of a medium; that of empty space is 1.
 inline float index_of(const std::vector<Material>& materials, MaterialIndex medium) {
     return medium == no_medium ? 1.0F : materials[medium].index;
 }
 
-/// The transmissive materials that a ray is inside of, by number: MediaStacks knows them.
+/// The stack of transmissive materials that a ray is inside of, as its number in MediaStacks.
 using Media = std::uint32_t;
 inline constexpr Media empty_space = 0;
 
-/// All stacks of materials that rays have been inside of, the last entered on top. That one decides
-/// index and absorption. Each is said once, so two are the same where their numbers are, and a ray
-/// carries any number of materials in one. To be used by one thread.
+/// All stacks of materials that rays have been inside of, the last entered on top. The top decides
+/// index and absorption. Each stack exists once, so two stacks are equal if their numbers are, and
+/// a ray carries any number of materials in one number. For use by one thread.
 class MediaStacks {
   public:
     MediaStacks() {
@@ -40,7 +40,7 @@ class MediaStacks {
         stacks_.push_back({material, media, none, stacks_[media].above});
         return stacks_[media].above = number;
     }
-    /// Without the innermost entry of this material, if there is one.
+    /// Returns the stack without the innermost entry of this material, if it has one.
     Media left(Media media, MaterialIndex material) {
         above_.clear();
         Media at = media;
@@ -52,13 +52,13 @@ class MediaStacks {
             at = entered(at, above_.back());
         return at;
     }
-    /// Through a surface of this material.
+    /// Returns the stack behind a surface of this material.
     Media crossed(Media media, MaterialIndex material, bool entering) {
         return entering ? entered(media, material) : left(media, material);
     }
 
-    /// Medium of a ray before it meets a surface of this material. One that leaves a body which it
-    /// never entered has been inside from its start.
+    /// Returns the medium of a ray before it meets a surface of this material. A ray that leaves a
+    /// body without having entered it started inside of it.
     MaterialIndex before(Media media, MaterialIndex material, bool transmits, bool entering) const {
         return media == empty_space && !entering && transmits ? material : top(media);
     }
@@ -69,12 +69,12 @@ class MediaStacks {
     struct Stack {
         MaterialIndex material;
         Media below;
-        Media above; ///< the last that has come on top of this one
-        Media next;  ///< another on top of the same
+        Media above; ///< the newest stack on top of this one
+        Media next;  ///< the next older stack on top of the same one
     };
 
     std::vector<Stack> stacks_;
-    std::vector<MaterialIndex> above_; // what is taken out
+    std::vector<MaterialIndex> above_; // materials above the removed entry
 };
 
 } // namespace raylane::core

@@ -20,22 +20,24 @@ struct Refraction {
     Vec3<Real> transmitted; ///< unit; not set if total
 };
 
-/// Snell's law. `incident` and `normal` are unit vectors, the normal on the side that the ray comes
-/// from. The sine comes from the component along the surface, not from 1 - cos^2, which cancels.
+/// Applies Snell's law. `incident` and `normal` are unit vectors, and the normal is on the side
+/// that the ray comes from. The sine comes from the component along the surface, not from 1 -
+/// cos^2, which cancels.
 template <class Real>
 Refraction<Real> refract(const Vec3<Real>& incident, const Vec3<Real>& normal, Real n1, Real n2) {
     const Real cos_incident = std::clamp(-dot(incident, normal), Real(0), Real(1));
     const Vec3<Real> along = (n1 / n2) * mul_add(cos_incident, normal, incident);
     const Real sin_squared = squared_length(along);
-    // Into a denser medium nothing is total, whatever the rounding.
+    // Rounding must not cause total reflection into a denser medium.
     if (sin_squared > Real(1) && n1 > n2) return {true, cos_incident, Real(0), {}};
     const Real cos_transmitted = std::sqrt(std::max(Real(0), Real(1) - sin_squared));
     return {false, cos_incident, cos_transmitted, mul_add(-cos_transmitted, normal, along)};
 }
 
-/// Schlick's approximation of the reflected fraction. It wants the cosine of the larger of the two
-/// angles: the transmitted one when the ray leaves the denser side (Shirley, "Bug in my Schlick
-/// code"). Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering" (1994).
+/// Returns Schlick's approximation of the reflected fraction. It needs the cosine of the larger of
+/// the two angles: the transmitted one when the ray leaves the denser side (Shirley, "Bug in my
+/// Schlick code"). Source: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering"
+/// (1994).
 template <class Real>
 Real schlick(Real cos_incident, Real cos_transmitted, Real n1, Real n2) {
     const Real root = (n1 - n2) / (n1 + n2);
@@ -45,7 +47,7 @@ Real schlick(Real cos_incident, Real cos_transmitted, Real n1, Real n2) {
     return at_normal + (Real(1) - at_normal) * (rest_squared * rest_squared * rest);
 }
 
-/// Fresnel's equations: the mean of both polarisations.
+/// Returns the reflected fraction by Fresnel's equations: the mean of both polarisations.
 template <class Real>
 Real dielectric(Real cos_incident, Real cos_transmitted, Real n1, Real n2) {
     const Real perpendicular =
@@ -55,20 +57,20 @@ Real dielectric(Real cos_incident, Real cos_transmitted, Real n1, Real n2) {
     return std::min(Real(1), (perpendicular * perpendicular + parallel * parallel) / Real(2));
 }
 
-/// The reflected fraction R in [0, 1] of a material between two indices. What is not reflected is 1
-/// - R, and R + (1 - R) is 1 to the bit.
+/// Returns the reflected fraction R in [0, 1] of a material between two indices. The rest is 1 - R,
+/// and R + (1 - R) is 1 to the bit.
 template <class Real>
 Real reflectance(const Material& material, const Refraction<Real>& refraction, Real n1, Real n2) {
     if (refraction.total) return Real(1);
     if (material.reflection == Reflection::constant) return Real(material.reflectivity);
-    // Where nothing changes nothing is reflected; Schlick's approximation would at grazing angles.
+    // Equal indices reflect nothing; Schlick's approximation would at grazing angles.
     if (n1 == n2) return Real(0);
     const auto fresnel =
         material.reflection == Reflection::schlick ? schlick<Real> : dielectric<Real>;
     return fresnel(refraction.cos_incident, refraction.cos_transmitted, n1, n2);
 }
 
-/// The share of light, linear RGB, that a body's inside lets through over a distance: Beer and
+/// Returns the share of light, linear RGB, that a body transmits over a distance: Beer and
 /// Lambert's law.
 template <class Real>
 Vec3<Real> let_through_medium(const Material& material, Real distance) {
@@ -79,16 +81,16 @@ Vec3<Real> let_through_medium(const Material& material, Real distance) {
     return share;
 }
 
-/// What shares of light by channel come to where there is one number for all, as of an alpha.
+/// Returns the mean of a share over the channels, for single numbers such as alpha.
 template <class Real>
 Real mean_of_channels(const Vec3<Real>& share) {
     return (share.x + share.y + share.z) / Real(3);
 }
 
-/// The share of light that a surface lets through on a straight line, at the cosine `cos` of its
-/// angle to the normal. As the line is not bent, its angle is taken for the one on the rarer side:
-/// a light is never shut out by total reflection in a body that it has to enter first. What a
-/// see-through one does not cover passes.
+/// Returns the share of light that a surface lets through in a straight line, at the cosine `cos`
+/// of its angle to the normal. The line is not refracted, so its angle counts as the one on the
+/// rarer side. Total reflection therefore never blocks a light in a body that the light has to
+/// enter first. Light passes a transparent surface unattenuated where the surface does not cover.
 template <class Real>
 Real let_straight_through(const Material& material, Real cos, Real n1, Real n2) {
     const Real rarer = std::min(n1, n2), denser = std::max(n1, n2);

@@ -12,7 +12,7 @@ void copy(const Vec3d& from, double (&to)[3]) {
         to[axis] = from[axis];
 }
 
-/// Any unit vector across a unit one.
+/// Returns a unit vector perpendicular to a unit vector.
 Vec3d across(const Vec3d& v) {
     const Vec3d other = std::abs(v.x) < 0.5 ? Vec3d(1.0, 0.0, 0.0) : Vec3d(0.0, 1.0, 0.0);
     return normalized(cross(v, other));
@@ -30,7 +30,7 @@ SoftLight prepared(const Light& light) {
     soft.radius = static_cast<double>(light.radius);
     if (light.kind == LightKind::rectangle) {
         const Vec3d u = convert<double>(light.edge_u), v = convert<double>(light.edge_v);
-        // Perpendicular but for the rounding of the edges.
+        // The edges are perpendicular except for rounding.
         const Vec3d normal = normalized(cross(u, v)), unit = normalized(u);
         copy(unit, soft.axis[0]);
         copy(cross(normal, unit), soft.axis[1]);

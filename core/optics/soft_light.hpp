@@ -4,12 +4,12 @@
 #include "core/numbers/sample_sequence.hpp"
 #include "core/scene/appearance.hpp"
 
-/// Light that comes from more than one direction: samples of it, for scalars and registers alike.
+/// Samples of lights that have a size, for scalars and registers alike.
 namespace raylane::core {
 
 struct Light;
 
-/// A light with a size, made ready to be sampled: plain data.
+/// A light with a size, prepared for sampling: plain data.
 struct SoftLight {
     LightKind kind;
     double color[3];  ///< radiance; sky: of the zenith
@@ -17,15 +17,15 @@ struct SoftLight {
     double reach;     ///< sky
     double middle[3]; ///< sphere, disc; rectangle: a corner
     double radius;
-    double axis[3][3]; ///< sky: the last is up; disc, rectangle: the last is the normal; all unit
+    double axis[3][3]; ///< unit vectors; the last is up (sky) or the normal (disc, rectangle)
     double extent[2];  ///< rectangle: lengths of its edges, along the first two axes
 };
 
-/// `light` has a size.
+/// Prepares a light, which must have a size.
 SoftLight prepared(const Light& light);
 
-/// The point whose sample is the light's middle, for hard light; the sky's sample is then the
-/// normal.
+/// Returns the point whose sample is the light's middle, for hard light. For the sky, the sample is
+/// the normal.
 constexpr SamplePoint middle_of(const SoftLight& light) {
     return light.kind == LightKind::rectangle ? SamplePoint{0.5F, 0.5F} : SamplePoint{0.0F, 0.0F};
 }
@@ -39,19 +39,21 @@ template <class Number>
 struct LightSample {
     Directed<Number> direction; ///< unit
     Number distance;            ///< to the light
-    Number share;               ///< of the light's radiance, over the cosine but for the sky
+    Number share;               ///< factor on the radiance; for the sky it includes the cosine
     Number height;              ///< sky: 1 shows the zenith, 0 the nadir
 };
 
-/// Samples of a light from points in [0, 1)^2. The mean over these of radiance * share * cosine is
-/// the light's over pi, which a white diffuse surface shows. All operations are rounded one by one,
-/// so that registers have the scalars' bits.
+/// Samples a light at points in [0, 1)^2. The mean over the points of radiance * share * cosine
+/// (for the sky: radiance * share) is the light's irradiance divided by pi, which a white diffuse
+/// surface shows. Each operation is rounded separately, so that registers give the same bits as
+/// scalars.
 template <class Number>
 class SoftLightSampler {
   public:
     explicit SoftLightSampler(const SoftLight& light) : light_(light) {}
 
-    /// `normal` is that of the surface at `point`, unit: the sky is sampled by the cosine to it.
+    /// `normal` is the unit normal of the surface at `point`: the sky is sampled by the cosine to
+    /// it.
     LightSample<Number> sample(const Directed<Number>& point, const Directed<Number>& normal,
                                const Number& u, const Number& v) const {
         switch (light_.kind) {
@@ -90,9 +92,10 @@ class SoftLightSampler {
         return Elementary<Number>::sin_cos(Number(0x1.921fb54442d18p+2) * v);
     }
 
-    /// In a frame around the unit vector z: Duff et al., "Building an orthonormal basis, revisited"
-    /// (2017). Theirs changes at z.z = 0, where walls are and rounding would say which of both;
-    /// this one where there is nothing, and no less well.
+    /// Returns a vector in a frame around the unit vector z: Duff et al., "Building an orthonormal
+    /// basis, revisited" (2017). Their frame changes sign at z.z = 0, the normals of walls, where
+    /// rounding would choose the sign. This one changes at a value that is not typical of any
+    /// surface, and is equally accurate.
     static V around(const V& z, const Number& x_part, const Number& y_part, const Number& z_part) {
         const Number seam(-0.28651);
         const Number sign = P::select(z.z < seam, Number(-1.0), Number(1.0));
@@ -103,7 +106,8 @@ class SoftLightSampler {
         return sum(sum(scaled(x_part, x), scaled(y_part, y)), scaled(z_part, z));
     }
 
-    /// By the cosine to the normal (Malley): a point of the unit disc, raised to the hemisphere.
+    /// Samples by the cosine to the normal (Malley): a point of the unit disc, raised to the
+    /// hemisphere.
     LightSample<Number> of_sky(const V& normal, const Number& u, const Number& v) const {
         const Turn azimuth = turn(v);
         const Number r = P::sqrt(u), z = P::sqrt(not_negative(Number(1.0) - u));
@@ -112,7 +116,7 @@ class SoftLightSampler {
         return {direction, Number(light_.reach), Number(1.0), Number(0.5) + Number(0.5) * up};
     }
 
-    /// Evenly over the cone of directions to it; from inside, over all of them.
+    /// Samples evenly over the cone of directions to the sphere; from inside, over all directions.
     LightSample<Number> of_sphere(const V& point, const Number& u, const Number& v) const {
         const Number one(1.0), zero(0.0);
         const V offset = minus(constant(light_.middle), point);
@@ -141,9 +145,9 @@ class SoftLightSampler {
                 Number(2.0) * whole, zero};
     }
 
-    /// The cone of directions to a disc is elliptic. Around its axis, which halves the angle
-    /// between the disc's nearest and farthest points, its section is an ellipse: azimuths by the
-    /// area of that, and evenly by solid angle along each.
+    /// Samples the cone of directions to a disc, which is elliptic. Its axis bisects the angle
+    /// between the disc's nearest and farthest points, and its cross-section is an ellipse.
+    /// Azimuths are sampled by the ellipse's area, and evenly by solid angle along each azimuth.
     LightSample<Number> of_disc(const V& point, const Number& u, const Number& v) const {
         const Number one(1.0), zero(0.0), tiny(0x1p-500);
         const Number radius(light_.radius);
@@ -156,7 +160,7 @@ class SoftLightSampler {
         const auto is_seen = height > tiny;
         height = P::select(is_seen, height, one);
 
-        // In the disc's plane, from below it to its middle.
+        // In the disc's plane, from the point below the surface point to the disc's middle.
         const V beside = minus(offset, scaled(height, normal));
         const Number middle = P::sqrt(dot(beside, beside));
         const auto oblique = middle > height * Number(0x1p-40);
@@ -167,8 +171,8 @@ class SoftLightSampler {
                   P::select(oblique, beside.z * per_middle, first.z)};
         const V x = cross(normal, y);
 
-        // The nearest and the farthest point, as unit vectors of y and the normal, and between
-        // them.
+        // The nearest and the farthest point, as unit vectors of y and the normal, and the bisector
+        // of both.
         const Number near = middle - radius, far = middle + radius;
         const Number per_near = one / P::sqrt(near * near + height * height);
         const Number per_far = one / P::sqrt(far * far + height * height);
@@ -188,7 +192,7 @@ class SoftLightSampler {
         const Number squared = across * across + along * along;
         const Number slant = P::sqrt(one + squared);
         const Number per_slant = one / (slant * (one + slant));
-        const Number h = u * (squared * per_slant); // of 1 - cos of the cone there
+        const Number h = u * (squared * per_slant); // share of the cone's 1 - cos at this azimuth
         const Number cosine = one - h, sine = P::sqrt(not_negative(h * (Number(2.0) - h)));
         const Number per_edge = sine / P::sqrt(P::select(squared > tiny, squared, one));
         const Number x_part = across * per_edge, edge_part = along * per_edge;
@@ -199,8 +203,8 @@ class SoftLightSampler {
                 P::select(is_seen, Number(2.0) * a * b * per_slant, zero), zero};
     }
 
-    /// Evenly by solid angle: Urena, Fajardo and King, "An area-preserving parametrization for
-    /// spherical rectangles" (2013). Of one that is far away and small, by area.
+    /// Samples evenly by solid angle: Urena, Fajardo and King, "An area-preserving parametrization
+    /// for spherical rectangles" (2013). Samples a small and distant rectangle by area.
     LightSample<Number> of_rectangle(const V& point, const Number& u, const Number& v) const {
         const Number one(1.0), zero(0.0);
         const V corner = minus(constant(light_.middle), point);
