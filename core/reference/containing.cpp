@@ -10,13 +10,13 @@ namespace raylane::core {
 
 namespace {
 
-/// What an all or an any is, by its children.
+/// The value of an intersection (Op::all) or a union (Op::any), from its children.
 class OfChildren {
   public:
     explicit OfChildren(const Solids::Node& node)
         : of_all_(node.op == Solids::Op::all), side_(of_all_ ? Side::inside : Side::outside) {}
 
-    /// False once it is known.
+    /// Adds a child. Returns false once the value is known.
     bool add(Side child) {
         side_ = of_all_ ? std::max(side_, child) : std::min(side_, child);
         return side_ != (of_all_ ? Side::outside : Side::inside);
@@ -32,7 +32,7 @@ Side of_part(const Solids::Node& part, Side of_shape) {
     return part.reversed ? static_cast<Side>(-static_cast<int>(of_shape)) : of_shape;
 }
 
-/// What a polynomial is from some t on.
+/// Returns the sign of a polynomial for all large t, as a side.
 Side side_in_the_end(const ExactQuadratic& form) {
     for (const Dyadic* coefficient : {&form.A, &form.B, &form.C})
         if (const int sign = coefficient->sign(); sign != 0) return static_cast<Side>(sign);
@@ -64,7 +64,7 @@ Side side_at_end(const Scene& scene, Solids::Index index, const Ray<double>& ray
                 else
                     return Side::outside;
             }));
-    if (node.many) return Side::outside; // each of them has bounds
+    if (node.many) return Side::outside; // each child has bounds
     OfChildren children(node);
     scene.solids().each_child(
         index, [&](Solids::Index child) { return children.add(side_at_end(scene, child, ray)); });

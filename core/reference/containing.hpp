@@ -9,43 +9,43 @@
 
 namespace raylane::core {
 
-/// A solid that a point is in, or on the surface of. One that is made of others goes by the id of
-/// its first part.
+/// A solid that a point is inside of, or on the surface of. A compound solid has the id of its
+/// first part.
 struct Containing {
     ShapeId shape;
     bool on_surface;
 };
 
-/// The solids of a scene that have no bounds.
+/// Returns the unbounded solids of a scene.
 std::vector<Solids::Index> unbounded_solids(const Scene& scene);
 
-/// Which side of a solid a ray is on in the end, behind all that it crosses, as real arithmetic
-/// says. It is on the surface where it runs in that of parts, and neither inside nor outside
-/// whatever these parts are.
+/// Returns the side of a solid on which a ray ends, behind all its crossings, as real arithmetic
+/// decides. Returns Side::surface if the ray runs in the surface of parts on which the result
+/// depends.
 Side side_at_end(const Scene& scene, Solids::Index solid, const Ray<double>& ray);
 
-/// Finds the solids that points are in; to be used by one thread. Of solids that are the same, of
-/// one material, the first alone is found.
+/// Finds the solids that contain points. For use by one thread. Finds only the first of several
+/// equal solids of one material.
 class PointSearcher {
   public:
     explicit PointSearcher(const Scene& scene);
 
-    /// Appends those that contain a point, by their ids: as real arithmetic says. A point that is
-    /// not finite is in none.
+    /// Appends the solids that contain a point, in the order of their ids, as real arithmetic
+    /// decides. No solid contains a point that is not finite.
     void add_containing(const Vec3d& point, std::vector<Containing>& found);
 
-    /// Which side of a node of the scene's solids a point is on. It is on the surface where it is
-    /// on that of parts, and neither inside nor outside whatever these parts are.
+    /// Returns the side of a node of the scene's solids on which a point is. Returns Side::surface
+    /// if the point is on the surface of parts on which the result depends.
     Side side_of(Solids::Index index, const Vec3d& point);
 
-    /// The solids that have no bounds.
+    /// Returns the unbounded solids.
     std::span<const Solids::Index> unbounded() const { return unbounded_; }
 
   private:
     const Scene& scene_;
     PartsNear parts_;
     std::vector<Solids::Index> unbounded_;
-    std::vector<Solids::Index> solids_; // that may contain a point
+    std::vector<Solids::Index> solids_; // candidates for a point
 };
 
 } // namespace raylane::core

@@ -9,9 +9,9 @@ namespace raylane::core {
 
 namespace {
 
-/// The crossing as a root of its surface's equation along the ray. For a start on that surface, of
-/// which t = 0 is one root, of what is left of it (as the solvers have it); behind the start it is
-/// there: not_behind().
+/// Returns the crossing as a root of its surface's equation along the ray. If the ray starts on
+/// that surface, t = 0 is a root, and the crossing is the root of the remaining linear equation, as
+/// in the solvers. A root behind the start counts as 0, as in not_behind().
 template <class Shape>
 ExactRoot root_of(const Shape& shape, const LeavingRay& from, const Hit<double>& hit) {
     if (hit.at_start) return ExactRoot::at(0.0);
@@ -46,7 +46,7 @@ void SharpHit::widen(const Shape& shape, const LeavingRay& from) const {
     Judge<Wide> judge;
     const Ray<Wide> wide{convert<Wide>(from.ray.origin), convert<Wide>(from.ray.direction)};
     const Crossings<Wide> found = crossings(shape, wide, from.origins.start_on(hit_.shape), judge);
-    if (judge.doubt()) return; // the formulas may be others' then
+    if (judge.doubt()) return; // the formulas may have taken a wrong branch
     for (const Crossing<Wide>& crossing : found) {
         if (crossing.face != hit_.face || crossing.entering != hit_.entering) continue;
         if (!(crossing.t.error < hit_.error)) continue;

@@ -8,8 +8,8 @@
 
 #include <optional>
 
-/// Order of a ray's crossings, whatever they are crossings with: as real arithmetic says. Two are
-/// at the same t where that says so, and nowhere else.
+/// Orders a ray's crossings with any shapes as real arithmetic does. Two crossings have the same t
+/// only if real arithmetic says so.
 namespace raylane::core {
 
 /// A ray that starts on no surface, or on known ones.
@@ -18,11 +18,11 @@ struct LeavingRay {
     const OriginSurfaces<double>& origins;
 };
 
-/// A crossing of which more is found out where there is need.
+/// A crossing whose t can be computed more accurately on demand.
 class SharpHit {
   public:
     SharpHit(const Hit<double>& hit) : hit_(hit) {} // NOLINT: implicit
-    /// Hit of which t has been found out in 106 bits, if its error is less.
+    /// A hit whose t is known in 106 bits, if that has a smaller error.
     SharpHit(const Hit<double>& hit, const DoubleDouble& t, double error) : hit_(hit) {
         if (!(error < hit.error)) return;
         is_wide_ = true;
@@ -31,9 +31,10 @@ class SharpHit {
     }
 
     const Hit<double>& hit() const { return hit_; }
-    /// Finds out t in 106 bits, if that is more.
+    /// Computes t in 106 bits, if that has a smaller error.
     void widen(const Scene& scene, const LeavingRay& from) const;
-    /// Hit with a t that is off by no more than double cannot help, if it has been widened.
+    /// Returns the hit with t rounded from 106 bits, if it has been widened and if that is more
+    /// accurate.
     Hit<double> sharpened() const {
         const Bounded<double> t = in_double(wide_t());
         Hit<double> result = hit_;
@@ -42,15 +43,15 @@ class SharpHit {
         result.error = t.error;
         return result;
     }
-    /// t as well as it is known.
+    /// Returns t as accurately as it is known.
     Bounded<DoubleDouble> wide_t() const {
         return is_wide_ ? Bounded<DoubleDouble>(t_, t_error_)
                         : Bounded<DoubleDouble>(hit_.t, hit_.error);
     }
-    /// Exactly.
+    /// Returns t as an exact root.
     const ExactRoot& root(const Scene& scene, const LeavingRay& from) const;
 
-    /// True if it surely comes before; both have been widened.
+    /// Returns true if this hit is certainly before `other`. Both must have been widened.
     bool is_surely_before(const SharpHit& other) const {
         const Bounded<DoubleDouble> difference =
             Bounded<DoubleDouble>(other.t_, other.t_error_) - Bounded<DoubleDouble>(t_, t_error_);
@@ -75,14 +76,14 @@ class SharpHit {
 /// Orders the crossings of one ray: by intervals, then in double-double, then exactly.
 class CrossingOrder {
   public:
-    /// Counts comparisons if there are counters.
+    /// Counts comparisons if `counters` is not null.
     CrossingOrder(const Scene& scene, const LeavingRay& from, OrderCounters* counters = nullptr)
         : scene_(scene), from_(from), counters_(counters) {}
 
-    /// -1 if a comes first by its t, 0 if both are at the same t.
+    /// Compares by t: -1 if a comes first, 0 if both are at the same t, 1 if b comes first.
     int compare(const SharpHit& a, const SharpHit& b) const;
-    /// Order of two hits. At the same t, what is entered comes before what is left, then the lower
-    /// shape.
+    /// Returns true if a comes before b. At the same t, entering comes before leaving, then the
+    /// lower shape id comes first.
     bool is_before(const SharpHit& a, const SharpHit& b) const {
         const int order = compare(a, b);
         return order != 0 ? order < 0 : a.hit().precedes(b.hit());

@@ -6,12 +6,13 @@ namespace raylane::core {
 
 namespace {
 
-/// True if a solid below a node of the hierarchy is transmissive and has bounds that meet the box.
+/// Returns true if a solid below a node of the hierarchy is transmissive and has bounds that meet
+/// the box.
 bool any_solid_meets(const Scene& scene, std::uint32_t index, const Bounds& box) {
     const auto in_block = [&]<class Shape>(const Table<Shape>& table, std::uint32_t block) {
         bool any = false;
         for_each_in_block(table, block, [&](Place place, ShapeId id) {
-            // What is inside of a solid is within the bounds of one of its parts.
+            // The inside of a solid is within the bounds of its parts.
             if (const Bounds* of_part = scene.solids().bounds_of(id)) {
                 any = any || (scene.materials()[scene.medium_index_of(id)].transmits() &&
                               of_part->meets(box));

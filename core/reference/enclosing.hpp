@@ -9,18 +9,18 @@
 #include <limits>
 #include <vector>
 
-/// Media that enclose a point, such as a camera's place.
+/// Finds the media that enclose a point, such as the camera's position.
 namespace raylane::core {
 
-/// True for a part of a solid that has no bounds.
+/// Returns true for a part of an unbounded solid.
 inline bool is_of_unbounded(const Scene& scene, ShapeId id) {
     const Solids& solids = scene.solids();
     return solids.has(id) && !is_finite(solids.bounds(solids.root_of(solids.part_of(id))));
 }
 
-/// The transmissive materials that a ray leaves without having entered them, those left first in
-/// front. What is unbounded, and has an inside without end, does not count, nor do solids that are
-/// made of such.
+/// Returns the transmissive materials that a ray leaves without having entered them, in the order
+/// in which it leaves them. Ignores unbounded shapes, whose inside has no end, and unbounded
+/// solids.
 template <class Real>
 std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& searcher,
                                       const Ray<Real>& ray) {
@@ -48,13 +48,14 @@ std::vector<MaterialIndex> left_along(const Scene& scene, Searcher<Real>& search
     return left;
 }
 
-/// False if no point of a box is inside of a transmissive body, planes aside: each is outside of
-/// the bounds of every solid, and of those around all that could be a body together.
+/// Returns false if no point of a box is inside of a transmissive body, planes aside. The box is
+/// then outside of the bounds of every solid, and of the common bounds of all surfaces that could
+/// together enclose a body.
 bool may_be_in_body(const Scene& scene, const Bounds& box);
 
-/// A point is in a body if a line through it leaves the body both ways, and behind a plane if it
-/// is. Where no body can be around it, nothing is searched; `may_be_in_a_body`: false if that is
-/// known.
+/// Returns the media that enclose a point. A point is in a body if a line through it leaves the
+/// body both ways, and behind a plane by its position. Searches only if a body may enclose the
+/// point; `may_be_in_a_body`: false if no body does.
 template <class Real>
 Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks& stacks,
                       const Vec3<Real>& point, bool may_be_in_a_body = true) {
@@ -85,7 +86,7 @@ Media enclosing_media(const Scene& scene, Searcher<Real>& searcher, MediaStacks&
     include_point(around_point, point);
     if (!may_be_in_body(scene, around_point)) return media;
 
-    // Any direction does; a round one would run along faces and edges.
+    // Any direction works; one with round components would run along faces and edges.
     const Vec3<Real> direction = normalized(Vec3<Real>(Real(0.41), Real(0.57), Real(0.71)));
     const std::vector<MaterialIndex> ahead = left_along(scene, searcher, {point, direction});
     std::vector<MaterialIndex> behind =

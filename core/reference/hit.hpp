@@ -19,8 +19,8 @@ struct Hit {
     bool entering = false;
     Kind kind{};
     Place place{};
-    bool joins = false;    ///< of several in order: at the same t as the one before
-    bool reversed = false; ///< its shape is a part of a solid by what is outside of it
+    bool joins = false;    ///< in a sorted list: at the same t as the hit before
+    bool reversed = false; ///< its shape is a reversed part of a solid, in which the outside counts
 
     Hit() = default;
     Hit(const Crossing<Real>& crossing, ShapeId shape_, Kind kind_, Place place_, bool reversed_)
@@ -33,17 +33,18 @@ struct Hit {
           joins(other.joins), reversed(other.reversed) {}
 
     bool any() const { return shape != no_shape; }
-    /// True if it goes to the inside of the shape, or of the solid that has it reversed.
+    /// Returns true if the ray goes to the inside of the shape, or of the solid for a reversed
+    /// part.
     bool enters() const { return entering != reversed; }
 
-    /// Order of two at the same t: first what is at the start, then what is entered, then the lower
-    /// shape.
+    /// Orders two hits at the same t: hits at the start, then entering hits, then the lower shape
+    /// id.
     bool precedes(const Hit& other) const {
         if (at_start != other.at_start) return at_start;
         if (enters() != other.enters()) return enters();
         return shape < other.shape;
     }
-    /// True if t alone shows that it is nearer.
+    /// Returns true if t alone proves that this hit is nearer.
     bool is_surely_before(const Hit& other) const {
         return static_cast<double>(other.t) - static_cast<double>(t) >
                (error + other.error) * (1.0 + 0x1p-50);

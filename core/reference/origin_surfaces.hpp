@@ -13,28 +13,28 @@ namespace raylane::core {
 template <class Real>
 struct Contact {
     Hit<Real> hit;
-    IdRange shapes; ///< its shape and what lies in one plane with it
+    IdRange shapes; ///< its shape and the shapes coplanar with it
     MaterialIndex material;
     Vec3<Real> normal;        ///< unit, outward
-    bool inside;              ///< true if the ray is on its inside now
-    bool goes_inside;         ///< true if it goes to its inside
-    ShapeId solid = no_shape; ///< that it is a part of, if of any
-    bool is_surface = true;   ///< this is one of the solid's surface, too
+    bool inside;              ///< true if the ray is on the inside now
+    bool goes_inside;         ///< true if the ray goes to the inside
+    ShapeId solid = no_shape; ///< the solid that it is a part of, if any
+    bool is_surface = true;   ///< the contact is on the solid's surface, too
 
     bool is_part() const { return solid != no_shape; }
     bool is_crossed() const { return inside != goes_inside; }
 };
 
-/// Origin surfaces, those that a secondary ray leaves: which they are, on which side of each it is,
-/// and to which it goes. No arithmetic has to find that again. It is more than one surface where a
-/// block stands on a table, or at an edge; any number of them. Those which the ray is still to
-/// cross it crosses at t = 0. Those of one material that lie in each other, and are entered or left
-/// together, are one surface: it is seen once, however often it is there.
+/// Origin surfaces: the surfaces that a secondary ray starts on, with the side of each on which the
+/// ray is and the side to which it goes. No arithmetic has to find them again. There may be any
+/// number, such as where a block stands on a table, or at an edge. The ray crosses the surfaces
+/// that it still has to cross at t = 0. Coincident surfaces of one material that are entered or
+/// left together are one surface: it is seen once, however many there are.
 template <class Real>
 class OriginSurfaces {
   public:
     OriginSurfaces() = default;
-    /// Surfaces, each of another shape.
+    /// Converts from another real type.
     template <class Other>
     explicit OriginSurfaces(const OriginSurfaces<Other>& other) {
         contacts_.reset(other.size());
@@ -46,6 +46,7 @@ class OriginSurfaces {
                                      contact.solid,          contact.is_surface};
             });
     }
+    /// Takes contacts, each with a different shape.
     explicit OriginSurfaces(std::span<const Contact<Real>> contacts) {
         contacts_.reset(contacts.size());
         std::copy(contacts.begin(), contacts.end(), contacts_.begin());
@@ -65,13 +66,14 @@ class OriginSurfaces {
         return after != begin() && after[-1].shapes.contains(id) ? after - 1 : nullptr;
     }
 
-    /// Start as a shape's solver has to see it: as if the ray were already where it goes.
+    /// Returns the start for a shape's solver: the ray counts as being on the side to which it
+    /// goes.
     Start start_on(ShapeId id) const {
         const Contact<Real>* contact = find(id);
         return contact != nullptr ? Start{true, contact->hit.face, contact->goes_inside} : Start{};
     }
 
-    /// Number of contacts that are one surface with that of a hit.
+    /// Returns the number of contacts that are one surface with the contact of a hit.
     int count_as_one(const Hit<Real>& hit) const {
         const Contact<Real>& surface = *find(hit.shape);
         int count = 0;
@@ -80,8 +82,9 @@ class OriginSurfaces {
         return count;
     }
 
-    /// Surfaces for a ray in another direction from the same point, which is one of the contacts'
-    /// `hit`. It either goes through that surface, or stays on the side from which it was hit.
+    /// Returns the surfaces for a ray in another direction from the same point. The contact of
+    /// `hit` is the surface that was hit. The ray goes through it or stays on the side from which
+    /// it was hit.
     OriginSurfaces turned(const Hit<Real>& hit, bool through, const Vec3<Real>& direction) const {
         const Contact<Real>& surface = *find(hit.shape);
         OriginSurfaces result = *this;
@@ -96,7 +99,8 @@ class OriginSurfaces {
                     goes_inside == (dot(contact.normal, surface.normal) > Real(0));
             else
                 contact.goes_inside = dot(contact.normal, direction) < Real(0);
-            // What a solid changes by here has been seen, whichever of its parts are crossed.
+            // The change of the solid at this point has been seen, whichever of its parts are
+            // crossed.
             if (contact.hit.shape == hit.shape || (through && is_of_one(contact, surface)))
                 contact.inside = contact.goes_inside;
         }
@@ -115,22 +119,22 @@ class OriginSurfaces {
                 (dot(contact.normal, surface.normal) > Real(0)) == alike &&
                 parallel(contact.normal, surface.normal));
     }
-    /// True for a part of a solid whose surface is one with that.
+    /// Returns true for a part of a solid whose surface is one with `surface`.
     bool is_of_one(const Contact<Real>& part, const Contact<Real>& surface) const {
         return part.is_part() && std::any_of(begin(), end(), [&](const Contact<Real>& other) {
                    return other.solid == part.solid && other.is_surface && are_one(other, surface);
                });
     }
-    /// True if parallel, as far as directions of float precision can tell.
+    /// Returns true if parallel, as far as directions of float precision can tell.
     static bool parallel(const Vec3<Real>& a, const Vec3<Real>& b) {
         constexpr Real largest_sine = Real(0x1p-24);
         return squared_length(cross(a, b)) <= largest_sine * largest_sine;
     }
 
-    InlineVector<Contact<Real>, 4> contacts_; // by shape
+    InlineVector<Contact<Real>, 4> contacts_; // sorted by shape
 };
 
-/// The first surface that a ray meets, with all that it meets there.
+/// The first surface that a ray meets, with all its contacts there.
 template <class Real>
 struct Encounter {
     Hit<Real> hit;

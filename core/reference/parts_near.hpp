@@ -8,18 +8,17 @@
 
 namespace raylane::core {
 
-/// Finds parts of solids that may be near a point, by way of the hierarchy; to be used by one
-/// thread.
+/// Finds parts of solids that may be near a point, through the hierarchy. For use by one thread.
 class PartsNear {
   public:
     explicit PartsNear(const Scene& scene) : scene_(scene) {}
 
-    /// Calls visit(kind, block) for the blocks whose bounds meet those, until it returns false.
+    /// Calls visit(kind, block) for the blocks whose bounds meet `around`, until it returns false.
     template <class Visit>
     void each_block(const Bounds& around, const Visit& visit) {
         const BigArray<WideNode>& nodes = scene_.hierarchy().nodes;
         if (nodes.empty()) return;
-        // Whoever is called may look for others.
+        // The callback may start another search.
         const std::size_t others = pending_.size();
         pending_.push_back(0);
         while (pending_.size() > others) {
@@ -42,7 +41,7 @@ class PartsNear {
         }
     }
 
-    /// Calls visit(child) for the children of a union of many that may have anything within bounds,
+    /// Calls visit(child) for the children of a union of many that may have a point within bounds,
     /// until it returns false; in their order if `sorted`.
     template <class Visit>
     void each_child(Solids::Index parent, const Bounds& around, const Visit& visit,
@@ -75,9 +74,9 @@ class PartsNear {
     }
 
   private:
-    /// The lanes of a block whose shapes may have something within bounds: of spheres, and of
-    /// capped cylinders and cones as if their ends were round, those that are as near as that,
-    /// whatever their floats are rounded by.
+    /// Returns a mask of the lanes whose shapes may have a point within bounds. Tests spheres, and
+    /// capped cylinders and cones as if their ends were round, by their distance, with a tolerance
+    /// for the rounding of their floats. All lanes of other shapes count.
     template <class Shape>
     static unsigned near_in(const Block<Shape>&, const Bounds&) {
         return ~0U;

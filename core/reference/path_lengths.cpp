@@ -12,7 +12,7 @@ namespace {
 
 using Wide = Bounded<DoubleDouble>;
 
-/// True of what is surely not 0, and known well enough to be rounded to double.
+/// Returns true if the sum is certainly not 0, and accurate enough to be rounded to double.
 bool is_good(const Wide& sum) {
     return sum.value.high > 0.0 && sum.error <= 0x1p-60 * sum.value.high;
 }
@@ -41,8 +41,8 @@ PathLengths::OfMaterial& PathLengths::of(MaterialIndex material) {
     return added;
 }
 
-/// What is left before it is entered has been around the start; and so has what is neither, where
-/// it is around the end.
+/// Begins the solids that the ray starts in: those that it leaves before it enters them, and those
+/// that it never crosses but that contain its end.
 void PathLengths::begin_around_start(const LeavingRay& from, std::span<const Hit<double>> hits,
                                      double t_min) {
     const auto begin = [&](OfMaterial& material) {
@@ -69,7 +69,7 @@ void PathLengths::begin_around_start(const LeavingRay& from, std::span<const Hit
 void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, double t_min,
                       double t_max, std::vector<MaterialLength>& lengths) {
     if (!(t_min < t_max)) return;
-    // What has been cut open is left without having been entered.
+    // A ray may leave a solid that is cut open without having entered it.
     std::span<const Hit<double>> hits = all;
     if (std::any_of(all.begin(), all.end(),
                     [&](const Hit<double>& hit) { return scene_.solids().is_open(hit.shape); })) {
@@ -100,7 +100,7 @@ void PathLengths::add(const LeavingRay& from, std::span<const Hit<double>> all, 
         }
     }
 
-    // What is never left has no end.
+    // A material that the ray never leaves ends at t_max.
     for (std::size_t i = 0; i < count_; ++i) {
         OfMaterial& material = materials_[i];
         const bool is_none = material.begin.crossing == nullptr && material.begin.limit == t_max;
@@ -143,7 +143,7 @@ Bounded<DoubleDouble> PathLengths::sum_of(const std::vector<Inside>& parts) cons
     return sum;
 }
 
-/// Of parts that are not empty: by as many digits as it takes.
+/// Returns the sum of parts that are not empty, with as many digits as it takes.
 Bounded<DoubleDouble> PathLengths::exact_sum_of(const LeavingRay& from,
                                                 const std::vector<Inside>& parts) const {
     if (parts.empty()) return {};
@@ -156,7 +156,8 @@ Bounded<DoubleDouble> PathLengths::exact_sum_of(const LeavingRay& from,
         Dyadic sum;
         for (const Inside& part : parts)
             sum = sum + (t_within(part.end, exponent) - t_within(part.begin, exponent));
-        // Each end is off by 2^exponent, and more than double has room for is nothing to speak of.
+        // Each end has an error of 2^exponent. The other terms bound the digits beyond two doubles
+        // and underflow.
         const double high = sum.approximately().to_double();
         const double low = (sum - Dyadic(high)).approximately().to_double();
         const double error = std::ldexp(2.0 * static_cast<double>(parts.size()), exponent) +

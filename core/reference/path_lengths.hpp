@@ -11,22 +11,23 @@ namespace raylane::core {
 /// The length of a ray inside of the solids of one material.
 struct MaterialLength {
     MaterialIndex material;
-    double length; ///< in the scene's unit, within an ulp; infinite where it has no end
+    double length; ///< in the scene's unit, within an ulp; may be infinite
 };
 
-/// Measures how much of a ray, from t_min to t_max, is inside of each material's solids: of what is
-/// in several of one material, once; what is cut open has no inside. To be used by one thread.
+/// Measures the length of a ray, from t_min to t_max, inside of each material's solids. A stretch
+/// inside of several solids of one material counts once. A solid that is cut open has no inside.
+/// For use by one thread.
 class PathLengths {
   public:
     explicit PathLengths(const Scene& scene);
 
     /// Appends lengths that are not 0, by material. `hits`: all of the ray's crossings with solids,
-    /// in order; of those that it starts in, the ways out alone.
+    /// in order; for solids that it starts in, only the exits.
     void add(const LeavingRay& from, std::span<const Hit<double>> hits, double t_min, double t_max,
              std::vector<MaterialLength>& lengths);
 
   private:
-    /// An end of what is inside: a crossing, or a limit.
+    /// An end of an interval inside of a material: a crossing, or a limit.
     struct End {
         const SharpHit* crossing = nullptr;
         double limit = 0.0;
@@ -53,12 +54,13 @@ class PathLengths {
 
     const Scene& scene_;
     std::vector<Solids::Index> endless_; // solids without bounds that are not cut open
-    std::vector<Hit<double>> closed_;    // those of solids that are not cut open, where some are
+    std::vector<Hit<double>> closed_; // hits of solids that are not cut open, if some are cut open
     std::vector<SharpHit> sharp_;
-    std::vector<std::pair<ShapeId, std::size_t>> by_solid_; // with the number of the hit
-    std::vector<OfMaterial> materials_; // of the ray, and some more of earlier ones
+    std::vector<std::pair<ShapeId, std::size_t>> by_solid_; // with the index of the hit
+    std::vector<OfMaterial>
+        materials_; // the first count_ belong to the ray; the others are reused memory
     std::size_t count_ = 0;
-    std::vector<std::uint32_t> place_of_; // by material, if it is there
+    std::vector<std::uint32_t> place_of_; // by material: its index in materials_, if present
 };
 
 } // namespace raylane::core

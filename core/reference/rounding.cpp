@@ -21,7 +21,7 @@ float float_of(double t) {
                                          static_cast<double>(Limits::max())));
 }
 
-/// Bounds of what is off by `error`, which may be less than half an ulp.
+/// Return bounds of a value with an error bound, which may be less than half an ulp.
 double below(double value, double error) {
     return error == 0.0 ? value
                         : std::nextafter(value - error, -std::numeric_limits<double>::infinity());
@@ -47,14 +47,14 @@ Bounded<double> largest(const Vec3<Bounded<double>>& v) {
                     [](const auto& a, const auto& b) { return a.magnitude() < b.magnitude(); });
 }
 
-/// Each off by less than this, relative to the largest.
+/// Returns true if the error of each component is less than `accuracy` times the largest component.
 bool are_within(const Vec3<Bounded<double>>& v, double accuracy) {
     const double most = accuracy * largest(v).magnitude();
     return v.x.error < most && v.y.error < most && v.z.error < most;
 }
 
-/// Calls is_enough(t) with t in 106 bits, then within 2^-100 of itself, until that returns true.
-/// Returns whether it did.
+/// Calls is_enough(t) with t in 106 bits, then with a relative error of at most 2^-100, until it
+/// returns true. Returns whether it did.
 template <class IsEnough>
 bool with_wide_t(const Scene& scene, const LeavingRay& from, const SharpHit& sharp,
                  const IsEnough& is_enough) {
@@ -72,14 +72,14 @@ Vec3<Wide> wide_normal(const Scene& scene, const Ray<Wide>& ray, const Wide& t,
     });
 }
 
-/// That of an apex.
+/// Returns the normal of an apex.
 Vec3<Wide> wide_apex_normal(const Scene& scene, const Ray<Wide>& ray, const Hit<double>& hit) {
     return with_shape(scene, hit, [&](const auto& shape) -> Vec3<Wide> {
         return normal_along(shape, ray, hit.face).apex;
     });
 }
 
-/// A normal, of any length: linear in t, at a root. That of an apex is 0.
+/// A normal of any length: linear in t, at a root. At an apex it is 0.
 struct ExactNormal {
     ExactRoot root;
     NormalAlong<Dyadic> along;
@@ -95,7 +95,7 @@ struct ExactNormal {
     }
 };
 
-/// Components of a normal that is brought to length 1, or of what stands in for it at an apex.
+/// Components of a normal of length 1, or of the vector that replaces it at an apex.
 class ExactDirection : private ExactNormal {
   public:
     explicit ExactDirection(const ExactNormal& normal)
@@ -109,12 +109,12 @@ class ExactDirection : private ExactNormal {
 
     bool at_apex() const { return at_apex_; }
 
-    /// Nearest to the component, ties to even; it is one of those from `first` to `last`.
+    /// Returns the float nearest to the component, ties to even. It must be from `first` to `last`.
     float rounded(int axis, float first, float last) const {
         const int sign = sign_of(axis);
         if (sign == 0) return 0.0F;
         if (sign < 0) first = -std::exchange(last, -first);
-        // By their numbers, floats from 0 to 1 are in order.
+        // The bit patterns of floats from 0 to 1 are in order.
         auto low = std::bit_cast<std::uint32_t>(std::clamp(first, 0.0F, 1.0F) + 0.0F);
         auto high = std::bit_cast<std::uint32_t>(std::clamp(last, 0.0F, 1.0F) + 0.0F);
         while (low < high) {
@@ -129,7 +129,7 @@ class ExactDirection : private ExactNormal {
         }
         return static_cast<float>(sign) * std::bit_cast<float>(low);
     }
-    /// Within 2^-45.
+    /// Returns the component to within 2^-45.
     double approximately(int axis) const {
         const int sign = sign_of(axis);
         double low = 0.0, high = 1.0;
@@ -141,7 +141,7 @@ class ExactDirection : private ExactNormal {
     }
 
   private:
-    /// Order of the component's size and this: -1 if it is less, 1 if it is more.
+    /// Compares the component's magnitude with `size`: -1 if it is less, 1 if it is more.
     int compare_square(int axis, double size) const {
         const Dyadic &v = along.v[axis], &slope = along.slope[axis];
         const Dyadic factor = Dyadic(size) * size;
@@ -149,14 +149,15 @@ class ExactDirection : private ExactNormal {
                              v * v - factor * square_.C});
     }
 
-    ExactQuadratic square_; // of its length
+    ExactQuadratic square_; // squared length
     bool at_apex_;
 };
 
-/// Floats that the components of a direction are known to be between.
+/// Intervals of floats that contain the components of a direction.
 class RoundedDirection {
   public:
-    /// Brings it to length 1. True if each component rounds to one float, whatever its error.
+    /// Normalises a direction. Returns true if each component rounds to one float, whatever its
+    /// error.
     bool is_sure(const Vec3<Wide>& direction) {
         const Wide length = core::length(direction);
         for (int axis = 0; axis < 3; ++axis) {
@@ -167,9 +168,9 @@ class RoundedDirection {
         }
         return first_ == last_;
     }
-    /// The floats, which are sure.
+    /// Returns the floats, which must be sure.
     Vec3f rounded() const { return first_ + Vec3f(0.0F); } // no -0
-    /// The floats, by exact numbers where these are not.
+    /// Returns the floats, and computes those that are not sure exactly.
     Vec3f rounded(const ExactDirection& exact) const {
         Vec3f result = rounded();
         for (int axis = 0; axis < 3; ++axis)
@@ -201,7 +202,7 @@ double nearest_double_t(const Scene& scene, const LeavingRay& from, const Hit<do
             return rounds_surely(t.value, t.error);
         }))
         return known.high;
-    // Between two that are next to each other, and nearly in their middle.
+    // t is between two adjacent doubles, close to their midpoint.
     const double other =
         std::nextafter(known.high, known.low < 0.0 ? 0.0 : std::numeric_limits<double>::infinity());
     const ExactRoot root = SharpHit(hit).root(scene, from);
@@ -237,7 +238,7 @@ float rounded_t(const Scene& scene, const LeavingRay& from, const Hit<double>& h
 Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<double>& hit) {
     const Ray<Wide> ray = ray_in<Wide>(from.ray);
     RoundedDirection normal;
-    // Vectors have tried with t as it is known in double.
+    // The vector kernels have already tried with t in double.
     if (with_wide_t(scene, from, hit,
                     [&](const Wide& t) { return normal.is_sure(wide_normal(scene, ray, t, hit)); }))
         return normal.rounded();
@@ -253,7 +254,7 @@ Vec3f rounded_normal(const Scene& scene, const LeavingRay& from, const Hit<doubl
     for (int axis = 0; axis < 3; ++axis)
         unknown += std::isnan(known[axis]) ? 1 : 0;
     if (unknown == 3) return rounded_normal(scene, from, hit);
-    // Digits never tell a component that is 0.
+    // No number of digits can prove that a component is 0.
     const ExactNormal exact(scene, from, hit);
     Vec3f normal = known;
     for (int axis = 0; axis < 3; ++axis)
@@ -300,7 +301,8 @@ SurfacePoint<double> surface_point(const Scene& scene, const LeavingRay& from,
     const SharpHit sharp(hit);
     if (is_known(sharp.wide_t()) || with_wide_t(scene, from, sharp, is_known) ||
         are_within(direction, 0x1p-40)) {
-        // Of any size: only now is it sure that no square over- or underflows.
+        // The normal may have any length; scaling it first ensures that no square over- or
+        // underflows.
         result.normal = normalized(result.normal / largest(direction).magnitude());
         return result;
     }

@@ -22,15 +22,15 @@ Hit<Real> contact_hit(const Contact<Real>& contact) {
     return hit;
 }
 
-/// Tolerance for missing bounds, relative to t: the solvers' error, which is 2^-27 in double, and
-/// that of the quotients here, 3 half ulps (Ize, "Robust BVH Ray Traversal", 2013). In float, and
-/// in plain double, the solvers promise nothing.
+/// Tolerance for a miss of bounds, relative to t: the solvers' error, which is 2^-27 in double,
+/// plus that of the quotients here, 3 half ulps (Ize, "Robust BVH Ray Traversal", 2013). In float,
+/// and in plain double, the solvers guarantee nothing.
 template <class Real>
 constexpr Real allowance = Real(1) + Real(std::is_same_v<Real, float> ? 0x1p-20 : 0x1p-25);
 
-/// t at which a ray enters the bounds of entry i, >= 0; -1 if it misses them between 0 and t_most.
-/// A component of 0 makes 0 * inf only if the origin is in a plane of the bounds; either answer is
-/// then right, as no shape touches them.
+/// Returns the t >= 0 at which a ray enters the bounds of entry i; -1 if it misses them between 0
+/// and t_most. A component of 0 gives 0 * inf only if the origin is in a plane of the bounds.
+/// Either answer is then right, as no shape touches its bounds.
 template <class Real>
 Real entry_t(const WideNode& node, int i, const Ray<Real>& ray, const Vec3<Real>& inverse,
              Real t_most) {
@@ -131,7 +131,7 @@ void Searcher<Real>::sort(const Ray<Real>& ray, const OriginSurfaces<Real>& orig
         hits[i].joins = i != 0 && hits[i - 1].t == hits[i].t;
 }
 
-/// True if a crossing with a part of a solid is one of the solid's surface, too.
+/// Returns true if a crossing with a part of a solid is one of the solid's surface, too.
 template <class Real>
 bool Searcher<Real>::is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                 const Hit<Real>& hit) {
@@ -145,7 +145,7 @@ bool Searcher<Real>::is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>
     }
 }
 
-/// Fills the candidates; returns one that may be the first, if any.
+/// Fills the candidates. Returns one that may be the first, if any.
 template <class Real>
 Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                OfHit counts, Real t_most) {
@@ -157,7 +157,7 @@ Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>&
         [&](Kind kind, std::uint32_t block) {
             cross_block(kind, block, ray, origins, [&](const Hit<Real>& hit) {
                 if (best.is_surely_before(hit) || !(hit.t < t_most)) return;
-                // What does not count may still lie where the ray will go on from.
+                // A hit that does not count may still be at the point where the ray continues.
                 const bool may_be_hit = counts(hit) && is_surface(ray, origins, hit);
                 candidates_.push_back({hit, may_be_hit});
                 if (may_be_hit && (hit.t < best.t || !best.any())) best = hit;
@@ -167,7 +167,7 @@ Hit<Real> Searcher<Real>::look(const Ray<Real>& ray, const OriginSurfaces<Real>&
     return best;
 }
 
-/// Encounter with the candidates, among which is `best`; `whole`: with its contacts.
+/// Returns the encounter with the candidates, which include `best`; `whole`: with its contacts.
 template <class Real>
 Encounter<Real> Searcher<Real>::encounter(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                           const Hit<Real>& best, bool whole) {
@@ -191,8 +191,8 @@ Encounter<Real> Searcher<Real>::encounter(const Ray<Real>& ray, const OriginSurf
         whole);
 }
 
-/// Encounter with hits that belong to the candidates: the first that counts, and all that are where
-/// it is.
+/// Returns the encounter with `hits`, which correspond to the candidates: the first hit that
+/// counts, and all hits at the same t.
 template <class Real>
 template <class AnyHit, class Compare>
 Encounter<Real> Searcher<Real>::first_of(const std::vector<AnyHit>& hits, const Ray<Real>& ray,
@@ -221,7 +221,7 @@ Encounter<Real> Searcher<Real>::first_of(const std::vector<AnyHit>& hits, const 
     contacts_.clear();
     const auto add = [&](const Hit<Real>& hit) {
         const IdRange shapes = scene_.coplanar_with(hit.shape);
-        // An edge between triangles of one polygon is of both.
+        // An edge between triangles of one polygon belongs to both.
         if (shapes.first != shapes.last &&
             std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<Real>& other) {
                 return other.shapes.first == shapes.first;
@@ -257,7 +257,7 @@ void Searcher<Real>::for_each_candidate(const Ray<Real>& ray, const Most& t_most
     if (more && !scene_.hierarchy().nodes.empty()) walk(ray, t_most, visit);
 }
 
-/// Through the hierarchy, nearest first.
+/// Visits the blocks through the hierarchy, nearest first.
 template <class Real>
 template <class Most, class Visit>
 void Searcher<Real>::walk(const Ray<Real>& ray, const Most& t_most, const Visit& visit) {

@@ -8,12 +8,12 @@
 #include <limits>
 #include <vector>
 
-/// Finding what a ray hits: one shape after the other, by way of the hierarchy or all of them.
+/// Finds the hits of a ray: one shape after the other, through the hierarchy or by brute force.
 namespace raylane::core {
 
 enum class Search : std::uint8_t { hierarchy, every_shape };
 
-/// Searches one scene; to be used by one thread.
+/// Searches one scene. For use by one thread.
 template <class Real>
 class Searcher {
   public:
@@ -22,34 +22,35 @@ class Searcher {
 
     Searcher(const Scene& scene, Search search, Precision precision = precision_of<Real>);
 
-    /// The first crossing with t < t_most that `counts(hit)`. Its t is infinite if there is none.
+    /// Returns the first crossing with t < t_most for which `counts(hit)` is true. Without one, t
+    /// is infinite.
     Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, OfHit counts,
                             Real t_most = std::numeric_limits<Real>::infinity());
 
-    /// The same for a ray that starts on no surface, without what it touches there.
+    /// Returns the same for a ray that starts on no surface, without the contacts of the hit.
     Hit<Real> nearest_hit(const Ray<Real>& ray, OfHit counts, Real t_most);
 
     /// Calls visit(hit) for the crossings of surfaces with t < t_most, in no order, until it
     /// returns false.
     void each(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Real t_most, OfHit visit);
 
-    /// The point of a crossing, and the unit normal on the outside (the front) there.
+    /// Returns the point of a crossing, and the unit normal on the outside (the front) there.
     SurfacePoint<Real> surface_at(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                                   const Hit<Real>& hit) const;
 
-    /// Into the order in which the ray meets them.
+    /// Sorts hits into the order in which the ray meets them.
     void sort(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
               std::vector<Hit<Real>>& hits);
 
     Counters counters;
-    OrderCounters order_counters; ///< of sort()
+    OrderCounters order_counters; ///< those of sort()
 
   private:
     bool is_exact() const { return precision_ == Precision::exact; }
     bool is_surface(const Ray<Real>& ray, const OriginSurfaces<Real>& origins,
                     const Hit<Real>& hit);
 
-    /// A hit that may be the first, or in contact with it.
+    /// A hit that may be the first, or in contact with the first.
     struct Candidate {
         Hit<Real> hit;
         bool may_be_hit;
@@ -79,9 +80,9 @@ class Searcher {
     Search search_;
     Precision precision_;
     std::vector<Pending> pending_;      // nearest last
-    std::vector<Candidate> candidates_; // for what is nearest
+    std::vector<Candidate> candidates_; // of the search for the nearest hit
     std::vector<Contact<Real>> contacts_;
-    std::vector<SharpHit> sharp_; // the same, or what is sorted
+    std::vector<SharpHit> sharp_; // the candidates, or the hits to sort
     SolidSurfaces solid_surfaces_;
 };
 

@@ -12,7 +12,8 @@ namespace raylane::core {
 
 namespace {
 
-/// The shape that has the inside of a part: a quadric's does not end where its surface is clipped.
+/// Returns the shape with the inside of a part: a quadric's inside extends beyond its clipped
+/// surface.
 template <class Shape>
 Shape unclipped(Shape shape) {
     if constexpr (kind_of<Shape> == Kind::quadric) {
@@ -22,7 +23,7 @@ Shape unclipped(Shape shape) {
     return shape;
 }
 
-/// True if a line that does not cross a shape's surface runs inside of it.
+/// Returns true if a line that does not cross a shape's surface is inside of it.
 template <class Shape>
 bool runs_inside(const Shape& shape, const Ray<double>& ray) {
     if constexpr (!is_solid<Shape> && has_inside<Shape>)
@@ -31,7 +32,7 @@ bool runs_inside(const Shape& shape, const Ray<double>& ray) {
         return false;
 }
 
-/// True if a line that only touches a shape's surface runs inside of it.
+/// Returns true if a line that only touches a shape's surface is inside of it.
 template <class Shape>
 bool touches_from_inside(const Shape& shape, const Ray<double>& ray) {
     if constexpr (kind_of<Shape> == Kind::quadric)
@@ -52,7 +53,7 @@ Hit<double> hit_of(const Solids::Node& part, const Crossing<double>& crossing) {
     return {crossing, part.shape, part.kind, part.place, part.reversed};
 }
 
-/// A box of floats that has all that a point with bounds may be.
+/// Returns a box of floats that contains all positions of a point with bounds.
 Bounds bounds_of(const Somewhere& point) {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {
@@ -79,7 +80,7 @@ Value SolidSurfaces::value_of_part(Index index, const LeavingRay& from, const Hi
     const Start start = from.origins.start_on(part.shape);
     const Value inside = with_part(scene_, part, [&](const auto& shape) {
         if (!start.on_surface) return inside_of(shape, point);
-        // It is on the side to which the ray goes until that meets it again.
+        // Until the ray meets the shape again, it is on the side to which it goes.
         std::uint64_t widened = 0;
         Value value = start.inward ? Value::yes : Value::no;
         for (const Crossing<double>& crossing : solve(unclipped(shape), from.ray, start, widened)) {
@@ -93,8 +94,8 @@ Value SolidSurfaces::value_of_part(Index index, const LeavingRay& from, const Hi
     return part.reversed ? !inside : inside;
 }
 
-/// Of a union of many, or of all but one of them. Those on whose surface the ray starts are known
-/// without a search.
+/// Returns the value of a union of many, leaving out the child `without`, if any. The parts on
+/// whose surface the ray starts need no search.
 Value SolidSurfaces::value_of_many(Index index, Index without, const LeavingRay& from,
                                    const Hit<double>& hit, const Somewhere& point) {
     Value value = Value::no;
@@ -130,8 +131,8 @@ Value SolidSurfaces::value_at(Index index, const LeavingRay& from, const Hit<dou
     return value;
 }
 
-/// By numbers with bounds: nothing else is crossed there, and all others of the parts let this one
-/// decide. What takes a search comes last.
+/// Decides by numbers with bounds. The answer is yes if the shape has no other crossing there, and
+/// the values of all other parts let this part decide. Parts that need a search come last.
 Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit,
                              const WayInUnion& way) {
     if (hit.at_start) return Value::unknown;
@@ -168,7 +169,7 @@ Value SolidSurfaces::quickly(const LeavingRay& from, const Hit<double>& hit,
             if (!matters) return Value::no;
         }
     if (value != Value::yes) return value;
-    // A touch changes nothing.
+    // A ray that only touches the shape changes no value.
     const Solids::Node& part = solids_.node(own);
     const bool is_alone = with_part(scene_, part, [&](const auto& shape) {
         std::uint64_t widened = 0;
@@ -189,7 +190,7 @@ WayInUnion::WayInUnion(const Scene& scene, const LeavingRay& from, ShapeId shape
     const Solids::Index solid = solids.root_of(solids.part_of(shape));
     const Solids::Index of_solid = solids.counted_of(solid);
     if (of_solid == Solids::none) return;
-    // On its surface, inside of no other part.
+    // A start on the surface of one part, inside of no other part.
     for (const Contact<double>& contact : from.origins) {
         const Solids::Index part = solids.part_of(contact.hit.shape);
         if (part == Solids::none || part < solid || solids.node(solid).end <= part) continue;
@@ -232,7 +233,7 @@ SolidSurfaces::Sides SolidSurfaces::sides_of_part(Index index, const LeavingRay&
                                  other.face == there.face && other.entering == there.entering;
             const int before = is_same ? 0
                                : there.at_start
-                                   ? (other.t > 0.0 ? 1 : -1) // known to be crossed, or not
+                                   ? (other.t > 0.0 ? 1 : -1) // after the start: not crossed yet
                                    : order.compare(other, hit);
             if (before < 0) inside.before = crossing.entering;
             if (before <= 0) inside.behind = crossing.entering;
@@ -266,7 +267,7 @@ bool SolidSurfaces::exactly(const LeavingRay& from, const Hit<double>& hit) {
     Index index = solids_.root_of(solids_.part_of(hit.shape));
     const Sides whole = sides_of(index, from, sharp, around);
     if (!whole.change()) return false;
-    // The first part that changes as the whole does.
+    // Finds the first part that changes in the same way as the whole solid.
     while (solids_.node(index).op != Solids::Op::part) {
         Index changed = Solids::none;
         const auto look = [&](Index child) {

@@ -5,17 +5,17 @@
 
 namespace raylane::core {
 
-/// What is known of a ray before a crossing: of how many parts of a union of many it is
-/// inside.
+/// The number of parts of a union of many that contain a ray before a crossing, if it is known.
 struct WayInUnion {
-    Solids::Index counted = Solids::none; ///< the union; none: nothing is known
+    Solids::Index counted = Solids::none; ///< the union; none: the number is unknown
     int inside = 0;
 
     WayInUnion() = default;
-    /// Of a ray that starts on a solid's surface, or somewhere else, and crosses a shape first.
+    /// Starts the count for a ray whose first crossing is with `shape`. The number is known if the
+    /// ray starts on the surface of a single part of the union, or outside of the union's bounds.
     WayInUnion(const Scene& scene, const LeavingRay& from, ShapeId shape);
 
-    /// Through a part.
+    /// Counts the crossing of a part.
     void pass(const Scene& scene, const Hit<double>& hit) {
         if (counted == Solids::none || !scene.solids().has(hit.shape)) return;
         const Solids::Index part = scene.solids().part_of(hit.shape);
@@ -23,17 +23,18 @@ struct WayInUnion {
     }
 };
 
-/// Says which crossings with parts of solids are crossings with the solids' surfaces: those where
-/// being inside of the solid changes. Several parts may be crossed at one point; then one of them
-/// stands for all, the first whose change is the solid's. What is only touched does not change
-/// anything. To be used by one thread.
+/// Tells which crossings with parts of solids are crossings with the solids' surfaces: those at
+/// which the ray enters or leaves the solid. If several parts are crossed at one point, one of them
+/// stands for all: the first that changes as the solid does. A part that is only touched does not
+/// change anything. For use by one thread.
 class SolidSurfaces {
   public:
     explicit SolidSurfaces(const Scene& scene)
         : scene_(scene), solids_(scene.solids()), parts_(scene) {}
 
-    /// As real arithmetic says, for a crossing that is ahead of a ray or, if it is at the start,
-    /// among its origin surfaces. Those with shapes that are no parts are surfaces.
+    /// Decides as real arithmetic does. The crossing must be ahead of the ray or, if it is at the
+    /// start, among its origin surfaces. A crossing with a shape that is not a part is always one
+    /// of the surface.
     bool is_surface(const LeavingRay& from, const Hit<double>& hit,
                     const WayInUnion& way = WayInUnion()) {
         if (!solids_.has(hit.shape)) return true;
@@ -41,7 +42,7 @@ class SolidSurfaces {
         return surely == Value::unknown ? exactly(from, hit) : surely == Value::yes;
     }
 
-    /// The part of a union of many that the last point was found inside of; none if it was not.
+    /// Returns the part of a union of many that contained the last point; none if no part did.
     Solids::Index last_around() const { return last_around_; }
 
   private:

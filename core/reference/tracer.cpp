@@ -106,7 +106,7 @@ Vec3<Real> ReferenceTracer<Real>::trace(const Ray<Real>& ray) {
     return light_along({ray, OriginSurfaces<Real>{}, media_around(ray.origin), Vector(1), 0});
 }
 
-/// Perspective rays share their origin, so the last one's media serve again.
+/// Perspective rays share their origin, so the media of the last origin are reused.
 template <class Real>
 Media ReferenceTracer<Real>::media_around(const Vector& origin, bool may_be_in_a_body) {
     if (!start_media_ || origin != start_) {
@@ -116,7 +116,7 @@ Media ReferenceTracer<Real>::media_around(const Vector& origin, bool may_be_in_a
     return *start_media_;
 }
 
-/// Paths that a path spawns wait here, not on the stack: the last that was spawned goes on first.
+/// Keeps spawned paths in `pending_`, not on the call stack. The path spawned last is traced first.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
     Vector light(0);
@@ -132,7 +132,7 @@ Vec3<Real> ReferenceTracer<Real>::light_along(Path path) {
     return light;
 }
 
-/// The nearest visible surface, behind whatever fills the space in between.
+/// Returns the light of the nearest visible surface, and of the media in between.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     const Encounter<Real> encounter = searcher_.nearest(
@@ -150,7 +150,7 @@ Vec3<Real> ReferenceTracer<Real>::light_on(const Path& path) {
     Vector before = path.throughput;
     if (medium != no_medium) before = absorbed(medium, hit.t) * before;
     if (surface.material.is_see_through()) {
-        // Each surface on a straight line is as far in the fog as if it were the only one.
+        // Each surface on a straight line has the fog that it would have as the only one.
         const Real opacity =
             path.passed < settings_.max_see_through ? Real(surface.material.opacity) : Real(0);
         pass(path, surface, (Real(1) - opacity) * before);
@@ -172,7 +172,8 @@ Vec3<Real> ReferenceTracer<Real>::color_at_infinity(const Path& path) const {
     return mul_add(fog, convert<Real>(scene_.fog().color), Vector((Real(1) - fog) * background));
 }
 
-/// Fog is no part of it: what has no end is all fog or none, and then that is the background.
+/// Ignores fog. Over an infinite segment, the fraction of fog is 0 or 1 unless the fog is linear_z
+/// and the ray runs across z; full fog counts as background.
 template <class Real>
 Real ReferenceTracer<Real>::transmittance_to_infinity(const Path& path) const {
     return mean_of_channels(
@@ -193,13 +194,14 @@ ReferenceTracer<Real>::surface_at(const Path& path, const Encounter<Real>& encou
         flat = -flat;
         normal = -normal;
     }
-    // An apex has no normal, and what stands in for it may be on the wrong side. Elsewhere only
-    // rounding at grazing angles is.
+    // An apex has no normal, and its substitute may face the wrong side. Elsewhere, only rounding
+    // at grazing angles can cause that.
     if (dot(flat, path.ray.direction) > Real(0x1p-20)) normal = flat = -path.ray.direction;
     return {hit, encounter.contacts, scene_.material_of(hit.shape), point, flat, normal};
 }
 
-/// The formula at `Material`, where `throughput` of it reaches the pixel.
+/// Applies the formula at `Material`; `throughput` is the share of the result that reaches the
+/// pixel.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface,
                                         const Vector& throughput) {
@@ -223,7 +225,7 @@ Vec3<Real> ReferenceTracer<Real>::shade(const Path& path, const Surface& surface
     return light;
 }
 
-/// Ambient light, and that of each light that is on this side of the surface.
+/// Returns the ambient light, and that of each light on this side of the surface.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) {
     const Material& material = surface.material;
@@ -237,7 +239,7 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
         if (light.kind == LightKind::point)
             to_light = convert<Real>(light.position) - surface.point;
         Real distance = length(to_light);
-        if (!(distance > Real(0))) continue; // from where it is, it shines nowhere
+        if (!(distance > Real(0))) continue; // a light does not light its own position
         to_light /= distance;
         if (light.kind == LightKind::directional) distance = infinity<Real>;
         if (dot(surface.flat_normal, to_light) <= Real(0)) continue;
@@ -255,7 +257,7 @@ Vec3<Real> ReferenceTracer<Real>::lit(const Path& path, const Surface& surface) 
     return soft_lights_.empty() ? color : color + lit_softly(path, surface, own);
 }
 
-/// Blinn's highlight of light from a direction.
+/// Returns Blinn's highlight of light from a direction.
 template <class Real>
 Real ReferenceTracer<Real>::highlight(const Path& path, const Surface& surface,
                                       const Vector& to_light) const {
@@ -266,7 +268,7 @@ Real ReferenceTracer<Real>::highlight(const Path& path, const Surface& surface,
            core::pow(cos_halfway, Real(surface.material.exponent));
 }
 
-/// The mean of the samples of each light with a size. The sky makes no highlights.
+/// Returns the mean of the samples of each light with a size. The sky makes no highlights.
 template <class Real>
 Vec3<Real> ReferenceTracer<Real>::lit_softly(const Path& path, const Surface& surface,
                                              const Vector& own) {
@@ -342,7 +344,8 @@ void ReferenceTracer<Real>::reflect(const Path& path, const Surface& surface,
 template <class Real>
 void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
                                      const Vector& throughput, const Vector& direction) {
-    // Further surfaces at the same point are no more depth, unless it goes round in circles there.
+    // Further surfaces at the same point do not count as depth, but `crossings` limits their
+    // number: a path must not run in circles there.
     const bool is_free = surface.hit.at_start && path.crossings > 0;
     if ((path.depth >= settings_.max_depth && !is_free) || !is_worth(throughput)) return;
 
@@ -353,7 +356,7 @@ void ReferenceTracer<Real>::transmit(const Path& path, const Surface& surface,
     pending_.push_back(std::move(next));
 }
 
-/// What is straight behind a see-through surface.
+/// Continues a path straight behind a transparent surface.
 template <class Real>
 void ReferenceTracer<Real>::pass(const Path& path, const Surface& surface,
                                  const Vector& throughput) {
@@ -366,7 +369,7 @@ void ReferenceTracer<Real>::pass(const Path& path, const Surface& surface,
     pending_.push_back(std::move(next));
 }
 
-/// A path from a surface on through it, in a direction of length 1; as deep as before.
+/// Returns a path that continues through a surface in a direction of length 1, at the same depth.
 template <class Real>
 typename ReferenceTracer<Real>::Path
 ReferenceTracer<Real>::through(const Path& path, const Surface& surface, const Vector& throughput,
@@ -393,7 +396,7 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
     for (auto hit = crossings_.begin(); hit != crossings_.end(); ++hit) {
         share *= absorbed(medium_before(*hit, media), hit->t - reached);
         reached = hit->t;
-        // Those of one material that lie in each other are one surface, whatever else does.
+        // Coincident surfaces of one material are one surface, whatever else coincides with them.
         const auto others = std::find_if(hit + 1, crossings_.end(), [&](const Hit<Real>& other) {
             return !other.joins || other.enters() != hit->enters();
         });
@@ -411,8 +414,8 @@ Vec3<Real> ReferenceTracer<Real>::light_let_through(const Ray<Real>& ray,
     return share * absorbed(media_.top(media), distance - reached);
 }
 
-/// The surfaces on a shadow ray that let light pass, in their order; false if there is an opaque
-/// one.
+/// Finds the surfaces on a shadow ray that let light pass, in order. Returns false if a surface is
+/// opaque.
 template <class Real>
 bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray,
                                            const OriginSurfaces<Real>& origins, Real distance) {
@@ -430,7 +433,7 @@ bool ReferenceTracer<Real>::find_crossings(const Ray<Real>& ray,
     return true;
 }
 
-/// The share that one surface lets through.
+/// Returns the share of light that one surface lets through.
 template <class Real>
 Real ReferenceTracer<Real>::let_through(const Hit<Real>& hit, const Ray<Real>& ray,
                                         const OriginSurfaces<Real>& origins, Media media,
@@ -453,7 +456,8 @@ bool ReferenceTracer<Real>::is_visible(const Hit<Real>& hit) const {
     return scene_.material_of(hit.shape).is_seen(hit.enters());
 }
 
-/// A surface that transmits nothing has its own index behind it, from whichever side it is seen.
+/// Returns both indices. Behind a surface that transmits nothing is the surface's own index, from
+/// whichever side it is seen.
 template <class Real>
 typename ReferenceTracer<Real>::Indices
 ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, Media media, Media media_behind) {
@@ -465,7 +469,7 @@ ReferenceTracer<Real>::indices_at(const Hit<Real>& hit, Media media, Media media
     return {before, static_cast<Real>(index_of(scene_.materials(), behind))};
 }
 
-/// Media behind so many surfaces of the hit's material.
+/// Returns the media behind `count` surfaces of the hit's material.
 template <class Real>
 Media ReferenceTracer<Real>::media_behind(const Hit<Real>& hit, Media media, int count) {
     const MaterialIndex medium = scene_.medium_index_of(hit.shape);

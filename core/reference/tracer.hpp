@@ -12,84 +12,84 @@
 
 namespace raylane::core {
 
-/// The scalar reference: what a picture of a scene is, written to be read. `Real` is float or
-/// double. With Precision::exact every decision of which surface a ray hits is the one that real
-/// arithmetic takes. To be used by one thread; what it makes of a pixel depends on scene and
-/// settings alone.
+/// The scalar reference tracer, written to be read. It defines the image of a scene. `Real` is
+/// float or double. With Precision::exact, every decision of which surface a ray hits is that of
+/// real arithmetic. The result for a pixel depends on scene and settings alone. For use by one
+/// thread.
 template <class Real>
 class ReferenceTracer {
   public:
     ReferenceTracer(const Scene& scene, const Settings& settings, Search search = Search::hierarchy,
                     Precision precision = precision_of<Real>, Survey* survey = nullptr);
 
-    /// Samples a batch of its survey.
+    /// Samples a batch of the survey.
     void survey(Survey::Pass pass, std::size_t batch);
 
-    /// With a quality, there is a survey, which is finished, and the region consists of whole
-    /// squares (RegionSamples::square_size).
+    /// Renders a region. If the settings have a quality, the tracer needs a finished survey, and
+    /// the region must consist of whole squares (RegionSamples::square_size).
     void render(const Region& region, Film& film);
 
-    /// Samples that a pixel of the last region had; pixels are numbered row by row.
+    /// Returns the number of samples of a pixel of the last region; pixels are numbered row by row.
     int samples_of(std::size_t pixel) const {
         return to_quality_ ? to_quality_->taken(pixel) : settings_.grid * settings_.grid;
     }
 
-    /// The mean of a pixel's samples, added in their order, as many as `settings.grid` says. Linear
-    /// RGB.
+    /// Returns the mean of a pixel's samples, added in their order, as many as `settings.grid`
+    /// specifies. Linear RGB.
     Color pixel(int x, int y);
 
-    /// The linear RGB colour seen along a ray; its direction is a unit vector.
+    /// Returns the linear RGB colour seen along a ray, whose direction must be a unit vector.
     Vec3<Real> trace(const Ray<Real>& ray);
 
-    /// Of the last ray, path or pixel: the share of the background that has been left out
+    /// Returns the share of the background that the last ray, path or pixel left out
     /// (Settings::alpha).
     Real transmittance() const { return transmittance_; }
 
-    /// Counts of the work of all calls so far.
+    /// Returns counters of the work of all calls so far.
     const Counters& counters() const { return searcher_.counters; }
 
     using Vector = Vec3<Real>;
 
-    /// Whose samples of lights with a size are taken from now on.
+    /// Sets the sample whose points on lights with a size are used from now on.
     void set_sample(const SampleName& sample) { sample_ = sample; }
 
-    /// A ray underway.
+    /// A ray being traced.
     struct Path {
         Ray<Real> ray;
         OriginSurfaces<Real> origins;
         Media media;             ///< media that it is inside of
         Vector throughput;       ///< share of its colour that reaches the pixel
         int depth;               ///< reflections and refractions so far
-        int crossings = 0;       ///< of surfaces where it starts that it may cross for nothing
-        int passed = 0;          ///< see-through surfaces that it has gone straight through
-        Real travelled = 0;      ///< on the straight line that its ray is on, before its start
-        bool is_straight = true; ///< as it left the camera
+        int crossings = 0;       ///< surfaces at its start that it may still cross without depth
+        int passed = 0;          ///< transparent surfaces that it has passed in a straight line
+        Real travelled = 0;      ///< length of its straight line before the ray's start
+        bool is_straight = true; ///< true if it has never been bent since the camera
     };
 
-    /// Light that a path, with all that follows from it, brings to the pixel: linear RGB.
+    /// Returns the linear RGB light that a path and all paths spawned by it bring to the pixel.
     Vector light_along(Path path);
-    /// Of the last ray from the camera; none where it hits nothing.
+    /// Returns the first hit of the last ray from the camera; an empty hit if it hits nothing.
     const Hit<Real>& first_hit() const { return first_hit_; }
 
-    /// The first surface along a ray, whether it can be seen or not, and what it touches there.
+    /// Returns the first surface along a ray, visible or not, with its contacts.
     Encounter<Real> nearest(const Ray<Real>& ray, const OriginSurfaces<Real>& origins) {
         return searcher_.nearest(ray, origins, [](const Hit<Real>&) { return true; });
     }
 
-    /// Share of a light that reaches the origin of a ray towards it: nothing through an opaque
-    /// surface; through transmissive ones, on a straight line, what they transmit and do not
-    /// absorb.
+    /// Returns the share of a light that reaches the origin of a ray towards it. Opaque surfaces
+    /// block it. Transmissive surfaces on the straight line let through the light that they
+    /// transmit and do not absorb.
     Vector light_let_through(const Ray<Real>& ray, const OriginSurfaces<Real>& origins, Media media,
                              Real distance);
 
-    /// Media that a ray from the camera starts in; `may_be_in_a_body`: false if that is
-    /// known to be in none.
+    /// Returns the media that a ray from the camera starts in; `may_be_in_a_body`: false if no body
+    /// encloses the origin.
     Media media_around(const Vector& origin, bool may_be_in_a_body = true);
-    /// Those that paths are inside of.
+    /// Returns the media that paths are inside of.
     MediaStacks& media() { return media_; }
 
   private:
-    /// The surface that a path has hit, seen from the side that it came from.
+    /// The surface that a path has hit, seen from the side that the path came from.
     struct Surface {
         Hit<Real> hit;
         const OriginSurfaces<Real>& contacts;
@@ -98,7 +98,7 @@ class ReferenceTracer {
         Vector flat_normal; ///< unit, perpendicular to the surface
         Vector normal;      ///< unit, to shade with: differs for smooth triangles
 
-        /// Origin surfaces for a ray from here.
+        /// Returns the origin surfaces for a ray from here.
         OriginSurfaces<Real> origins(bool through, const Vector& direction) const {
             return contacts.turned(hit, through, direction);
         }
@@ -143,16 +143,16 @@ class ReferenceTracer {
     CameraRays<Real> camera_rays_;
     Searcher<Real> searcher_;
     MediaStacks media_;
-    std::vector<Path> pending_;        // the next one last
+    std::vector<Path> pending_;        // the next path last
     std::vector<Hit<Real>> crossings_; // of a shadow ray
     std::vector<SoftLight> soft_lights_;
     SampleName sample_{};
-    Vector start_{};                   // of the last ray from the camera
-    std::optional<Media> start_media_; // around it
+    Vector start_{};                   // origin of the last camera ray
+    std::optional<Media> start_media_; // media around start_
 
-    Survey* survey_ = nullptr; // if the picture has a quality
+    Survey* survey_ = nullptr; // set if the image has a quality
     std::optional<RegionSamples> to_quality_;
-    Hit<Real> first_hit_; // of the last ray from the camera
+    Hit<Real> first_hit_; // first hit of the last camera ray
     Real transmittance_ = 0;
 };
 
