@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-/// Choices that shading makes, for the scalar tracer and the kernels alike: names alone. A switch
-/// over one has no default, so that a new name does not compile until it is drawn.
+/// Choices of shading, for the scalar tracer and the kernels alike: enumerators only. A switch over
+/// one of them has no default, so that a new enumerator does not compile until it is implemented.
 namespace raylane::core {
 
 enum class PatternKind : std::uint8_t { solid, checker, stripes, gradient, back_plane };
@@ -16,7 +16,7 @@ enum class Reflection : std::uint8_t {
 
 enum class LightKind : std::uint8_t { point, directional, sky, sphere, disc, rectangle };
 
-/// True for lights that are seen in more than one direction.
+/// Returns true for lights that are seen in more than one direction.
 constexpr bool is_soft(LightKind kind) {
     return kind != LightKind::point && kind != LightKind::directional;
 }

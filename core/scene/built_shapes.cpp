@@ -46,7 +46,7 @@ class Checker {
     const BigArray<WideNode>& nodes() const { return shapes_.hierarchy.nodes; }
     std::size_t shape_count() const { return shapes_.material_of.size(); }
 
-    /// Calls `is_right(i)` for all below `count`; refuses with `what` if it is false for any.
+    /// Calls `is_right(i)` for all i below `count`; refuses with `what` if it is false for any.
     template <class IsRight>
     void require_all(std::size_t count, const char* what, const IsRight& is_right) {
         std::atomic<bool> all = true;
@@ -90,10 +90,10 @@ class Checker {
         }
     }
 
-    /// Each node but the root has one parent, which comes before it; each block of a bounded kind
-    /// one.
+    /// Checks that each node except the root has one parent, which comes before it, and that each
+    /// block of a bounded kind has one parent.
     void check_tree() const {
-        constexpr std::uint16_t most_levels = 4096; // that are walked down by recursion
+        constexpr std::uint16_t most_levels = 4096; // limits recursion
         std::vector<std::uint16_t> level(nodes().size(), 0);
         std::vector<bool> seen[kind_count];
         for_each_table(shapes_.tables, [&]<class Shape>(const Table<Shape>& table) {
@@ -146,7 +146,8 @@ class Checker {
         if (shapes > table.size()) refuse("more shapes than there are");
     }
 
-    /// Filters look at ids of what they meet alone.
+    /// Filters look only at the ids of the shapes that they find, so an empty lane must contain
+    /// NaNs.
     template <class Shape>
     static bool is_empty(const Block<Shape>& block, int lane) {
         return block.ids[lane] == no_shape &&
@@ -172,7 +173,7 @@ class Checker {
         }
     }
 
-    /// Before any of its spheres is looked at.
+    /// Checks packed spheres. Call before reading any of them.
     void check_packed(const PackedSpheres& packed) {
         if (shape_count() > most_packed_ids) refuse("too many packed spheres");
         require_all(packed.blocks.size(), "packed spheres that are none", [&](std::size_t index) {
@@ -198,7 +199,8 @@ class Checker {
         return bounds;
     }
 
-    /// True if all of a child is in the bounds that its parent has of it: shapes do not touch them.
+    /// Returns true if a child is within the bounds that its parent stores for it. Shapes must not
+    /// touch the bounds.
     bool is_within(const Bounds& bounds, Child child) const {
         const auto contains = [&](const Bounds& inner, const auto& less) {
             for (int axis = 0; axis < 3; ++axis)
@@ -217,7 +219,8 @@ class Checker {
         return is_in;
     }
 
-    /// Traversals ask the bounds of an entry, not whether a child is there.
+    /// Returns true if bounds are those of no child. Traversals read the bounds of an entry, not
+    /// whether it has a child.
     static bool is_of_nothing(const Bounds& bounds) {
         const Bounds nothing = WideNode().bounds(0);
         return bounds.lower == nothing.lower && bounds.upper == nothing.upper;

@@ -11,23 +11,23 @@
 
 namespace raylane::core {
 
-/// What takes time to build of a scene without solids that are made of others, for a builder to
-/// take as it was built before.
+/// The parts of a scene that take time to build, for a builder that takes them as they were built
+/// before. The scene must not have compound solids.
 struct BuiltShapes {
     Tables tables;
     MaterialIndices material_of;   ///< by shape id
-    std::vector<IdRange> polygons; ///< of more than one triangle, ascending
+    std::vector<IdRange> polygons; ///< polygons of more than one triangle, ascending
     Hierarchy hierarchy;
-    Staging staging; ///< by which camera, fog and lights have been found
+    Staging staging; ///< produced the camera, fog and lights
     std::size_t own_light_count = 0;
 };
 
-/// The hierarchy that has these nodes.
+/// Returns the hierarchy with these nodes.
 Hierarchy hierarchy_of(BigArray<WideNode> nodes);
 
-/// Holds all of it, wherever it comes from, to what a builder makes: shapes that are none, numbers
-/// of what is not there, a hierarchy that is no tree or does not have each shape in its bounds.
-/// Throws InvalidValue, without a field, for the first of them.
+/// Checks that untrusted shapes are such as a builder makes: shapes are valid, indices are in
+/// range, and the hierarchy is a tree with each shape in its bounds. Throws InvalidValue, without a
+/// field, for the first fault.
 void check(const BuiltShapes& shapes, std::size_t material_count, Workers& workers);
 
 } // namespace raylane::core

@@ -11,8 +11,8 @@
 
 namespace raylane::core {
 
-/// Place of a sample in its cell of the grid. The same for each pixel and sample, whatever is
-/// rendered around it.
+/// Returns the position of a sample in its cell of the grid. It depends on pixel and sample alone,
+/// whatever is rendered around it.
 inline SamplePoint sample_point(SamplePattern pattern, std::uint32_t x, std::uint32_t y,
                                 std::uint32_t sample) {
     if (pattern == SamplePattern::regular) return {0.5F, 0.5F};
@@ -28,8 +28,8 @@ inline SamplePoint sample_point(SamplePattern pattern, std::uint32_t x, std::uin
     return {static_cast<float>(z >> 40) * 0x1p-24F, static_cast<float>(z & 0xFFFFFF) * 0x1p-24F};
 }
 
-/// Makes the rays of a picture: unit directions, from the camera's position or, orthographic, its
-/// plane.
+/// Generates the camera rays of an image: unit directions, from the camera's position or, if
+/// orthographic, its plane.
 template <class Real>
 class CameraRays {
   public:
@@ -43,7 +43,7 @@ class CameraRays {
         const Vec3d forward = normalized(convert<double>(camera.at) - from);
         const Vec3d right = normalized(cross(forward, convert<double>(camera.up)));
         const Vec3d up = cross(right, forward);
-        // Half of the picture's height, in the plane at distance 1 or, orthographic, anywhere.
+        // Half of the image's height, in the plane at distance 1 or, if orthographic, in any plane.
         const double half = orthographic_ ? 0.5 * static_cast<double>(camera.height)
                                           : slope_of_view(camera.field_of_view);
         const double per_half_pixel = half / settings.height;
@@ -57,30 +57,30 @@ class CameraRays {
                                               : Real(length(convert<double>(camera.at) - from));
     }
 
-    /// Place of a sample in its pixel, from its upper left corner: in [0, 1)^2, or further out by
-    /// filters that reach further.
+    /// Position of a sample in its pixel, from the upper left corner: in [0, 1)^2, or beyond it for
+    /// wider filters.
     struct InPixel {
         Real column;
         Real row;
     };
-    /// Sample 0 <= sample < grid^2 of pixel (x, y); y counts from the top. The same for all pixels
-    /// if the samples are regular.
+    /// Returns the position of sample 0 <= sample < grid^2 of pixel (x, y); y counts from the top.
+    /// It is the same for all pixels if the samples are regular.
     InPixel in_pixel(int x, int y, int sample) const {
         const SamplePoint point =
             sample_point(pattern_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                          static_cast<std::uint32_t>(sample));
-        return filtered(
-            {(Real(sample % grid_) + Real(point.x)) / Real(grid_),
-             (Real(sample / grid_) + Real(point.y)) / Real(grid_)}); // NOLINT: whole rows
+        return filtered({(Real(sample % grid_) + Real(point.x)) / Real(grid_),
+                         (Real(sample / grid_) + Real(point.y)) /
+                             Real(grid_)}); // NOLINT: integer division gives the row
     }
-    /// Where the filter has a sample of those that are spread evenly over [0, 1)^2.
+    /// Maps an evenly distributed position in [0, 1)^2 to the distribution of the filter.
     InPixel filtered(const InPixel& even) const {
         if (filter_ == nullptr) return even;
         return {Real(filter_->place(static_cast<double>(even.column))),
                 Real(filter_->place(static_cast<double>(even.row)))};
     }
 
-    /// Its point in the picture, from the middle to the right and upwards, in halves of a pixel.
+    /// A point in the image, from the middle to the right and upwards, in halves of a pixel.
     struct PicturePoint {
         Real across;
         Real upward;
@@ -90,8 +90,8 @@ class CameraRays {
                 Real(height_) - Real(2) * (Real(y) + in_pixel.row)};
     }
 
-    /// Where a sample goes through the lens, to the right of its middle and upwards, in units of
-    /// length: evenly all over it.
+    /// The point at which a sample passes the lens, to the right of the lens' middle and upwards,
+    /// in units of length. Points are distributed evenly over the lens.
     struct LensPoint {
         double right, up;
     };
@@ -123,7 +123,7 @@ class CameraRays {
     }
 
     bool has_lens() const { return lens_radius_ > 0.0; }
-    Real focus() const { return focus_; } ///< distance of the plane that is sharp
+    Real focus() const { return focus_; }                        ///< distance of the focal plane
     const Vec3<Real>& lens_right() const { return lens_right_; } ///< unit
     const Vec3<Real>& lens_up() const { return lens_up_; }       ///< unit
     bool regular() const { return pattern_ == SamplePattern::regular; }
@@ -136,7 +136,7 @@ class CameraRays {
   private:
     int grid_;
     SamplePattern pattern_;
-    const FilterPlaces* filter_; // null: the box
+    const FilterPlaces* filter_; // null: the box filter
     bool orthographic_;
     int width_;
     int height_;

@@ -9,9 +9,9 @@ namespace raylane::core {
 
 namespace {
 
-/// The picture by what is seen in it.
+/// Size of the image relative to the size of its contents.
 constexpr double margin = 1.05;
-/// The eye's distance from the nearest, by the size of all.
+/// Minimum distance of the eye from the nearest point, relative to the size of the contents.
 constexpr double closest = 0x1p-6;
 
 constexpr float sideways = 0.5F;
@@ -29,7 +29,7 @@ std::span<const NamedView> named_views() {
     return views;
 }
 
-/// y; if that is what one looks along, the next.
+/// Returns y, or -z if the direction is almost along y.
 Vec3f upright(const Vec3f& direction) {
     const Vec3d d = convert<double>(direction);
     const bool is_steep = std::abs(d.y) > 100.0 * std::sqrt(d.x * d.x + d.z * d.z);
@@ -76,7 +76,7 @@ void Frame::include_disc(const Vec3d& center, const Vec3d& axis, double radius) 
 
 void Frame::include_ring(const Vec3d& center, const Vec3d& axis, double ring, double radius) {
     empty_ = false;
-    // How far it reaches beyond its center in a direction of length 1.
+    // Extent beyond the centre in a direction of length 1.
     const auto reach = [&](const Vec3d& direction) {
         if (ring == 0.0) return radius;
         const double cosine = dot(axis, direction);
@@ -116,7 +116,7 @@ Camera Frame::camera() const {
         camera.from = convert<float>(5.0 * back_);
         return camera;
     }
-    // Where the planes at both sides of the picture touch what is between them, the eye is on both.
+    // The planes at both sides of the image touch its contents. The eye is on both planes.
     const auto zoom = static_cast<double>(framing_.zoom);
     double places[2], depth = along_.positive;
     const double thickness = along_.positive + along_.negative;
@@ -125,7 +125,7 @@ Camera Frame::camera() const {
         places[axis] = 0.5 * (reach_[axis].positive - reach_[axis].negative) / cosine_[axis];
         away += std::abs(places[axis]);
     }
-    // A point has none; and floats have to tell the eye from what it looks at.
+    // A point has no size, and floats must distinguish the eye from its target.
     const double least = away > 0.0 ? 0x1p-16 * away : 1.0;
     const double size = std::max({thickness, width(), least});
     if (framing_.projection == Projection::orthographic) {
@@ -135,13 +135,13 @@ Camera Frame::camera() const {
             height = std::max(height, axis == 0 ? extent / aspect_ : extent);
         }
         camera.height = static_cast<float>(margin * std::max(height, least) / zoom);
-        depth += size; // anywhere before all
+        depth += size; // anywhere in front of all contents
     } else {
         double eye = -std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 2; ++axis)
             eye =
                 std::max(eye, 0.5 * (reach_[axis].positive + reach_[axis].negative) / sine_[axis]);
-        // What is flat, and seen from its side, still has a place before it.
+        // Flat contents seen edge-on must still be in front of the eye.
         depth = std::max(eye, depth + closest * size);
         camera.field_of_view = field_of_view(slope_of_view(framing_.field_of_view) / zoom);
     }

@@ -9,53 +9,54 @@
 
 namespace raylane::core {
 
-/// How a camera is to look at something whose place and size it finds by itself.
+/// How a camera looks at contents from which it computes its position and scale.
 struct Framing {
     Projection projection = Projection::perspective;
-    /// From the camera to what it sees, any length but zero.
+    /// From the camera to the contents, any length but zero.
     Vec3f direction{0.0F, 0.0F, -1.0F};
     Vec3f up{0.0F, 1.0F, 0.0F};  ///< not along the direction
-    float field_of_view = 30.0F; ///< as Camera has it
-    float zoom = 1.0F;           ///< > 0: 1 shows all, with a margin of a twentieth of the picture
+    float field_of_view = 30.0F; ///< same as in Camera
+    float zoom = 1.0F;           ///< > 0; 1 shows all, with a margin of a twentieth of the image
 };
 
-/// Where a camera looks to, and what is up for it, by a name such as "front".
+/// The viewing and up directions of a camera, by a name such as "front".
 struct NamedView {
     std::string_view name;
     Vec3f direction, up;
 };
 std::span<const NamedView> named_views();
 
-/// What is up in most pictures, for a camera that looks in this direction.
+/// Returns the usual up direction for a camera that looks in this direction.
 Vec3f upright(const Vec3f& direction);
 
-/// How a camera looks that has its place.
+/// Returns the framing of a camera that has a position.
 Framing framing_of(const Camera& camera);
 
-/// Balls by their outlines in a picture: what a camera has to see.
+/// Collects the extent of the contents that a camera must see, and computes that camera.
 class Frame {
   public:
-    /// `aspect`: a picture's width by its height.
+    /// `aspect`: the image's width divided by its height.
     Frame(const Framing& framing, double aspect);
 
-    /// From now on all of it is seen from all around: it turns about the line through `center` that
-    /// goes as the framing's up.
+    /// Makes the contents that are included from now on visible from all around. They turn about
+    /// the line through `center` in the framing's up direction.
     void turn_about(const Vec3d& center) { center_ = center; }
 
     void include(const Vec3d& center, double radius);
-    /// A disc; its axis has any length.
+    /// Includes a disc; its axis may have any length.
     void include_disc(const Vec3d& center, const Vec3d& axis, double radius);
-    /// The corners of a box; what is empty or infinite is left out.
+    /// Includes the corners of a box; ignores empty and infinite boxes.
     void include(const Bounds& bounds);
     bool empty() const { return empty_; }
 
-    /// The camera that sees all of it, as large as that may be; of nothing, one that looks at the
-    /// origin.
+    /// Returns the camera that sees all contents as large as possible. Without contents, it looks
+    /// at the origin.
     Camera camera() const;
-    /// Distances, along the camera's line of sight, of the first that it sees and of the last.
+    /// Returns the distances of the nearest and the farthest contents along the camera's line of
+    /// sight.
     std::pair<double, double> depths(const Camera& camera) const;
 
-    /// Of all of it, across or upward: the larger of both; 0 of nothing.
+    /// Returns the larger extent of the contents, across or upward; 0 without contents.
     double width() const;
 
     Vec3d right() const { return right_; }
@@ -68,13 +69,13 @@ class Frame {
         double negative = -std::numeric_limits<double>::infinity();
     };
 
-    /// Balls in a circle about an axis of length 1.
+    /// Includes balls with centres on a circle of radius `ring` about an axis of length 1.
     void include_ring(const Vec3d& center, const Vec3d& axis, double ring, double radius);
 
     Framing framing_;
     Vec3d right_, up_, back_;
     Vec3d axis_;                           // the framing's up, of length 1
-    std::optional<Vec3d> center_;          // that all of it turns about
+    std::optional<Vec3d> center_;          // the contents turn about it
     double sine_[2] = {}, cosine_[2] = {}; // of half the angles of view, across and upward
     double aspect_;
     Reach reach_[2], along_, extent_[2];

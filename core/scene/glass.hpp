@@ -8,7 +8,7 @@ namespace raylane::core {
 
 /// Sellmeier's formula for the index of refraction n at a wavelength w in micrometres:
 ///   n^2 = 1 + sum of B_i w^2 / (w^2 - C_i)
-/// None: all B are 0, and the index is the same for all.
+/// All B are 0 if the formula is unset: the index is then the same at all wavelengths.
 struct Sellmeier {
     std::array<double, 3> B{}, C{}; ///< C in square micrometres
 
@@ -16,12 +16,12 @@ struct Sellmeier {
     bool operator==(const Sellmeier&) const = default;
 };
 
-/// Of helium's yellow line, in nanometres: what catalogues give n_d for.
+/// Wavelength of helium's yellow line, in nanometres, for which catalogues give n_d.
 inline constexpr double line_d = 587.5618;
 
-/// The index at a wavelength in nanometres; NaN where the formula has none.
+/// Returns the index at a wavelength in nanometres; NaN where the formula has no value.
 double index_at(const Sellmeier& glass, double wavelength);
-/// True of what a material may have as its index.
+/// Returns true if a material may have this index.
 bool is_index(double index);
 
 struct NamedGlass {

@@ -11,22 +11,22 @@
 
 namespace raylane::core {
 
-/// What a picture's pixels show beside their colours: what the ray through the middle of each one,
-/// and the middle of the lens, hits first of what can be seen from there, transmissive or not. In
-/// arrays by pixel, rows from the top down.
+/// Render outputs of an image besides its colours (AOVs). Each pixel describes the first visible
+/// surface, transmissive or not, on the ray through the pixel's middle and the middle of the lens.
+/// Arrays by pixel, rows from top to bottom.
 struct Layers {
     int width = 0;
     int height = 0;
-    /// From the camera's position or, orthographic, from the plane through it that the picture is
-    /// in, along the ray, in units of length; infinite where there is nothing.
+    /// Distance along the ray, in units of length, from the camera's position or, if orthographic,
+    /// from the image plane through that position. Infinite where the ray hits nothing.
     std::vector<float> depth;
-    /// Unit, to shade with, on the side that is seen; 0 where there is nothing.
+    /// Unit shading normal, on the visible side; 0 where the ray hits nothing.
     std::vector<Vec3f> normal;
-    /// In the order of the scene's file, parts of solids one by one; of shapes that are the same,
-    /// the first. no_shape where there is nothing.
+    /// Ids in the order of the scene's file; each part of a solid has one. Equal shapes have the id
+    /// of the first. no_shape where the ray hits nothing.
     std::vector<ShapeId> shape;
-    std::vector<MaterialIndex> material; ///< no_material where there is nothing
-    std::vector<std::uint32_t> samples;  ///< that the colour is the mean of
+    std::vector<MaterialIndex> material; ///< no_material where the ray hits nothing
+    std::vector<std::uint32_t> samples;  ///< number of samples in the colour's mean
 
     Layers() = default;
     Layers(int width_, int height_) : width(width_), height(height_) {

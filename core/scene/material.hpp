@@ -20,8 +20,9 @@ struct Pattern {
     std::array<Color, 2> colors = {Color(1.0F), Color(1.0F)};
     /// checker: the cells' edge; stripes: their width. > 0
     float size = 1.0F;
-    /// checker: which axes count, as bits (x 1, y 2, z 4), and along which cells hold their upper
-    /// edge, not the lower one (x 8, y 16, z 32). A floor wants x and z: all of y may be an edge.
+    /// checker: the axes that count, as bits (x 1, y 2, z 4), and the axes along which cells
+    /// contain their upper edge, not the lower one (x 8, y 16, z 32). A floor needs x and z, as all
+    /// of its points may be on an edge of y.
     std::uint8_t axes = 1 | 4;
     /// stripes: across the bands, any length but zero.
     Vec3f direction{1.0F, 0.0F, 0.0F};
@@ -30,16 +31,17 @@ struct Pattern {
     Vec3f to{0.0F, 1.0F, 0.0F};
 };
 
-/// Sides from which a surface can be seen. Rays pass the other side as if nothing were there. A
+/// Sides from which a surface is visible. Rays pass the other side as if nothing were there. A
 /// shadow ray looks from a surface to the light.
 enum class Visible : std::uint8_t { both, outside, inside };
 
-/// The colour seen along a ray that hits this material, with light l of colour L_l, unit vectors n
-/// (normal), l (to the light) and h (halfway between l and the viewer), S what of the light the
-/// shadow lets through, C the pattern's colour and R the reflected fraction:
+/// The colour seen along a ray that hits this material. Symbols: light l of colour L_l; unit
+/// vectors n (normal), l (to the light) and h (halfway between l and the viewer); S the share of
+/// the light that the shadow lets through; C the pattern's colour; R the reflected fraction. The
+/// colour is
 ///   C ambient + sum_l S L_l (C diffuse max(n.l, 0) + specular max(n.h, 0)^exponent)
 ///   + R (colour reflected) + (1 - R) transmission (colour transmitted)
-/// and of all this `opacity`, with 1 - opacity of the colour straight behind the surface.
+/// This counts with weight `opacity`, and the colour straight behind the surface with 1 - opacity.
 struct Material {
     Pattern pattern;
     float ambient = 0.1F;   ///< >= 0
@@ -49,21 +51,22 @@ struct Material {
     Reflection reflection = Reflection::constant;
     float reflectivity = 0.0F; ///< [0, 1]
     float transmission = 0.0F; ///< [0, 1] per surface crossed; 0 is opaque
-    float index = 1.5F;        ///< index of refraction, > 0; what surrounds the scene has 1
-    Sellmeier glass{}; ///< if any: `index` is its n_d, or where a scene has wavelengths, for each
+    float index = 1.5F;        ///< index of refraction, > 0; empty space has 1
+    Sellmeier glass{}; ///< if set, `index` is its n_d, or its index at each wavelength of a scene
     Vec3f absorption{
         0.0F}; ///< per unit of length inside, >= 0 (Beer-Lambert: exp(-absorption * length))
-    /// [0, 1]: the share of what is seen that the surface is, as paint on a pane is. Unlike what is
-    /// transmitted, what is behind is neither refracted, nor absorbed, nor less for reflections.
+    /// [0, 1]: the share of the colour that comes from the surface, as with paint on a pane. The
+    /// rest comes from straight behind it. Unlike transmitted light, it is not refracted, absorbed,
+    /// or reduced by reflections.
     float opacity = 1.0F;
     Visible visible = Visible::both;
 
     bool transmits() const { return transmission > 0.0F; }
     bool is_see_through() const { return opacity < 1.0F; }
-    /// True if light may pass it, whichever way.
+    /// Returns true if light may pass it in any way.
     bool lets_light_pass() const { return transmits() || is_see_through(); }
     bool reflects() const { return reflection != Reflection::constant || reflectivity > 0.0F; }
-    /// True if a ray that enters there, or leaves, sees it.
+    /// Returns true if a ray that enters (or leaves) here sees the surface.
     bool is_seen(bool entering) const {
         return visible == Visible::both || (visible == Visible::outside) == entering;
     }

@@ -4,13 +4,13 @@
 
 namespace raylane::core {
 
-/// Lines along the edges of what the camera sees first, over the picture.
+/// Lines over the image, along the edges of the surfaces that the camera sees first.
 struct Outline {
-    float width = 0.0F; ///< pixels, at most max_width; 0: none
+    float width = 0.0F; ///< pixels, at most max_width; 0: no lines
     Color color{0.0F};  ///< linear RGB
-    /// Degrees, 0 to 180, that surfaces which meet are bent by at least where there is a line
-    /// between them; there is one between two materials, too. 180: there are none where surfaces
-    /// meet, only where one is seen before another.
+    /// Minimum angle, in degrees, 0 to 180, between surfaces that meet for a line between them.
+    /// Below 180, a line also separates two materials that meet. 180: lines only where one surface
+    /// is seen in front of another.
     float creases = 180.0F;
 
     static constexpr float max_width = 32.0F;

@@ -16,15 +16,15 @@ inline bool holds_upper_edge(const Pattern& pattern, int axis) {
 
 namespace detail {
 
-/// Added and taken away again, it rounds what is less than 2^23 to multiples of 2^-28, in float
-/// what is less than 2^8 to those of 2^-14.
+/// Adding and subtracting this rounds values below 2^23 to multiples of 2^-28, in float values
+/// below 2^8 to multiples of 2^-14.
 template <class Real>
 inline constexpr Real to_round(std::is_same_v<Real, float> ? 0x1.8p9 : 0x1.8p24);
 
-/// 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ... Paths that are symmetric meet the very edges of
-/// cells, and rounding takes them to either side: all that are so near to one are of the cell that
-/// begins there. So the pixels of a picture hang on no last bit, and those of a cube along the
-/// cells are of one colour.
+/// Returns 0 in [0, 1), 1 in [1, 2), 0 in [2, 3), ... Symmetric paths often meet the exact edges of
+/// cells, where rounding would choose a side. Values that are so close to an edge belong to the
+/// cell that begins there. The pixels of an image therefore do not depend on last bits, and a
+/// cube's face along the cells has one colour.
 template <class Real>
 int parity(Real value) {
     constexpr Real c = to_round<Real>;
@@ -32,7 +32,8 @@ int parity(Real value) {
     return cell == Real(2) * std::floor(cell / Real(2)) ? 0 : 1;
 }
 
-/// A sun over water: an orange disc, brighter above the horizon y = 0, before coloured bands.
+/// Returns the colour of a sun over water: an orange disc, brighter above the horizon y = 0, in
+/// front of coloured bands.
 template <class Real>
 Vec3<Real> back_plane(Real x, Real y) {
     if (x * x + y * y < Real(150)) {
@@ -48,7 +49,7 @@ Vec3<Real> back_plane(Real x, Real y) {
 
 } // namespace detail
 
-/// The pattern's colour at a point in world coordinates.
+/// Returns the pattern's colour at a point in world coordinates.
 template <class Real>
 Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point) {
     const Vec3<Real> first = convert<Real>(pattern.colors[0]),
@@ -71,7 +72,7 @@ Vec3<Real> color_at(const Pattern& pattern, const Vec3<Real>& point) {
         return detail::parity(distance / Real(pattern.size)) == 0 ? first : second;
     }
     case PatternKind::gradient: {
-        // In double, where no square of a coordinate is infinite.
+        // In double, so that no square of a coordinate is infinite.
         const Vec3d run = convert<double>(pattern.to) - convert<double>(pattern.from);
         const Vec3d offset = convert<double>(point) - convert<double>(pattern.from);
         const auto s =

@@ -6,7 +6,7 @@ namespace raylane::core {
 
 namespace {
 
-/// Not normalised, at `x` in [-1, 1] of its reach.
+/// Returns the density, not normalised, at `x` in [-1, 1] of the filter's reach.
 double density(PixelFilter filter, double x) {
     switch (filter) {
     case PixelFilter::box:
@@ -30,7 +30,8 @@ double density(PixelFilter filter, double x) {
 
 } // namespace
 
-/// The integral's inverse, of an integral by trapezes in steps much smaller than its own.
+/// Tabulates the inverse of the density's integral. The trapezoidal rule uses steps much smaller
+/// than the table's.
 FilterPlaces::FilterPlaces(PixelFilter filter) {
     constexpr int steps = 1 << 14;
     constexpr double step = 2.0 / steps;

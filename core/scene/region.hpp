@@ -4,7 +4,7 @@
 
 namespace raylane::core {
 
-/// Pixels x0 <= x < x1, y0 <= y < y1 of a picture.
+/// Pixels x0 <= x < x1, y0 <= y < y1 of an image.
 struct Region {
     int x0;
     int y0;
@@ -14,7 +14,7 @@ struct Region {
     int pixels() const { return (x1 - x0) * (y1 - y0); }
     bool operator==(const Region&) const = default;
 
-    /// What both have, if they have anything in common.
+    /// Returns the intersection of both, which must not be empty.
     Region within(const Region& other) const {
         return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1),
                 std::min(y1, other.y1)};

@@ -174,7 +174,7 @@ ShapeId SceneBuilder::add_polygon(std::span<const AnyTriangle> triangles, Materi
     return first;
 }
 
-/// Quadrics are checked as what they are, wherever they end.
+/// Checks a solid. Ignores the bounds of quadrics.
 void SceneBuilder::check_solid(const Solid& solid, bool has_material,
                                const std::string& place) const {
     const auto in = [&](const std::string& field) {

@@ -17,11 +17,12 @@ class Describer {
     Describer(const Scene& scene, Solids::Index solid)
         : scene_(scene), solids_(scene.solids()), whole_(solids_.medium(solid)) {}
 
-    /// A node or, `outside`, all that is not in it; either is described by what has an inside.
+    /// Describes a node or, if `outside`, its complement. The description uses only solids that
+    /// have an inside.
     Solid describe(Solids::Index index, bool outside) const {
         const Solids::Node& node = solids_.node(index);
         if (node.op == Op::part) return shape_of(node);
-        const bool is_cut = !cuts_only(index); // or it only cuts itself, and so does all of it
+        const bool is_cut = !cuts_only(index); // otherwise all of its parts only cut
         Sequence faces, cuts;
         solids_.each_child(index, [&](Solids::Index child) {
             const bool is_kept = has_inside(child, outside);
@@ -38,12 +39,12 @@ class Describer {
     }
 
   private:
-    /// Parts in their order, which decides where faces coincide. What is taken away is taken away
-    /// of the part before it, or of all where nothing comes behind.
+    /// Parts in their order, which decides between coincident faces. A part to subtract is
+    /// subtracted from the part before it, or from the whole if no part follows.
     class Sequence {
       public:
         void add(Solid part, bool is_kept) {
-            // The first has an inside, or the whole would have none.
+            // The first part has an inside; otherwise the whole would have none.
             if (is_kept) groups_.emplace_back();
             assert(!groups_.empty());
             groups_.back().push_back(std::move(part));
@@ -81,7 +82,7 @@ class Describer {
         return solid;
     }
 
-    /// True for what is described as it is, and not by what is outside of it.
+    /// Returns true if a node is described by its inside, and false if by its complement.
     bool has_inside(Solids::Index index, bool outside) const {
         const Solids::Node& node = solids_.node(index);
         if (node.op == Op::part) return node.reversed == outside;
@@ -94,7 +95,7 @@ class Describer {
         return inside;
     }
 
-    /// True for what clips, and has no faces.
+    /// Returns true for a node that clips and has no faces.
     bool cuts_only(Solids::Index index) const {
         for (Solids::Index part = index; part < solids_.node(index).end; ++part)
             if (solids_.node(part).op == Op::part && solids_.node(part).shape != no_shape)
@@ -107,7 +108,7 @@ class Describer {
         with_table(scene_.shapes(), part.kind, [&]<class Shape>(const Table<Shape>& table) {
             solid.shape = table.get(part.place);
         });
-        // A plane of a solid with bounds.
+        // A plane that is a part of a bounded solid is stored as a quadric.
         if (const auto* q = std::get_if<QuadricOf<double>>(&solid.shape))
             if (q->xx == 0.0 && q->yy == 0.0 && q->zz == 0.0 && q->xy == 0.0 && q->xz == 0.0 &&
                 q->yz == 0.0 && q->one == 0.0)
@@ -126,7 +127,7 @@ class Describer {
 
 Solid description_of(const Scene& scene, Solids::Index solid) {
     Solid described = Describer(scene, solid).describe(solid, false);
-    if (described.made == Made::of_shape) { // which would be a shape like others
+    if (described.made == Made::of_shape) { // otherwise it would be an ordinary shape
         Solid alone{Made::by_union};
         alone.parts.push_back(std::move(described));
         described = std::move(alone);

@@ -4,8 +4,8 @@
 
 namespace raylane::core {
 
-/// A solid of a scene as it can be described: by unions, intersections, differences and clips of
-/// what has an inside. Parts have materials of their own where these are not the whole's.
+/// Returns the description of a scene's solid: unions, intersections, differences and clips of
+/// solids that have an inside. A part has a material only if it differs from the whole's.
 Solid description_of(const Scene& scene, Solids::Index solid);
 
 } // namespace raylane::core

@@ -13,7 +13,7 @@ namespace raylane::core {
 
 namespace {
 
-/// Any shape that has bounds, by what of it is cheap to say.
+/// Includes any bounded shape, by a description that is cheap to compute.
 template <class Shape>
 void include_shape(const Shape& shape, Frame& frame) {
     constexpr Kind kind = kind_of<Shape>;
@@ -35,7 +35,7 @@ void include_shape(const Shape& shape, Frame& frame) {
     }
 }
 
-/// The middle of all that has bounds.
+/// Returns the middle of all bounded shapes.
 Vec3d center_of(const Scene& scene) {
     Bounds all;
     for_each_bounded_table(scene.shapes(), [&](const auto& table) {
@@ -49,16 +49,16 @@ Vec3d center_of(const Scene& scene) {
     return 0.5 * (convert<double>(all.lower) + convert<double>(all.upper));
 }
 
-/// That did not come with the camera.
+/// Returns the fog that did not come with the camera.
 Fog own_fog_of(const Scene& scene) {
     return scene.staging().depth_cue > 0.0F ? Fog{} : scene.fog();
 }
 
-/// In the background's colour, between the nearest and the farthest.
+/// Returns fog in the background's colour, between the nearest and the farthest point.
 Fog depth_cue(const Scene& scene, const Staging& staging, const Frame& frame,
               const Camera& camera) {
     const auto [near, far] = frame.depths(camera);
-    // Of what is flat there is less to tell.
+    // Flat contents have less depth to show.
     const double cue =
         static_cast<double>(staging.depth_cue) * std::min(1.0, (far - near) / frame.width());
     if (!(cue > 0.0 && far > near && far > 0.0)) return own_fog_of(scene);
@@ -68,7 +68,7 @@ Fog depth_cue(const Scene& scene, const Staging& staging, const Frame& frame,
             .end = static_cast<float>(near + (far - near) / cue)};
 }
 
-/// The sky above the picture, and a lamp over the left shoulder.
+/// Returns the lights: a sky above the image, and a lamp over the left shoulder.
 std::vector<Light> lights_of(const Frame& frame, const Camera& camera) {
     const auto [near, far] = frame.depths(camera);
     const double depth = frame.empty() ? 0.0 : std::max(far - near, 1e-20);
@@ -96,7 +96,7 @@ Frame empty_frame(const Scene& scene, const Staging& staging, const Settings& se
 
 void include_shapes(const Scene& scene, Frame& frame) {
     const Solids& solids = scene.solids();
-    // Of what is made by unions alone, all parts are seen as they are.
+    // All parts of a solid that is a mere union are visible as they are.
     std::vector<char> is_whole(solids.nodes().size());
     for (Solids::Index root = 0; root < is_whole.size(); root = solids.node(root).end) {
         const auto parts = solids.nodes().subspan(root, solids.node(root).end - root);

@@ -10,36 +10,39 @@ namespace raylane::core {
 
 class Scene;
 
-/// What of a picture follows from the shapes that are seen in it.
+/// Which parts of the view are computed from the visible shapes.
 struct Staging {
-    std::optional<Framing> framing; ///< by which the camera finds its place; none: it has one
-    bool lights = false;            ///< the camera brings a sky and a lamp along
-    float depth_cue = 0.0F; ///< how much of the background the farthest has by fog, in [0, 1)
-    /// The camera is to go around, and sees all of it from everywhere.
+    std::optional<Framing>
+        framing;         ///< how the camera finds its position; none: the scene gives the position
+    bool lights = false; ///< adds a sky and a lamp that move with the camera
+    float depth_cue =
+        0.0F; ///< fog fraction, in the background's colour, at the farthest point, in [0, 1)
+    /// The camera will go around the shapes, and must see all of them from everywhere.
     bool turning = false;
 
     bool any() const { return framing || lights || depth_cue > 0.0F; }
 };
 
-/// What follows from it.
+/// The result of a staging.
 struct View {
     Camera camera;
     Fog fog;
-    std::vector<Light> lights; ///< that the camera brings along
+    std::vector<Light> lights; ///< that move with the camera
 };
 
-/// Frame for a scene's camera, in which nothing is as yet.
+/// Returns an empty frame for a scene's camera.
 Frame empty_frame(const Scene& scene, const Staging& staging, const Settings& settings);
-/// Includes all of a scene's shapes that have bounds; of solids that are made of others the whole.
+/// Includes all bounded shapes of a scene; of compound solids, the whole.
 void include_shapes(const Scene& scene, Frame& frame);
-/// The view of what is in a frame, which may be of several scenes. Throws InvalidValue, field
-/// "camera", if that is nothing and the camera is to find its place by it.
+/// Returns the view of the contents of a frame, which may come from several scenes. Throws
+/// InvalidValue, field "camera", if the frame is empty and the camera has to find its position by
+/// it.
 View staged(const Scene& scene, const Staging& staging, const Frame& frame);
-/// Of this scene alone.
+/// Returns the view of this scene alone.
 View staged(const Scene& scene, const Staging& staging, const Settings& settings);
 
-/// The view of a camera that has gone around what it looks at, with its lights, about the axis
-/// `up`: by so many degrees to its right.
+/// Returns the view of a camera that has gone around its target, with its lights, about the axis
+/// `up`, by an angle to its right.
 View turned(const View& view, const Vec3f& up, double degrees);
 
 } // namespace raylane::core

@@ -9,10 +9,11 @@ namespace raylane::core {
 
 namespace {
 
-/// No plane contains all three.
+/// No plane contains all three directions.
 constexpr double directions[3][3] = {{3, 4, 12}, {12, 3, -4}, {-4, 12, 3}};
 
-/// A point is on a surface if a ray that starts there crosses it at t = 0: one of three does.
+/// Returns true if the point is on the surface: a ray that starts there crosses it at t = 0, for
+/// one of the three directions.
 template <class Shape>
 bool is_on(const Shape& shape, const Vec3f& point) {
     for (const auto& d : directions) {
@@ -24,7 +25,8 @@ bool is_on(const Shape& shape, const Vec3f& point) {
     return false;
 }
 
-/// True if the way from a point of the surface to the eye goes in there, and out again.
+/// Returns true if the segment from a point of the surface to the eye enters the shape there, and
+/// leaves it again.
 template <class Shape>
 bool hides(const Shape& shape, const Vec3f& point, const Vec3f& eye) {
     if (point == eye) return false;
@@ -53,7 +55,7 @@ void find_in_block(const Table<Shape>& table, std::uint32_t index, const Vec3f& 
     });
 }
 
-/// The shape of the lowest id whose surface has the point.
+/// Returns the shape with the lowest id whose surface contains the point.
 Found find(const Scene& scene, const Vec3f& point, const Vec3f& eye) {
     Found lowest;
     for_each_unbounded_table(scene.shapes(), [&](const auto& table) {

@@ -5,27 +5,26 @@
 #include <cstdint>
 #include <limits>
 
-/// Contents of a scene besides its shapes: lights, fog, the camera, and the settings of the
-/// picture.
+/// Contents of a scene besides its shapes: lights, fog, the camera, and the image's settings.
 namespace raylane::core {
 
-/// A light casts shadows; what it is itself is not seen. A point or a directional light has no size
-/// and does not fade with distance. Of the others `color` is the radiance, in all directions and of
-/// both sides: a surface shows as much of it as these fill of the hemisphere above it, by the
-/// cosine of their angle to it. Light from all over the sky shows like one light without a size
-/// from straight above.
+/// A light casts shadows but is not visible itself. A point or a directional light has no size and
+/// does not fade with distance. The `color` of any other light is its radiance, in all directions
+/// and from both sides. A surface shows it by the share of the hemisphere above the surface that
+/// the light fills, weighted by the cosine. A sky of one colour shows like a light without a size
+/// straight above.
 struct Light {
     LightKind kind = LightKind::point;
     Vec3f position{0.0F}; ///< point, sphere, disc: the middle; rectangle: a corner
-    /// directional: where the light travels to; sky: the same from the zenith; disc: its normal.
-    /// Any length but zero.
+    /// directional: the direction in which light travels; sky: that of the zenith's light; disc:
+    /// its normal. Any length but zero.
     Vec3f direction{0.0F, -1.0F, 0.0F};
-    Color color{1.0F};              ///< >= 0; sky: of the zenith
+    Color color{1.0F};              ///< >= 0; sky: the zenith's
     float radius = 1.0F;            ///< sphere, disc: > 0
     Vec3f edge_u{1.0F, 0.0F, 0.0F}; ///< rectangle: from the corner along its edges, which are
     Vec3f edge_v{0.0F, 0.0F, 1.0F}; ///< perpendicular
-    Color ground{1.0F}; ///< sky: the color of the nadir, >= 0; in between it changes evenly
-    /// sky: what is farther away than that, > 0, does not shade a surface from it.
+    Color ground{1.0F};             ///< sky: the nadir's color, >= 0; linear in between
+    /// sky: objects farther away than this distance, > 0, do not shade a surface from it.
     float reach = std::numeric_limits<float>::infinity();
 };
 
@@ -48,13 +47,12 @@ struct Camera {
     Vec3f at{0.0F};             ///< differs from `from`
     Vec3f up{0.0F, 1.0F, 0.0F}; ///< not along the line of sight
     float field_of_view =
-        45.0F; ///< perspective: degrees from the picture's lower to its upper edge, in (0, 180)
-    float height = 2.0F; ///< orthographic: of the picture, > 0, in units of length
-    /// Of a thin lens around `from` that all rays of a pixel's point go through, in units of
-    /// length; 0: a pinhole, and all is sharp.
+        45.0F; ///< perspective: degrees from the image's lower to its upper edge, in (0, 180)
+    float height = 2.0F; ///< orthographic: height of the image, > 0, in units of length
+    /// Radius, in units of length, of a thin lens around `from`. 0: a pinhole; everything is sharp.
     float lens_radius = 0.0F;
-    /// From the lens to the plane that is sharp, along the line of sight, in units of length; 0: it
-    /// goes through `at`.
+    /// Distance from the lens to the plane in focus, along the line of sight, in units of length.
+    /// 0: the plane through `at`.
     float focus_distance = 0.0F;
 };
 
@@ -65,39 +63,39 @@ enum class SamplePattern : std::uint8_t {
     stratified, ///< a point in each cell, by a hash of pixel and sample
 };
 
-/// What of its surroundings a pixel shows, and with which weight.
+/// The area that a pixel shows, and its weights.
 enum class PixelFilter : std::uint8_t {
-    box,             ///< its own square, all of it alike
-    gaussian,        ///< of deviation 1/2 pixel, cut off 1.5 pixels from the middle
+    box,             ///< the pixel's square, with equal weights
+    gaussian,        ///< standard deviation 1/2 pixel, cut off 1.5 pixels from the middle
     blackman_harris, ///< Harris' window of four terms, 3 pixels wide
 };
 
-/// Settings that a scene has for its picture; every value can be overridden when it is rendered.
+/// Settings of a scene's image; a rendering can override each value.
 struct Settings {
     int width = 512;  ///< pixels
     int height = 512; ///< pixels
     int grid = 1;     ///< samples per pixel: grid x grid
     SamplePattern samples = SamplePattern::regular;
-    /// Decibels of the picture's PSNR against a converged one, 10 to 80, that samples are taken
-    /// for, pixel by pixel, in place of `grid`; 0: each pixel has the samples of `grid`.
+    /// The image's PSNR, in decibels, 10 to 80, against a converged one. Pixels get as many samples
+    /// as this needs, in place of `grid`. 0: each pixel has the samples of `grid`.
     float quality = 0.0F;
     PixelFilter filter = PixelFilter::box;
-    /// Rays to each light with a size, from each point that a sample sees; 0: light_rays() says;
-    /// hard_light: one to its middle, and a sky that nothing shades.
+    /// Rays to each light with a size, from each point that a sample sees. 0: see light_rays().
+    /// hard_light: one ray to the light's middle, and a sky without shadows.
     int light_samples = 0;
     Transfer transfer = Transfer::srgb; ///< from linear RGB to 8 bits
-    /// The film has an alpha: where the camera sees the background, past everything or straight
-    /// through see-through surfaces, it is left out, with the fog before it. Mirrors and glass show
-    /// it, and cover what is behind them.
+    /// Gives the film an alpha: where the camera sees the background, past everything or straight
+    /// through transparent surfaces, the background and the fog before it are left out. Mirrors and
+    /// glass show the background, and count as covering it.
     bool alpha = false;
     int max_depth = 8;         ///< reflections and refractions on one path; 0: primary rays alone
-    float min_weight = 0.001F; ///< a path is left when its largest throughput is below, in [0, 1]
-    /// See-through surfaces that a path shows, one behind the other, at least 1; further ones are
-    /// as if they were not there.
+    float min_weight = 0.001F; ///< paths end below this largest throughput, in [0, 1]
+    /// Maximum number of transparent surfaces, one behind the other, that a path shows, at least 1;
+    /// further ones are ignored.
     int max_see_through = see_through_limit;
     Outline outline;
 
-    static constexpr int max_size = 65535;                ///< pixels a side
+    static constexpr int max_size = 65535;                ///< pixels on a side
     static constexpr std::int64_t max_pixels = 1LL << 28; ///< 3 GiB of film
     static constexpr int max_grid = 256;
     static constexpr int depth_limit = 1000;
@@ -105,8 +103,9 @@ struct Settings {
     static constexpr int max_light_samples = 4096;
     static constexpr int hard_light = -1;
 
-    /// Rays to each light with a size: one for each of a pixel's samples, which are spread over the
-    /// light together, but four if it has a single sample.
+    /// Returns the number of rays to each light with a size. By default it is one for each of a
+    /// pixel's samples, which are spread over the light together, or four for a pixel with a single
+    /// sample.
     int light_rays() const {
         if (light_samples == hard_light) return 1;
         if (light_samples != 0) return light_samples;

@@ -13,7 +13,7 @@ double shown(double linear, Transfer transfer) {
 
 namespace {
 
-/// The code of a linear component, of which `white` is the largest.
+/// Returns the code of a linear component, where `white` is the largest code.
 double code_of(float linear, Transfer transfer, double white) {
     if (!(linear > 0.0F)) return 0.0;
     if (linear >= 1.0F) return white;

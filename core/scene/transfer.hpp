@@ -8,21 +8,21 @@
 
 namespace raylane::core {
 
-/// A linear component in [0, 1] as the film shows it, in [0, 1]. srgb: by the curve of IEC
+/// Returns a linear component in [0, 1] as the film shows it, in [0, 1]. srgb: by the curve of IEC
 /// 61966-2-1.
 double shown(double linear, Transfer transfer);
 
-/// The 8-bit code of a linear component, which is clamped to [0, 1] first; NaN gives 0.
+/// Returns the 8-bit code of a linear component, which is clamped to [0, 1] first; NaN gives 0.
 /// srgb: the curve of IEC 61966-2-1. Rounded to the nearest code.
 std::uint8_t encode(float linear, Transfer transfer);
 
-/// The same in 16 bits.
+/// Same, in 16 bits.
 std::uint16_t encode_in_16_bits(float linear, Transfer transfer);
 
-/// The linear component that an 8-bit code of the sRGB curve stands for.
+/// Returns the linear component of an 8-bit code of the sRGB curve.
 float decode_srgb(std::uint8_t code);
 
-/// encode() for many components: looked up, the same codes.
+/// encode() for many components, with a lookup table: the codes are the same.
 class Encoder {
   public:
     explicit Encoder(Transfer transfer);
@@ -35,17 +35,18 @@ class Encoder {
     }
 
   private:
-    /// Between neighbouring stretches, 2^-7 of a power of two wide, the code rises by 1 at most.
+    /// A stretch is 2^-7 of a power of two wide. From one stretch to the next, the code rises by at
+    /// most 1.
     static constexpr int shift = 16;
-    static constexpr float lowest = 0x1p-13F; // half of the first code is more
+    static constexpr float lowest = 0x1p-13F; // below half of the first code
     static constexpr std::uint32_t first = std::bit_cast<std::uint32_t>(lowest) >> shift;
     static constexpr std::uint32_t last = std::bit_cast<std::uint32_t>(1.0F) >> shift;
     static std::uint32_t stretch_of(float linear) {
         return (std::bit_cast<std::uint32_t>(linear) >> shift) - first;
     }
 
-    std::array<float, 257> starts_;                ///< by code: the lowest component that has it
-    std::array<std::uint8_t, last - first> codes_; ///< by stretch: at its start
+    std::array<float, 257> starts_;                ///< by code: the lowest component with that code
+    std::array<std::uint8_t, last - first> codes_; ///< by stretch: the code at its start
 };
 
 } // namespace raylane::core

@@ -81,7 +81,7 @@ void validate(const Light& light) {
     case LightKind::rectangle:
         require_direction("edge_u", light.edge_u);
         require_direction("edge_v", light.edge_v);
-        // They are rounded, each by itself.
+        // The edges are rounded separately.
         if (!(std::abs(dot(normalized(convert<double>(light.edge_u)),
                            normalized(convert<double>(light.edge_v)))) < 0x1p-20))
             throw InvalidValue("edge_v", "must be perpendicular to edge_u's " +
@@ -116,8 +116,8 @@ void validate(const Camera& camera) {
     require_direction("up", camera.up);
     if (camera.from == camera.at)
         throw InvalidValue("at", "must differ from \"from\", got " + text_of(camera.at));
-    // Within the rounding of the inputs the direction of up across the line of sight would be
-    // noise.
+    // If `up` is this close to the line of sight, rounding of the inputs decides its direction
+    // across.
     const Vec3d sight = normalized(convert<double>(camera.at) - convert<double>(camera.from));
     const Vec3d up = normalized(convert<double>(camera.up));
     if (!(length(cross(sight, up)) > 0x1p-22))

@@ -3,7 +3,7 @@
 #include "core/scene/surroundings.hpp"
 #include "core/shapes/invalid_value.hpp"
 
-/// Checks of the values other than shapes that a scene may hold. All functions throw InvalidValue.
+/// Checks all values of a scene except shapes. All functions throw InvalidValue.
 namespace raylane::core {
 
 void validate(const Material& material);
@@ -13,7 +13,7 @@ void validate(const Camera& camera);
 void validate(const Outline& outline);
 void validate(const Settings& settings);
 
-/// A colour: components >= 0.
+/// Checks a colour: components >= 0.
 void validate_color(const char* field, const Color& color);
 
 } // namespace raylane::core
