@@ -9,14 +9,14 @@
 /// Shared parts of cylinders and cones.
 namespace raylane::core {
 
-/// Bounds of the frustum between two discs at right angles to the axis.
+/// Returns the bounds of the frustum between two discs perpendicular to the axis.
 Bounds frustum_bounds(const Vec3d& base, const Vec3d& axis, double base_radius, double top_radius);
 
-/// A ray taken apart along and across the axis of a cylinder or cone: with f = origin - base,
+/// A ray decomposed along and across the axis of a cylinder or cone: with f = origin - base,
 ///   height(t) = (f + t direction) . axis, in [0, axis . axis] between the ends,
 ///   across(t) = across_origin + t across_direction, the offset from the axis.
-/// The rounding of the quotient errs along the axis, which `across` sees only at second order, so
-/// axis / |axis|^2 is not rounded first.
+/// The rounding error of the quotient is along the axis and affects `across` only at second order,
+/// so axis / |axis|^2 is not rounded first.
 template <class Real>
 struct AxialRay {
     Real axis_squared;
@@ -37,15 +37,15 @@ struct AxialRay {
         across_direction = mul_add(Real(-(height_direction / by_axis_squared)), a, ray.direction);
     }
 
-    /// True if the crossing lies between the ends, the rims included.
+    /// Returns true if the crossing is between the ends, including the rims.
     bool between_ends(const Real& t, Judge<Real>& judge) const {
         const Real height = mul_add(t, height_direction, height_origin);
         return !judge.negative(height) && !judge.less(axis_squared, height);
     }
 };
 
-/// Clips against the caps of a solid, or, for a start on its surface going inward, against those
-/// caps that the ray can leave through: not the one it starts on.
+/// Clips against the caps of a solid. For a start on its surface going inward, clips only against
+/// the caps through which the ray can leave, not the one it starts on.
 template <class Real, class AnyInterval>
 void clip_caps(AnyInterval& interval, const AxialRay<Real>& axial, const Start& start,
                Judge<Real>& judge) {
@@ -62,7 +62,7 @@ void clip_caps(AnyInterval& interval, const AxialRay<Real>& axial, const Start& 
         interval.clip_back(-axial.height_origin / axial.height_direction, base_cap);
 }
 
-/// The crossings of an open surface that lie between its ends.
+/// Returns the crossings of an open surface that are between its ends.
 template <class Real>
 Crossings<Real> keep_between_ends(const Crossings<Real>& crossings, const AxialRay<Real>& axial,
                                   Judge<Real>& judge) {
@@ -74,7 +74,7 @@ Crossings<Real> keep_between_ends(const Crossings<Real>& crossings, const AxialR
     return kept;
 }
 
-/// Offset from the axis to a point, at right angles to the axis.
+/// Returns the offset from the axis to a point, perpendicular to the axis.
 template <class Real, class Number>
 Vec3<Real> offset_from_axis(const Vec3<Number>& base, const Vec3<Number>& axis,
                             const Vec3<Real>& point) {
@@ -95,7 +95,7 @@ struct ScaledAxialRay {
           direction(ray.direction), axis_squared(squared_length(axis)),
           height_origin(dot(from_base, axis)), height_direction(dot(direction, axis)) {}
 
-    /// |across|^2 - width^2, scaled by |axis|^2: the width is as far from the axis as it is wide.
+    /// Returns |across|^2 - width^2, scaled by |axis|^2, for a constant width of `radius`.
     ExactQuadratic pipe(const Real& radius) const {
         return {
             axis_squared * squared_length(direction) - height_direction * height_direction,
@@ -116,7 +116,7 @@ struct ScaledAxialRay {
         if (face == base_cap) return {0.0, -0.5 * height_direction, -height_origin};
         return {0.0, 0.5 * height_direction, height_origin - axis_squared};
     }
-    /// Of a solid with this body: the forms of body, base and top.
+    /// Returns the forms of body, base and top of a solid with this body.
     std::array<Real, 3> forms_at_origin(const Real& body_there) const {
         return {body_there, -height_origin, height_origin - axis_squared};
     }

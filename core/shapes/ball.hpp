@@ -3,10 +3,10 @@
 #include "core/shapes/form.hpp"
 #include "core/shapes/quadratic.hpp"
 
-/// Crossings with a ball about the origin: what spheres and ellipsoids have in common.
+/// Crossings with a ball about the origin, for spheres and ellipsoids.
 namespace raylane::core {
 
-/// |origin + t direction|^2 = radius^2, solved at the foot of the perpendicular from the centre.
+/// Solves |origin + t direction|^2 = radius^2 at the foot of the perpendicular from the centre.
 /// Source: Haines, Guenther and Akenine-Moeller, Ray Tracing Gems, ch. 7.
 template <class Real>
 Crossings<Real> ball_crossings(const Vec3<Real>& origin, const Vec3<Real>& direction,
@@ -35,7 +35,7 @@ inline ExactQuadratic ball_along(const Vec3<Dyadic>& origin, const Vec3<Dyadic>&
             squared_length(origin) - radius * radius};
 }
 
-/// Less than 0 inside, 0 on the surface.
+/// Returns a number less than 0 inside, 0 on the surface.
 template <class Real>
 Real ball_at(const Vec3<Real>& point, const Real& radius) {
     return squared_length(point) - radius * radius;

@@ -23,7 +23,7 @@ std::align_val_t alignment_of(std::size_t bytes) {
 void* allocate_big(std::size_t bytes) {
     void* const memory = ::operator new(bytes, alignment_of(bytes));
 #ifdef MADV_HUGEPAGE
-    // A wish: where it is refused, small pages do.
+    // Only a request: if the system refuses it, small pages work, too.
     if (bytes >= least_in_huge_pages) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
 #endif
     return memory;
@@ -35,7 +35,7 @@ void free_big(void* memory, std::size_t bytes) noexcept {
 
 void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept {
 #ifdef MADV_DONTNEED
-    // Whole huge pages, which begin where such memory begins.
+    // Whole huge pages, which are aligned with the start of such memory.
     const std::size_t first = (used + huge_page - 1) / huge_page * huge_page;
     const std::size_t last = bytes / huge_page * huge_page;
     if (bytes >= least_in_huge_pages && first < last)

@@ -9,18 +9,18 @@
 
 namespace raylane::core {
 
-/// Memory for large tables, in huge pages where the system has them: rays that jump about in many
-/// megabytes then seldom wait for an address to be translated. Throws std::bad_alloc.
+/// Allocates memory for large tables, in huge pages if the system has them: rays that access many
+/// megabytes at random then seldom wait for address translation. Throws std::bad_alloc.
 void* allocate_big(std::size_t bytes);
 void free_big(void* memory, std::size_t bytes) noexcept;
-/// Lets go of what is behind the first `used` bytes, as far as the system takes back a part: what
-/// it holds is lost, and it may be written again.
+/// Returns the memory behind the first `used` bytes to the system, where that is possible. Its
+/// contents are lost, but it may be written again.
 void forget_rest(void* memory, std::size_t bytes, std::size_t used) noexcept;
 
-/// Plain data of a size that is set once. Its elements begin undefined, so that memory is touched
-/// first by what fills it, which may be many threads, and never twice. Copies have the same
-/// elements, not others like them: once there is one, they may not be changed. They may be
-/// another's, such as a file's: then they may not be changed either.
+/// An array of plain data whose size is set once. Its elements are uninitialised, so that memory is
+/// first touched by the code that fills it, possibly in many threads, and never twice. Copies share
+/// the elements, which must not be changed once a copy exists. The elements may belong to another
+/// owner, such as a mapped file, and must not be changed then either.
 template <class T>
 class BigArray {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);
@@ -33,7 +33,7 @@ class BigArray {
         data_ = static_cast<T*>(allocate_big(bytes()));
         keeper_ = std::shared_ptr<void>(static_cast<void*>(data_), give_back);
     }
-    /// What is there as long as `keeper` is.
+    /// Refers to elements that exist as long as `keeper` does.
     BigArray(const T* data, std::size_t size, std::shared_ptr<const void> keeper)
         : data_(const_cast<T*>(data)), size_(size), keeper_(std::move(keeper)) {}
     BigArray(const BigArray& other) = default;
@@ -48,11 +48,11 @@ class BigArray {
     }
     ~BigArray() = default;
 
-    /// Forgets all but the first `used` bytes.
+    /// Discards all but the first `used` bytes.
     void forget_rest(std::size_t used) { core::forget_rest(data_, bytes(), used); }
 
     bool empty() const { return size_ == 0; }
-    /// True if there is a copy, or they are another's.
+    /// Returns true if a copy exists, or if another owner keeps the elements.
     bool is_shared() const { return keeper_.use_count() > 1; }
     std::size_t size() const { return size_; }
     std::size_t bytes() const { return size_ * sizeof(T); }
@@ -70,7 +70,7 @@ class BigArray {
   private:
     T* data_ = nullptr;
     std::size_t size_ = 0;
-    std::shared_ptr<const void> keeper_; // of the elements
+    std::shared_ptr<const void> keeper_; // owns the elements
 };
 
 } // namespace raylane::core

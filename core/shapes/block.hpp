@@ -6,11 +6,11 @@
 
 namespace raylane::core {
 
-/// Shapes to a block: as many as the widest packet has lanes.
+/// Number of shapes in a block: as many as the widest packet has lanes.
 inline constexpr int block_size = 16;
 
-/// The floats of 16 shapes of one kind, or those nearest to their numbers, structure of arrays:
-/// value k of lane i is values[k][i]. An empty lane holds NaN and no_shape.
+/// The floats of 16 shapes of one kind, or the floats nearest to their numbers, structure of
+/// arrays: value k of lane i is values[k][i]. An empty lane holds NaN and no_shape.
 template <class Shape>
 struct alignas(64) Block {
     float values[number_count<Shape>][block_size];
@@ -39,8 +39,8 @@ struct alignas(64) Block {
     }
 };
 
-/// What the same 16 shapes are exactly, where that is no floats. It has as many rows as a Block has
-/// with its ids, so that places in both are as far from the table's first.
+/// The exact numbers of the same 16 shapes, if they are not floats. It has as many rows as a Block
+/// including its ids, so that positions in both have the same offset from the table's start.
 template <class Shape>
 struct alignas(64) DoubleBlock {
     double values[number_count<Shape> + 1][block_size];

@@ -6,7 +6,7 @@ namespace raylane::core {
 
 namespace {
 
-/// Twice what a handful of operations in double may be off by, relative to their largest operand.
+/// Twice the error of a handful of operations in double, relative to their largest operand.
 constexpr double slack = 0x1p-48;
 
 float rounded_down(double value) {
@@ -32,7 +32,7 @@ Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magn
     return bounds;
 }
 
-/// Along coordinate i a disc reaches radius * sin(angle between axis and i).
+/// Along coordinate i, the extent of a disc is radius * sin(angle between axis and i).
 Bounds disc_bounds(const Vec3d& base, const Vec3d& axis, double at, double radius) {
     const Vec3d& a = axis;
     const double length_squared = squared_length(a);

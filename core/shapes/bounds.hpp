@@ -9,7 +9,7 @@
 
 namespace raylane::core {
 
-/// An axis-aligned box, closed. Empty if lower > upper in any axis.
+/// A closed axis-aligned box. Empty if lower > upper in any axis.
 struct Bounds {
     Vec3f lower{std::numeric_limits<float>::infinity()};
     Vec3f upper{-std::numeric_limits<float>::infinity()};
@@ -37,7 +37,7 @@ struct Bounds {
         return do_meet;
     }
 
-    /// Half of the surface area; 0 if empty. In double, where it cannot overflow.
+    /// Returns half of the surface area; 0 if empty. Computes in double, where it cannot overflow.
     double half_area() const {
         const Vec3d size = convert<double>(upper) - convert<double>(lower);
         if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0)) return 0.0;
@@ -45,7 +45,7 @@ struct Bounds {
     }
 };
 
-/// Bounds of points, rounded outwards, made to include one more.
+/// Extends bounds to include a point, rounded outwards.
 template <class Real>
 void include_point(Bounds& bounds, const Vec3<Real>& point) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -61,15 +61,16 @@ inline bool is_finite(const Bounds& bounds) {
     return true;
 }
 
-/// [center - extent, center + extent], given both up to a handful of roundings in double of what is
-/// no larger than `magnitude`; rounded outwards. So are all shapes' bounds: never inwards.
+/// Returns [center - extent, center + extent], rounded outwards. Both may have the error of a
+/// handful of roundings in double of numbers up to `magnitude`. The bounds of all shapes are
+/// rounded outwards.
 Bounds bounds_around(const Vec3d& center, const Vec3d& extent, const Vec3d& magnitude);
 
 inline Vec3d absolute(const Vec3d& v) {
     return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
 
-/// Bounds of the disc about base + at * axis, at right angles to the axis.
+/// Returns the bounds of the disc about base + at * axis, perpendicular to the axis.
 Bounds disc_bounds(const Vec3d& base, const Vec3d& axis, double at, double radius);
 
 } // namespace raylane::core

@@ -25,8 +25,8 @@ Bounds bounds_of(const BoxOf<Number>& box) {
     return bounds_around(corner + half_u + half_v + half_w, extent, absolute(corner) + extent);
 }
 
-/// The outward normal of the faces opposite to the corner, of length volume / height: u x v, v x w,
-/// w x u, turned outwards if the edges are left-handed.
+/// Returns the normals of the faces opposite to the corner, of length volume / height: v x w, w x
+/// u, u x v. They point outwards if the edges are right-handed, inwards otherwise.
 template <class Real, class Number>
 std::array<Vec3<Real>, 3> box_normals(const BoxOf<Number>& box) {
     const Vec3<Real> u = convert<Real>(box.edge_u);
@@ -45,7 +45,7 @@ Crossings<Real> crossings(const BoxOf<Number>& box, const Ray<Real>& ray, const 
     const Vec3<Real> from_corner = ray.origin - convert<Real>(box.corner);
     const std::array<Vec3<Real>, 3> normals = box_normals<Real>(box);
     const Real volume =
-        dot(normals[0], convert<Real>(box.edge_u)); // its sign: that of the edges' handedness
+        dot(normals[0], convert<Real>(box.edge_u)); // its sign is the handedness of the edges
     const bool left_handed = static_cast<double>(volume) < 0.0;
     const auto turned = [&](const Real& a) { return left_handed ? Real(-a) : a; };
 
@@ -58,7 +58,7 @@ Crossings<Real> crossings(const BoxOf<Number>& box, const Ray<Real>& ray, const 
             interval.clip_slab(position, slope, turned(volume), low, high);
             continue;
         }
-        // From a face inward: only the ways out count, and not the face itself.
+        // From a face inward, only exits count, and not the face itself.
         const int direction = judge.sign(slope);
         if (direction > 0 && start.face != high)
             interval.clip_back((turned(volume) - position) / slope, high);
@@ -93,7 +93,7 @@ ExactQuadratic form_along(const BoxOf<Number>& box, const ExactRay& ray, Face fa
     return plane_along(normal_along(box, ray, face).v, point, ray.direction);
 }
 
-/// Of its faces. The volume, of either sign, turns them the right way.
+/// Returns the forms of the faces. Multiplying by the volume gives each form the right sign.
 template <class Real, class Number>
 std::array<Real, 6> forms_at(const BoxOf<Number>& box, const Vec3<Real>& point) {
     const Vec3<Real> from_corner = point - convert<Real>(box.corner);

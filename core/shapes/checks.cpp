@@ -35,7 +35,7 @@ void require(bool good, const Field& field, const char* must, Number got) {
 
 namespace {
 
-/// `least`: what is wrong with a double that is too small.
+/// `least`: the message for a double that is too small.
 template <class Number>
 void require_in_range(const Field& field, Number value, const char* least) {
     require(std::abs(value) <= Number(coordinate_limit), field,
@@ -91,7 +91,7 @@ namespace {
 
 using Wide = Bounded<DoubleDouble>;
 
-/// volume() of numbers with bounds, and where these leave it open, of exact ones.
+/// Returns true if volume() is 0. Uses numbers with bounds, and exact ones if these leave a doubt.
 template <class Volume>
 bool vanishes(const Volume& volume) {
     const Wide wide = volume(std::type_identity<Wide>());

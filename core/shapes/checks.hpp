@@ -5,25 +5,25 @@
 
 #include <string>
 
-/// Checks of the numbers that a scene may hold. All functions named require_ throw InvalidValue.
+/// Checks the numbers of a scene. All functions named require_ throw InvalidValue.
 namespace raylane::core {
 
-/// Coordinates and lengths are at most this large, so that no product in the solvers can overflow.
+/// Largest magnitude of coordinates and lengths, so that no product in the solvers can overflow.
 inline constexpr float coordinate_limit = 1e30F;
-/// Doubles that are no floats are at least this large, the least normal float: what they are off by
-/// as floats is then relative to them.
+/// Least magnitude of doubles that are not floats: the least normal float. Their error as floats is
+/// therefore relative to them.
 inline constexpr double least_double = 0x1p-126;
 
 namespace checks {
 
-/// True if a number is a float's.
+/// Returns true if a number is representable as a float.
 template <class Number>
 bool is_float(Number number) {
     return static_cast<Number>(static_cast<float>(number)) == number;
 }
 
-/// The place of a number. Only a refusal puts it into words: ten million spheres have forty million
-/// places.
+/// The place of a number in a scene. It becomes text only for an error message: ten million spheres
+/// have forty million places.
 struct Field {
     const char* name;
     int row = -1;
@@ -43,7 +43,7 @@ struct Field {
     }
 };
 
-/// These are of float and of double.
+/// The following functions exist for float and double.
 template <class Number>
 std::string text_of(Number value);
 template <class Number>
@@ -66,7 +66,7 @@ void require_not_negative(const Field& field, Number value);
 template <class Number>
 void require_fraction(const Field& field, Number value);
 void require_count(const char* field, int value, int least, int most);
-/// Requires an enumerator: one from 0 to `last`.
+/// Requires an enumerator from 0 to `last`.
 template <class Enum>
 void require_enumerator(const char* field, Enum value, Enum last) {
     if (value > last)
@@ -80,7 +80,7 @@ template <class Number>
 void require_spanning(const char* name, const Vec3<Number>& u, const Vec3<Number>& v,
                       const Vec3<Number>& w);
 
-/// True if (b - a) x (c - a) is 0.
+/// Returns true if (b - a) x (c - a) is 0.
 template <class Number>
 bool are_collinear(const Vec3<Number>& a, const Vec3<Number>& b, const Vec3<Number>& c);
 

@@ -7,15 +7,15 @@
 
 namespace raylane::core {
 
-/// The part of a line inside a convex solid, found by clipping the line against one constraint
-/// after the other. What is left is where the line enters and where it leaves: always both or
-/// neither, so each ray that enters a solid leaves it.
+/// The part of a line inside a convex solid, computed by clipping the line against one constraint
+/// after the other. The result has an entry and an exit, or neither, so each ray that enters a
+/// solid leaves it.
 template <class Real>
 class ClipInterval {
   public:
     explicit ClipInterval(Judge<Real>& judge) : judge_(judge) {}
 
-    /// The line is inside only for t >= `t`.
+    /// Restricts the inside to t >= `t`.
     void clip_front(const Real& t, Face face) {
         const Crossing<Real> front{t, face, true};
         if (!std::exchange(has_front_, true))
@@ -24,7 +24,7 @@ class ClipInterval {
             judge_.keep_last(front_, front);
     }
 
-    /// The line is inside only for t <= `t`.
+    /// Restricts the inside to t <= `t`.
     void clip_back(const Real& t, Face face) {
         const Crossing<Real> back{t, face, false};
         if (!std::exchange(has_back_, true))
@@ -35,8 +35,7 @@ class ClipInterval {
 
     void clip_all() { empty_ = true; }
 
-    /// Clips against 0 <= start + t slope <= end, the faces at 0 and at `end` being `low` and
-    /// `high`.
+    /// Clips against 0 <= start + t slope <= end. The faces at 0 and at `end` are `low` and `high`.
     void clip_slab(const Real& start, const Real& slope, const Real& end, Face low, Face high) {
         if constexpr (requires { judge_.is_along(start, slope, end); })
             if (judge_.is_along(start, slope, end)) return;
@@ -52,7 +51,8 @@ class ClipInterval {
         clip_back(direction > 0 ? at_high : at_low, direction > 0 ? high : low);
     }
 
-    /// Both ends, if anything is left. A solid is bounded, so whatever is left has two.
+    /// Returns both ends if the interval is not empty. A solid is bounded, so a part of it has two
+    /// ends.
     Crossings<Real> crossings() const {
         if constexpr (requires { judge_.settle(&front_, &back_); })
             judge_.settle(has_front_ ? &front_ : nullptr, has_back_ ? &back_ : nullptr);
@@ -60,8 +60,8 @@ class ClipInterval {
         return {front_, back_};
     }
 
-    /// The far end alone, for a ray that starts on the surface and goes inward: it leaves, whatever
-    /// rounding says.
+    /// Returns only the far end, for a ray that starts on the surface and goes inward: it leaves,
+    /// whatever the rounding.
     Crossings<Real> exit() const {
         return has_back_ ? Crossings<Real>({not_behind(back_.t), back_.face, false})
                          : Crossings<Real>();

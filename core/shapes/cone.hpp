@@ -25,11 +25,12 @@ Bounds bounds_of(const ConeOf<Number, ends>& cone) {
                           static_cast<double>(cone.top_radius));
 }
 
-/// |across(t)|^2 = width(t)^2, where the width runs from base_radius to top_radius along the axis:
+/// Solves |across(t)|^2 = width(t)^2, where the width runs from base_radius to top_radius along the
+/// axis:
 ///   F(t) = |across|^2 - width^2 = A t^2 + 2 B t + C,  width(t) = W + t M.
-/// The equation also describes the mirror nappe beyond the apex, where width < 0. Between the ends
-/// width >= 0, so what is clipped to them needs a test of its own in the apex alone: a ray through
-/// it, from the inside of one nappe to that of the other, crosses both there.
+/// The equation also describes the mirror nappe beyond the apex, where width < 0. Between the ends,
+/// width >= 0, so crossings that are clipped to the ends need a separate test at the apex alone: a
+/// ray through it, from the inside of one nappe to that of the other, crosses both there.
 template <class Real, class Number, Ends ends>
 Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray,
                           const Start& start, Judge<Real>& judge) {
@@ -48,7 +49,7 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
     Crossings<Real> roots;
     const int curvature = judge.sign(A);
     if (start.on_surface && start.face == body) {
-        // t = 0 is one root, -2 B / A the other. Going inward F falls at 0, so it rises again only
+        // t = 0 is one root, -2 B / A the other. Going inward, F falls at 0, so it rises again only
         // if A > 0.
         if (curvature > 0) roots.add({not_behind(Real(-(B + B) / A)), body, false});
     } else {
@@ -60,17 +61,18 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
                     Real(-width), width,
                     squared_length(mul_add(tau, axial.across_direction, axial.across_origin)));
             });
-        // Beside the cone, or on the axis side of it for good: then only the caps can be met.
+        // Without roots, the line is outside of the cone or inside of the double cone for all t.
+        // Inside, it can only cross the caps.
         const bool no_roots = roots.begin() == roots.end();
         if (no_roots && (curvature > 0 || judge.positive(C))) {
             if (!start.on_surface) return {};
-            // From a cap, by its rim: the ray leaves, whatever rounding says.
+            // The ray starts on a cap, at its rim: it leaves, whatever the rounding.
             const Real vertex = curvature > 0 ? Real(-B / A) : Real(0.0);
             roots.add({not_behind(vertex), body, false});
         }
     }
-    // One crossing on each nappe, inside before the first and behind the second. The width grows
-    // with t if M > 0, so the nappe with width >= 0 is then the second.
+    // The line crosses each nappe once: it is inside before the first crossing and behind the
+    // second. If M > 0, the width grows with t, so the nappe with width >= 0 is the second.
     if (curvature < 0) {
         const bool enters = judge.sign(M) > 0;
         Crossings<Real> on_nappe;
@@ -80,7 +82,7 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
     }
     if constexpr (ends == Ends::open) return keep_between_ends(roots, axial, judge);
 
-    // The solid is convex: clip to the nappe that lies between the ends.
+    // The solid is convex: clip to the nappe between the ends.
     ClipInterval<Real> interval(judge);
     for (const Crossing<Real>& root : roots) {
         if (root.entering && !start.on_surface) interval.clip_front(root.t, root.face);
@@ -90,7 +92,7 @@ Crossings<Real> crossings(const ConeOf<Number, ends>& cone, const Ray<Real>& ray
     return start.on_surface ? interval.exit() : interval.crossings();
 }
 
-/// Half the gradient of F: across - width slope axis. It vanishes at the apex.
+/// Returns half the gradient of F: across - width slope axis. It vanishes at the apex.
 template <class Real, class Number, Ends ends>
 Vec3<Real> outward_direction(const ConeOf<Number, ends>& cone, const Vec3<Real>& point, Face face) {
     const Vec3<Real> axis = convert<Real>(cone.axis);
@@ -98,13 +100,13 @@ Vec3<Real> outward_direction(const ConeOf<Number, ends>& cone, const Vec3<Real>&
     if (face == top_cap) return axis;
     const Vec3<Real> across = offset_from_axis(cone.base, cone.axis, point);
     const Real narrowing = Real(cone.base_radius) - Real(cone.top_radius);
-    // On the surface width = |across|: with it the direction is right even where the point is a
-    // little off.
+    // On the surface, width = |across|. Using |across| gives the right direction even if the point
+    // is a little off the surface.
     const Real width = length(across);
     return mul_add(Real(width * narrowing / squared_length(axis)), axis, across);
 }
 
-/// The axis, outwards.
+/// Returns the axis, pointing outwards.
 template <class Real, class Number, Ends ends>
 Vec3<Real> apex_direction(const ConeOf<Number, ends>& cone) {
     const Vec3<Real> axis = convert<Real>(cone.axis);

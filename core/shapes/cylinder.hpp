@@ -22,7 +22,7 @@ Bounds bounds_of(const CylinderOf<Number, ends>& cylinder) {
                           radius);
 }
 
-/// |across(t)| = radius, solved like a sphere at the foot of the perpendicular from the axis.
+/// Solves |across(t)| = radius like a sphere, at the foot of the perpendicular from the axis.
 template <class Real, class Number, Ends ends>
 Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Real>& ray,
                           const Start& start, Judge<Real>& judge) {
@@ -58,7 +58,7 @@ Crossings<Real> crossings(const CylinderOf<Number, ends>& cylinder, const Ray<Re
         Real discriminant = mul_add(radius, radius, Real(-squared_length(foot)));
         if (judge.negative(discriminant)) {
             if (!start.on_surface) return {};
-            // From a cap, by its rim: the ray leaves, whatever rounding says.
+            // The ray starts on a cap, at its rim: it leaves, whatever the rounding.
             discriminant = Real(0.0);
         }
         if (!parallel) {

@@ -16,7 +16,7 @@ void validate(const EllipsoidOf<Number>& e) {
     checks::require_spanning("axes", e.axis_u, e.axis_v, e.axis_w);
 }
 
-/// Along a coordinate it reaches as far as the vector of the axes' components is long.
+/// Along a coordinate, the extent is the length of the vector of the axes' components.
 template <class Number>
 Bounds bounds_of(const EllipsoidOf<Number>& e) {
     const Vec3d center = convert<double>(e.center), u = convert<double>(e.axis_u),
@@ -28,8 +28,8 @@ Bounds bounds_of(const EllipsoidOf<Number>& e) {
 }
 
 /// Linear map of the ellipsoid to a ball about the origin: the coordinate a of p, relative to the
-/// centre, is ((v x w) . p) / ((v x w) . u), likewise b and c. A ray goes through the ball where it
-/// goes through the ellipsoid.
+/// centre, is ((v x w) . p) / ((v x w) . u), likewise b and c. A ray crosses the ball at the same t
+/// as the ellipsoid.
 template <class Real>
 struct ToBall {
     std::array<Vec3<Real>, 3> rows;
@@ -41,8 +41,8 @@ struct ToBall {
                          w = convert<Real>(e.axis_w);
         rows = {cross(v, w), cross(w, u), cross(u, v)};
         radius = dot(rows[0], u);
-        // The sixth power of a length is more than float has room for. Elsewhere nothing is
-        // divided: so small whole numbers stay exact.
+        // The sixth power of a length overflows float. Other types do not divide, so small integers
+        // stay exact.
         if constexpr (std::is_same_v<Real, float>) {
             for (Vec3<Real>& row : rows)
                 row = row / radius;
@@ -53,7 +53,7 @@ struct ToBall {
     Vec3<Real> operator()(const Vec3<Real>& v) const {
         return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
     }
-    /// Half the gradient of |to_ball(p)|^2, given that.
+    /// Returns half the gradient of |to_ball(p)|^2, given to_ball(p).
     Vec3<Real> normal(const Vec3<Real>& in_ball) const {
         return mul_add(in_ball.x, rows[0],
                        mul_add(in_ball.y, rows[1], Vec3<Real>(rows[2] * in_ball.z)));

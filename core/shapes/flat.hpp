@@ -6,11 +6,11 @@
 
 #include <optional>
 
-/// Shared parts of flat shapes. A ray that starts on one does not meet it again; one inside its
-/// plane does not hit it.
+/// Shared parts of flat shapes. A ray that starts on one does not meet it again; a ray in its plane
+/// does not hit it.
 namespace raylane::core {
 
-/// normal . (origin + t direction - point) = 0
+/// Solves normal . (origin + t direction - point) = 0.
 template <class Real>
 std::optional<Crossing<Real>> cross_plane(const Vec3<Real>& to_point, const Vec3<Real>& normal,
                                           const Vec3<Real>& direction, Judge<Real>& judge) {

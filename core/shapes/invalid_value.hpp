@@ -5,11 +5,11 @@
 
 namespace raylane::core {
 
-/// A value that no scene may hold.
+/// Reports a value that a scene must not hold.
 ///
-/// `field` names it relative to what was being added, in the manner of a JSON pointer without the
-/// leading slash ("radius", "edges/2"); it may be empty. `expectation` reads on from the field's
-/// name: "must be positive, got -1". A reader puts the file and the place in front.
+/// `field` names it relative to the object that was being added, like a JSON pointer without the
+/// leading slash ("radius", "edges/2"); it may be empty. `expectation` continues the field's name:
+/// "must be positive, got -1". A reader puts the file and the place in front.
 class InvalidValue : public std::invalid_argument {
   public:
     InvalidValue(std::string field_, std::string expectation_)

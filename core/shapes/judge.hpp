@@ -11,16 +11,16 @@
 
 namespace raylane::core {
 
-/// Answers the yes-or-no questions that a solver asks of its numbers. For a plain real type the
-/// answer is the number's own. For numbers with bounds it remembers whether any answer was within
-/// the error.
+/// Answers the yes-or-no questions that a solver asks of its numbers. For a plain real type, the
+/// number decides. For numbers with bounds, the judge remembers whether any answer was within the
+/// error.
 template <class Real>
 class Judge {
   public:
     Judge() = default;
     explicit Judge(Precision precision) : textbook_(precision == Precision::fast) {}
 
-    /// True if the textbooks' formulas are to be used.
+    /// Returns true if the solver must use the textbook formulas.
     bool textbook() const { return textbook_; }
 
     int sign(const Real& a) {
@@ -33,14 +33,15 @@ class Judge {
     bool positive(const Real& a) { return a > Real(0.0); }
     bool less(const Real& a, const Real& b) { return a < b; }
     bool doubt() const { return false; }
-    /// The first of both, where a line leaves a convex solid, or the last, where it enters.
+    /// keep_first keeps the earlier of two crossings, where a line leaves a convex solid; keep_last
+    /// keeps the later, where it enters.
     void keep_first(Crossing<Real>& kept, const Crossing<Real>& other) {
         if (less(other.t, kept.t)) kept = other;
     }
     void keep_last(Crossing<Real>& kept, const Crossing<Real>& other) {
         if (less(kept.t, other.t)) kept = other;
     }
-    /// True if a crossing counts, given is_in(crossing) of it.
+    /// Returns true if a crossing counts, given is_in(crossing).
     template <class IsIn>
     bool counts(Crossing<Real>& crossing, const IsIn& is_in) {
         return is_in(crossing);
@@ -50,8 +51,8 @@ class Judge {
     bool textbook_ = false;
 };
 
-/// What several numbers are divided by. In float they are multiplied by its reciprocal, which is
-/// off by an ulp and several times as fast.
+/// A divisor of several numbers. In float, `/` multiplies by its reciprocal, which has an error of
+/// an ulp and is several times as fast.
 template <class Real>
 class Divisor {
   public:
@@ -69,12 +70,12 @@ class Divisor {
     Real by_;
 };
 
-/// The relative accuracy that a t must have: an eighth of half an ulp of float, so that it rounds
-/// to the right float or to a neighbour.
+/// The relative accuracy required of t: an eighth of half an ulp of float, so that t rounds to the
+/// right float or to a neighbour.
 inline constexpr double needed_accuracy = 0x1p-27;
 
-/// Judge with bounds: an answer within the error, or a t that is not accurate enough, is a doubt,
-/// and the question has to be asked again in a wider type.
+/// A judge of numbers with bounds. An answer within the error, or a t that is not accurate enough,
+/// is a doubt, and the caller must ask again in a wider type.
 template <class T>
 class Judge<Bounded<T>> {
   public:
@@ -100,7 +101,7 @@ class Judge<Bounded<T>> {
     bool counts(Crossing<Real>& crossing, const IsIn& is_in) {
         return is_in(crossing);
     }
-    /// Judges a t; to be called of every one that is a result.
+    /// Judges the accuracy of a t. Call it for every t that is a result.
     void result(const Bounded<double>& t) {
         doubt_ |= !(t.error <= needed_accuracy * t.magnitude());
     }

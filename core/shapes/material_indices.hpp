@@ -10,12 +10,12 @@
 
 namespace raylane::core {
 
-/// The material of each shape by its id, in as few bytes as the largest index that has been added
-/// takes: none where all are of the first material, else 1, 2 or 4.
+/// The material of each shape by its id. Each index takes as few bytes as the largest one needs: 0
+/// if all shapes have the first material, 1, 2 or 4 otherwise.
 class MaterialIndices {
   public:
     MaterialIndices() = default;
-    /// `size` of them, `width` bytes each, as stored() has them.
+    /// Takes `size` indices of `width` bytes each, laid out as in stored().
     MaterialIndices(BigArray<std::uint8_t> stored, int width, std::size_t size)
         : size_(size), width_(width), room_(std::move(stored)) {}
 
@@ -47,15 +47,15 @@ class MaterialIndices {
     }
 
     void push_back(MaterialIndex material);
-    /// Leaves the first `size`, of no fewer.
+    /// Keeps the first `size` indices; there must be at least as many.
     void truncate(std::size_t size) { size_ = size; }
-    /// Room for as many, so that adding them copies nothing.
+    /// Reserves memory for `size` indices, so that adding them copies nothing.
     void reserve(std::size_t size);
-    /// Gives back the room that is left.
+    /// Frees the unused memory.
     void shrink_to_fit();
     std::size_t bytes() const { return room_.bytes(); }
 
-    /// Bytes of each.
+    /// Returns the bytes of each index.
     int width() const { return width_; }
     std::span<const std::uint8_t> stored() const {
         return {room_.data(), size_ * static_cast<std::size_t>(width_)};
@@ -69,7 +69,7 @@ class MaterialIndices {
         return number;
     }
     void put(std::size_t i, MaterialIndex material);
-    /// Has so many bytes each from now on, and room for as many.
+    /// Changes the bytes of each index to `width`, and the capacity to `count` indices.
     void rearrange(int width, std::size_t count);
 
     std::size_t size_ = 0, reserved_ = 0;

@@ -5,13 +5,12 @@
 
 /// Each shape has
 ///   Vec3<Real> outward_direction(shape, point, face)
-/// the normal outside (in front) at a point of its surface, of any length; and where that may
-/// vanish, at an apex,
+/// the normal outside (in front) at a point of its surface, of any length. If it may vanish, at an
+/// apex, the shape also has a replacement:
 ///   Vec3<Real> apex_direction<Real>(shape)
-/// which stands in for it.
 namespace raylane::core {
 
-/// Outward normal of length 1.
+/// Returns the outward normal of length 1.
 template <class Real, class Shape>
 Vec3<Real> outward_normal(const Shape& shape, const Vec3<Real>& point, Face face) {
     const Vec3<Real> direction = outward_direction(shape, point, face);

@@ -12,8 +12,7 @@ std::uint32_t pattern_of(float number) {
     return std::bit_cast<std::uint32_t>(number);
 }
 
-/// Patterns of one axis: the least of them, and whether all are near it. Lanes are filled from the
-/// first on.
+/// Range of the bit patterns of one axis. Lanes are filled from the first on.
 struct Span {
     std::uint32_t least = PackedBlock::empty, most = 0;
 
@@ -32,7 +31,7 @@ bool has_all_radii(const Block<Sphere>& block, const RadiusPalette& palette) {
     return true;
 }
 
-/// The rows that stand elsewhere, as bits.
+/// Returns a mask of the rows that are stored outside of the block.
 unsigned whole_rows_of(const Block<Sphere>& block, const RadiusPalette& palette) {
     unsigned rows = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -43,7 +42,7 @@ unsigned whole_rows_of(const Block<Sphere>& block, const RadiusPalette& palette)
 
 } // namespace
 
-/// A word of all ones is an empty lane's, so the last number is never given.
+/// A word of all ones marks an empty lane, so the palette does not use the last number.
 RadiusPalette::RadiusPalette(std::size_t id_count)
     : id_bits_(
           std::max(static_cast<int>(std::bit_width(std::max<std::size_t>(id_count, 1) - 1)), 8)),

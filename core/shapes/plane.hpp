@@ -39,7 +39,7 @@ NormalAlong<Real> normal_along(const PlaneOf<Number>& plane, const Ray<Real>&, F
     return {convert<Real>(plane.normal)};
 }
 
-/// Of the half-space behind it.
+/// Returns the form of the half-space behind the plane.
 template <class Real, class Number>
 std::array<Real, 1> forms_at(const PlaneOf<Number>& plane, const Vec3<Real>& point) {
     return {dot(convert<Real>(plane.normal), Vec3<Real>(point - convert<Real>(plane.point)))};

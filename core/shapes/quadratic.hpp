@@ -5,9 +5,9 @@
 
 namespace raylane::core {
 
-/// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside, by the textbooks'
-/// formula. It cancels; solve_quadratic is what to use. Where a line touches the surface, it enters
-/// before it leaves, from whichever side it does.
+/// Returns the crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside, by the
+/// textbook formula, which cancels; prefer solve_quadratic. A line that touches the surface, from
+/// either side, enters before it leaves.
 template <class Real>
 Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
     using std::sqrt;
@@ -26,12 +26,12 @@ Crossings<Real> solve_textbook(const Real& A, const Real& B, const Real& C) {
     return in_first ? Crossings<Real>(in, out) : Crossings<Real>(out, in);
 }
 
-/// The crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside.
+/// Returns the crossings of F(t) = A t^2 + 2 B t + C with 0, where F < 0 is the inside.
 ///
 /// `at_vertex(tau)` evaluates F at the parabola's vertex tau = -B / A from the geometry (Haines,
 /// Guenther and Akenine-Moeller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing
-/// Gems, ch. 7): B^2 - A C cancels where the origin is far away, F(tau) does not. Where the leading
-/// term (nearly) vanishes, it is the other way round. `scale` is what A would be without
+/// Gems, ch. 7). If the origin is far away, B^2 - A C cancels but F(tau) does not. If the leading
+/// term (nearly) vanishes, it is the other way round. `scale` is the size of A without
 /// cancellation.
 template <class Real, class AtVertex>
 Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, const Real& scale,
@@ -42,7 +42,7 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
         return Crossing<Real>{t, body, entering};
     };
 
-    // The leading term vanishes: a straight line, which has one root.
+    // The leading term vanishes: the equation is linear and has one root.
     const int curvature = judge.sign(A);
     if (curvature == 0) {
         const int slope = judge.sign(B);
@@ -66,7 +66,7 @@ Crossings<Real> solve_quadratic(const Real& A, const Real& B, const Real& C, con
     // F' at q / A has the sign of `root` if falling; at C / q the opposite.
     const Crossing<Real> of_A = crossing(q / by_A, !falling);
     const Crossing<Real> of_C = crossing(C / q, falling);
-    // In order: for A > 0 the ray enters first, for A < 0 it leaves first, unless it touches.
+    // In order: for A > 0 the ray enters first, for A < 0 it leaves first, unless it only touches.
     const bool in_first = curvature > 0 || static_cast<double>(discriminant) == 0.0;
     return of_A.entering == in_first ? Crossings<Real>(of_A, of_C) : Crossings<Real>(of_C, of_A);
 }

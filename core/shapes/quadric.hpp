@@ -42,7 +42,7 @@ Bounds bounds_of(const QuadricOf<Number>& quadric) {
                          absolute(center) + absolute(lower) + absolute(upper));
 }
 
-/// M p for the upper left 3x3 part of the form's matrix.
+/// Returns M p for the upper left 3x3 part of the form's matrix.
 template <class Real, class Number>
 Vec3<Real> quadric_product(const QuadricOf<Number>& q, const Vec3<Real>& p) {
     return {dot(Vec3<Real>(Real(q.xx), Real(q.xy), Real(q.xz)), p),
@@ -50,27 +50,27 @@ Vec3<Real> quadric_product(const QuadricOf<Number>& q, const Vec3<Real>& p) {
             dot(Vec3<Real>(Real(q.xz), Real(q.yz), Real(q.zz)), p)};
 }
 
-/// Half the gradient of Q at p, relative to the centre.
+/// Returns half the gradient of Q at p, relative to the centre.
 template <class Real, class Number>
 Vec3<Real> quadric_half_gradient(const QuadricOf<Number>& q, const Vec3<Real>& p) {
     return quadric_product(q, p) + Vec3<Real>(Real(q.x), Real(q.y), Real(q.z));
 }
 
-/// Q(p), relative to the centre.
+/// Returns Q(p), relative to the centre.
 template <class Real, class Number>
 Real quadric_value(const QuadricOf<Number>& q, const Vec3<Real>& p) {
     const Vec3<Real> linear(Real(q.x), Real(q.y), Real(q.z));
     return dot(p, Vec3<Real>(quadric_half_gradient(q, p) + linear)) + Real(q.one);
 }
 
-/// The largest of what direction . M direction can be made of, for a unit direction.
+/// Returns the largest coefficient of direction . M direction: its scale for a unit direction.
 template <class Real, class Number>
 Real quadric_scale(const QuadricOf<Number>& q) {
     return Real(std::max({std::abs(q.xx), std::abs(q.yy), std::abs(q.zz), std::abs(q.xy),
                           std::abs(q.xz), std::abs(q.yz)}));
 }
 
-/// Q(f + t direction) = A t^2 + 2 B t + C, clipped to the box.
+/// Solves Q(f + t direction) = A t^2 + 2 B t + C = 0, clipped to the box.
 template <class Real, class Number>
 Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray,
                           const Start& start, Judge<Real>& judge) {
@@ -81,8 +81,8 @@ Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray
 
     Crossings<Real> roots;
     if (start.on_surface) {
-        // t = 0 is one root, -2 B / A the other: ahead if the ray first falls inside and the form
-        // rises again, or the reverse. Which of both it does at the start, the caller knows better
+        // t = 0 is one root, -2 B / A the other. The other is ahead if the ray first goes inside
+        // and the form rises again, or the reverse. The caller knows the side at the start better
         // than the sign of B.
         const int curvature = judge.sign(A);
         if (start.inward ? curvature > 0 : curvature < 0)
@@ -107,7 +107,7 @@ Crossings<Real> crossings(const QuadricOf<Number>& quadric, const Ray<Real>& ray
     return kept;
 }
 
-/// The gradient. It vanishes at the apex of a cone.
+/// Returns half the gradient. It vanishes at the apex of a cone.
 template <class Real, class Number>
 Vec3<Real> outward_direction(const QuadricOf<Number>& quadric, const Vec3<Real>& point, Face) {
     return quadric_half_gradient(quadric, Vec3<Real>(point - convert<Real>(quadric.center)));
@@ -132,7 +132,7 @@ NormalAlong<Real> normal_along(const QuadricOf<Number>& quadric, const Ray<Real>
             apex_direction<Real>(quadric)};
 }
 
-/// Of where its form is negative, in its box and elsewhere.
+/// Returns the form, which is negative inside, within the box and beyond it.
 template <class Real, class Number>
 std::array<Real, 1> forms_at(const QuadricOf<Number>& quadric, const Vec3<Real>& point) {
     return {quadric_value(quadric, Vec3<Real>(point - convert<Real>(quadric.center)))};

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-/// What becomes of a shape whose numbers are rounded to float, as filters have them.
+/// Bounds on the change of a shape whose numbers are rounded to float, as filters see it.
 namespace raylane::core {
 
 namespace detail {
 
-/// |v - float(v)| of all numbers together: no less than the length that a vector changes by.
+/// Returns the sum of |v - float(v)| over all numbers: an upper bound on the change of a vector.
 template <class... Values>
 double change_of(const Values&... values) {
     const auto of_number = [](double x) {
@@ -25,22 +25,23 @@ double change_of(const Values&... values) {
     return (of_one(values) + ...);
 }
 
-/// The angle that a direction turns by, or more.
+/// Returns an upper bound on the angle by which a direction turns.
 inline double turn_of(const Vec3d& direction) {
     return 1.25 * change_of(direction) / length(direction);
 }
 
 } // namespace detail
 
-/// Change: there is a continuous map of a shape's surface onto that of the nearest floats, and
-/// back, that moves no point further than this. What a ray in double crosses at t, the ray beside
-/// it that is moved by so much crosses at the same t in floats; so filters that grant a ray's
-/// origin as much bound the crossings of the shape that is meant. (If all such rays surely cross
-/// the floats' surface, and continuously, then by Brouwer's theorem one of them does where its
-/// displacement is that of the map: there the ray crosses what is meant.)
+/// Returns the change of a shape: a continuous map of its surface onto that of the nearest floats
+/// exists, and one back, that moves no point further than this. If a ray crosses the exact surface
+/// at t, the parallel ray displaced by the map crosses the float surface at the same t. Filters
+/// that allow a ray's origin this displacement therefore bound the crossings of the exact shape.
+/// (Suppose that all rays with such a displacement certainly cross the float surface, at a point
+/// that depends on the displacement continuously. Then, by Brouwer's theorem, one of them crosses
+/// it where its displacement equals that of the map: there the ray crosses the exact surface.)
 ///
-/// Of planes it is that of their point, of quadrics that of the centre and the box: filters grant
-/// what normals and coefficients are off by relative to themselves.
+/// For planes, this is the change of their point; for quadrics, that of the centre and the box.
+/// Filters allow for the relative error of normals and coefficients themselves.
 inline double change_in_floats(const InDouble<Sphere>& s) {
     return detail::change_of(s.center, s.radius);
 }

@@ -15,32 +15,32 @@
 
 /// Contents of each shape's file, in this order: validate(), bounds_of() if it is bounded,
 /// crossings(), outward_direction() (see normal.hpp), form_along() and normal_along() (see
-/// form.hpp), and of solids forms_at() (see side_of.hpp). types.hpp has its numbers and traits.
+/// form.hpp), and, for solids, forms_at() (see side_of.hpp). types.hpp has its numbers and traits.
 namespace raylane::core {
 
 /// Re-entry: which rays that leave a shape may meet it again.
 enum class MeetsAgain : std::uint8_t {
-    never,  ///< it is flat
-    inward, ///< those that go to the inside of a convex surface
+    never,  ///< the shape is flat
+    inward, ///< rays that go to the inside of a convex surface
     always,
 };
 
 /// A trait without a default: a shape that does not state it does not compile.
 template <class Value>
 struct Stated {
-    constexpr Stated(Value stated) : value(stated) {} // NOLINT: `.bounded = true` is to be written
+    constexpr Stated(Value stated) : value(stated) {}         // NOLINT: allows `.bounded = true`
     constexpr operator const Value&() const { return value; } // NOLINT
     Value value;
 };
 
-/// Traits of a kind of shape that the engine asks for.
+/// Traits of a kind of shape that the engine needs.
 struct ShapeTraits {
-    Stated<bool> bounded;    ///< it has bounds, and a place in the hierarchy
-    Stated<bool> flat_faces; ///< its normals, those for shading too, are the same all over a face
+    Stated<bool> bounded;    ///< it has bounds, and is in the hierarchy
+    Stated<bool> flat_faces; ///< normals, also for shading, are constant on a face
     Stated<MeetsAgain> meets_again;
 };
 
-/// How many numbers a shape is.
+/// Count of a shape's numbers.
 template <class Shape>
 inline constexpr int number_count = sizeof(Shape) / sizeof(NumberOf<Shape>);
 
@@ -57,7 +57,7 @@ Shape shape_of(const Numbers<Shape>& numbers) {
     return std::bit_cast<Shape>(numbers);
 }
 
-/// The shape of other numbers, each the nearest to its own.
+/// Converts a shape to another number type; each number is rounded to the nearest.
 template <class To, class From>
 To cast_shape(const From& shape) {
     Numbers<To> numbers;
@@ -74,29 +74,29 @@ InFloat<Shape> to_floats(const Shape& shape) {
     return cast_shape<InFloat<Shape>>(shape);
 }
 
-/// True if all of a shape's numbers are floats.
+/// Returns true if all of a shape's numbers are floats.
 template <class Shape>
 bool is_in_floats(const Shape& shape) {
     return std::ranges::all_of(numbers_of(shape), checks::is_float<NumberOf<Shape>>);
 }
 
-/// The number of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added.
+/// The index of a shape in its scene: 0, 1, 2, ... in the order in which shapes were added.
 using ShapeId = std::uint32_t;
 inline constexpr ShapeId no_shape = std::numeric_limits<ShapeId>::max();
 
-/// The number of a material in its scene; by shape ids, of what each shape is made of.
+/// The index of a material in its scene. Arrays by shape id give the material of each shape.
 using MaterialIndex = std::uint32_t;
 
-/// A range of shape ids, first to last.
+/// A range of shape ids, including first and last.
 struct IdRange {
     ShapeId first;
     ShapeId last;
 
-    /// Wraps below `first`, so that one comparison does.
+    /// The difference wraps below `first`, so that one comparison is enough.
     bool contains(ShapeId id) const { return id - first <= last - first; }
 };
 
-/// The one of some ranges, ascending, that has an id; null if none has.
+/// Returns the range that contains an id, among ascending ranges; null if none does.
 inline const IdRange* range_with(std::span<const IdRange> ranges, ShapeId id) {
     const auto after =
         std::upper_bound(ranges.begin(), ranges.end(), id,

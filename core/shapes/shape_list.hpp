@@ -11,13 +11,13 @@
 
 namespace raylane::core {
 
-/// A list that grows by pieces, each as large as all before it: none is ever copied, and what is
-/// not used of the last is never touched.
+/// A list that grows by pieces, each as large as all before it. Pieces are never copied, and the
+/// unused part of the last piece is never touched.
 template <class T>
 class GrowingList {
   public:
     GrowingList() = default;
-    /// With elements of its own: both may grow.
+    /// Copies the elements, so that both lists may grow.
     GrowingList(const GrowingList& other) {
         for (std::size_t i = 0; i < other.size(); ++i)
             add(other[i]);
@@ -56,19 +56,19 @@ class GrowingList {
         return piece == 0 ? 0 : first_piece_size << (piece - 1);
     }
 
-    std::array<BigArray<T>, 34> pieces_; // for more than 2^32
+    std::array<BigArray<T>, 34> pieces_; // enough for more than 2^32 elements
     std::size_t size_ = 0;
 };
 
-/// A shape's floats, or those nearest to it, and its number in the scene.
+/// A shape's floats, or the floats nearest to its numbers, and its id in the scene.
 template <class Shape>
 struct Listed {
     Shape shape;
     ShapeId id;
 };
 
-/// All shapes of one kind, in the order in which they came. There are ids as soon as one does not
-/// follow the one before it, and doubles as soon as one shape has a number that is no float.
+/// All shapes of one kind, in the order in which they were added. Stores ids only once an id does
+/// not follow the one before it, and doubles only once a shape has a number that is not a float.
 template <class Shape>
 class ShapeList {
   public:
@@ -76,7 +76,7 @@ class ShapeList {
     Listed<Shape> operator[](std::size_t i) const { return {shapes_[i], id(i)}; }
 
     bool has_doubles() const { return doubles_.size() > 0; }
-    /// Exactly the shape.
+    /// Returns the exact shape.
     InDouble<Shape> exact(std::size_t i) const {
         return has_doubles() ? doubles_[i] : to_doubles(shapes_[i]);
     }
@@ -97,7 +97,7 @@ class ShapeList {
         doubles_.add(shape);
     }
 
-    /// Asks for what `[i]` will look at.
+    /// Prefetches the memory that `[i]` reads.
     void prefetch(std::size_t i) const {
         __builtin_prefetch(&shapes_[i]);
         if (ids_.size() > 0) __builtin_prefetch(&ids_[i]);
@@ -107,7 +107,7 @@ class ShapeList {
     ShapeId id(std::size_t i) const {
         return ids_.size() > 0 ? ids_[i] : first_id_ + static_cast<ShapeId>(i);
     }
-    /// Before the shape itself.
+    /// Adds an id. Call it before adding the shape.
     void add_id(ShapeId id) {
         if (size() == 0) first_id_ = id;
         if (ids_.size() == 0) {
@@ -120,8 +120,8 @@ class ShapeList {
 
     GrowingList<Shape> shapes_;
     ShapeId first_id_ = 0;
-    GrowingList<ShapeId> ids_;             // as many, or none
-    GrowingList<InDouble<Shape>> doubles_; // as many, or none
+    GrowingList<ShapeId> ids_;             // one for each shape, or empty
+    GrowingList<InDouble<Shape>> doubles_; // one for each shape, or empty
 };
 
 /// One list per kind, in the order of `Kind`.

@@ -12,7 +12,7 @@
 
 namespace raylane::core {
 
-/// Blocks of a table; and as many of doubles, or none where floats are what the shapes are.
+/// Blocks of a table, and as many blocks of doubles, or none if all numbers are floats.
 template <class Shape>
 struct Blocks {
     BigArray<Block<Shape>> floats;
@@ -21,7 +21,7 @@ struct Blocks {
     Blocks() = default;
     Blocks(std::size_t count, bool has_doubles) : floats(count), doubles(has_doubles ? count : 0) {}
 
-    /// Fills a block with shapes of a list, those at position(lane).
+    /// Fills a block with the shapes of a list at position(lane).
     template <class Position>
     void fill(std::size_t index, const ShapeList<Shape>& list, int count,
               const Position& position) {
@@ -39,21 +39,21 @@ struct Blocks {
     }
 };
 
-/// Place of a shape in the table of its kind.
+/// Position of a shape in the table of its kind.
 struct Place {
     std::uint32_t block;
     std::uint8_t lane;
 };
 
 /// All shapes of one kind, in a finished scene. Each block of a bounded kind is a leaf of the
-/// hierarchy, so blocks may be partly empty. Where there are many spheres, their blocks are packed.
+/// hierarchy, so blocks may be partly empty. If there are many spheres, their blocks are packed.
 template <class Shape>
 class Table {
   public:
-    /// True of kinds whose blocks may be packed.
+    /// True for kinds whose blocks may be packed.
     static constexpr bool packs = kind_of<Shape> == Kind::sphere;
 
-    /// The blocks, whether packed or not: then an element is a block by value.
+    /// The blocks, packed or not. An element of a packed range is a block by value.
     class BlockRange {
       public:
         using Reference = std::conditional_t<packs, Block<Shape>, const Block<Shape>&>;
@@ -83,9 +83,9 @@ class Table {
     };
 
     Table() = default;
-    /// `size` shapes in all, with duplicates.
+    /// `size`: the number of shapes, including duplicates.
     Table(Blocks<Shape> blocks, std::size_t size) : blocks_(std::move(blocks)), size_(size) {}
-    /// Table in the list's order.
+    /// Builds a table in the list's order.
     explicit Table(const ShapeList<Shape>& list) : Table(list, list.size()) {}
     Table(const ShapeList<Shape>& list, std::size_t size)
         : blocks_((list.size() + block_size - 1) / block_size, list.has_doubles()), size_(size) {
@@ -95,7 +95,8 @@ class Table {
                          [first](int lane) { return first + static_cast<std::size_t>(lane); });
     }
 
-    /// Number of shapes with duplicates, of which the blocks have one each.
+    /// Returns the number of shapes, including duplicates. The blocks have one of each set of
+    /// duplicates.
     std::size_t size() const { return size_; }
     std::size_t block_count() const {
         if constexpr (packs)
@@ -103,7 +104,7 @@ class Table {
         return blocks_.floats.size();
     }
     BlockRange blocks() const { return BlockRange(*this); }
-    /// Calls visit(block), without a copy of what is not packed.
+    /// Calls visit(block), without copying blocks that are not packed.
     template <class Visit>
     decltype(auto) visit_block(std::size_t index, const Visit& visit) const {
         if constexpr (packs)
@@ -111,9 +112,9 @@ class Table {
         return visit(blocks_.floats[index]);
     }
     bool has_doubles() const { return !blocks_.doubles.empty(); }
-    /// If it has any: as many as blocks.
+    /// Returns the doubles of each block, or an empty array.
     const BigArray<DoubleBlock<Shape>>& doubles() const { return blocks_.doubles; }
-    /// Exactly the shape.
+    /// Returns the exact shape.
     InDouble<Shape> get(Place place) const {
         const std::size_t count = block_count();
         if (place.block >= count) [[unlikely]]
@@ -132,7 +133,7 @@ class Table {
                hidden_.doubles.bytes() + (is_packed() ? packed()->bytes() : 0);
     }
 
-    /// Null if they are not packed.
+    /// Returns null if the blocks are not packed.
     const PackedSpheres* packed() const {
         if constexpr (packs)
             return packed_.empty() ? nullptr : &packed_;
@@ -140,16 +141,16 @@ class Table {
             return nullptr;
     }
     bool is_packed() const { return packed() != nullptr; }
-    /// If they are not: all of them, side by side.
+    /// Returns all blocks, contiguously, if they are not packed.
     const BigArray<Block<Shape>>& plain_blocks() const { return blocks_.floats; }
-    /// Has them packed instead, without doubles.
+    /// Replaces the blocks by packed ones, without doubles.
     void replace_blocks(PackedSpheres packed) {
         packed_ = std::move(packed);
         blocks_ = {};
     }
 
-    /// Keeps shapes that no ray is to cross, in places behind those of the blocks; shape i of them
-    /// is at hidden_place(i).
+    /// Stores shapes that rays must not cross, at positions behind those of the blocks. Shape i of
+    /// them is at hidden_place(i).
     void hide(const ShapeList<Shape>& list) { hidden_ = Table(list).blocks_; }
     Place hidden_place(std::size_t i) const {
         return {static_cast<std::uint32_t>(block_count() + i / block_size),
@@ -164,7 +165,7 @@ class Table {
 
     Blocks<Shape> blocks_;
     struct NeverPacked {};
-    std::conditional_t<packs, PackedSpheres, NeverPacked> packed_; // instead of them, or none
+    std::conditional_t<packs, PackedSpheres, NeverPacked> packed_; // replaces blocks_ unless empty
     Blocks<Shape> hidden_;
     std::size_t size_ = 0;
 };
@@ -199,13 +200,13 @@ void for_each_shape(const Table<Shape>& table, const Visit& visit) {
                           [&](Place place, ShapeId id) { visit(table.get(place), id); });
 }
 
-/// Calls `visit(table)` for every kind in order; so it does with lists.
+/// Calls `visit(table)` for every kind in order. Also works with lists.
 template <class TablesRef, class Visit>
 void for_each_table(TablesRef&& tables, Visit&& visit) {
     std::apply([&](auto&... table) { (visit(table), ...); }, tables);
 }
 
-/// The same for the kinds that have bounds, and so are in the hierarchy; and for the others.
+/// Calls `visit(table)` for the bounded kinds, which are in the hierarchy, or for the other kinds.
 template <class TablesRef, class Visit>
 void for_each_bounded_table(TablesRef&& tables, Visit&& visit) {
     for_each_table(tables, [&]<template <class> class Of, class Shape>(const Of<Shape>& table) {

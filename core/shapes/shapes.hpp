@@ -10,16 +10,16 @@
 #include "core/shapes/sphere.hpp"
 #include "core/shapes/triangle.hpp"
 
-/// The shapes with their formulas. Their types alone are in types.hpp.
+/// The shapes with their formulas. types.hpp has the types alone.
 namespace raylane::core {
 
-/// True if a shape is shaded by other normals than its own.
+/// True if the normals for shading differ from those of the surface.
 template <class Shape>
 inline constexpr bool has_shading_normals = requires(const Shape& shape, const Vec3d& point) {
     shading_normal(shape, point);
 };
 
-/// The unit normal to shade with, given that of the surface.
+/// Returns the unit normal for shading, given that of the surface.
 template <class Real, class Shape>
 Vec3<Real> shading_normal_at(const Shape& shape, const Vec3<Real>& point,
                              const Vec3<Real>& normal) {

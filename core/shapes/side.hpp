@@ -4,7 +4,7 @@
 
 namespace raylane::core {
 
-/// Which side of a solid a point is on.
+/// The side of a solid on which a point is.
 enum class Side : std::int8_t { inside = -1, surface = 0, outside = 1 };
 
 } // namespace raylane::core

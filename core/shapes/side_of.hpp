@@ -7,14 +7,13 @@
 
 #include <algorithm>
 
-/// Finds the side of a solid that a point is on. Each solid and each half-space has
+/// Finds the side of a solid on which a point is. Each solid and each half-space has
 ///   std::array<Real, n> forms_at(shape, point)
-/// polynomials that are less than 0 inside of it, all of them, and of which one is more than 0
-/// outside.
+/// polynomials that are all less than 0 inside. Outside, at least one is more than 0.
 namespace raylane::core {
 
-/// Decides as real arithmetic does: in double with error bounds, and in exact numbers where these
-/// leave a doubt.
+/// Returns the side as real arithmetic decides: in double with error bounds, and in exact numbers
+/// if these leave a doubt.
 template <class Shape>
 Side side_of(const Shape& solid, const Vec3d& point) {
     bool is_known = true;

@@ -28,7 +28,7 @@ Crossings<double> solve_bounded(const Shape& shape, const Ray<double>& ray, cons
 
 template <class Shape>
 Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, const Start& start) {
-    constexpr double accuracy = 0x1p-48; // of an Exact as a double
+    constexpr double accuracy = 0x1p-48; // relative error of an Exact as a double
     Crossings<double> result;
     for (int axis = 0; axis < 3; ++axis)
         if (!std::isfinite(ray.origin[axis]) || !std::isfinite(ray.direction[axis])) return result;
@@ -36,7 +36,7 @@ Crossings<double> solve_exactly(const Shape& shape, const Ray<double>& ray, cons
     const Ray<Exact> exact{convert<Exact>(ray.origin), convert<Exact>(ray.direction)};
     double last = -std::numeric_limits<double>::infinity();
     for (const Crossing<Exact>& crossing : crossings(shape, exact, start, judge)) {
-        last = std::max(last, static_cast<double>(crossing.t)); // rounding swaps no crossings
+        last = std::max(last, static_cast<double>(crossing.t)); // keeps the order despite rounding
         result.add({last, crossing.face, crossing.entering, accuracy * std::abs(last)});
     }
     return result;

@@ -12,8 +12,8 @@ void validate(const SphereOf<Number>& sphere) {
     checks::require_positive("radius", sphere.radius);
 }
 
-/// Bounds in float, as there may be millions: a sum is off by half an ulp, or exact where it
-/// underflows, and 2^-23 of it is an ulp at least.
+/// Returns bounds, computed in float, as there may be millions of spheres. A sum has an error of
+/// half an ulp, or none where it underflows, and 2^-23 of it is at least an ulp.
 inline Bounds bounds_of(const SphereOf<float>& sphere) {
     Bounds bounds;
     for (int axis = 0; axis < 3; ++axis) {

@@ -33,10 +33,10 @@ Bounds bounds_of(const AnyTriangle auto& t) {
     return bounds;
 }
 
-/// Twice the signed areas of the triangles (p, b, c), (p, c, a), (p, a, b) as seen along the ray
-/// through p: triple products of the direction and the corners relative to the origin (Woop,
-/// Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013). They come out opposite, to the
-/// bit, for the same edge run backwards.
+/// Returns twice the signed areas of the triangles (p, b, c), (p, c, a), (p, a, b) as seen along
+/// the ray through p: triple products of the direction and the corners relative to the origin
+/// (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013). They are opposite, to
+/// the bit, for the same edge in reverse.
 template <class Real>
 Vec3<Real> edge_functions(const Vec3<Real>& a, const Vec3<Real>& b, const Vec3<Real>& c,
                           const Vec3<Real>& direction) {
@@ -75,8 +75,8 @@ Vec3<Real> outward_direction(const Shape& triangle, const Vec3<Real>&, Face) {
     return triangle_normal<Real>(triangle);
 }
 
-/// The corners' normals, weighted by the barycentric coordinates of `point`; the flat normal where
-/// they cancel.
+/// Returns the corners' normals, weighted by the barycentric coordinates of `point`; the flat
+/// normal if they cancel.
 template <class Real, class Number>
 Vec3<Real> shading_normal(const SmoothTriangleOf<Number>& triangle, const Vec3<Real>& point) {
     const Vec3<Real> flat = triangle_normal<Real>(triangle);

@@ -2,15 +2,18 @@
 
 #include "core/shapes/shape.hpp"
 
-/// The shapes. Each *is* its numbers, floats or doubles: the surface meant is the one that real
-/// arithmetic gives for exactly these values. Nothing is normalised, transformed or rounded on the
-/// way in.
+/// The shapes. Each *is* its numbers, floats or doubles: its surface is the one that real
+/// arithmetic gives for exactly these values. Nothing is normalised, transformed or rounded when a
+/// shape is added.
 ///
 /// Lengths are in the scene's unit. Normals and axes may have any length but zero.
+///
 /// A solid (sphere, ellipsoid, box, capped cylinder, capped cone) is closed: its surface belongs to
-/// it, a line that only touches it hits it, as does one within a face. A surface (the others) ends
-/// at its rim, and the rim belongs to it. A line that touches it hits it; one that lies in it, in a
-/// flat surface's plane, along an open cylinder's or cone's side or in a quadric, does not.
+/// it. A line that only touches it hits it, and so does a line within a face.
+///
+/// A surface (all other shapes) ends at its rim, and the rim belongs to it. A line that touches it
+/// hits it. A line that lies in it (in a flat surface's plane, along an open cylinder's or cone's
+/// side, or in a quadric) does not.
 namespace raylane::core {
 
 template <class Number>
@@ -138,14 +141,14 @@ struct EllipsoidOf {
 template <class Shape>
 inline constexpr bool is_bounded = Shape::traits.bounded;
 
-/// True for solids, which by themselves have an inside.
+/// True for solids: shapes that enclose an inside by themselves.
 template <class Shape>
 inline constexpr bool is_solid =
     kind_of<Shape> == Kind::sphere || kind_of<Shape> == Kind::ellipsoid ||
     kind_of<Shape> == Kind::box || kind_of<Shape> == Kind::capped_cylinder ||
     kind_of<Shape> == Kind::capped_cone;
 
-/// True for what may be a part of a solid: solids, and what has a half-space on its inside.
+/// True for possible parts of a solid: solids, and shapes with a half-space on their inside.
 template <class Shape>
 inline constexpr bool has_inside =
     is_solid<Shape> || kind_of<Shape> == Kind::plane || kind_of<Shape> == Kind::quadric;
@@ -156,7 +159,7 @@ constexpr const ShapeTraits& traits_of(Kind kind) {
     });
 }
 
-/// Re-entry: true where a ray that leaves a shape may meet it again.
+/// Re-entry: returns true if a ray that leaves a shape may meet it again.
 constexpr bool may_meet_again(Kind kind, bool inward) {
     const MeetsAgain rays = traits_of(kind).meets_again;
     return rays == MeetsAgain::always || (rays == MeetsAgain::inward && inward);
